@@ -82,11 +82,13 @@ pub struct RunRule {
     pub passed_s: f64,
     /// How long an entangled whale is followed from the first contact on [s].
     pub held_s: f64,
+    /// An entangled whale about which nothing has changed for so long is held for good [s].
+    pub settled_s: Option<f64>,
 }
 
 impl Default for RunRule {
     fn default() -> Self {
-        Self { passed_s: 30.0, held_s: 600.0 }
+        Self { passed_s: 30.0, held_s: 600.0, settled_s: None }
     }
 }
 
@@ -219,10 +221,12 @@ fn run_rule(fields: &Fields<'_>) -> RunRule {
     let Some(table) = fields.table("run") else { return usual };
     let passed = table.value("passed", Quantity::Time, Range::Positive);
     let held = table.value("held", Quantity::Time, Range::Positive);
+    let settled = table.value("settled", Quantity::Time, Range::Positive);
     table.finish();
     RunRule {
         passed_s: passed.map_or(usual.passed_s, |passed| passed.value),
         held_s: held.map_or(usual.held_s, |held| held.value),
+        settled_s: settled.map(|settled| settled.value),
     }
 }
 

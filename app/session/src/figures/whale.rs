@@ -131,6 +131,16 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     .shown(&[Table, Entanglement])
     .column(112),
     Figure::new(
+        "unchanged_s",
+        "time unchanged",
+        "Time for which nothing about a held whale has changed: no rope taken or let go, no turn more or less by a quarter, \
+         nothing parted, and no line that bears more by 5 % than any before.",
+        Quantity::Duration,
+        |whale: &WhaleSummary| whale.unchanged_s.into(),
+    )
+    .shown(&[Table])
+    .column(113),
+    Figure::new(
         "trailing_m",
         "trailing rope",
         "Length of rope from the whale to loose ends.",

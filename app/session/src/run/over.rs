@@ -9,7 +9,8 @@ use super::Run;
 const LOOKS_HZ: f64 = 2.0;
 
 impl Run {
-    /// Whether the whale has passed, has shed the gear, or has been followed for long enough with it.
+    /// Whether the whale has passed, has shed the gear, or has been followed for long enough with it or has
+    /// settled in it.
     ///
     /// A run without a whale is never over before its time.
     #[must_use]
@@ -20,8 +21,11 @@ impl Run {
             Outcome::NoContact => now >= rule.passed_s,
             Outcome::Shed | Outcome::PartedFree => whale.decided,
             Outcome::Entangled | Outcome::PartedEntangled => {
-                whale.decided
-                    && whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s)
+                let followed =
+                    whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s);
+                let settled =
+                    rule.settled_s.is_some_and(|settled_s| whale.unchanged_s >= settled_s);
+                whale.decided && (followed || settled)
             }
         }
     }

@@ -25,6 +25,7 @@ mod summary;
 mod touches;
 mod trailing;
 mod twist;
+mod unchanged;
 mod whale;
 mod winding;
 mod window;

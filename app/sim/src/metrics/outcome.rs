@@ -57,6 +57,11 @@ impl Encounter {
         }
     }
 
+    /// Whether rope holds.
+    pub(super) fn holds(&self) -> bool {
+        self.episode_s.is_some()
+    }
+
     /// How it stands, and whether that will hold.
     pub(super) fn outcome(&self, state: &State) -> (Outcome, bool) {
         let Some(first) = self.first_s else { return (Outcome::NoContact, true) };

@@ -10,7 +10,12 @@
 //! where `T` is the greatest tension of the stretch and of the segments next to it [N], and `θ` the sum of the angles between its
 //! segments [rad]. More than that is skin that presses rope from two sides, or a balance that was not found.
 //! A stretch is rope of one line in touch with gaps of one segment at most.
+//!
+//! Lips that close on rope, or between which rope was drawn like a wedge, do press it from two sides, and friction holds it there when
+//! the rope pulls no longer. The part of the normal forces on a segment that cancels, `Σ |N| - |Σ N|`, is therefore left out
+//! where lips or baleen take part in it. Elsewhere it counts: skin does not close on rope of itself.
 
+use endline_sdk::Region;
 use glam::DVec3;
 
 use crate::contact::ContactPoint;
@@ -46,13 +51,45 @@ impl PressMeter {
             let stretch = stretch.iter().map(|index| &contacts[*index]);
             let normal_n: f64 = stretch.clone().map(|contact| contact.normal_force_n).sum();
             *all += normal_n * dt_s;
-            *beyond += (normal_n - most_n(model, state, stretch)).max(0.0) * dt_s;
+            let by_rope_n = normal_n - in_the_mouth_n(stretch.clone());
+            *beyond += (by_rope_n - most_n(model, state, stretch)).max(0.0) * dt_s;
         }
     }
 
     /// Share of the normal force, over time, that is beyond what rope can press.
     pub fn beyond_share(&self) -> f64 {
         if self.all > 0.0 { self.beyond / self.all } else { 0.0 }
+    }
+}
+
+/// Normal force by which the mouth presses rope from two sides, segment by segment [N].
+fn in_the_mouth_n<'a>(stretch: impl Iterator<Item = &'a ContactPoint>) -> f64 {
+    let mut own = Segment::default();
+    let mut sum_n = 0.0;
+    for contact in stretch {
+        if contact.segment != own.segment {
+            sum_n += std::mem::take(&mut own).clamped_n();
+            own.segment = contact.segment;
+        }
+        own.all_n += contact.normal_force_n;
+        own.resultant_n += contact.normal * contact.normal_force_n;
+        own.in_mouth |= matches!(contact.region, Region::Lips | Region::Baleen);
+    }
+    sum_n + own.clamped_n()
+}
+
+/// Normal forces on a segment.
+#[derive(Clone, Copy, Debug, Default)]
+struct Segment {
+    segment: usize,
+    all_n: f64,
+    resultant_n: DVec3,
+    in_mouth: bool,
+}
+
+impl Segment {
+    fn clamped_n(self) -> f64 {
+        if self.in_mouth { (self.all_n - self.resultant_n.length()).max(0.0) } else { 0.0 }
     }
 }
 

@@ -151,6 +151,8 @@ pub struct WhaleSummary {
     pub drag_added_now_n: f64,
     /// Straight way over the ground in the last 30 s, by time [m/s].
     pub speed_made_good_m_s: f64,
+    /// Time for which nothing about a held whale has changed [s]; 0 for one that is not held.
+    pub unchanged_s: f64,
     /// Rope from the whale to loose ends [m].
     pub trailing_m: f64,
     /// Rope from the whale to traps, anchors and fixtures [m].

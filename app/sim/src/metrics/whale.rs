@@ -18,6 +18,7 @@ use super::summary::{BodySummary, RegionSummary, WhaleSummary};
 use super::touches::Touches;
 use super::trailing::Reach;
 use super::twist::TwistMeter;
+use super::unchanged::{Hold, Unchanged};
 use super::winding::Winding;
 use super::window::Window;
 use super::wraps::WrapMeter;
@@ -50,6 +51,7 @@ pub(super) struct WhaleMeter {
     extent: Extent,
     touches: Touches,
     flukes: FlukeMeter,
+    unchanged: Unchanged,
 }
 
 impl WhaleMeter {
@@ -73,6 +75,7 @@ impl WhaleMeter {
             extent: Extent::new(&skin),
             touches: Touches::default(),
             flukes: FlukeMeter::new(&skin, whale.length_m),
+            unchanged: Unchanged::default(),
             skin,
         })
     }
@@ -108,6 +111,12 @@ impl WhaleMeter {
         self.tell_wraps(state.time_s, log);
         let most = self.winding.most().max(self.wraps.most());
         self.encounter.fold(state.time_s, dt_s, touching, most, log);
+        let hold = Hold {
+            held: self.encounter.holds(),
+            lodged: self.mouth.lodged,
+            turns: self.wraps.turns.map(libm::fabs),
+        };
+        self.unchanged.fold(state, hold);
     }
 
     /// Normal and friction forces on a line now [N].
@@ -148,6 +157,7 @@ impl WhaleMeter {
             drag_added_n: self.drag.mean()[0],
             drag_added_now_n: self.drag.now[0],
             speed_made_good_m_s: self.made_good.speed_m_s(),
+            unchanged_s: self.unchanged.seconds(),
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
             carried: beyond.bodies.iter().map(|body| model.spec.bodies[*body].id.clone()).collect(),

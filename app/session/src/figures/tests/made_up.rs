@@ -206,6 +206,7 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
         trailing_m: next.real(),
         tethered_m: next.real(),
         speed_made_good_m_s: next.real(),
+        unchanged_s: next.real(),
         carried: vec!["trap".into(), "buoy".into()],
         beat: Some(BeatSummary {
             beats: next.whole() as u32,

@@ -89,3 +89,20 @@ fn rope_squeezed_from_two_sides_is_pressed_beyond_what_it_can() {
     let expected = (2000.0 - 20.0) / 2015.0;
     assert!((share(&model, &state, &contacts) - expected).abs() < 1e-12);
 }
+
+/// A wedge between the lips keeps what rope pressed when it pulled; the same between two other places does not count as held.
+#[test]
+fn lips_may_press_rope_from_two_sides() {
+    let (model, state) = bent(20, 0.0, 10.0);
+    let mut contacts =
+        [pressed(5, DVec3::Y, 1000.0), pressed(5, -DVec3::Y, 900.0), pressed(15, DVec3::Z, 15.0)];
+    let free = share(&model, &state, &contacts);
+    assert!((free - (1900.0 - 20.0 - 100.0) / 1915.0).abs() < 1e-12, "{free}");
+    contacts[0].region = Region::Lips;
+    // 1,800 N cancel; the 100 N left over are the resultant.
+    assert!(share(&model, &state, &contacts).abs() < 1e-12);
+    // Lips elsewhere on the rope excuse nothing here.
+    contacts[0].region = Region::Head;
+    contacts[2].region = Region::Lips;
+    assert!((share(&model, &state, &contacts) - free).abs() < 1e-12);
+}
