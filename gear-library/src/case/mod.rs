@@ -45,6 +45,8 @@ pub struct Case {
     pub halve_segment: bool,
     /// Whether it is cheap enough for the everyday tests.
     pub quick: bool,
+    /// Row of the hindcast that it answers: what was seen on real gear or whales, and nothing was fitted to.
+    pub hindcast: Option<String>,
     /// When readings are taken.
     pub samples: Samples,
     /// Id of the table of expected readings: columns `t` [s] and one by each probe's id, SI.
@@ -94,6 +96,7 @@ impl Case {
         let set = choices(&fields, "set");
         let halve = words(&fields, "halve", &["step", "segment"]);
         let quick = fields.flag("quick").unwrap_or(false);
+        let hindcast = fields.text("hindcast").map(|row| row.value);
         let table = fields.text("table");
         let samples = samples(&fields, table.is_some());
         check_halving(samples.as_ref(), &halve, problems);
@@ -117,6 +120,7 @@ impl Case {
             halve_step: halves("step"),
             halve_segment: halves("segment"),
             quick,
+            hindcast,
             samples: samples?,
             table,
             checks,

@@ -1,11 +1,54 @@
-//! The observations of a study as a page of Markdown: each beside the study's own share, with the verdict.
+//! The observations of studies as a page of Markdown: each beside the study's own share, with the verdict; and measured gear.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::cases::{Outcome, words};
 use crate::study::open::Opened;
 use crate::study::stats::{Agreement, Findings, ObservationFinding};
 
 use super::inputs::simulated;
+
+/// All that can be held against observations: studies with what they found, and cases with the row that each answers.
+#[must_use]
+pub fn page(studies: &[(Opened, Findings)], cases: &[(String, Outcome)]) -> String {
+    let seen = studies.iter().flat_map(|(_, findings)| &findings.observations);
+    // Several observations may belong to one row: `B2-mouth` and `B2-tail`.
+    let row = |id: &str| id.split('-').next().unwrap_or(id).to_owned();
+    let rows: BTreeSet<String> = seen
+        .filter(|seen| seen.simulated.is_some())
+        .map(|seen| row(&seen.id))
+        .chain(cases.iter().map(|(id, _)| row(id)))
+        .collect();
+    let rows: Vec<String> = rows.into_iter().collect();
+    let mut text =
+        format!("Rows with a simulated figure: {} ({}).\n\n", rows.len(), rows.join(", "));
+    for (opened, findings) in studies {
+        text += &markdown(opened, findings);
+        text.push('\n');
+    }
+    text + &of_cases(cases)
+}
+
+fn of_cases(cases: &[(String, Outcome)]) -> String {
+    let mut text = "## Measured gear\n\n| id | case | source | compared | observed | simulated | tolerance | verdict |\n|---|---|---|---|---|---|---|---|\n".to_owned();
+    for (row, outcome) in cases {
+        for verdict in &outcome.verdicts {
+            let cells = [
+                row.clone(),
+                outcome.name.clone(),
+                outcome.source.clone(),
+                verdict.name.clone(),
+                words::value(verdict.expected, verdict.unit),
+                words::value(verdict.got, verdict.unit),
+                words::limit(verdict),
+                if verdict.passed { "agrees" } else { "misses" }.to_owned(),
+            ];
+            text += &line(&cells);
+        }
+    }
+    text
+}
 
 /// Observations of one study, held against its merged table.
 #[must_use]
@@ -46,5 +89,11 @@ fn row(seen: &ObservationFinding) -> String {
             + if seen.registered { "" } else { ", added after the first run" },
         seen.notes.clone(),
     ];
-    format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
+    line(&cells)
+}
+
+/// A line of a table in Markdown.
+fn line(cells: &[String]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | "))
 }

@@ -1,7 +1,7 @@
 //! Observations: a study's share held against what was seen on real whales.
 //!
 //! The simulated share is that of the encounters with the event among those that it is asked about, with Wilson's interval; or
-//! `1 - ratio` of two options on the same encounters. It *agrees* where it lies within what was observed, from [`LEAST`] encounters
+//! `1 - ratio` of two options, on the same encounters or among those that each option has to ask about. It *agrees* where it lies within what was observed, from [`LEAST`] encounters
 //! on; it *misses* where its whole interval lies outside; else the study does not settle it.
 
 use endline_gear::Observation;
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::study::table::Table;
 
-use super::interval::{Interval, Rate};
+use super::interval::{Interval, Rate, z95};
 use super::marks::Marks;
 use super::paired::Paired;
 
@@ -76,6 +76,9 @@ pub(super) fn look(observation: &Observation, table: &Table, baseline: &str) -> 
     let rate = Rate::of(&own);
     let (rate, simulated, interval) = match &observation.fewer_with {
         None => (rate, (rate.runs > 0).then_some(rate.rate), rate.interval),
+        Some(fewer) if observation.among.is_some() => {
+            fewer_apart(rate, Rate::of(&marks(observation, table, fewer)))
+        }
         Some(fewer) => fewer_by(&own, &marks(observation, table, fewer)),
     };
     let times = |value: f64| observation.times * value;
@@ -116,6 +119,25 @@ fn fewer_by(own: &Marks, fewer: &Marks) -> (Rate, Option<f64>, Interval) {
             Interval { low: 1.0 - ratio.high, high: 1.0 - ratio.low }
         });
     (Rate::of(fewer), paired.ratio.map(|ratio| 1.0 - ratio), interval)
+}
+
+/// The same for shares among encounters that need not be the same ones for both: interval on the logarithm of the ratio with
+/// variance `Σ (1 - p)/k`, half an event added to each count `k` (Katz et al. 1978).
+fn fewer_apart(own: Rate, fewer: Rate) -> (Rate, Option<f64>, Interval) {
+    let unknown = Interval { low: f64::NEG_INFINITY, high: 1.0 };
+    if own.hits == 0 || fewer.runs == 0 {
+        return (fewer, None, unknown);
+    }
+    let counts = [&own, &fewer].map(|rate| rate.rate * rate.effective + 0.5);
+    let variance: f64 = counts
+        .iter()
+        .zip([&own, &fewer])
+        .map(|(k, rate)| 1.0 / k - 1.0 / (rate.effective + 0.5))
+        .sum();
+    let middle = counts[1] / (fewer.effective + 0.5) / (counts[0] / (own.effective + 0.5));
+    let factor = (z95() * variance.max(0.0).sqrt()).exp();
+    let interval = Interval { low: 1.0 - middle * factor, high: 1.0 - middle / factor };
+    (fewer, Some(1.0 - fewer.rate / own.rate), interval)
 }
 
 fn agreement(
@@ -168,6 +190,18 @@ mod tests {
         // Three of four lie within, but four say little.
         assert_eq!(of(3, 4), Agreement::Open);
         assert_eq!(agreement(observed, None, observed, 0), Agreement::Open);
+    }
+
+    /// By hand: 20 of 40 and 5 of 50 give a ratio of 0.2; logarithm's deviation 0.447 from 20.5, 5.5, 40.5 and 50.5.
+    #[test]
+    fn shares_among_different_encounters_are_compared_as_independent() {
+        let (_, fewer, interval) = fewer_apart(Rate::from_counts(20, 40), Rate::from_counts(5, 50));
+        assert!((fewer.unwrap() - 0.8).abs() < 1e-12);
+        let deviation = (1.0_f64 / 20.5 + 1.0 / 5.5 - 1.0 / 40.5 - 1.0 / 50.5).sqrt();
+        let middle: f64 = (5.5 / 50.5) / (20.5 / 40.5);
+        assert!((interval.low - (1.0 - middle * (1.959_964 * deviation).exp())).abs() < 1e-6);
+        assert!(interval.low < 0.8 && interval.high > 0.8 && interval.high < 1.0);
+        assert_eq!(fewer_apart(Rate::from_counts(0, 9), Rate::from_counts(1, 9)).1, None);
     }
 
     #[test]

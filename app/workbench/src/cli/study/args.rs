@@ -15,8 +15,8 @@ pub(in crate::cli) enum StudyCommand {
     Merge(StudyArgs),
     /// Print the findings of a merged study and write report.html, report.csv and a bundle.
     Report(ReportArgs),
-    /// Print a merged study's shares beside those seen on real whales, as Markdown.
-    Hindcast(StudyArgs),
+    /// Print simulated shares beside those seen on real whales, as Markdown: of a merged study, or of all.
+    Hindcast(HindcastArgs),
     /// Run one row of a study again and compare it with the table.
     Replay(ReplayArgs),
 }
@@ -30,6 +30,23 @@ pub(in crate::cli) struct StudyArgs {
     /// Folder of results [default: results/ followed by the study's id].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct HindcastArgs {
+    /// A merged study. Without it, what is missing of every study with observations is run, and every case that belongs to the
+    /// hindcast.
+    #[arg(value_name = "STUDY")]
+    pub(super) study: Option<String>,
+    /// Folder of results of the study [default: results/ followed by its id], or the folder of these folders [default: results].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Encounters of each study, fewer than its file asks for.
+    #[arg(long, value_name = "N", conflicts_with = "study", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) encounters: Option<u32>,
+    /// Run at normal priority instead of low priority.
+    #[arg(long, conflicts_with = "study")]
+    pub(super) eager: bool,
 }
 
 #[derive(Debug, Args)]

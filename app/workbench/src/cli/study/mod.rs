@@ -1,6 +1,7 @@
 //! `endline study`: plan, run, merge, report, hindcast, replay.
 
 pub(super) mod args;
+mod hindcast;
 mod progress;
 mod words;
 
@@ -24,7 +25,7 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
         StudyCommand::Run(args) => run(args, library),
         StudyCommand::Merge(args) => merged(args, library),
         StudyCommand::Report(args) => reported(args, library),
-        StudyCommand::Hindcast(args) => hindcast(args, library),
+        StudyCommand::Hindcast(args) => hindcast::hindcast(args, library),
         StudyCommand::Replay(args) => replay(args, library),
     }
 }
@@ -41,9 +42,7 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     if !args.eager {
         lower_priority();
     }
-    let threads = args
-        .threads
-        .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+    let threads = args.threads.map_or_else(all_cores, usize::from);
     let bar = Bar::new();
     let control = Control::new(move |progress| bar.at(progress));
     let progress = batch::run(&opened, &folder, args.shard, threads, &control)?;
@@ -81,24 +80,6 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     Ok(ExitCode::SUCCESS)
 }
 
-fn hindcast(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
-    let opened = open(args, library)?;
-    if opened.study.observations.is_empty() {
-        return Err(Failure::usage(format!(
-            "{}: the study has no [[observation]]; docs/studies.md says how to write one",
-            opened.study.id
-        )));
-    }
-    let folder = Folder::open(&folder_of(args, &opened), &opened)?;
-    let table = merge::load(&opened, &folder)?;
-    output::print(&report::hindcast::markdown(
-        &opened,
-        &Findings::of(&opened, &table, &folder.registration),
-    ))?;
-    Ok(ExitCode::SUCCESS)
-}
-
-/// Runs a row again; where the study was merged, its hash must be that of the table.
 fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     if u64::from(args.row) >= opened.study.encounters {
@@ -197,6 +178,11 @@ fn in_library(id: &str, library: Option<&Path>) -> Result<PathBuf, Failure> {
 
 fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {
     args.out.clone().unwrap_or_else(|| Path::new("results").join(&opened.study.id))
+}
+
+/// A thread for each core.
+fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Lets everything else on the machine go first.

@@ -1,0 +1,110 @@
+//! `endline study hindcast`: a merged study beside what was seen, or everything that can be: studies run, cases run, one page.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use endline_gear::Study;
+use endline_session::cases::{Cases, Effort, Outcome};
+use endline_session::locate;
+use endline_session::study::folder::Folder;
+use endline_session::study::report::hindcast as page;
+use endline_session::study::stats::Findings;
+use endline_session::study::{Control, Opened, Shard, batch, merge};
+
+use super::args::{HindcastArgs, StudyArgs};
+use super::progress::Bar;
+use super::{all_cores, folder_of, lower_priority, open};
+use crate::cli::{Failure, host, output};
+
+pub(super) fn hindcast(args: &HindcastArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    match &args.study {
+        Some(study) => of_one(study, args, library)?,
+        None => of_all(args, library)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A merged study.
+fn of_one(study: &str, args: &HindcastArgs, library: Option<&Path>) -> Result<(), Failure> {
+    let at = StudyArgs { study: study.to_owned(), out: args.out.clone() };
+    let opened = open(&at, library)?;
+    if opened.study.observations.is_empty() {
+        return Err(Failure::usage(format!(
+            "{}: the study has no [[observation]]; docs/studies.md says how to write one",
+            opened.study.id
+        )));
+    }
+    let folder = Folder::open(&folder_of(&at, &opened), &opened)?;
+    let table = merge::load(&opened, &folder)?;
+    let findings = Findings::of(&opened, &table, &folder.registration);
+    output::print(&page::markdown(&opened, &findings))
+}
+
+/// Every study of the library with observations, run as far as it was not, and every case that belongs to the hindcast.
+fn of_all(args: &HindcastArgs, library: Option<&Path>) -> Result<(), Failure> {
+    if !args.eager {
+        lower_priority();
+    }
+    let out = args.out.clone().unwrap_or_else(|| PathBuf::from("results"));
+    let mut studies = Vec::new();
+    for file in with_observations(library)? {
+        studies.push(run(&file, &out, args.encounters, library)?);
+    }
+    output::print(&page::page(&studies, &cases(library)?))
+}
+
+/// The files of the library's studies that name observations, by name.
+fn with_observations(library: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
+    let folder = locate::library(None, library).map_err(Failure::failed)?.join("studies");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    files.sort();
+    let has = |file: &PathBuf| {
+        // A file that cannot be read is told by `endline check`; here it answers no row.
+        let text = std::fs::read_to_string(file).unwrap_or_default();
+        Study::read(&file.display().to_string(), &text)
+            .is_ok_and(|study| !study.observations.is_empty())
+    };
+    Ok(files.into_iter().filter(has).collect())
+}
+
+/// Runs what is missing of a study and merges it.
+fn run(
+    file: &Path,
+    out: &Path,
+    encounters: Option<u32>,
+    library: Option<&Path>,
+) -> Result<(Opened, Findings), Failure> {
+    let at = StudyArgs { study: file.display().to_string(), out: None };
+    let mut opened = open(&at, library)?;
+    if let Some(fewer) = encounters {
+        opened.study.encounters = opened.study.encounters.min(fewer.into());
+    }
+    let folder = Folder::open(&out.join(&opened.study.id), &opened)?;
+    let bar = Bar::new();
+    let control = Control::new(move |progress| bar.at(progress));
+    batch::run(&opened, &folder, Shard { part: 0, of: 1 }, all_cores(), &control)?;
+    drop(control);
+    let table = merge::merge(&opened, &folder)?;
+    merge::save(&opened, &folder, &table)?;
+    let findings = Findings::of(&opened, &table, &folder.registration);
+    Ok((opened, findings))
+}
+
+/// The cases that answer a row: the row and what came of the case.
+fn cases(library: Option<&Path>) -> Result<Vec<(String, Outcome)>, Failure> {
+    let (cases, host) = (Cases::open(library)?, host::load());
+    let mut found = Vec::new();
+    for id in cases.ids()? {
+        let loaded = cases.load(&id)?;
+        if let Some(row) = loaded.case.hindcast.clone() {
+            found.push((row, cases.run(&loaded, Effort::Plain, &host)?));
+        }
+    }
+    found.sort_by(|(one, _), (other, _)| one.cmp(other));
+    Ok(found)
+}
