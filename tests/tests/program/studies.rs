@@ -287,6 +287,73 @@ fn a_study_that_has_seen_enough_ends_there() {
     );
 }
 
+/// Two observations of one row and one that nothing answers; a case that answers another row.
+const SEEN: &str = r#"
+[[observation]]
+id = "B1-none"
+says = "no rope without a whale"
+source = "this test"
+of = "contact"
+observed = [0.0, 0.1]
+
+[[observation]]
+id = "B1-all"
+says = "rope always"
+source = "this test"
+of = "contact"
+observed = [0.9, 1.0]
+
+[[observation]]
+id = "B2"
+says = "of those that rope touched"
+source = "this test"
+of = "entangled"
+among = "contact"
+observed = [0.0, 1.0]
+"#;
+
+#[test]
+fn one_command_runs_studies_and_cases_and_tells_what_agrees() {
+    let place = Place::new("study-hindcast");
+    let study = small(&place);
+    // Only studies of the library itself are found.
+    let scenario = place.path("gear-library/studies/small.toml");
+    fs::rename(&scenario, place.path("gear-library/scenarios/small.toml")).unwrap();
+    let seen = STUDY.replace("small.toml", "small").replace("encounters = 10", "encounters = 60");
+    fs::write(&study, seen + SEEN).unwrap();
+    let cases = place.path("gear-library/cases");
+    fs::create_dir_all(&cases).unwrap();
+    let case = fs::read_to_string(library().join("cases/weak-link-600.toml")).unwrap();
+    fs::write(Path::new(&cases).join("plain.toml"), &case).unwrap();
+    let case = case.replace("quick = true", "quick = true\nhindcast = \"B9\"");
+    fs::write(Path::new(&cases).join("seen.toml"), case).unwrap();
+    let library_here = place.path("gear-library");
+    let out = place.folder.join("out").display().to_string();
+    let whole = ["study", "hindcast", "--out", &out, "--encounters", "12"];
+    let call = |arguments: &[&str]| {
+        place.endline(&[&["--library", library_here.to_str().unwrap()], arguments].concat()).done()
+    };
+    let page = call(&whole).stdout;
+    let row = |id: &str| {
+        let found: Vec<&str> =
+            page.lines().filter(|line| line.starts_with(&format!("| {id} |"))).collect();
+        found.join("\n")
+    };
+    assert!(page.starts_with("Rows with a simulated figure: 2 (B1, B9)."), "{page}");
+    assert!(row("B1-none").contains("0.0 %") && row("B1-none").contains("| agrees |"), "{page}");
+    assert!(row("B1-all").contains("| misses |"), "{page}");
+    assert!(row("B2").contains("| not settled |"), "{page}");
+    assert!(row("B9").contains("2295") && row("B9").contains("| agrees |"), "{page}");
+    assert!(!page.contains("added after"), "all were there before the first run: {page}");
+
+    // What is added after the first run is told.
+    let text = fs::read_to_string(&study).unwrap();
+    fs::write(&study, text.replace("[0.9, 1.0]", "[0.0, 1.0]")).unwrap();
+    let again = call(&whole).stdout;
+    assert!(again.contains("| agrees, added after the first run |"), "{again}");
+    place.endline(&["study", "hindcast", &study, "--encounters", "3"]).fails(2, &["--encounters"]);
+}
+
 /// What the table says of options that are the same, and of a link that parts at a touch.
 fn findings(place: &Place, study: &str, out: &str) {
     let found = place.endline(&["study", "report", study, "--out", out, "--json"]).done().json();
