@@ -8,7 +8,7 @@
 use endline_gear::{Law, Prior};
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-use super::draw::Drawn;
+use super::drawn::Drawn;
 
 /// What an encounter drawn from the mixture weighs.
 pub(super) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64 {

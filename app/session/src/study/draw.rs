@@ -5,31 +5,11 @@
 //! of the two all values of an encounter come.
 //! Reference: Burley 2020, Practical hash-based Owen scrambling (JCGT 9(4)).
 
-use endline_gear::{Law, Level, Prior, Setting, Study, units};
+use endline_gear::{Law, Level, Prior, Study, units};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::density::weight;
-
-/// A drawn value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
-    /// Name of the prior.
-    pub name: String,
-    /// As it stands in a file: a number in SI with its unit, or a word.
-    pub text: String,
-    /// Its number [SI]; none for a word.
-    pub number: Option<f64>,
-    /// Whether it stands in a file without quotes.
-    pub plain: bool,
-}
-
-impl Drawn {
-    /// The value as a file holds it.
-    #[must_use]
-    pub fn setting(&self) -> Setting {
-        if self.plain { Setting::plain(&self.text) } else { Setting::text(&self.text) }
-    }
-}
+pub use super::drawn::Drawn;
 
 /// What was drawn for an encounter.
 #[derive(Clone, Debug, PartialEq)]

@@ -25,6 +25,7 @@ mod branch;
 pub mod control;
 mod density;
 pub mod draw;
+mod drawn;
 pub mod encounter;
 mod equilibria;
 mod equivalence;
