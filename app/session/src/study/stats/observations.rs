@@ -1,8 +1,9 @@
 //! Observations: a study's share held against what was seen on real whales.
 //!
 //! The simulated share is that of the encounters with the event among those that it is asked about, with Wilson's interval; or
-//! `1 - ratio` of two options, on the same encounters or among those that each option has to ask about. It *agrees* where it lies within what was observed, from [`LEAST`] encounters
-//! on; it *misses* where its whole interval lies outside; else the study does not settle it.
+//! `1 - ratio` of two options, on the same encounters or among those that each option has to ask about. It *agrees* where it
+//! lies within what was observed, from [`LEAST`] encounters on; it *misses* where its whole interval lies outside; else the study
+//! does not settle it. Of encounters of unlike weight, fewer events than that settle nothing.
 
 use endline_gear::Observation;
 use serde::Serialize;
@@ -96,10 +97,21 @@ pub(super) fn look(observation: &Observation, table: &Table, baseline: &str) -> 
         runs: rate.runs,
         simulated,
         interval,
-        agreement: agreement(observed, simulated, interval, rate.runs),
+        agreement: if is_thin(&rate) {
+            Agreement::Open
+        } else {
+            agreement(observed, simulated, interval, rate.runs)
+        },
         registered: true,
         notes: observation.notes.clone(),
     }
+}
+
+/// Whether a share rests on so few events of unlike weight that its interval may be too narrow: it knows the weights of the
+/// events that were met alone, and one may also come among encounters of greater weight.
+fn is_thin(rate: &Rate) -> bool {
+    let weighted = (rate.effective - rate.runs as f64).abs() > 0.5;
+    weighted && (1..LEAST).contains(&rate.hits)
 }
 
 /// The event's marks in an option, of the encounters that are asked about.
@@ -175,6 +187,7 @@ fn counted(observation: &Observation, option: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::marks::Mark;
     use super::*;
 
     #[test]
@@ -190,6 +203,19 @@ mod tests {
         // Three of four lie within, but four say little.
         assert_eq!(of(3, 4), Agreement::Open);
         assert_eq!(agreement(observed, None, observed, 0), Agreement::Open);
+    }
+
+    #[test]
+    fn a_few_events_of_unlike_weight_settle_nothing() {
+        let of = |hits: usize, weight: f64| {
+            let mark = |index: usize| {
+                let came = index < hits;
+                Some(Mark { came, weight: if came { weight } else { 1.0 } })
+            };
+            Rate::of(&Marks((0..94).map(mark).collect()))
+        };
+        assert!(is_thin(&of(1, 0.06)) && is_thin(&of(9, 0.06)));
+        assert!(!is_thin(&of(10, 0.06)) && !is_thin(&of(0, 0.06)) && !is_thin(&of(1, 1.0)));
     }
 
     /// By hand: 20 of 40 and 5 of 50 give a ratio of 0.2; logarithm's deviation 0.447 from 20.5, 5.5, 40.5 and 50.5.

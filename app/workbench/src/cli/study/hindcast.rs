@@ -5,11 +5,11 @@ use std::process::ExitCode;
 
 use endline_gear::Study;
 use endline_session::cases::{Cases, Effort, Outcome};
-use endline_session::locate;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hindcast as page;
 use endline_session::study::stats::Findings;
 use endline_session::study::{Control, Opened, Shard, batch, merge};
+use endline_session::{Error, locate};
 
 use super::args::{HindcastArgs, StudyArgs};
 use super::progress::Bar;
@@ -56,20 +56,21 @@ fn of_all(args: &HindcastArgs, library: Option<&Path>) -> Result<(), Failure> {
 /// The files of the library's studies that name observations, by name.
 fn with_observations(library: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
     let folder = locate::library(None, library).map_err(Failure::failed)?.join("studies");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
+    let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
+    let is_study = |file: &PathBuf| file.extension().is_some_and(|ending| ending == "toml");
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_study).collect();
     files.sort();
-    let has = |file: &PathBuf| {
-        // A file that cannot be read is told by `endline check`; here it answers no row.
-        let text = std::fs::read_to_string(file).unwrap_or_default();
-        Study::read(&file.display().to_string(), &text)
-            .is_ok_and(|study| !study.observations.is_empty())
-    };
-    Ok(files.into_iter().filter(has).collect())
+    let mut found = Vec::new();
+    for file in files {
+        let name = file.display().to_string();
+        let text = std::fs::read_to_string(&file)
+            .map_err(|error| Failure::failed(format!("{name}: cannot be read: {error}")))?;
+        let study = Study::read(&name, &text).map_err(Error::Diagnostics)?;
+        if !study.observations.is_empty() {
+            found.push(file);
+        }
+    }
+    Ok(found)
 }
 
 /// Runs what is missing of a study and merges it.

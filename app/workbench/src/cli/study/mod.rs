@@ -80,6 +80,7 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     Ok(ExitCode::SUCCESS)
 }
 
+/// Runs a row again; where the study was merged, its hash must be that of the table.
 fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     if u64::from(args.row) >= opened.study.encounters {
