@@ -6,9 +6,10 @@ use endline_sim::contact::distance::segment_segment;
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 
 /// The endline of the studies at slack water, both parts made to deliver a strength.
-fn endline(lbf: u32) -> Model {
+fn endline(lbf: u32, nodes: u32) -> Model {
     let text = std::fs::read_to_string(root().join("scenarios/study-endline-held.toml")).unwrap();
     let text = text.replace("speed = \"0.25 m/s\"\ntoward", "speed = \"0 m/s\"\ntoward");
+    let text = text.replace("rope_nodes = 500", &format!("rope_nodes = {nodes}"));
     let made = format!("\ndelivered_strength = \"{lbf} lbf\"\n");
     let text = ["pp-3-8", "sink-3-8"].iter().fold(text, |text, rope| {
         text.replace(&format!("rope = \"{rope}\"\n"), &format!("rope = \"{rope}\"{made}"))
@@ -44,8 +45,9 @@ fn least_distance(model: &Model, state: &State) -> f64 {
 
 #[test]
 fn rope_at_rest_lies_beside_rope_and_stays_there_when_the_run_begins() {
-    for lbf in [600, 1700, 2600] {
-        let model = endline(lbf);
+    // On the finer mesh more than a hundred pairs of segments lie in each other before they are moved.
+    for (lbf, nodes) in [(600, 500), (1700, 500), (2600, 500), (2600, 1000)] {
+        let model = endline(lbf, nodes);
         let settled = settle(&model);
         assert!(settled.converged, "{lbf}");
         let apart = least_distance(&model, &settled.state);
@@ -58,6 +60,6 @@ fn rope_at_rest_lies_beside_rope_and_stays_there_when_the_run_begins() {
                 .unwrap_or_else(|stop| panic!("{lbf}: {stop:?}"));
             peak_n = workspace.peak_tension_n.iter().copied().fold(peak_n, f64::max);
         }
-        assert!(peak_n < at_rest_n + 5.0, "{lbf}: {peak_n} N, at rest {at_rest_n} N");
+        assert!(peak_n < at_rest_n + 5.0, "{lbf} lbf, {nodes} nodes: {peak_n} N, at rest {at_rest_n} N");
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn part(model: &Model, found: &mut Found) {
     let mut moved = found.end.state.clone();
     for _ in 0..ROUNDS {
         for overlap in &overlaps {
-            rope.push_apart(overlap, &mut moved);
+            rope.push_apart(overlap.segments, &mut moved);
         }
         rope.draw_in(&mut moved);
         overlaps = rope.overlaps(&mut search, &moved);
@@ -136,16 +136,15 @@ impl Rope {
 
     /// Every pair that lies in each other.
     fn overlaps(&self, search: &mut Search, state: &State) -> Vec<Overlap> {
-        let at = &state.rope.position;
-        let ends = |segment: usize| {
-            let node = self.segments[segment].0;
-            [at[node], at[node + 1]]
-        };
-        let pairs = search.pairs(state).iter();
-        pairs.filter_map(|pair| self.overlap(*pair, pair.map(ends))).collect()
+        search.pairs(state).iter().filter_map(|pair| self.overlap(*pair, state)).collect()
     }
 
-    fn overlap(&self, pair: [usize; 2], ends: [[DVec3; 2]; 2]) -> Option<Overlap> {
+    fn overlap(&self, pair: [usize; 2], state: &State) -> Option<Overlap> {
+        let at = &state.rope.position;
+        let ends = pair.map(|segment| {
+            let node = self.segments[segment].0;
+            [at[node], at[node + 1]]
+        });
         let reach = self.segments[pair[0]].1 + self.segments[pair[1]].1;
         let (s, t) = segment_segment(ends[0], ends[1]);
         let between = ends[0][0].lerp(ends[0][1], s) - ends[1][0].lerp(ends[1][1], t);
@@ -177,8 +176,10 @@ impl Rope {
         Some(Overlap { segments: pair, arcs_m, shift_m: 0.5 * lacks * side * normal })
     }
 
-    /// Moves both strands of an overlap, each with the rope beside it.
-    fn push_apart(&self, overlap: &Overlap, state: &mut State) {
+    /// Moves both strands of a pair, each with the rope beside it, if the two still lie in each other: where strands hang along
+    /// each other, the first of a hundred pairs takes most others along.
+    fn push_apart(&self, pair: [usize; 2], state: &mut State) {
+        let Some(overlap) = self.overlap(pair, state) else { return };
         let places = overlap.segments.map(|segment| &self.strands.places[segment]);
         let between_m = if places[0].strand == places[1].strand {
             0.5 * (overlap.arcs_m[1] - overlap.arcs_m[0]).abs()
