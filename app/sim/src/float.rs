@@ -8,6 +8,10 @@
 //! | spheroid, half axes `a` across, `c` along | ball of radius `ρ = √(c²n² + a²(1 - n²))` | `t²(3 - 2t)`, `t = (1 - z/ρ)/2`: the spherical cap |
 //! | cylinder, radius `r`, length `l` | uniform over `l·abs(n)` plus semicircle of radius `r √(1 - n²)` | mean of the semicircle's share over the uniform part |
 //!
+//! Drag is that of the area under water which faces a level flow: of a spheroid the segment `1/2 - (x √(1 - x²) + asin x)/π` of its
+//! outline, `x = z/ρ`, twice the share of the volume where it floats high; of the others the share of the volume, which is the
+//! same for a cylinder that stands or lies along the flow.
+//!
 //! All are exact at any tilt and draft. The buoyancy's turning moment is `E[x 1(wet)] × ρ g V ẑ` with `x` the place of a
 //! point from the middle; share and moment are derivatives of one potential, so that a float gains no energy by rolling.
 //! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the integrals are our own.
@@ -58,6 +62,8 @@ pub enum Form {
 pub struct Wet {
     /// Share of the volume under water.
     pub share: f64,
+    /// Share under water of the area that faces a level flow.
+    pub facing: f64,
     /// How fast that share falls as the float rises [1/m].
     pub slope: f64,
     /// Mean of the places under water from the float's centre, times the share; world frame [m].
@@ -68,7 +74,7 @@ pub struct Wet {
 
 impl Wet {
     fn plain(share: f64, slope: f64) -> Self {
-        Self { share, slope, moment: DVec3::ZERO, turn: 0.0 }
+        Self { share, facing: share, slope, moment: DVec3::ZERO, turn: 0.0 }
     }
 }
 
@@ -134,6 +140,7 @@ fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> We
     let longer = along * along - across * across;
     Wet {
         share: t * t * (3.0 - 2.0 * t),
+        facing: Semicircle { radius: reach }.share(-height),
         slope: 3.0 * t * (1.0 - t) / reach,
         moment: (DVec3::Z * (across * across) + axis * (longer * axis.z)) * -cap,
         turn: cap * longer.abs(),
@@ -162,7 +169,7 @@ fn cylinder(height: f64, axis: DVec3, radius: f64, length: f64) -> Wet {
     // `across` is by the sine of the tilt: its direction is (ẑ - n·axis)/sine.
     let sign = if axis.z < 0.0 { -1.0 } else { 1.0 };
     let moment = (DVec3::Z - axis * axis.z) * (radius * across) + axis * (sign * length * along);
-    Wet { share, slope, moment, turn: 0.25 * slope * radius * radius }
+    Wet { share, facing: share, slope, moment, turn: 0.25 * slope * radius * radius }
 }
 
 /// Heights of a disc's points: density `2√(1 - q²)/πR` with `q = u/R`.

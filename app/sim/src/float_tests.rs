@@ -101,6 +101,40 @@ fn a_sphere_displaces_its_cap() {
     }
 }
 
+/// Share under water of a float's outline across a level flow, summed over a grid of lines along the flow that meet it.
+fn outline_under_water(form: Form, height: f64, axis: DVec3, along_flow: DVec3) -> f64 {
+    let Form::Spheroid { across_m, along_m } = form else { panic!("{form:?}") };
+    let stretch = DVec3::new(1.0 / across_m, 1.0 / across_m, 1.0 / along_m);
+    let to_ball = |v: DVec3| stretch * (DQuat::from_rotation_arc(axis, DVec3::Z) * v);
+    let (side, reach) = (along_flow.cross(DVec3::Z), across_m.max(along_m));
+    let (mut under, mut all, cells) = (0.0, 0.0, 600);
+    let at = |cell: i32| (f64::from(cell) + 0.5) / f64::from(cells) * 2.0 * reach - reach;
+    for (row, column) in (0..cells).flat_map(|row| (0..cells).map(move |column| (row, column))) {
+        let place = to_ball(DVec3::Z * at(row) + side * at(column));
+        let ray = to_ball(along_flow).normalize();
+        if (place - place.dot(ray) * ray).length() < 1.0 {
+            all += 1.0;
+            under += f64::from(u8::from(height + at(row) < 0.0));
+        }
+    }
+    under / all
+}
+
+#[test]
+fn what_faces_the_flow_is_the_outline_under_water() {
+    for (form, angle) in [(SPHERE, 0.0), (EGG, 0.0), (EGG, 0.7), (EGG, 0.5 * PI)] {
+        for part in [-0.7, 0.1, 0.8] {
+            let axis = tilted(angle);
+            let height = part * form.reach_m(axis);
+            let facing = form.wet(height, axis).facing;
+            for along in [DVec3::X, DVec3::Y, DVec3::new(0.6, 0.8, 0.0)] {
+                let sum = outline_under_water(form, height, axis, along);
+                assert!((facing - sum).abs() < 0.004, "{form:?} {angle} {part}: {facing}, {sum}");
+            }
+        }
+    }
+}
+
 /// An upright cylinder heeled by a little is turned back by its waterplane: `ρ g π r⁴/4` a radian about its middle,
 /// and its buoyancy from below adds its own part (the wall-sided formula).
 #[test]

@@ -45,7 +45,7 @@ pub(super) fn body_drag(model: &Model, state: &State, body: usize) -> DVec3 {
     let axis = now.orientation * DVec3::Z;
     let share = |float: &crate::model::Float| {
         let height = now.position.z + (now.orientation * float.offset_m).z - flow.surface_m;
-        float.form.wet(height, axis).share
+        float.form.wet(height, axis).facing
     };
     let (mut area, mut wet, mut volume) = (DVec3::ZERO, 0.0, 0.0);
     for float in &spec.floats {

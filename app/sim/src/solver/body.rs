@@ -15,7 +15,7 @@ use super::rope::outer;
 use super::scheme::Scheme;
 use super::trial::BodyTrial;
 use super::trial::rotation::momentum_rate;
-use crate::model::{Body, Float, Model};
+use crate::model::{Body, Float, Model, Wet};
 use crate::state::State;
 
 /// Stiffness that keeps a held body where it is.
@@ -46,27 +46,36 @@ impl Solver {
         let body = &model.spec.bodies[index];
         self.interface.force[self.plan.body_block[index]].z -=
             body.mass_kg * model.spec.water.gravity_m_s2;
-        let wet = self.add_floats(model, index, body, scheme);
+        let [wet, facing] = self.add_floats(model, index, body, scheme);
         self.add_body_inertia(state, index, body, wet, scheme);
-        self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
+        self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * facing, scheme);
         self.add_turn_drag(model, index, body, wet, scheme);
         self.add_body_push(model, index, body, wet);
     }
 
-    /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
-    fn add_floats(&mut self, model: &Model, index: usize, body: &Body, scheme: &Scheme) -> f64 {
-        let (mut wet, mut whole) = (0.0, 0.0);
+    /// Buoyancy and drag of a body's floats; gives the wet shares of its volume, for added mass, and of the area that
+    /// faces the flow, for drag as a whole.
+    fn add_floats(
+        &mut self,
+        model: &Model,
+        index: usize,
+        body: &Body,
+        scheme: &Scheme,
+    ) -> [f64; 2] {
+        let (mut wet, mut facing, mut whole) = (0.0, 0.0, 0.0);
         for float in &body.floats {
-            let share = self.add_float(model, index, float, scheme);
-            self.add_part_drag(model, index, float.offset_m, float.drag_area_m2 * share, scheme);
-            wet += share * float.volume_m3;
+            let under = self.add_float(model, index, float, scheme);
+            let area = float.drag_area_m2 * under.facing;
+            self.add_part_drag(model, index, float.offset_m, area, scheme);
+            wet += under.share * float.volume_m3;
+            facing += under.facing * float.volume_m3;
             whole += float.volume_m3;
         }
-        if body.wetted_drag && whole > 0.0 { wet / whole } else { 1.0 }
+        if body.wetted_drag && whole > 0.0 { [wet / whole, facing / whole] } else { [1.0; 2] }
     }
 
-    /// Buoyancy of a float; gives its wet share.
-    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> f64 {
+    /// Buoyancy of a float; gives how much of it is under water.
+    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> Wet {
         let water = &model.spec.water;
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
@@ -81,12 +90,12 @@ impl Solver {
         self.interface.push(attachment, arm, force);
         self.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
-            return wet.share;
+            return wet;
         }
         self.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
         *self.interface.at(block + 1, block + 1) +=
             turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
-        wet.share
+        wet
     }
 
     fn add_body_inertia(

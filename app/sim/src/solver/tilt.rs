@@ -73,20 +73,20 @@ impl Solver {
             let along = axes.transpose() * flow.velocity_m_s;
             axes * (area * along * (0.5 * water.density_kg_m3 * along.length()))
         };
-        let (mut share, mut whole) = (0.0, 0.0);
+        let (mut facing, mut whole) = (0.0, 0.0);
         for float in &body.floats {
             let arm = axes * float.offset_m;
             let wet = float.form.wet(place.z + arm.z - flow.surface_m, axes * DVec3::Z);
             let lift = DVec3::Z * (water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3);
             push(
                 arm,
-                lift * wet.share + drag(float.drag_area_m2 * wet.share),
+                lift * wet.share + drag(float.drag_area_m2 * wet.facing),
                 wet.moment.cross(lift),
             );
-            share += wet.share * float.volume_m3;
+            facing += wet.facing * float.volume_m3;
             whole += float.volume_m3;
         }
-        let wet = if body.wetted_drag && whole > 0.0 { share / whole } else { 1.0 };
+        let wet = if body.wetted_drag && whole > 0.0 { facing / whole } else { 1.0 };
         push(DVec3::ZERO, drag(body.drag_area_m2 * wet), DVec3::ZERO);
         wrench
     }

@@ -6,7 +6,7 @@
 mod box_gear;
 mod buoy;
 
-use endline_sim::model::{Body, BodyRole, Float, PlacedShape, Shape};
+use endline_sim::model::{Body, BodyRole, Float, Form, PlacedShape, Shape};
 use endline_sim::{DQuat, DVec3};
 
 use crate::scenario::FreeBody;
@@ -38,7 +38,7 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
             vec![radius],
         ),
     };
-    let float = Float::level(DVec3::ZERO, body.volume_m3, body.float_height_m);
+    let float = Float { form: form(body), ..Float::level(DVec3::ZERO, body.volume_m3, 1.0) };
     Body {
         id: body.id.value.clone(),
         item: String::new(),
@@ -61,6 +61,15 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
         orientation: DQuat::IDENTITY,
         spin_rad_s: body.spin_rad_s,
         held_until_s: body.held_until_s,
+    }
+}
+
+/// How a free body goes under: evenly over a height if that is given, a ball as a ball, a box over its own height.
+fn form(body: &FreeBody) -> Form {
+    match (body.float_height_m, body.half_m) {
+        (Some(height_m), _) => Form::Level { height_m },
+        (None, Some(half_m)) => Form::Level { height_m: 2.0 * half_m.z },
+        (None, None) => Form::Spheroid { across_m: body.radius_m, along_m: body.radius_m },
     }
 }
 

@@ -19,17 +19,20 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
         float
             .form
             .wet((now.position + now.orientation * float.offset_m).z, now.orientation * DVec3::Z)
-            .share
     };
-    let displaced: f64 = body.floats.iter().map(|float| wet(float) * float.volume_m3).sum();
+    let displaced: f64 = body.floats.iter().map(|float| wet(float).share * float.volume_m3).sum();
+    let facing: f64 = body.floats.iter().map(|float| wet(float).facing * float.volume_m3).sum();
     let whole: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
     let drag_by = |area: DVec3| {
         let flow = now.orientation.inverse() * water.velocity(now.position);
         now.orientation * (area * flow * flow.length()) * (0.5 * water.density_kg_m3)
     };
-    let wet_share = if body.wetted_drag && whole > 0.0 { displaced / whole } else { 1.0 };
-    let of_floats =
-        body.floats.iter().map(|float| drag_by(float.drag_area_m2 * wet(float))).sum::<DVec3>();
+    let wet_share = if body.wetted_drag && whole > 0.0 { facing / whole } else { 1.0 };
+    let of_floats = body
+        .floats
+        .iter()
+        .map(|float| drag_by(float.drag_area_m2 * wet(float).facing))
+        .sum::<DVec3>();
     let drag = drag_by(body.drag_area_m2 * wet_share) + of_floats;
     let weight = (water.density_kg_m3 * displaced - body.mass_kg) * water.gravity_m_s2;
     weight
