@@ -83,6 +83,14 @@ impl Model {
         };
         Self::laid_out(alone, None, self.sea.clone())
     }
+
+    /// This gear alone in a share of its current.
+    pub(crate) fn with_current_times(&self, share: f64) -> Self {
+        let mut weaker = self.with_lines(self.spec.lines.clone());
+        weaker.spec.water.current.surface_m_s *= share;
+        weaker.sea.weaken_current(share);
+        weaker
+    }
 }
 
 /// Knots at the ends of lines: where lines meet at a joint one, the greatest, around it; at a body or fixture each beside it.

@@ -60,6 +60,9 @@ fn rope_at_rest_lies_beside_rope_and_stays_there_when_the_run_begins() {
                 .unwrap_or_else(|stop| panic!("{lbf}: {stop:?}"));
             peak_n = workspace.peak_tension_n.iter().copied().fold(peak_n, f64::max);
         }
-        assert!(peak_n < at_rest_n + 5.0, "{lbf} lbf, {nodes} nodes: {peak_n} N, at rest {at_rest_n} N");
+        assert!(
+            peak_n < at_rest_n + 5.0,
+            "{lbf} lbf, {nodes} nodes: {peak_n} N, at rest {at_rest_n} N"
+        );
     }
 }

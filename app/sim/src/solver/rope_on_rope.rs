@@ -20,9 +20,6 @@ use crate::contact::ropes::points::RopeContactPoint;
 use crate::model::{Model, RopeOnRope};
 use crate::state::State;
 
-/// Speed at which ropes that lay in each other when the run began are pushed apart [m/s].
-const RECOVERY_M_S: f64 = 0.005;
-
 /// What two ropes do to each other at a point.
 struct Touch {
     fractions: [f64; 2],
@@ -169,12 +166,14 @@ impl Solver {
         grips.clear();
         if !scheme.is_static() {
             self.each_touch(state, |pair, point, touch| {
-                let less_m = (point.forgiven_m - RECOVERY_M_S * scheme.dt).max(0.0);
+                let [one, other] = pair.places(|node| self.trial.place[node]);
+                let distance_m = between(one, other, point.fractions).1;
+                let forgiven_m =
+                    point.forgiven_m.min((pair.contact_distance - distance_m).max(0.0));
                 if let Some(touch) = touch {
-                    let forgiven_m = less_m.min((pair.contact_distance - touch.distance).max(0.0));
                     grips.push(self.ropes.grip_of(pair, point, touch.grip.kept, forgiven_m));
-                } else if less_m > 0.0 {
-                    grips.push(self.ropes.grip_of(pair, point, DVec3::ZERO, less_m));
+                } else if forgiven_m > 0.0 {
+                    grips.push(self.ropes.grip_of(pair, point, DVec3::ZERO, forgiven_m));
                 }
             });
         }

@@ -4,12 +4,14 @@
 //! they were laid, and lines find their shape from arcs of their own length ([`guess`]). *Released*: the bodies lean into
 //! their grip on the seabed. *Refined*: the shape is carried over to the gear as it is. Each is tried in several ways in
 //! turn, the quick one first ([`ways`]): Newton ([`newton`]), creeping ([`creep`]), soft rope made stiff ([`relax`]).
+//! Where no balance is found, the gear is settled in a weaker current first ([`ease`]).
 //! Where gear does not come to rest, the pull on its held bodies against what they hold says whether it drags
 //! ([`outcome`]). All that with rope that passes through bodies; where some then lies in one, it is lifted out ([`on_bodies`]), and rope that
 //! lies in other rope is moved beside it ([`on_ropes`]).
 
 mod coarse;
 mod creep;
+mod ease;
 mod guess;
 mod newton;
 mod on_bodies;
@@ -74,9 +76,11 @@ impl Settled {
 pub fn settle(model: &Model) -> Settled {
     let mut trail = Trail::default();
     let mut found = find(model, &mut trail);
-    if !on_bodies::lift(model, &mut found, &mut trail) {
-        on_ropes::part(model, &mut found);
+    if matches!(found.outcome, Outcome::NotFound(_)) {
+        found = ease::find_eased(model, &mut trail).unwrap_or(found);
     }
+    on_bodies::lift(model, &mut found, &mut trail);
+    on_ropes::part(model, &mut found);
     told(model, found, trail)
 }
 

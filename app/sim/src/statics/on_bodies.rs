@@ -17,10 +17,10 @@ const WAYS: [Way; 2] = [Way::Turn(60), Way::Fall];
 /// Stiffness of bodies under rope, by its length, from soft to as stiff as steps of 10 ms have it [N/m²].
 const STIFFNESS_N_M2: [f64; 2] = [2e4, 2e5];
 
-/// Finds the balance again with bodies that push, where rope lies in one; whether any did.
-pub(super) fn lift(model: &Model, found: &mut Found, trail: &mut Trail) -> bool {
+/// Finds the balance again with bodies that push, where rope lies in one.
+pub(super) fn lift(model: &Model, found: &mut Found, trail: &mut Trail) {
     if found.outcome != Outcome::AtRest || !lies_in_body(model, &found.end.state) {
-        return false;
+        return;
     }
     for stiffness_n_m2 in STIFFNESS_N_M2 {
         match lifted(model, found, stiffness_n_m2, trail) {
@@ -28,7 +28,6 @@ pub(super) fn lift(model: &Model, found: &mut Found, trail: &mut Trail) -> bool 
             None => break,
         }
     }
-    true
 }
 
 fn lifted(model: &Model, found: &Found, stiffness_n_m2: f64, trail: &mut Trail) -> Option<Reached> {

@@ -7,7 +7,8 @@
 //! the arc `A`. Segments then have their lengths drawn in again, for a few millimetres aside stretch a short one by hundreds of newtons.
 //! The sign of the normal is the same everywhere (its greatest part is positive): the strand that comes first along
 //! the lines lies on one side wherever they meet, so that the two do not wind round each other.
-//! Rope that lies on bodies stays, and so does rope that is not clear of itself in that way, such as a stowed coil.
+//! What is not clear of itself in that way, such as a stowed coil, stays, and touches at the distance it has. Gear stays as it was where less rope
+//! would not lie in other rope than before, a segment would lose its length, or rope that lay beside bodies would lie in one.
 
 use std::f64::consts::PI;
 
@@ -49,6 +50,7 @@ pub(super) fn part(model: &Model, found: &mut Found) {
     if overlaps.is_empty() {
         return;
     }
+    let before = overlaps.len();
     let mut moved = found.end.state.clone();
     for _ in 0..ROUNDS {
         for overlap in &overlaps {
@@ -60,7 +62,9 @@ pub(super) fn part(model: &Model, found: &mut Found) {
             break;
         }
     }
-    if overlaps.is_empty() && rope.has_its_lengths(&moved) && !lies_in_body(model, &moved) {
+    let is_clear = |state: &State| !lies_in_body(model, state);
+    let is_better = overlaps.len() < before && rope.has_its_lengths(&moved);
+    if is_better && (is_clear(&moved) || !is_clear(&found.end.state)) {
         found.end.state = moved;
     }
 }

@@ -14,6 +14,8 @@ pub(super) struct Trail {
     /// Residual after each pass [N].
     pub residual_n: Vec<f64>,
     node_passes: usize,
+    /// Node-passes made when this trail began.
+    begun_at: usize,
 }
 
 impl Trail {
@@ -26,6 +28,18 @@ impl Trail {
     /// Passes made.
     pub fn passes(&self) -> usize {
         self.residual_n.len()
+    }
+
+    /// A trail with a quarter of the way before it.
+    pub fn shorter(&self) -> Self {
+        let begun_at = MOST_NODE_PASSES - MOST_NODE_PASSES / 4;
+        Self { residual_n: Vec::new(), node_passes: begun_at, begun_at }
+    }
+
+    /// Adds the passes of another trail.
+    pub fn add(&mut self, other: Self) {
+        self.residual_n.extend(other.residual_n);
+        self.node_passes += other.node_passes - other.begun_at;
     }
 
     /// Whether it is time to give up.

@@ -123,6 +123,11 @@ pub struct Sea {
 }
 
 impl Sea {
+    /// Takes a share of the current.
+    pub(crate) fn weaken_current(&mut self, share: f64) {
+        self.current.surface_m_s *= share;
+    }
+
     /// Of a model's water over its seabed; irregular waves are drawn from the seed.
     #[must_use]
     pub fn new(water: &Water, seabed: Option<&Seabed>, seed: u64) -> Self {
