@@ -2,7 +2,7 @@
 
 use endline_sdk::LineEnd;
 use endline_sim::DVec3;
-use endline_sim::model::{Probe, ProbeTarget};
+use endline_sim::model::{Probe, ProbeTarget, WhaleFigure};
 
 use crate::diagnostic::At;
 use crate::scenario::ProbePart;
@@ -32,6 +32,7 @@ impl Builder<'_> {
                     self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m))
                 }
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
+                ProbePart::Whale(figure) => self.of_whale(figure),
                 ProbePart::Place { part, point_m, axis } => self.placed(part, *point_m, *axis),
             };
             if self.spec.probes.iter().any(|known| known.id == probe.id.value) {
@@ -42,6 +43,23 @@ impl Builder<'_> {
                 .probes
                 .extend(target.map(|target| Probe { id: probe.id.value.clone(), target }));
         }
+    }
+
+    /// A figure of the scenario's whale, which must have it.
+    fn of_whale(&mut self, figure: &At<WhaleFigure>) -> Option<ProbeTarget> {
+        let error = match &self.spec.whale {
+            None => (
+                "there is no whale to read",
+                "give the scenario a [whale], or leave this probe out",
+            ),
+            Some(whale) if whale.kinetic.is_none() && figure.value != WhaleFigure::Speed => (
+                "this whale has no effort: it goes where its pilot sends it",
+                "write dynamics = \"kinetic\" in [whale], or read `speed`",
+            ),
+            Some(_) => return Some(ProbeTarget::Whale(figure.value)),
+        };
+        self.problems.push(figure.place.error(error.0, error.1));
+        None
     }
 
     /// First and last piece of a line.

@@ -26,6 +26,7 @@ impl Builder<'_> {
         if self.uncut.is_empty() || self.problems.any_error() {
             return;
         }
+        self.check_segments();
         let lengths: Vec<f64> = self.uncut.iter().map(|line| line.length_m).collect();
         let (asked, place) = match (&self.scenario.rope_nodes, chosen) {
             (_, Some(nodes)) => (Some(nodes), &self.scenario.place),
@@ -33,8 +34,10 @@ impl Builder<'_> {
             (None, None) => (None, &self.scenario.place),
         };
         let counts = match (asked, self.scenario.segment_m) {
-            (None, Some(longest)) => {
-                lengths.iter().map(|length| at_least_one(length / longest)).collect()
+            (None, Some(longest_m)) => {
+                let longest_m = |index: usize| self.own_segment(index).unwrap_or(longest_m);
+                let each = lengths.iter().enumerate();
+                each.map(|(index, length)| at_least_one(length / longest_m(index))).collect()
             }
             (nodes, _) => {
                 match share_out(nodes.unwrap_or_else(|| self.needed_nodes(&lengths)), &lengths) {
@@ -46,6 +49,22 @@ impl Builder<'_> {
         for (index, count) in counts.into_iter().enumerate() {
             self.spec.lines[index].segments_m = vec![lengths[index] / count as f64; count];
             self.shape_start(index);
+        }
+    }
+
+    /// Longest segment of a line, where the scenario has one for it [m].
+    fn own_segment(&self, index: usize) -> Option<f64> {
+        let id = &self.spec.lines[index].id;
+        let own = self.scenario.line_segments.iter().rev().find(|segments| segments.are_of(id));
+        own.map(|segments| segments.longest_m)
+    }
+
+    /// Reports segments for a line that is not there.
+    fn check_segments(&self) {
+        for segments in self.scenario.line_segments.iter().filter(|segments| segments.name_one()) {
+            if !self.spec.lines.iter().any(|line| segments.are_of(&line.id)) {
+                self.unknown("line", &segments.line, |part| matches!(part, Part::Line { .. }));
+            }
         }
     }
 

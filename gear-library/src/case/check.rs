@@ -40,6 +40,17 @@ pub enum Measure {
         /// What should come out.
         expected: f64,
     },
+    /// Mean of a probe over that of another, both from a time [s] on, against a number.
+    Ratio {
+        /// The probe.
+        of: At<String>,
+        /// What its mean is divided by the mean of.
+        over: At<String>,
+        /// From this time on [s].
+        from_s: f64,
+        /// What should come out.
+        expected: f64,
+    },
     /// Greatest sample of a probe, against a number.
     Greatest(At<String>, f64),
     /// Mean rate at which a probe's reading changes from a time on, against a number [unit/s].
@@ -96,9 +107,9 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
     Some(Check { name: name?.value, measure: measure?, limit: limit? })
 }
 
-const MEASURES: [&str; 12] = [
-    "distance", "series", "peak", "value", "mean", "greatest", "rate", "gain", "loss", "sums",
-    "slope", "fall",
+const MEASURES: [&str; 13] = [
+    "distance", "series", "peak", "value", "mean", "ratio", "greatest", "rate", "gain", "loss",
+    "sums", "slope", "fall",
 ];
 
 fn measure(fields: &Fields<'_>) -> Option<Measure> {
@@ -111,6 +122,12 @@ fn measure(fields: &Fields<'_>) -> Option<Measure> {
         "peak" => probe(fields, "of").map(Measure::Peak),
         "value" => Some(Measure::Value(probe(fields, "of")?, expected(fields)?)),
         "mean" => mean(fields),
+        "ratio" => Some(Measure::Ratio {
+            of: probe(fields, "of")?,
+            over: probe(fields, "over")?,
+            from_s: fields.need_value("from", Quantity::Time, Range::NotNegative)?.value,
+            expected: expected(fields)?,
+        }),
         "greatest" => Some(Measure::Greatest(probe(fields, "of")?, expected(fields)?)),
         "rate" => {
             let from = fields.need_value("from", Quantity::Time, Range::NotNegative);

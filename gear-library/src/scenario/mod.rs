@@ -10,6 +10,7 @@ mod parts;
 mod pilot;
 mod resolution;
 mod sea;
+mod segments;
 mod waves;
 mod whale;
 mod wrap;
@@ -32,6 +33,7 @@ pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
 pub use pilot::{PilotOf, TriggerOf};
 pub use sea::{Bed, Sea};
+pub use segments::LineSegments;
 pub use whale::{AnswerToTouch, PlacedWhale};
 pub use wrap::WrapOf;
 
@@ -60,6 +62,8 @@ pub struct Scenario {
     pub rope_nodes: Option<At<u64>>,
     /// Longest segment [m], where no node count is given.
     pub segment_m: Option<f64>,
+    /// Lines with another longest segment; of two that name a line, the later counts.
+    pub line_segments: Vec<LineSegments>,
     /// How segment lengths follow the whale, where they do.
     pub resolution: Option<Resolution>,
     /// Whether weak links can part.
@@ -147,6 +151,9 @@ impl Scenario {
             contact_tolerance: contact_tolerance(&fields),
             rope_nodes: fields.count("rope_nodes", 2),
             segment_m: segment(&fields),
+            line_segments: each("segments")
+                .filter_map(|node| LineSegments::read(node, problems))
+                .collect(),
             weak_links: flag("weak_links", true),
             rope_on_bodies: flag("rope_on_bodies", true),
             bodies_on_whale: flag("bodies_on_whale", true),
@@ -185,6 +192,11 @@ impl Scenario {
         if let (Some(nodes), Some(_)) = (&self.rope_nodes, self.segment_m) {
             let message = "both `rope_nodes` and `segment` are given";
             fields.problems().push(nodes.place.error(message, "keep the one that is meant"));
+        }
+        if let (Some(lines), None) = (self.line_segments.first(), self.segment_m) {
+            let message = "[[segments]] is given, but no `segment` for the other lines";
+            let help = "write one, such as segment = \"1 m\", in place of `rope_nodes`";
+            fields.problems().push(lines.line.place.error(message, help));
         }
         if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
             let message = "`rope_friction` is given, but ropes pass through each other here";

@@ -2,7 +2,7 @@
 
 use endline_sdk::LineEnd;
 use endline_sim::DVec3;
-use endline_sim::model::EnergyForm;
+use endline_sim::model::{EnergyForm, WhaleFigure};
 
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
@@ -47,8 +47,8 @@ pub struct FreeBody {
     pub inertia_kg_m2: Option<DVec3>,
     /// Displaced volume [m³].
     pub volume_m3: f64,
-    /// Height over which it goes under [m].
-    pub float_height_m: f64,
+    /// Height over which it goes under evenly, if that is given [m].
+    pub float_height_m: Option<f64>,
     /// Drag coefficient times area [m²].
     pub drag_area_m2: f64,
     /// Added mass as a share of the displaced water.
@@ -112,6 +112,8 @@ pub enum ProbePart {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// A figure of the whale.
+    Whale(At<WhaleFigure>),
 }
 
 /// `[[rope]]` with an id and the figures of a library rope.
@@ -208,7 +210,7 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
         mass_kg: mass?.value,
         inertia_kg_m2: inertia,
         volume_m3: or(volume, 0.0),
-        float_height_m: or(height, 2.0 * radius_m),
+        float_height_m: height.map(|height| height.value),
         drag_area_m2: or(drag, 0.0),
         added_mass: or(added, 0.0),
         wetted_drag: wetted.unwrap_or(true),
@@ -232,9 +234,9 @@ fn above_zero<'a>(fields: &Fields<'a>, key: &'a str, quantity: Quantity) -> Opti
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor tension\"");
-    let of = fields.need_text("of", "write tension, middle, line, height, place or energy");
+    let of = fields.need_text("of", "write tension, middle, line, height, place, energy or whale");
     let of = of.and_then(|_| {
-        fields.word("of", &["tension", "middle", "line", "height", "place", "energy"])
+        fields.word("of", &["tension", "middle", "line", "height", "place", "energy", "whale"])
     });
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(&fields),
@@ -243,6 +245,7 @@ pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
             .and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
         "height" => height(&fields),
         "energy" => Some(ProbePart::Energy(energy_form(&fields))),
+        "whale" => whale_figure(&fields).map(ProbePart::Whale),
         _ => place(&fields),
     });
     fields.finish();
@@ -287,6 +290,19 @@ fn energy_form(fields: &Fields<'_>) -> EnergyForm {
         Some("stretch") => EnergyForm::Stretch,
         _ => EnergyForm::Total,
     }
+}
+
+fn whale_figure(fields: &Fields<'_>) -> Option<At<WhaleFigure>> {
+    let figure = fields.need_text("figure", "write speed, thrust, power or body-drag");
+    let figure =
+        figure.and_then(|_| fields.word("figure", &["speed", "thrust", "power", "body-drag"]))?;
+    let value = match figure.value.as_str() {
+        "speed" => WhaleFigure::Speed,
+        "thrust" => WhaleFigure::Thrust,
+        "power" => WhaleFigure::Power,
+        _ => WhaleFigure::BodyDrag,
+    };
+    Some(At { value, place: figure.place })
 }
 
 fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usize)> {

@@ -108,14 +108,13 @@ impl Reference<'_> {
                 scalar(self.unit(&of.value), *expected, last(readings(of)))
             }
             Measure::Mean { of, from_s, over, expected } => {
-                let late = observed
-                    .times_s
-                    .iter()
-                    .zip(readings(of))
-                    .filter(|(time, _)| **time >= from_s - 1e-9);
-                let late: Vec<f64> = late.map(|(_, reading)| reading / over).collect();
                 let unit = if (over - 1.0).abs() > 0.0 { "" } else { self.unit(&of.value) };
-                scalar(unit, *expected, late.iter().sum::<f64>() / late.len() as f64)
+                scalar(unit, *expected, mean(&observed.times_s, readings(of), *from_s) / over)
+            }
+            Measure::Ratio { of, over, from_s, expected } => {
+                let [one, other] =
+                    [of, over].map(|probe| mean(&observed.times_s, readings(probe), *from_s));
+                scalar("", *expected, one / other)
             }
             Measure::Greatest(of, expected) => {
                 scalar(self.unit(&of.value), *expected, greatest(readings(of)))
@@ -190,6 +189,12 @@ fn first(readings: &[f64]) -> f64 {
 
 fn last(readings: &[f64]) -> f64 {
     readings.last().copied().unwrap_or(f64::NAN)
+}
+
+/// Mean of the samples from a time on; not a number where there is none.
+fn mean(times_s: &[f64], readings: &[f64], from_s: f64) -> f64 {
+    let late = readings.get(begin(times_s, from_s)..).unwrap_or_default();
+    late.iter().sum::<f64>() / late.len() as f64
 }
 
 /// Change over time from the first sample at or after a time to the last; not a number where there are not two.

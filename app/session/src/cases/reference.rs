@@ -44,7 +44,9 @@ pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
         | Measure::Rate { of, .. } => {
             vec![of]
         }
-        Measure::Gain(of, over) | Measure::Loss(of, over) => vec![of, over],
+        Measure::Gain(of, over) | Measure::Loss(of, over) | Measure::Ratio { of, over, .. } => {
+            vec![of, over]
+        }
         Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => Vec::new(),
     }
 }

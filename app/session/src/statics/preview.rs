@@ -18,7 +18,7 @@ use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
 /// Tables of a scenario that a preview does not use.
-const LEFT_OUT: [&str; 18] = [
+const LEFT_OUT: [&str; 19] = [
     "whale",
     "friction",
     "probe",
@@ -29,6 +29,7 @@ const LEFT_OUT: [&str; 18] = [
     "bodies_on_bodies",
     "rope_nodes",
     "segment",
+    "segments",
     "line",
     "fixture",
     "body",

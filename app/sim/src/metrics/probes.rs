@@ -4,7 +4,7 @@ use super::along;
 use super::energy::energy;
 use super::lines::end_tension;
 use super::summary::ProbeSummary;
-use crate::model::{Model, ProbeTarget};
+use crate::model::{Model, ProbeTarget, WhaleFigure};
 use crate::state::State;
 
 /// What every probe has read.
@@ -64,11 +64,15 @@ impl Track {
     }
 }
 
-/// Unit of a probe's readings: `N`, `m` or `J`.
+/// Unit of a probe's readings: `N`, `m`, `J`, `m/s` or `W`.
 #[must_use]
 pub fn unit(target: ProbeTarget) -> &'static str {
     match target {
-        ProbeTarget::EndTension(..) | ProbeTarget::TensionAt(..) => "N",
+        ProbeTarget::EndTension(..)
+        | ProbeTarget::TensionAt(..)
+        | ProbeTarget::Whale(WhaleFigure::Thrust | WhaleFigure::BodyDrag) => "N",
+        ProbeTarget::Whale(WhaleFigure::Speed) => "m/s",
+        ProbeTarget::Whale(WhaleFigure::Power) => "W",
         ProbeTarget::Energy(_) => "J",
         ProbeTarget::LineAt(..)
         | ProbeTarget::Height(..)
@@ -98,5 +102,16 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
             state.bodies.get(body).map(|body| body.position + body.orientation * offset_m),
             axis,
         ),
+        ProbeTarget::Whale(figure) => of_whale(state, figure),
+    }
+}
+
+fn of_whale(state: &State, figure: WhaleFigure) -> f64 {
+    let Some(whale) = &state.whale else { return 0.0 };
+    match figure {
+        WhaleFigure::Speed => whale.speed_m_s,
+        WhaleFigure::Thrust => whale.exertion.thrust_n,
+        WhaleFigure::Power => whale.exertion.power_w,
+        WhaleFigure::BodyDrag => whale.exertion.drag_n,
     }
 }

@@ -32,7 +32,7 @@ pub use joint::{Hitch, Joint, JointKind};
 pub use link::Link;
 pub use obstacle::{Obstacle, ROPE_ON_HARD_N_M2};
 pub use pilot::{PilotEntry, PilotProgram, Target, Trigger};
-pub use probe::{EnergyForm, Probe, ProbeTarget};
+pub use probe::{EnergyForm, Probe, ProbeTarget, WhaleFigure};
 pub use rope::{Line, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength};
 pub use seabed::Seabed;
 pub use settings::{CONTACT_TOLERANCE, Resolution, Settings};

@@ -38,6 +38,21 @@ pub enum ProbeTarget {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// A figure of the whale's motion or effort.
+    Whale(WhaleFigure),
+}
+
+/// A figure of the whale's motion or effort; of a whale that is not kinetic all but its speed are zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhaleFigure {
+    /// Speed along its own axis [m/s].
+    Speed,
+    /// Thrust of its flukes [N].
+    Thrust,
+    /// Power of that thrust [W].
+    Power,
+    /// Drag of the water on its body, gear apart [N].
+    BodyDrag,
 }
 
 /// A form of mechanical energy.
