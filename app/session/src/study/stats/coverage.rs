@@ -107,11 +107,17 @@ proposal = { bins = ["0 m", "0.02 m", "1 m"], weights = [0.6, 0.4] }
 source = "assumed"
 "#;
 
-/// One simulated study: an encounter's offset, whether two options hold the whale, and what it weighs.
-fn rare_study(study: &Study, draws: &mut Draws, plain: bool) -> [Marks; 2] {
+/// One simulated study: an encounter's offset, whether two options hold the whale, and what it weighs; `elsewhere` is how likely that is away
+/// from where most are drawn, as a share of what it is there.
+fn rare_study(
+    study: &Study,
+    draws: &mut Draws,
+    plain: bool,
+    (encounters, elsewhere): (usize, f64),
+) -> [Marks; 2] {
     let mut uniform = || draws.below(1 << 30) as f64 / f64::from(1 << 30);
     let mut marks = [Marks::default(), Marks::default()];
-    for _ in 0..1000 {
+    for _ in 0..encounters {
         let share = uniform();
         let from_prior = plain || uniform() < study.from_priors;
         let low = [0.0, 0.02];
@@ -129,13 +135,15 @@ fn rare_study(study: &Study, draws: &mut Draws, plain: bool) -> [Marks; 2] {
         let weight = if plain { 1.0 } else { weight(&study.priors, &[drawn], study.from_priors) };
         let by_chance = uniform();
         for (marks, chance) in marks.iter_mut().zip([0.8, 0.5]) {
-            marks.0.push(Some(Mark { came: offset < 0.02 && by_chance < chance, weight }));
+            let chance = if offset < 0.02 { chance } else { elsewhere * chance };
+            marks.0.push(Some(Mark { came: by_chance < chance, weight }));
         }
     }
     marks
 }
 
-/// Rates of 1.6 and 1.0 %: importance sampling covers them as plain sampling does, with narrower intervals.
+/// Rates of 1.6 and 1.0 % whose events all come where most encounters are drawn: importance sampling covers them as plain sampling does, with
+/// narrower intervals.
 #[test]
 fn weighted_encounters_cover_the_truth_and_know_rare_events_better() {
     let study = Study::read("rare.toml", RARE).unwrap();
@@ -144,19 +152,42 @@ fn weighted_encounters_cover_the_truth_and_know_rare_events_better() {
         let mut draws = Draws::of("importance");
         let (mut held, mut width) = ([0_u32; 3], 0.0);
         for _ in 0..STUDIES {
-            let [one, other] = rare_study(&study, &mut draws, plain);
+            let [one, other] = rare_study(&study, &mut draws, plain, (1000, 0.0));
             let (rate, paired) = (Rate::of(&one), Paired::of(&other, &one));
             let holds = |interval: Interval, truth: f64| {
                 u32::from((interval.low..=interval.high).contains(&truth))
             };
-            held[0] += holds(rate.interval, 0.016);
-            held[1] += holds(paired.difference_interval, -0.006);
-            held[2] += paired.ratio_interval.map_or(1, |interval| holds(interval, 0.625));
-            width += (rate.interval.high - rate.interval.low) / STUDIES as f64;
+            held[0] += holds(rate.as_met, 0.016);
+            held[1] += holds(paired.difference_as_met, -0.006);
+            held[2] += paired.ratio_as_met.map_or(1, |interval| holds(interval, 0.625));
+            width += (rate.as_met.high - rate.as_met.low) / STUDIES as f64;
         }
         told.push((held.map(|count| f64::from(count) / STUDIES as f64), width));
     }
     println!("importance sampling {:?}, plain {:?}", told[0], told[1]);
     assert!(told[0].0.iter().all(|share| (0.93..=0.97).contains(share)), "{told:?}");
     assert!(told[0].1 < 0.3 * told[1].1, "{told:?}");
+}
+
+/// Half of the events come where few encounters are drawn, so that a small study often meets light ones alone.
+#[test]
+fn events_that_a_small_study_has_not_met_are_allowed_for() {
+    let study = Study::read("rare.toml", RARE).unwrap();
+    let elsewhere = 0.02;
+    let rate = |chance: f64| chance * (0.02 + 0.98 * elsewhere);
+    let mut draws = Draws::of("light events");
+    let mut held = [0_u32; 2];
+    for _ in 0..STUDIES {
+        let [one, other] = rare_study(&study, &mut draws, false, (100, elsewhere));
+        let difference = Paired::of(&other, &one).difference_interval;
+        for (held, (interval, truth)) in held
+            .iter_mut()
+            .zip([(Rate::of(&one).interval, rate(0.8)), (difference, rate(0.5) - rate(0.8))])
+        {
+            *held += u32::from((interval.low..=interval.high).contains(&truth));
+        }
+    }
+    let held = held.map(|count| f64::from(count) / STUDIES as f64);
+    println!("rate and difference covered: {held:?}");
+    assert!(held.iter().all(|share| *share >= 0.93), "{held:?}");
 }

@@ -1,11 +1,15 @@
 //! The rate of an event with its interval.
 //!
 //! Wilson's score interval for `k` of `n`, with `z` the normal quantile: `(k + z²/2 ± z √(k(n-k)/n + z²/4)) / (n + z²)`.
-//! Encounters of unlike weight count by their effective number (`weighted.rs`).
-//! Reference: Wilson 1927 (doi:10.1080/01621459.1927.10502953); Brown, Cai and DasGupta 2001 (doi:10.1214/ss/1009213286).
+//! Encounters of unlike weight count by their effective number (`weighted.rs`). With few events among those that count for
+//! much, that number knows the weights of light ones alone; the interval then reaches as far as that of Fay and Feuer, which counts on one more event of the greatest
+//! weight: for a sum `y` of weights of events, `v` of their squares and `w` the greatest weight of any encounter, the quantile of the
+//! gamma law of mean `y + w` and variance `v + w²`.
+//! Reference: Wilson 1927 (doi:10.1080/01621459.1927.10502953); Brown, Cai and DasGupta 2001 (doi:10.1214/ss/1009213286);
+//! Fay and Feuer 1997 (doi:10.1002/(SICI)1097-0258(19970415)16:7<791::AID-SIM500>3.0.CO;2-#).
 
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::distribution::{ContinuousCDF, Gamma, Normal};
 
 use super::marks::Marks;
 use super::weighted::WeightedMean;
@@ -19,6 +23,13 @@ pub struct Interval {
     pub high: f64,
 }
 
+impl Interval {
+    /// The least interval that holds both.
+    pub(super) fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+}
+
 /// How often an event came in the runs that count.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rate {
@@ -30,9 +41,14 @@ pub struct Rate {
     pub effective: f64,
     /// Share of the runs by their weights; 0 of none.
     pub rate: f64,
-    /// Its interval.
+    /// Its interval, which allows for events that were not met among encounters that count for much.
     pub interval: Interval,
+    /// The same if the proposal left out no event: of encounters that all count alike the same.
+    pub as_met: Interval,
 }
+
+/// Events below which the interval of weighted encounters counts on another of the greatest weight: those of at least half of that.
+const FEW: usize = 10;
 
 /// Quantile of the standard normal law for an interval of 95 %.
 pub(super) fn z95() -> f64 {
@@ -46,8 +62,20 @@ impl Rate {
         let known = || marks.0.iter().flatten();
         let (hits, runs) =
             (known().filter(|mark| mark.came).count() as u64, known().count() as u64);
-        let WeightedMean { mean, effective } = WeightedMean::of(&marks.values());
-        Self::from_share(hits, runs, mean, effective)
+        let values = marks.values();
+        let WeightedMean { mean, effective } = WeightedMean::of(&values);
+        let mut rate = Self::from_share(hits, runs, mean, effective);
+        if is_uneven(&values) {
+            let without: Vec<(f64, f64)> =
+                values.iter().map(|(came, weight)| (1.0 - came, *weight)).collect();
+            if are_few(&values) {
+                rate.interval.high = rate.interval.high.max(most(&values));
+            }
+            if are_few(&without) {
+                rate.interval.low = rate.interval.low.min(1.0 - most(&without));
+            }
+        }
+        rate
     }
 
     /// The rate of `hits` in `runs` that all count alike.
@@ -61,7 +89,7 @@ impl Rate {
     fn from_share(hits: u64, runs: u64, rate: f64, effective: f64) -> Self {
         if effective <= 0.0 {
             let interval = Interval { low: 0.0, high: 1.0 };
-            return Self { hits, runs, effective: 0.0, rate: 0.0, interval };
+            return Self { hits, runs, effective: 0.0, rate: 0.0, interval, as_met: interval };
         }
         let (k, n, z) = (rate * effective, effective, z95());
         let middle = k + 0.5 * z * z;
@@ -71,13 +99,48 @@ impl Rate {
             low: if hits == 0 { 0.0 } else { end(middle - half) },
             high: if hits == runs { 1.0 } else { end(middle + half) },
         };
-        Self { hits, runs, effective, rate, interval }
+        Self { hits, runs, effective, rate, interval, as_met: interval }
     }
+}
+
+/// Whether encounters count for unlike much.
+pub(super) fn is_uneven<T>(values: &[(T, f64)]) -> bool {
+    let first = values.first().map_or(0.0, |value| value.1);
+    values.iter().any(|(_, weight)| (weight - first).abs() > 1e-9 * first)
+}
+
+/// Whether few events are of encounters that count for much.
+pub(super) fn are_few(values: &[(f64, f64)]) -> bool {
+    let greatest = values.iter().map(|(_, weight)| *weight).fold(0.0, f64::max);
+    values.iter().filter(|(came, weight)| *came > 0.0 && *weight >= 0.5 * greatest).count() < FEW
+}
+
+/// Upper end of the interval of a rare event by Fay and Feuer; 1 where it cannot be told.
+fn most(values: &[(f64, f64)]) -> f64 {
+    let all: f64 = values.iter().map(|(_, weight)| weight).sum();
+    let greatest = values.iter().map(|(_, weight)| weight / all).fold(0.0, f64::max);
+    let (mean, variance) =
+        values.iter().fold((greatest, greatest * greatest), |(mean, variance), (came, weight)| {
+            let share = came * weight / all;
+            (mean + share, variance + share * share)
+        });
+    let law = Gamma::new(mean * mean / variance, mean / variance);
+    law.map_or(1.0, |law| law.inverse_cdf(0.975).min(1.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Equal weights: the exact upper end for a Poisson count, 8.767 for three events and 3.689 for none.
+    #[test]
+    fn the_upper_end_of_few_events_is_that_of_a_poisson_count() {
+        for (hits, expected) in [(0, 3.689), (3, 8.767)] {
+            let values: Vec<(f64, f64)> =
+                (0..1000).map(|index| (f64::from(u8::from(index < hits)), 2.0)).collect();
+            assert!((1000.0 * most(&values) - expected).abs() < 2e-3, "{}", 1000.0 * most(&values));
+        }
+    }
 
     /// Brown, Cai and DasGupta 2001 and any textbook: 10 of 100 gives 0.0552 to 0.1744.
     #[test]

@@ -4,16 +4,17 @@
 //! Difference `(b - c)/n`, interval by Bonett and Price: with `p = (b+1)/(n+2)`, `q = (c+1)/(n+2)`,
 //! `p - q ± z √((p + q - (p - q)²)/(n + 2))`. Ratio of rates `(a+b)/(a+c)`, interval on its logarithm with variance
 //! `(b + c)/((a+b)(a+c))`, half added to each of `b` and `c`. McNemar's exact test: `b` of `b + c` by even chance.
-//! Encounters of unlike weight count by their effective number for the difference (`weighted.rs`); the distribution function of
+//! Encounters of unlike weight count by their effective number for the difference (`weighted.rs`). Where few that count for much differ, the interval
+//! reaches as far as that from the intervals of the two rates, `b/n` and `c/n`, by their squares (Zou and Donner 2008). The distribution function of
 //! even chance is then the incomplete beta function, `P(k of n) = I_½(n - k, k + 1)`, which equals it for whole numbers.
-//! Reference: Bonett and Price 2012 (doi:10.3102/1076998611411915); Lachenbruch and Lynch 1998; McNemar 1947 (doi:10.1007/BF02295996).
+//! Reference: Bonett and Price 2012 (doi:10.3102/1076998611411915); Lachenbruch and Lynch 1998; Zou and Donner 2008 (doi:10.1002/sim.3095); McNemar 1947 (doi:10.1007/BF02295996).
 
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF};
 
 use super::better::probability_fewer;
-use super::interval::{Interval, z95};
-use super::marks::Marks;
+use super::interval::{Interval, Rate, are_few, is_uneven, z95};
+use super::marks::{Mark, Marks};
 use super::weighted::WeightedMean;
 
 /// An option compared with another.
@@ -29,12 +30,16 @@ pub struct Paired {
     pub only_other: u64,
     /// Rate with the option less rate with the other.
     pub difference: f64,
-    /// Its interval.
+    /// Its interval, which allows for encounters that were not met (`interval.rs`).
     pub difference_interval: Interval,
+    /// The same if the proposal left out none.
+    pub difference_as_met: Interval,
     /// Rate with the option over rate with the other; none where the other has no event.
     pub ratio: Option<f64>,
-    /// Its interval.
+    /// Its interval, which allows for encounters that were not met.
     pub ratio_interval: Option<Interval>,
+    /// The same if the proposal left out none.
+    pub ratio_as_met: Option<Interval>,
     /// McNemar's exact two-sided probability of a difference at least as great by even chance.
     pub mcnemar: f64,
     /// Probability that the event is rarer with the option than with the other.
@@ -61,7 +66,33 @@ impl Paired {
             .collect();
         let effective = WeightedMean::of(&differences).effective;
         let for_ratio = effective_for_ratio(&both, shares).unwrap_or(effective);
-        Self::from_effective(counts, times(effective), times(for_ratio))
+        Self::from_effective(counts, times(effective), times(for_ratio)).widened(&both, shares)
+    }
+
+    /// With intervals that reach as far as those of the two rates of encounters that differ, where there are few of them.
+    fn widened(mut self, both: &[([bool; 2], f64)], [[_, c], [_, a]]: [[f64; 2]; 2]) -> Self {
+        let rate = |wanted: [bool; 2]| {
+            let mark = |(came, weight): &([bool; 2], f64)| {
+                Some(Mark { came: *came == wanted, weight: *weight })
+            };
+            Rate::of(&Marks(both.iter().map(mark).collect()))
+        };
+        let differ = |(came, weight): &([bool; 2], f64)| (f64::from(came[0] != came[1]), *weight);
+        if !is_uneven(both) || !are_few(&both.iter().map(differ).collect::<Vec<_>>()) {
+            return self;
+        }
+        let (more, fewer) = (rate([true, false]), rate([false, true]));
+        let reach = |one: f64, other: f64| (one * one + other * other).sqrt();
+        let low = self.difference
+            - reach(more.rate - more.interval.low, fewer.interval.high - fewer.rate);
+        let high = self.difference
+            + reach(more.interval.high - more.rate, fewer.rate - fewer.interval.low);
+        self.difference_interval = self.difference_interval.with(Interval { low, high });
+        let other = a + c;
+        self.ratio_interval = self.ratio_interval.map(|interval| {
+            interval.with(Interval { low: (1.0 + low / other).max(0.0), high: 1.0 + high / other })
+        });
+        self
     }
 
     /// From counts by whether the event came with the option and with the other.
@@ -91,8 +122,10 @@ impl Paired {
             only_other,
             difference,
             difference_interval,
+            difference_as_met: difference_interval,
             ratio,
             ratio_interval,
+            ratio_as_met: ratio_interval,
             mcnemar: mcnemar(b, c),
             fewer: probability_fewer(b, c),
         }
