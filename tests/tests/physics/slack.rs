@@ -14,8 +14,22 @@ fn endline(lbf: u32, nodes: u32) -> Model {
     let text = ["pp-3-8", "sink-3-8"].iter().fold(text, |text, rope| {
         text.replace(&format!("rope = \"{rope}\"\n"), &format!("rope = \"{rope}\"{made}"))
     });
+    assembled(&text)
+}
+
+/// The gear of `study-gear` at slack water, the whale far away.
+fn gear(assembly: &str) -> Model {
+    let text = std::fs::read_to_string(root().join("scenarios/study-gear.toml")).unwrap();
+    let text = text
+        .replace("speed = \"0.25 m/s\"\ntoward", "speed = \"0 m/s\"\ntoward")
+        .replace("assembly = \"single\"", &format!("assembly = \"{assembly}\""))
+        .replace("[\"0 m\", \"-12 m\"]", "[\"0 m\", \"-200 m\"]");
+    assembled(&text)
+}
+
+fn assembled(text: &str) -> Model {
     let scenario =
-        Scenario::read("slack.toml", &text).unwrap_or_else(|found| panic!("{}", told(&found)));
+        Scenario::read("slack.toml", text).unwrap_or_else(|found| panic!("{}", told(&found)));
     let spec = assemble(&scenario, &library(), &Linked, &Options::default())
         .unwrap_or_else(|found| panic!("{}", told(&found)));
     Model::new(spec).unwrap()
@@ -64,5 +78,25 @@ fn rope_at_rest_lies_beside_rope_and_stays_there_when_the_run_begins() {
             peak_n < at_rest_n + 5.0,
             "{lbf} lbf, {nodes} nodes: {peak_n} N, at rest {at_rest_n} N"
         );
+    }
+}
+
+/// Gear with traps, on which rope lies: its endlines are parted too, and no rope goes through rope.
+#[test]
+fn gear_with_traps_begins_at_slack_water_as_it_rests() {
+    for assembly in ["pair", "trawl-5", "trawl-10"] {
+        let model = gear(assembly);
+        let settled = settle(&model);
+        assert!(settled.converged, "{assembly}");
+        let at_rest_n = settled.state.rope.tension.iter().copied().fold(0.0, f64::max);
+        let (mut state, mut workspace) = (settled.state, Workspace::new(&model));
+        let mut peak_n = 0.0_f64;
+        while state.time_s < 1.0 {
+            step(&model, &Input::default(), &mut state, &mut workspace)
+                .unwrap_or_else(|stop| panic!("{assembly}: {stop:?}"));
+            peak_n = workspace.peak_tension_n.iter().copied().fold(peak_n, f64::max);
+        }
+        assert_eq!(workspace.audit.ropes_through, 0, "{assembly}");
+        assert!(peak_n < at_rest_n + 5.0, "{assembly}: {peak_n} N, at rest {at_rest_n} N");
     }
 }

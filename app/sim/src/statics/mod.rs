@@ -13,6 +13,7 @@ mod coarse;
 mod creep;
 mod ease;
 mod guess;
+mod lengths;
 mod newton;
 mod on_bodies;
 mod on_ropes;

@@ -7,19 +7,19 @@
 //! the arc `A`. Segments then have their lengths drawn in again, for a few millimetres aside stretch a short one by hundreds of newtons.
 //! The sign of the normal is the same everywhere (its greatest part is positive): the strand that comes first along
 //! the lines lies on one side wherever they meet, so that the two do not wind round each other.
-//! What is not clear of itself in that way, such as a stowed coil, stays, and touches at the distance it has. Gear stays as it was where less rope
-//! would not lie in other rope than before, a segment would lose its length, or rope that lay beside bodies would lie in one.
+//! Rope on the seabed and beside traps and anchors stays, for it lies on them, and so does taut rope. All stays where that does not part what lies in each other, as a stowed coil,
+//! where a segment would lose its length, or where rope would come to lie in a body: it touches at the distance it has.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::Found;
 use super::outcome::Outcome;
+use super::{Found, lengths};
 use crate::contact::distance::segment_segment;
 use crate::contact::pieces::Pieces;
 use crate::contact::ropes::broad::{Broad, Found as Near, Moves, Reach};
-use crate::model::Model;
+use crate::model::{Body, BodyRole, Model, PlacedShape, Seabed};
 use crate::solids::lies_in_body;
 use crate::state::State;
 use crate::strands::{Place, Strands};
@@ -28,14 +28,14 @@ use crate::strands::{Place, Strands};
 const ROUNDS: usize = 40;
 /// Arc to either side that goes along, in diameters, where there is so much rope.
 const ALONG_DIAMETERS: f64 = 200.0;
-/// Newton steps that give segments their lengths again: each squares what is left.
-const PROJECTIONS: usize = 6;
 /// Share of its length by which a segment may then be longer or shorter: a ten-thousandth of the stretch at which rope breaks.
 const CLOSE: f64 = 2e-5;
-/// Added to the diagonal of `J Jᵀ` [1].
-const SINGULAR: f64 = 1e-9;
 /// Distance to which ropes are moved apart, over the sum of their radii [1].
 const APART: f64 = 1.02;
+/// Tension above which a strand stays where it is: the turn that moves it aside would pull at what holds it [N].
+const MOST_TENSION_N: f64 = 20.0;
+/// Distance from the seabed, a trap or an anchor, and rope to it, within which rope stays where it is [m].
+const BESIDE_BODY_M: f64 = 0.5;
 /// Rope along a strand from one place to another below which the two are neighbours, in sums of radii.
 const BESIDE: f64 = 4.0;
 
@@ -50,7 +50,6 @@ pub(super) fn part(model: &Model, found: &mut Found) {
     if overlaps.is_empty() {
         return;
     }
-    let before = overlaps.len();
     let mut moved = found.end.state.clone();
     for _ in 0..ROUNDS {
         for overlap in &overlaps {
@@ -63,8 +62,8 @@ pub(super) fn part(model: &Model, found: &mut Found) {
         }
     }
     let is_clear = |state: &State| !lies_in_body(model, state);
-    let is_better = overlaps.len() < before && rope.has_its_lengths(&moved);
-    if is_better && (is_clear(&moved) || !is_clear(&found.end.state)) {
+    let is_apart = overlaps.is_empty() && rope.has_its_lengths(&moved);
+    if is_apart && (is_clear(&moved) || !is_clear(&found.end.state)) {
         found.end.state = moved;
     }
 }
@@ -107,6 +106,8 @@ struct Rope {
     lengths_m: Vec<f64>,
     /// Length of each segment at rest, stretched as it is there [m].
     at_rest_m: Vec<f64>,
+    /// Places along each strand that are on the seabed or beside a trap or anchor.
+    beside_bodies: Vec<Vec<bool>>,
 }
 
 /// Two segments that lie in each other.
@@ -134,8 +135,49 @@ impl Rope {
         let segments: Vec<(usize, f64)> = segments.collect();
         let at = &state.rope.position;
         let at_rest_m = segments.iter().map(|(node, _)| at[*node].distance(at[node + 1])).collect();
-        let chains = strands.lists().iter().map(|list| chain(&strands, &segments, list)).collect();
-        Self { strands, chains, segments, lengths_m, at_rest_m }
+        let chains: Vec<Vec<Vec<usize>>> =
+            strands.lists().iter().map(|list| chain(&strands, &segments, list)).collect();
+        let beside_bodies = Vec::new();
+        let rope = Self { strands, chains, segments, lengths_m, at_rest_m, beside_bodies };
+        Self { beside_bodies: rope.find_bodies(model, state), ..rope }
+    }
+
+    /// Places along each strand that are on the seabed or beside a trap or anchor.
+    fn find_bodies(&self, model: &Model, state: &State) -> Vec<Vec<bool>> {
+        let longest_m = self.at_rest_m.iter().copied().fold(0.0, f64::max);
+        let is_beside = |nodes: &Vec<usize>| {
+            let at = state.rope.position[nodes[0]];
+            if above_seabed_m(model, at) < BESIDE_BODY_M {
+                return true;
+            }
+            let mut bodies = model.spec.bodies.iter().zip(&state.bodies);
+            bodies.any(|(body, now)| {
+                if body.role == BodyRole::Buoy {
+                    return false;
+                }
+                let place =
+                    now.orientation.inverse() * (state.rope.position[nodes[0]] - now.position);
+                distance_m(body, place) < BESIDE_BODY_M + 0.5 * longest_m
+            })
+        };
+        self.chains.iter().map(|chain| chain.iter().map(is_beside).collect()).collect()
+    }
+
+    /// Arcs of the nodes along a strand [m].
+    fn arcs(&self, strand: usize) -> impl Iterator<Item = f64> + '_ {
+        let mut arc_m = 0.0;
+        std::iter::once(0.0).chain(self.strands.lists()[strand].iter().map(move |segment| {
+            arc_m += self.strands.places[*segment].length_m;
+            arc_m
+        }))
+    }
+
+    /// Rope of a strand from an arc to where it is next beside a body [m].
+    fn to_body_m(&self, strand: usize, arc_m: f64) -> f64 {
+        let along =
+            self.arcs(strand).zip(&self.beside_bodies[strand]).filter(|(_, beside)| **beside);
+        let along = along.map(|(body_m, _)| (body_m - arc_m).abs());
+        along.fold(f64::INFINITY, f64::min)
     }
 
     /// Every pair that lies in each other.
@@ -166,7 +208,12 @@ impl Rope {
         } else {
             is_end(one, arcs_m[0]) && is_end(other, arcs_m[1])
         };
-        if neighbours {
+        let is_taut = pair.iter().any(|segment| state.rope.tension[*segment] > MOST_TENSION_N);
+        let near_body = [one, other]
+            .into_iter()
+            .zip(arcs_m)
+            .any(|(place, arc_m)| self.to_body_m(place.strand, arc_m) < BESIDE_BODY_M);
+        if neighbours || near_body || is_taut {
             return None;
         }
         let normal = across(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]);
@@ -194,7 +241,10 @@ impl Rope {
             let (strand, middle_m) = (place.strand, overlap.arcs_m[index]);
             let diameter_m = 2.0 * self.segments[overlap.segments[index]].1;
             let to_end_m = middle_m.min(self.lengths_m[strand] - middle_m);
-            let along_m = (ALONG_DIAMETERS * diameter_m).min(to_end_m).min(between_m);
+            let along_m = (ALONG_DIAMETERS * diameter_m)
+                .min(to_end_m)
+                .min(between_m)
+                .min(self.to_body_m(strand, middle_m));
             let shift_m = if index == 0 { overlap.shift_m } else { -overlap.shift_m };
             self.bump(strand, (middle_m, along_m), shift_m, state);
         }
@@ -215,12 +265,8 @@ impl Rope {
                 state.rope.position[node] += share * shift_m;
             }
         };
-        let mut arc_m = 0.0;
-        for (index, nodes) in self.chains[strand].iter().enumerate() {
+        for (nodes, arc_m) in self.chains[strand].iter().zip(self.arcs(strand)) {
             nodes.iter().for_each(|node| moved(*node, arc_m));
-            if let Some(segment) = self.strands.lists()[strand].get(index) {
-                arc_m += self.strands.places[*segment].length_m;
-            }
         }
     }
 }
@@ -235,21 +281,38 @@ impl Rope {
         self.segments.iter().zip(&self.at_rest_m).map(error).fold(0.0, f64::max) < CLOSE
     }
 
-    /// Gives every segment its length at rest again. Ends of strands stay.
+    /// Gives every segment its length at rest again. Ends of strands stay, and so does rope beside bodies.
     fn draw_in(&self, state: &mut State) {
-        for (strand, chain) in self.strands.lists().iter().zip(&self.chains) {
+        for (index, (strand, chain)) in self.strands.lists().iter().zip(&self.chains).enumerate() {
             let mut places: Vec<DVec3> =
                 chain.iter().map(|nodes| state.rope.position[nodes[0]]).collect();
             let wanted_m: Vec<f64> =
                 strand.iter().map(|segment| self.at_rest_m[*segment]).collect();
-            for _ in 0..PROJECTIONS {
-                project(&wanted_m, &mut places);
-            }
+            let last = chain.len() - 1;
+            let may_move: Vec<bool> = (0..=last)
+                .map(|place| place > 0 && place < last && !self.beside_bodies[index][place])
+                .collect();
+            lengths::restore(&wanted_m, &may_move, &mut places);
             for (nodes, place) in chain.iter().zip(&places) {
                 nodes.iter().for_each(|node| state.rope.position[*node] = *place);
             }
         }
     }
+}
+
+/// Height of a place above the seabed [m]; without end where there is none.
+fn above_seabed_m(model: &Model, at: DVec3) -> f64 {
+    let height =
+        |seabed: &Seabed| at.dot(seabed.normal) / seabed.normal.z + model.spec.water.depth_m;
+    model.spec.seabed.as_ref().map_or(f64::INFINITY, height)
+}
+
+/// Distance of a place in a body's frame from the boxes round its parts [m].
+fn distance_m(body: &Body, place: DVec3) -> f64 {
+    let from_part = |part: &PlacedShape| {
+        ((place - part.middle_m).abs() - part.shape.half_m()).max(DVec3::ZERO).length()
+    };
+    body.parts.iter().map(from_part).fold(f64::INFINITY, f64::min)
 }
 
 /// The nodes along a strand; at a splice both copies of one.
@@ -267,37 +330,6 @@ fn chain(strands: &Strands, segments: &[(usize, f64)], strand: &[usize]) -> Vec<
         chain.push(vec![last]);
     }
     chain
-}
-
-/// Moves the nodes of a chain least so that its segments have the lengths wanted: with `C` what each is too long, `J` its
-/// derivatives by the places of nodes, `x ← x - Jᵀ (J Jᵀ)⁻¹ C`. `J Jᵀ` has three diagonals.
-fn project(wanted_m: &[f64], places: &mut [DVec3]) {
-    let count = wanted_m.len();
-    let free = |node: usize| f64::from(u8::from(node > 0 && node < count));
-    let along: Vec<DVec3> =
-        (0..count).map(|index| (places[index + 1] - places[index]).normalize_or_zero()).collect();
-    let excess = |index: usize| places[index].distance(places[index + 1]) - wanted_m[index];
-    // Forward elimination; a straight chain between two ends that stay is singular but for the small share.
-    let (mut above, mut right) = (vec![0.0; count], vec![0.0; count]);
-    for index in 0..count {
-        let beside = |index: usize| -along[index].dot(along[index - 1]) * free(index);
-        let mut diagonal = free(index) + free(index + 1) + SINGULAR;
-        right[index] = excess(index);
-        if index > 0 {
-            let below = beside(index);
-            diagonal -= below * above[index - 1];
-            right[index] -= below * right[index - 1];
-        }
-        right[index] /= diagonal;
-        above[index] = if index + 1 < count { beside(index + 1) / diagonal } else { 0.0 };
-    }
-    for index in (0..count.saturating_sub(1)).rev() {
-        right[index] -= above[index] * right[index + 1];
-    }
-    for (index, multiplier) in right.iter().enumerate() {
-        places[index] += free(index) * *multiplier * along[index];
-        places[index + 1] -= free(index + 1) * *multiplier * along[index];
-    }
 }
 
 /// Unit normal to two directions, its greatest part positive; any across the first where they are one.
