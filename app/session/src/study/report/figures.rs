@@ -8,8 +8,10 @@ use super::svg::{Axis, Side, Svg};
 
 /// Width of a figure.
 pub(super) const WIDE: f64 = 760.0;
-/// Room for names at the left.
+/// Room for the names of inputs at the left.
 const NAMES: f64 = 190.0;
+/// Width of a letter of a name, on average.
+const LETTER: f64 = 7.2;
 /// Height of a row.
 const ROW: f64 = 26.0;
 
@@ -18,22 +20,29 @@ pub(super) fn rates(findings: &Findings) -> String {
     let events = StudyEvent::of_the_chart();
     let height = 74.0 + ROW * 1.6 * findings.options.len() as f64;
     let mut svg = Svg::new(WIDE, height, "Rates by option, given an encounter");
-    let axis = Axis { values: [0.0, 1.0], places: [NAMES, WIDE - 20.0] };
+    let names = room(findings);
+    let axis = Axis { values: [0.0, 1.0], places: [names, WIDE - 20.0] };
     frame(&mut svg, &axis, height, |tick| format!("{:.0} %", 100.0 * tick));
     for (kind, event) in events.iter().enumerate() {
-        let x = NAMES + 150.0 * kind as f64;
+        let x = 12.0 + (WIDE - 20.0) / events.len() as f64 * kind as f64;
         svg.mark([x, 14.0], kind);
         svg.text([x + 10.0, 18.0], Side::Start, &event.words());
     }
     for (row, option) in findings.options.iter().enumerate() {
         let y = 46.0 + 1.6 * ROW * row as f64;
-        svg.text([NAMES - 10.0, y + 4.0], Side::End, &option.name);
+        svg.text([names - 10.0, y + 4.0], Side::End, &option.name);
         let rate = |(kind, event): (usize, &StudyEvent)| Some((kind, option.rate(&event.name())?));
         for (kind, rate) in events.iter().enumerate().filter_map(rate) {
             whisker(&mut svg, &axis, y + 8.0 * (kind as f64 - 1.0), rate, kind);
         }
     }
     svg.done()
+}
+
+/// Room that the names of the options take at the left.
+fn room(findings: &Findings) -> f64 {
+    let letters = findings.options.iter().map(|option| option.name.chars().count()).max();
+    (LETTER * letters.unwrap_or(0) as f64 + 20.0).clamp(90.0, 0.5 * WIDE)
 }
 
 fn whisker(svg: &mut Svg, axis: &Axis, y: f64, rate: &Rate, kind: usize) {
@@ -72,7 +81,8 @@ pub(super) fn forest(findings: &Findings) -> String {
         .map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()))
         .fold(0.02, f64::max);
     let mut svg = Svg::new(WIDE, height, "Difference of rates from the baseline, with intervals");
-    let axis = Axis { values: [-widest, widest], places: [NAMES, WIDE - 20.0] };
+    let names = room(findings);
+    let axis = Axis { values: [-widest, widest], places: [names, WIDE - 20.0] };
     frame(&mut svg, &axis, height, |tick| format!("{:+.1}", 100.0 * tick + 0.0));
     svg.text([axis.at(0.0) - 12.0, 18.0], Side::End, "\u{2190} fewer than the baseline");
     svg.text([axis.at(0.0) + 12.0, 18.0], Side::Start, "more \u{2192}");
@@ -87,7 +97,7 @@ pub(super) fn forest(findings: &Findings) -> String {
         svg.heading([6.0, y], &name);
         y += ROW;
         for (option, difference, Interval { low, high }) in rows {
-            svg.text([NAMES - 10.0, y + 4.0], Side::End, &option);
+            svg.text([names - 10.0, y + 4.0], Side::End, &option);
             svg.whisker(y, [axis.at(low), axis.at(difference), axis.at(high)], kind);
             y += ROW;
         }

@@ -5,7 +5,7 @@ use endline_gear::{Prior, StudyOption};
 use crate::strength::PartStrength;
 use crate::study::open::Opened;
 use crate::study::stats::{
-    ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding, SobolIndex,
+    ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
 };
 
 use super::cell::{Cell, Line, Table};
@@ -73,12 +73,8 @@ pub(super) fn sensitivity(findings: &Findings) -> Table {
         let parts = input.parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate)));
         let best =
             if input.same_best { "one option has or shares it in every part" } else { "changes" };
-        let SobolIndex { index, by_chance } = input.sobol;
-        let explains = [
-            format!("{:.1} %", 100.0 * index),
-            format!("by chance up to {:.1} %", 100.0 * by_chance),
-        ];
-        vec![Cell::from(&input.words), Cell::lines(parts), Cell::lines(explains), best.into()]
+        let explains = Cell::lines(input.sobol.words());
+        vec![Cell::from(&input.words), Cell::lines(parts), explains, best.into()]
     };
     Table::new(
         "Sensitivity and rank",

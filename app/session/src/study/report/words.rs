@@ -7,10 +7,13 @@ use crate::study::stats::{Interval, Rate};
 /// Newtons in a pound-force.
 pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
-/// `12.0 % [8.1, 17.4] (24 of 200)`; of weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`.
+/// `12.0 % [8.1, 17.4] (24 of 200)`; of weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`, or where the interval allows
+/// for events that were not met `0.8 % [0.1, 8.2] (4 of 200, few of much weight)`.
 pub(super) fn rate(rate: &Rate) -> String {
     let runs = rate.runs as f64;
-    let worth = if (rate.effective - runs).abs() < 0.5 {
+    let worth = if rate.interval != rate.as_met {
+        ", few of much weight".to_owned()
+    } else if (rate.effective - runs).abs() < 0.5 {
         String::new()
     } else {
         format!(", worth {:.0}", rate.effective)

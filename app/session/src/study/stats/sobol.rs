@@ -28,6 +28,17 @@ pub struct SobolIndex {
 }
 
 impl SobolIndex {
+    /// What the input explains alone, and what chance would; a share that chance would give as well is not told.
+    #[must_use]
+    pub fn words(&self) -> [String; 2] {
+        let by_chance = format!("{:.1} %", 100.0 * self.by_chance);
+        if self.index > self.by_chance {
+            [format!("{:.1} %", 100.0 * self.index), format!("by chance up to {by_chance}")]
+        } else {
+            ["no more than chance".to_owned(), format!("which gives up to {by_chance}")]
+        }
+    }
+
     /// Of values with their weights, by the class of each.
     pub fn of(label: &str, classes: &[usize], values: &[(f64, f64)]) -> Self {
         let mut dealt = classes.to_vec();

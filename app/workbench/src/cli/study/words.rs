@@ -113,12 +113,13 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
         opened.study.name, findings.encounters
     );
     text += &rates(findings);
-    text += &compared(findings);
+    text += &registered(findings).iter().map(|event| compared(findings, event)).collect::<String>();
     text += &changed(findings);
     text += &tensions(findings);
     text += &held(findings);
     text += &strengths(findings);
     text += &levels(findings);
+    text += &inputs(findings);
     text + &claims(findings)
 }
 
@@ -152,14 +153,25 @@ fn rates_of(findings: &Findings, events: &[String]) -> String {
     columns(&rows)
 }
 
-fn compared(findings: &Findings) -> String {
+/// The event that the study asks about, and the others that were registered.
+fn registered(findings: &Findings) -> Vec<String> {
+    let mut events = vec![findings.event.clone()];
+    for (event, _) in findings.options.iter().flat_map(|option| &option.adjusted) {
+        if !events.contains(event) {
+            events.push(event.clone());
+        }
+    }
+    events
+}
+
+/// An event in every option beside the baseline, on the same encounters.
+fn compared(findings: &Findings, event: &str) -> String {
+    let among = format!("among {} (Holm)", findings.comparisons);
     let heads =
-        ["against the baseline", &findings.event, "difference", "ratio", "P(fewer)", "McNemar"];
+        ["against the baseline", event, "difference", "ratio", "P(fewer)", "McNemar", &among];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     for option in &findings.options {
-        let (Some(own), Some(paired)) =
-            (option.rate(&findings.event), option.against(&findings.event))
-        else {
+        let (Some(own), Some(paired)) = (option.rate(event), option.against(event)) else {
             continue;
         };
         let ratio = paired
@@ -173,9 +185,25 @@ fn compared(findings: &Findings) -> String {
             ratio,
             format!("{:.3}", paired.fewer),
             format!("{:.3}", paired.mcnemar),
+            option.adjusted(event).map_or_else(String::new, |p| format!("{p:.3}")),
         ]);
     }
     columns(&rows)
+}
+
+/// How much of the variance of the event each drawn input explains alone.
+fn inputs(findings: &Findings) -> String {
+    let mut rows = vec![vec![
+        "input".to_owned(),
+        format!("explains of the variance of {} alone (Sobol index)", findings.event),
+    ]];
+    rows.extend(
+        findings
+            .inputs
+            .iter()
+            .map(|input| vec![input.words.clone(), input.sobol.words().join(", ")]),
+    );
+    if rows.len() > 1 { columns(&rows) } else { String::new() }
 }
 
 /// How many encounters end otherwise than with the baseline, how much the mean greatest tension is off, and which ends they were.
