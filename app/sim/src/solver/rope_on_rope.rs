@@ -166,10 +166,7 @@ impl Solver {
         grips.clear();
         if !scheme.is_static() {
             self.each_touch(state, |pair, point, touch| {
-                let [one, other] = pair.places(|node| self.trial.place[node]);
-                let distance_m = between(one, other, point.fractions).1;
-                let forgiven_m =
-                    point.forgiven_m.min((pair.contact_distance - distance_m).max(0.0));
+                let forgiven_m = self.still_forgiven_m(pair, point);
                 if let Some(touch) = touch {
                     grips.push(self.ropes.grip_of(pair, point, touch.grip.kept, forgiven_m));
                 } else if forgiven_m > 0.0 {
@@ -178,6 +175,16 @@ impl Solver {
             });
         }
         state.rope.rope_grips = grips;
+    }
+
+    /// How deep two ropes may still lie in each other: as they did when the run began, less by what they have been drawn apart since [m].
+    fn still_forgiven_m(&self, pair: &Pair, point: &RopeContactPoint) -> f64 {
+        if point.forgiven_m <= 0.0 {
+            return 0.0;
+        }
+        let [one, other] = pair.places(|node| self.trial.place[node]);
+        let distance_m = between(one, other, point.fractions).1;
+        point.forgiven_m.min((pair.contact_distance - distance_m).max(0.0))
     }
 
     /// Tells where rope presses on rope at the end of a step of length `dt_s`, from a state that still holds the places of its begin.

@@ -26,7 +26,7 @@ pub(super) fn find_eased(model: &Model, trail: &mut Trail) -> Option<Found> {
 }
 
 fn from_share(model: &Model, share: f64, trail: &mut Trail) -> Option<Found> {
-    let mut own = trail.shorter();
+    let mut own = Trail::short();
     let found = find(&model.with_current_times(share), &mut own);
     let [first, held, guess] =
         [&found.first, &found.held, &found.end.state].map(|state| carried(model, state));

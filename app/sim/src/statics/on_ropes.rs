@@ -7,8 +7,9 @@
 //! the arc `A`. Segments then have their lengths drawn in again, for a few millimetres aside stretch a short one by hundreds of newtons.
 //! The sign of the normal is the same everywhere (its greatest part is positive): the strand that comes first along
 //! the lines lies on one side wherever they meet, so that the two do not wind round each other.
-//! Rope on the seabed and beside traps and anchors stays, for it lies on them, and so does taut rope. All stays where that does not part what lies in each other, as a stowed coil,
-//! where a segment would lose its length, or where rope would come to lie in a body: it touches at the distance it has.
+//! Rope on the seabed and beside traps and anchors stays, for it lies on them. All stays where that does not part what lies in
+//! each other, as a stowed coil, where a segment would lose its length, or where rope would come to lie in a body: it
+//! touches at the distance it has.
 
 use std::f64::consts::PI;
 
@@ -32,8 +33,6 @@ const ALONG_DIAMETERS: f64 = 200.0;
 const CLOSE: f64 = 2e-5;
 /// Distance to which ropes are moved apart, over the sum of their radii [1].
 const APART: f64 = 1.02;
-/// Tension above which a strand stays where it is: the turn that moves it aside would pull at what holds it [N].
-const MOST_TENSION_N: f64 = 20.0;
 /// Distance from the seabed, a trap or an anchor, and rope to it, within which rope stays where it is [m].
 const BESIDE_BODY_M: f64 = 0.5;
 /// Rope along a strand from one place to another below which the two are neighbours, in sums of radii.
@@ -208,12 +207,11 @@ impl Rope {
         } else {
             is_end(one, arcs_m[0]) && is_end(other, arcs_m[1])
         };
-        let is_taut = pair.iter().any(|segment| state.rope.tension[*segment] > MOST_TENSION_N);
         let near_body = [one, other]
             .into_iter()
             .zip(arcs_m)
             .any(|(place, arc_m)| self.to_body_m(place.strand, arc_m) < BESIDE_BODY_M);
-        if neighbours || near_body || is_taut {
+        if neighbours || near_body {
             return None;
         }
         let normal = across(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]);
