@@ -180,6 +180,7 @@ fn events_that_a_small_study_has_not_met_are_allowed_for() {
     for _ in 0..STUDIES {
         let [one, other] = rare_study(&study, &mut draws, false, (100, elsewhere));
         let difference = Paired::of(&other, &one).difference_interval;
+        assert!(difference.low >= -1.0 && difference.high <= 1.0, "{difference:?}");
         for (held, (interval, truth)) in held
             .iter_mut()
             .zip([(Rate::of(&one).interval, rate(0.8)), (difference, rate(0.5) - rate(0.8))])

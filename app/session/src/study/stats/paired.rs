@@ -87,6 +87,7 @@ impl Paired {
             - reach(more.rate - more.interval.low, fewer.interval.high - fewer.rate);
         let high = self.difference
             + reach(more.interval.high - more.rate, fewer.rate - fewer.interval.low);
+        let (low, high) = (low.max(-1.0), high.min(1.0));
         self.difference_interval = self.difference_interval.with(Interval { low, high });
         let other = a + c;
         self.ratio_interval = self.ratio_interval.map(|interval| {
