@@ -185,4 +185,4 @@ impl Solver {
 
 #[cfg(test)]
 #[path = "in_lanes_tests.rs"]
-mod tests;
+pub(super) mod tests;

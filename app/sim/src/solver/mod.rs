@@ -14,6 +14,7 @@ mod body;
 mod body_pairs;
 mod body_skin;
 mod columns;
+mod condensed;
 mod context;
 mod elastic_grip;
 mod forces;

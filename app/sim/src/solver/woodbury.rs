@@ -5,8 +5,8 @@
 //! its right-hand side, `W` and `B` of all touches:
 //! `(A + Wᵀ B W) δ = r`, so `δ = A⁻¹ r - A⁻¹ Wᵀ λ`, `(1 + B S) λ = B W A⁻¹ r`, `S = W A⁻¹ Wᵀ`
 //! (Sherman, Morrison and Woodbury; Golub and Van Loan 2013, Matrix Computations, section 2.1.4).
-//! It is exact, whatever the stiffness. It takes a sweep over the lines with touches, three columns at once, for each touch,
-//! and a dense solve of three rows a touch.
+//! It is exact, whatever the stiffness. `S` takes one walk along the lines with touches and a few products for each pair of touches
+//! (`condensed.rs`), `λ` a dense solve of three rows a touch.
 
 use std::ops::Range;
 
@@ -14,9 +14,12 @@ use glam::{DMat3, DVec3};
 
 use super::Solver;
 use super::block_tridiagonal::BlockTridiagonal;
-use super::columns::Columns;
+use super::condensed::Condensed;
 use super::interface::{Attachment, InterfaceSystem};
 use crate::model::Model;
+
+/// Attachment of each joint and the arm from its body's origin to it.
+pub(super) type Attachments = [(Attachment, DVec3)];
 
 /// A touch as the linear system sees it.
 #[derive(Clone, Copy, Debug)]
@@ -31,21 +34,21 @@ pub(crate) struct ContactBlock {
 
 /// Scratch of a solve again: right-hand side and solution at nodes and interface blocks.
 #[derive(Clone, Debug, Default)]
-struct Again<T> {
-    right: Vec<T>,
-    step: Vec<T>,
-    interface_right: Vec<T>,
-    interface_step: Vec<T>,
+struct Again {
+    right: Vec<DVec3>,
+    step: Vec<DVec3>,
+    interface_right: Vec<DVec3>,
+    interface_step: Vec<DVec3>,
 }
 
 /// All touches of the linear system, with scratch.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Woodbury {
     pub touches: Vec<ContactBlock>,
-    /// Whether each line has a touch.
-    lines: Vec<bool>,
-    three: Again<DMat3>,
-    one: Again<DVec3>,
+    /// Slots of the four nodes of each touch.
+    slots: Vec<[usize; 4]>,
+    condensed: Condensed,
+    again: Again,
     /// `1 + B S`, row after row.
     matrix: Vec<f64>,
     lambda: Vec<f64>,
@@ -58,35 +61,31 @@ impl ContactBlock {
         [(a, 1.0 - s), (a + 1, s), (b, t - 1.0), (b + 1, -t)]
     }
 
-    /// `W` of a quantity given at nodes.
-    fn relative<T: Columns>(&self, at: &[T]) -> T {
-        let mut sum = T::ZERO;
-        for (node, weight) in self.weights() {
-            sum += at[node].by(DMat3::from_diagonal(DVec3::splat(weight)));
-        }
-        sum
+    /// `W` of moves given at nodes.
+    fn relative(&self, at: &[DVec3]) -> DVec3 {
+        self.weights().into_iter().map(|(node, weight)| at[node] * weight).sum()
     }
 }
 
-impl<T: Columns> Again<T> {
+impl Again {
     fn begin(&mut self, nodes: usize, interface: usize) {
-        self.right.resize(nodes, T::ZERO);
-        self.step.resize(nodes, T::ZERO);
+        self.right.clear();
+        self.right.resize(nodes, DVec3::ZERO);
+        self.step.resize(nodes, DVec3::ZERO);
         self.interface_right.clear();
-        self.interface_right.resize(interface, T::ZERO);
-        self.interface_step.resize(interface, T::ZERO);
+        self.interface_right.resize(interface, DVec3::ZERO);
+        self.interface_step.resize(interface, DVec3::ZERO);
     }
 
-    /// Solves the factored system for the right-hand side, on some lines alone.
+    /// Solves the factored system for the right-hand side.
     fn solve(
         &mut self,
         model: &Model,
         tridiagonal: &BlockTridiagonal,
         interface: &InterfaceSystem,
-        attachments: &[(Attachment, DVec3)],
-        wanted: impl Fn(usize) -> bool,
+        attachments: &Attachments,
     ) {
-        let lines = || model.spec.lines.iter().enumerate().filter(|(index, _)| wanted(*index));
+        let lines = || model.spec.lines.iter().enumerate();
         for (index, line) in lines() {
             let ((attachment_a, arm_a), (attachment_b, arm_b)) =
                 (attachments[line.from], attachments[line.to]);
@@ -121,42 +120,42 @@ impl<T: Columns> Again<T> {
 
 impl BlockTridiagonal {
     /// Eliminates the inner nodes from another right-hand side, after [`eliminate`](Self::eliminate); what is left on both ends.
-    fn reduce_again<T: Columns>(
+    fn reduce_again(
         &self,
         nodes: &Range<usize>,
         segments: &Range<usize>,
         a_moves: bool,
-        right: &mut [T],
-    ) -> [T; 2] {
+        right: &mut [DVec3],
+    ) -> [DVec3; 2] {
         let (a, b) = (nodes.start, nodes.end - 1);
         let mut end_a = right[a];
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
-            let moved = right[node].by(self.inverse[node]);
-            right[node + 1] -= moved.by(self.low[segment]);
+            let moved = self.inverse[node] * right[node];
+            right[node + 1] -= self.low[segment] * moved;
             if a_moves {
-                end_a -= moved.by(self.back[node]);
+                end_a -= self.back[node] * moved;
             }
         }
         [end_a, right[b]]
     }
 
-    fn substitute_again<T: Columns>(
+    fn substitute_again(
         &self,
         nodes: &Range<usize>,
         segments: &Range<usize>,
         a_moves: bool,
-        [step_a, step_b]: [T; 2],
-        right: &[T],
-        step: &mut [T],
+        [step_a, step_b]: [DVec3; 2],
+        right: &[DVec3],
+        step: &mut [DVec3],
     ) {
         let (a, b) = (nodes.start, nodes.end - 1);
         (step[a], step[b]) = (step_a, step_b);
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end).rev() {
-            let mut left = right[node] - step[node + 1].by(self.up[segment]);
+            let mut left = right[node] - self.up[segment] * step[node + 1];
             if a_moves {
-                left -= step_a.by(self.fill[node]);
+                left -= self.fill[node] * step_a;
             }
-            step[node] = left.by(self.inverse[node]);
+            step[node] = self.inverse[node] * left;
         }
     }
 }
@@ -176,10 +175,10 @@ impl Solver {
         woodbury.measure(model, &self.tridiagonal, &self.interface, &attachments);
         woodbury.solve_dense(&self.tridiagonal.step);
         woodbury.correct(model, &self.tridiagonal, &self.interface, &attachments);
-        for (step, less) in self.tridiagonal.step.iter_mut().zip(&woodbury.one.step) {
+        for (step, less) in self.tridiagonal.step.iter_mut().zip(&woodbury.again.step) {
             *step -= *less;
         }
-        for (step, less) in self.interface.step.iter_mut().zip(&woodbury.one.interface_step) {
+        for (step, less) in self.interface.step.iter_mut().zip(&woodbury.again.interface_step) {
             *step -= *less;
         }
         (self.woodbury, self.attachments) = (woodbury, attachments);
@@ -193,28 +192,28 @@ impl Woodbury {
         model: &Model,
         tridiagonal: &BlockTridiagonal,
         interface: &InterfaceSystem,
-        attachments: &[(Attachment, DVec3)],
+        attachments: &Attachments,
     ) {
         let rows = 3 * self.touches.len();
         self.matrix.clear();
         self.matrix.resize(rows * rows, 0.0);
-        self.lines.clear();
-        self.lines.extend(model.line_nodes.iter().map(|nodes| {
-            let here = |touch: &ContactBlock| touch.nodes.iter().any(|node| nodes.contains(node));
-            self.touches.iter().any(here)
-        }));
+        let nodes = |touch: &ContactBlock| touch.weights().map(|(node, _)| node);
+        let touched = self.touches.iter().flat_map(nodes);
+        self.condensed.condense(model, tridiagonal, attachments, touched);
+        self.slots.clear();
+        let slot = |node| self.condensed.slot(node).unwrap_or_default();
+        self.slots.extend(self.touches.iter().map(|touch| nodes(touch).map(slot)));
         for column in 0..self.touches.len() {
-            self.three.begin(model.node_count, interface.step.len());
-            for (nodes, _) in model.line_nodes.iter().zip(&self.lines).filter(|(_, there)| **there)
+            let right = self.condensed.empty_right(interface.step.len());
+            for (slot, (_, weight)) in self.slots[column].iter().zip(self.touches[column].weights())
             {
-                self.three.right[nodes.clone()].fill(DMat3::ZERO);
+                right[*slot] += DMat3::from_diagonal(DVec3::splat(weight));
             }
-            for (node, weight) in self.touches[column].weights() {
-                self.three.right[node] += DMat3::from_diagonal(DVec3::splat(weight));
-            }
-            self.three.solve(model, tridiagonal, interface, attachments, |line| self.lines[line]);
-            for (row, touch) in self.touches.iter().enumerate() {
-                let block = touch.block * touch.relative(&self.three.step);
+            let step = self.condensed.solve(model, interface, attachments);
+            for (row, (touch, slots)) in self.touches.iter().zip(&self.slots).enumerate() {
+                let weighted = |(slot, (_, weight)): (&usize, (_, f64))| step[*slot] * weight;
+                let relative: DMat3 = slots.iter().zip(touch.weights()).map(weighted).sum();
+                let block = touch.block * relative;
                 for (k, values) in block.to_cols_array_2d().iter().enumerate() {
                     for (j, value) in values.iter().enumerate() {
                         self.matrix[(3 * row + j) * rows + 3 * column + k] = *value;
@@ -236,22 +235,21 @@ impl Woodbury {
         solve_in_place(&mut self.matrix, &mut self.lambda);
     }
 
-    /// `A⁻¹ Wᵀ λ`, into `one`.
+    /// `A⁻¹ Wᵀ λ`, into `again`.
     fn correct(
         &mut self,
         model: &Model,
         tridiagonal: &BlockTridiagonal,
         interface: &InterfaceSystem,
-        attachments: &[(Attachment, DVec3)],
+        attachments: &Attachments,
     ) {
-        self.one.begin(model.node_count, interface.step.len());
-        self.one.right.fill(DVec3::ZERO);
+        self.again.begin(model.node_count, interface.step.len());
         for (touch, force) in self.touches.iter().zip(self.lambda.chunks_exact(3)) {
             for (node, weight) in touch.weights() {
-                self.one.right[node] += DVec3::from_slice(force) * weight;
+                self.again.right[node] += DVec3::from_slice(force) * weight;
             }
         }
-        self.one.solve(model, tridiagonal, interface, attachments, |_| true);
+        self.again.solve(model, tridiagonal, interface, attachments);
     }
 }
 
@@ -291,6 +289,62 @@ fn solve_in_place(matrix: &mut [f64], right: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::Scheme;
+    use crate::solver::in_lanes::tests::{model, moving};
+    use crate::state::State;
+
+    /// Touches within a line and between lines, at ends and inside, with blocks that are not symmetric.
+    fn touches(model: &Model) -> Vec<ContactBlock> {
+        let [low, high, tail] = [0, 1, 2].map(|line| model.line_nodes[line].start);
+        [
+            [low, high + 20],
+            [low + 12, low + 40],
+            [low + 13, high],
+            [high + 35, tail],
+            [low + 58, tail + 7],
+        ]
+        .into_iter()
+        .enumerate()
+        .map(|(index, nodes)| {
+            let size = 1e3 * 10_f64.powi(index as i32);
+            let block = DMat3::from_cols_array(&[3.0, 0.2, -0.4, 0.9, 2.0, 0.1, -0.3, 0.5, 1.0]);
+            ContactBlock { nodes, fractions: [0.3, 0.8], block: block * size }
+        })
+        .collect()
+    }
+
+    /// The step of one assembled pass: its moves of nodes.
+    fn solved(model: &Model, state: &State, prepare: impl FnOnce(&mut Solver)) -> Vec<DVec3> {
+        let (mut solver, scheme) = (Solver::new(model), Scheme::bdf2(0.01, 0.01));
+        solver.begin(model, state, &scheme);
+        solver.assemble(model, state, &scheme);
+        prepare(&mut solver);
+        solver.solve(model);
+        solver.tridiagonal.step
+    }
+
+    /// What touches do by the solution is put in as forces; without touches these give the same solution.
+    #[test]
+    fn touches_as_forces_give_the_same_moves() {
+        let model = model(60.0, 0.7);
+        let (state, touches) = (moving(&model), touches(&model));
+        let free = solved(&model, &state, |_| ());
+        let touched = solved(&model, &state, |solver| solver.woodbury.touches.clone_from(&touches));
+        let forced = solved(&model, &state, |solver| {
+            for touch in &touches {
+                let force = touch.block * touch.relative(&touched);
+                for (node, weight) in touch.weights() {
+                    solver.tridiagonal.force[node] -= force * weight;
+                }
+            }
+        });
+        let apart = |one: &[DVec3], other: &[DVec3]| {
+            one.iter().zip(other).map(|(one, other)| one.distance(*other)).fold(0.0, f64::max)
+        };
+        assert!(apart(&free, &touched) > 1e-4, "{}", apart(&free, &touched));
+        let share = apart(&touched, &forced) / apart(&free, &touched);
+        assert!(share < 1e-6, "{share}");
+    }
 
     #[test]
     fn a_dense_system_that_needs_pivots_is_solved() {

@@ -24,7 +24,7 @@ pub(super) fn solve(
 ) -> Result<Solved, Rejection> {
     let StepContext { model, state, scheme } = *context;
     for _ in 0..MOST_GATHERED {
-        if solver.ropes.touching && is_long(model, scheme.dt) {
+        if solver.ropes.touching && is_long(model, scheme.dt) && !solver.ropes.rest(model, state) {
             return Err(Rejection::RopesMeet);
         }
         let mut skin = near.as_deref_mut().filter(|_| may_touch);

@@ -59,13 +59,15 @@ fn try_solver_step(
     solver.pieces.measure_drift(state, dt);
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
-    let untouched = !may_touch && !on_solid && !on_rope && !on_skin && !on_body;
+    let by_rope_alone = !may_touch && !on_solid && !on_skin && !on_body;
+    let untouched = by_rope_alone && !on_rope;
+    let rests = untouched || by_rope_alone && solver.ropes.rest(model, state);
     let gives_momentum = near.is_some() && model.whale_is_towed();
     let scheme = match way {
+        Way::Multistep if rests && !gives_momentum => Scheme::bdf2(dt, state.rope.earlier_dt_s),
         _ if !untouched || gives_momentum => Scheme::backward_euler(dt),
-        Way::Damped | Way::FirstStage => Scheme::backward_euler(dt),
         Way::SecondStage { whole_s } => Scheme::second_stage(whole_s),
-        Way::Multistep => Scheme::bdf2(dt, state.rope.earlier_dt_s),
+        Way::Multistep | Way::Damped | Way::FirstStage => Scheme::backward_euler(dt),
     };
     let context = StepContext { model, state, scheme: &scheme };
     let solved = solve(&context, solver, near.as_deref_mut(), may_touch, audit)?;

@@ -219,6 +219,10 @@ fn solver_steps(
                     LimitedBy::Convergence
                 };
                 may_stay_clear = false;
+                if workspace.solver.ropes.touching {
+                    // Rope that rests on rope did not bear a long step.
+                    (ropes_meet, longest) = (true, settings.contact_step_s.min(longest));
+                }
                 if why == Rejection::Strayed {
                     workspace.solver.cost.enter(CostPart::Detection);
                     gather(model, state, workspace, share(state.time_s));

@@ -148,6 +148,7 @@ impl RopeWorkspace {
             contact_distance,
             min_separation: MIN_SEPARATION_SHARE * contact_distance,
             first: 0.0,
+            may_touch: false,
             points: Default::default(),
         }
     }
@@ -182,7 +183,8 @@ impl RopeWorkspace {
             }
             return;
         }
-        self.touching |= least < contact_distance + TOUCH_M;
+        pair.may_touch = least < contact_distance + TOUCH_M;
+        self.touching |= pair.may_touch;
         pair.first = first;
         self.pairs.push(pair);
     }

@@ -9,11 +9,17 @@ use glam::DVec3;
 use super::broad::{Broad, Found};
 use super::knots::Ball;
 use super::points::RopeContactPoint;
+use super::sweep::nearest;
 use crate::contact::sweep::SweptSegment;
 use crate::model::{Model, RopeOnRope};
+use crate::state::State;
 
 /// Ropes that come this near in a step, beyond touching, may touch [m].
 const TOUCH_M: f64 = 2e-3;
+
+/// Ropes that may touch rest on each other where they move past each other by no more in a step of the model, as a share of their contact
+/// distance.
+const REST_SHARE: f64 = 0.1;
 
 /// Where a segment belongs.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +44,8 @@ pub(crate) struct Pair {
     min_separation: f64,
     /// Distance when the step began [m].
     first: f64,
+    /// Whether the two may touch in this step.
+    may_touch: bool,
     pub points: [RopeContactPoint; 2],
 }
 
@@ -88,6 +96,18 @@ impl RopeWorkspace {
             along_m: vec![0.0; model.segment_count],
             ..Self::default()
         }
+    }
+
+    /// Whether ropes that may touch in this step rest on each other.
+    pub fn rest(&self, model: &Model, state: &State) -> bool {
+        let step_s = model.spec.settings.step_s;
+        let rests = |pair: &Pair| {
+            let [one, other] = pair.shapes(|node| state.rope.position[node]);
+            let [moving, past] = pair.shapes(|node| state.rope.velocity[node]);
+            let speed_m_s = between(moving, past, nearest(one, other).fractions).1;
+            speed_m_s * step_s <= REST_SHARE * pair.contact_distance
+        };
+        self.pairs.iter().filter(|pair| pair.may_touch).all(rests)
     }
 
     /// How many pairs run through each other.
