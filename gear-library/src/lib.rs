@@ -59,6 +59,7 @@ pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
-    Aim, Claim, Counted, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Observation, Prior,
-    RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent, StudyOption, Target,
+    Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
+    Observation, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent,
+    StudyOption, Target,
 };

@@ -5,6 +5,7 @@
 
 mod canon;
 mod claim;
+mod discretisation;
 mod event;
 mod observation;
 mod option;
@@ -18,6 +19,7 @@ use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use claim::Claim;
+pub use discretisation::Discretisation;
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
 pub use observation::Observation;
 pub use option::{Setting, StudyOption};
@@ -71,6 +73,8 @@ pub struct Study {
     pub claims: Vec<Claim>,
     /// Shares seen on real whales against which its own are held, by id.
     pub observations: Vec<Observation>,
+    /// What finer segments and steps change.
+    pub discretisations: Vec<Discretisation>,
     /// What defines the runs, in one order whatever the file's: for the study's hash.
     pub canonical: String,
 }
@@ -148,6 +152,7 @@ impl Study {
         let (aim, priors, from_priors) = encounter(&fields);
         let claims = claim::read_all(&fields, &options);
         let observations = observation::read_all(&fields, &options);
+        let discretisations = discretisation::read_all(&fields);
         fields.finish();
         let study = Self {
             id: path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml").to_owned(),
@@ -169,6 +174,7 @@ impl Study {
             from_priors,
             claims,
             observations,
+            discretisations,
             canonical: canon::of(node),
         };
         study.check_whole(problems);

@@ -2,10 +2,14 @@
 
 use endline_gear::StudyEvent;
 
-use crate::study::stats::{Findings, LevelFinding, Looks, OptionFinding};
+use crate::study::stats::{
+    AssumedBand, Bands, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
+};
 
-use super::cell::{Cell, Table};
-use super::words::{event_words, force, points, rate, ratio, short_rate};
+use super::cell::{Cell, Line, Table};
+use super::words::{
+    event_words, force, percent_interval, percent_range, points, rate, ratio, short_rate,
+};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;
@@ -36,6 +40,61 @@ fn rates_of(findings: &Findings, events: &[StudyEvent]) -> Table {
     };
     let rows = findings.options.iter().map(row).collect();
     Table::new("Rates given an encounter", &headings, rows)
+}
+
+/// How sure the rates of registered events are: chance, assumed inputs, segments, each apart.
+pub(super) fn bands(findings: &Findings) -> Table {
+    let row = |bands: &Bands| {
+        let assumed = bands.assumed.as_ref().map_or_else(|| "none varies".into(), assumed);
+        let segments = bands.segments.as_ref().map_or_else(|| "not known".into(), segments);
+        vec![
+            Cell::from(event_words(&bands.event)),
+            Cell::from(&bands.name),
+            rate(&bands.rate).into(),
+            assumed,
+            segments,
+        ]
+    };
+    let headings = [
+        "event",
+        "option",
+        "rate, band of chance",
+        "band of assumed inputs",
+        "band of segments and steps",
+    ];
+    Table::new(
+        "How sure the rates of registered events are, by three causes that do not contain each other",
+        &headings,
+        findings.bands.iter().map(row).collect(),
+    )
+}
+
+/// `0.2 to 3.1 %` with the levels that it goes between, and what chance would do.
+fn assumed(band: &AssumedBand) -> Cell {
+    let by_chance = percent_interval(band.by_chance);
+    if band.is_chance() {
+        return Cell::lines([
+            format!("{}, no wider than by chance", percent_range(band.least, band.greatest)),
+            format!("levels at random: {by_chance}"),
+        ]);
+    }
+    Cell::lines([
+        percent_range(band.least, band.greatest),
+        format!("least with {}", band.least_at),
+        format!("greatest with {}", band.greatest_at),
+        format!("levels at random: {by_chance}"),
+    ])
+}
+
+/// `0.9 to 1.8 %`, and the ratio that it comes from.
+fn segments(band: &SegmentBand) -> Cell {
+    let lines = [
+        percent_range(band.rate.low, band.rate.high),
+        format!("finer ones: {} times", ratio(Some(band.ratio), Some(band.ratio_interval))),
+    ];
+    let mut cell = Cell::lines(lines);
+    cell.lines.push(Line::Small(band.source.clone()));
+    cell
 }
 
 /// Share of the looks at the lengths of segments near the whale that left one longer than wanted.

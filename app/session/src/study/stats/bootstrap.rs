@@ -27,6 +27,13 @@ impl Draws {
         // The high half of a product: even to within count/2⁶⁴.
         ((u128::from(u64::from_le_bytes(bytes)) * count as u128) >> 64) as usize
     }
+
+    /// Deals out values anew (Fisher and Yates).
+    pub(super) fn shuffle<T>(&mut self, values: &mut [T]) {
+        for last in (1..values.len()).rev() {
+            values.swap(last, self.below(last + 1));
+        }
+    }
 }
 
 /// The interval of a statistic of `count` encounters, given their indices; none where it is mostly undefined.

@@ -10,6 +10,7 @@ use crate::study::open::Opened;
 use crate::study::registration::Registration;
 use crate::study::table::{Column, Table};
 
+use super::bands::{self, Bands};
 use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
 use super::interval::Rate;
@@ -47,6 +48,8 @@ pub struct Findings {
     pub options: Vec<OptionFinding>,
     /// Levels of the prior by which results are separated.
     pub levels: Vec<LevelFinding>,
+    /// How sure the rates of registered events are: chance, assumed inputs, segments.
+    pub bands: Vec<Bands>,
     /// Claims.
     pub claims: Vec<ClaimFinding>,
     /// Shares seen on real whales, and the study's own.
@@ -166,6 +169,7 @@ impl Findings {
             baseline: opened.baseline,
             options,
             levels: levels(opened, table, &marks),
+            bands: bands::look(opened, table, registration),
             claims,
             observations: opened
                 .study

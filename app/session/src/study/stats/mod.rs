@@ -5,6 +5,7 @@
 //! Encounters count by their weights, which importance sampling gives them; without it all count alike.
 //! Encounters are taken as independent; those of a Sobol sequence fill their space more evenly, so that intervals err on the wide side.
 
+mod bands;
 mod better;
 mod bootstrap;
 mod changes;
@@ -24,6 +25,7 @@ mod weighted;
 #[cfg(test)]
 mod coverage;
 
+pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, Looks, OptionFinding};

@@ -52,10 +52,8 @@ pub(super) fn look(
     marks: &[Marks],
     baseline: usize,
 ) -> Vec<InputFinding> {
-    let column = |prior: &Prior| table.column(&format!("drawn_{}", prior.name.value));
     let of = |prior: &Prior| {
-        let column = column(prior)?;
-        let parts = parts(table, column, &|number| prior.law.written(number));
+        let (column, parts) = (column_of(prior, table)?, parts_of(prior, table)?);
         let sobol = index(&prior.name.value, table, column, &marks[baseline]);
         input(prior, parts, sobol, marks, baseline)
     };
@@ -145,6 +143,17 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rates.len()).collect();
     order.sort_by(|one, other| rates[*one].total_cmp(&rates[*other]));
     order
+}
+
+/// What was drawn of an input.
+fn column_of<'a>(prior: &Prior, table: &'a Table) -> Option<&'a Column> {
+    table.column(&format!("drawn_{}", prior.name.value))
+}
+
+/// The encounters of each part of an input: its levels, or the lower and upper half of its range.
+pub(super) fn parts_of(prior: &Prior, table: &Table) -> Option<Vec<(String, Vec<bool>)>> {
+    let column = column_of(prior, table)?;
+    Some(parts(table, column, &|number| prior.law.written(number)))
 }
 
 /// The encounters of each part of an input, whose numbers `words` puts in words.

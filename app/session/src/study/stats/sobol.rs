@@ -45,9 +45,7 @@ impl SobolIndex {
         let mut draws = Draws::of(&format!("sobol {label}"));
         let mut by_chance: Vec<f64> = (0..DEALS)
             .map(|_| {
-                for last in (1..dealt.len()).rev() {
-                    dealt.swap(last, draws.below(last + 1));
-                }
+                draws.shuffle(&mut dealt);
                 explained(&dealt, values)
             })
             .collect();

@@ -119,6 +119,7 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
     text += &held(findings);
     text += &strengths(findings);
     text += &levels(findings);
+    text += &bands(findings);
     text += &inputs(findings);
     text + &claims(findings)
 }
@@ -187,6 +188,34 @@ fn compared(findings: &Findings, event: &str) -> String {
             format!("{:.3}", paired.mcnemar),
             option.adjusted(event).map_or_else(String::new, |p| format!("{p:.3}")),
         ]);
+    }
+    columns(&rows)
+}
+
+/// How sure the rates of the event are: chance, assumed inputs, segments.
+fn bands(findings: &Findings) -> String {
+    let heads = [
+        "bands",
+        findings.event.as_str(),
+        "assumed inputs",
+        "levels at random",
+        "finer segments and steps",
+    ];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let range = |low: f64, high: f64| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high);
+    for bands in findings.bands.iter().filter(|bands| bands.event == findings.event) {
+        let (assumed, random) = bands.assumed.as_ref().map_or_else(
+            || ("none varies".to_owned(), String::new()),
+            |band| {
+                let Interval { low, high } = band.by_chance;
+                (range(band.least, band.greatest), range(low, high))
+            },
+        );
+        let segments = bands
+            .segments
+            .as_ref()
+            .map_or_else(|| "not known".to_owned(), |band| range(band.rate.low, band.rate.high));
+        rows.push(vec![bands.option.clone(), rate(&bands.rate), assumed, random, segments]);
     }
     columns(&rows)
 }

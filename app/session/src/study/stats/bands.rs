@@ -1,0 +1,261 @@
+//! How sure a rate is, in three bands that are told apart: chance, assumed inputs, segments and steps.
+//!
+//! | band | content |
+//! |---|---|
+//! | chance | the interval of the rate (`interval.rs`) |
+//! | assumed inputs | least and greatest rate with one assumed input at one of its levels, or in one half of its range: the envelope over all of them, others as drawn |
+//! | segments | the rate times its ratio with finer segments and shorter steps, which another study found on the same encounters (`[[discretisation]]`) |
+//!
+//! Parts of few encounters spread by chance too. The envelope is therefore told beside that of parts dealt out at random, on average over
+//! [`DEALS`]: where it is no wider, the assumed inputs have not shown that they matter.
+
+use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};
+use serde::Serialize;
+
+use crate::study::open::Opened;
+use crate::study::registration::Registration;
+use crate::study::table::Table;
+
+use super::bootstrap::Draws;
+use super::interval::{Interval, Rate};
+use super::marks::Marks;
+use super::paired::Paired;
+use super::sensitivity::parts_of;
+
+/// How often parts are dealt out at random.
+const DEALS: usize = 200;
+
+/// The bands of an event's rate with an option.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bands {
+    /// Id of the option, and its name.
+    pub option: String,
+    /// As said.
+    pub name: String,
+    /// Name of the event.
+    pub event: String,
+    /// The rate with its interval: the band of chance.
+    pub rate: Rate,
+    /// The band of assumed inputs; none where no assumed input varies.
+    pub assumed: Option<AssumedBand>,
+    /// The band of segments; none where the study names nothing about this event.
+    pub segments: Option<SegmentBand>,
+}
+
+/// Rates over the levels of assumed inputs, one input at a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AssumedBand {
+    /// Least and greatest rate.
+    pub least: f64,
+    /// As said.
+    pub greatest: f64,
+    /// Input and level with the least rate, and with the greatest.
+    pub least_at: String,
+    /// As said.
+    pub greatest_at: String,
+    /// The same with levels dealt out at random, on average.
+    pub by_chance: Interval,
+}
+
+/// What finer segments and steps do to a rate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SegmentBand {
+    /// Rate with finer ones over rate with those of this study.
+    pub ratio: f64,
+    /// Its interval.
+    pub ratio_interval: Interval,
+    /// The rate of this study times that interval, at most 1.
+    pub rate: Interval,
+    /// The study and program that found it.
+    pub source: String,
+}
+
+/// The bands of every registered event with every option.
+pub(super) fn look(opened: &Opened, table: &Table, registration: &Registration) -> Vec<Bands> {
+    let divided = divide(&opened.study.priors, table);
+    let events = registration.events.iter().filter_map(|name| StudyEvent::find(name));
+    let of = |event: StudyEvent| {
+        let found = opened.study.discretisations.iter().find(|found| found.event == event);
+        let divided = &divided;
+        opened.options.iter().map(move |option| {
+            let marks = Marks::of(table, &option.id, &event);
+            let rate = Rate::of(&marks);
+            Bands {
+                option: option.id.clone(),
+                name: option.name.clone(),
+                event: event.name(),
+                assumed: AssumedBand::of(divided, &marks),
+                segments: found.and_then(|found| SegmentBand::of(found, &rate)),
+                rate,
+            }
+        })
+    };
+    events.flat_map(of).collect()
+}
+
+/// An assumed input's levels: their names, and by encounter which of them was drawn.
+struct Divided {
+    names: Vec<String>,
+    level: Vec<Option<usize>>,
+}
+
+/// The assumed inputs that vary.
+fn divide(priors: &[Prior], table: &Table) -> Vec<Divided> {
+    let assumed = priors.iter().filter(|prior| prior.confidence == Confidence::Assumed);
+    let of = |prior: &Prior| {
+        let parts = parts_of(prior, table)?;
+        let count = parts.iter().map(|(_, keep)| keep.len()).max().unwrap_or_default();
+        let level = (0..count).map(|encounter| parts.iter().position(|(_, keep)| keep[encounter]));
+        let level: Vec<Option<usize>> = level.collect();
+        let names: Vec<String> =
+            parts.iter().map(|(name, _)| format!("{}: {name}", prior.words())).collect();
+        (names.len() > 1).then_some(Divided { names, level })
+    };
+    assumed.filter_map(of).collect()
+}
+
+impl AssumedBand {
+    fn of(divided: &[Divided], marks: &Marks) -> Option<Self> {
+        // Only encounters that count are dealt out.
+        let known = |divided: &Divided| -> (Vec<usize>, Vec<(f64, f64)>) {
+            let mark = |(level, mark): (&Option<usize>, &Option<super::Mark>)| {
+                let (level, mark) = ((*level)?, (*mark)?);
+                Some((level, (f64::from(mark.came), mark.weight)))
+            };
+            divided.level.iter().zip(&marks.0).filter_map(mark).unzip()
+        };
+        let inputs: Vec<(&Divided, Vec<usize>, Vec<(f64, f64)>)> = divided
+            .iter()
+            .map(|divided| {
+                let (levels, values) = known(divided);
+                (divided, levels, values)
+            })
+            .collect();
+        let mut found: Vec<(f64, &String)> = inputs
+            .iter()
+            .flat_map(|(divided, levels, values)| {
+                rates(levels, values, divided.names.len()).into_iter().zip(&divided.names)
+            })
+            .filter_map(|(rate, name)| Some((rate?, name)))
+            .collect();
+        found.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let ((least, least_at), (greatest, greatest_at)) = (*found.first()?, *found.last()?);
+        let mut draws = Draws::of("assumed inputs");
+        let mut by_chance = Interval { low: 0.0, high: 0.0 };
+        for _ in 0..DEALS {
+            let (mut low, mut high) = (1.0_f64, 0.0_f64);
+            for (divided, levels, values) in &inputs {
+                let mut dealt = levels.clone();
+                draws.shuffle(&mut dealt);
+                for rate in rates(&dealt, values, divided.names.len()).into_iter().flatten() {
+                    (low, high) = (low.min(rate), high.max(rate));
+                }
+            }
+            by_chance.low += low / DEALS as f64;
+            by_chance.high += high / DEALS as f64;
+        }
+        Some(Self {
+            least,
+            greatest,
+            least_at: least_at.clone(),
+            greatest_at: greatest_at.clone(),
+            by_chance,
+        })
+    }
+
+    /// Whether the levels spread the rate by no more than levels dealt out at random.
+    #[must_use]
+    pub fn is_chance(&self) -> bool {
+        self.greatest - self.least <= self.by_chance.high - self.by_chance.low
+    }
+}
+
+/// Weighted rate at each level; none where a level has no encounter that counts.
+fn rates(levels: &[usize], values: &[(f64, f64)], count: usize) -> Vec<Option<f64>> {
+    let mut sums = vec![(0.0, 0.0); count];
+    for (level, (came, weight)) in levels.iter().zip(values) {
+        sums[*level].0 += came * weight;
+        sums[*level].1 += weight;
+    }
+    sums.into_iter().map(|(came, all)| (all > 0.0).then(|| came / all)).collect()
+}
+
+impl SegmentBand {
+    fn of(found: &Discretisation, rate: &Rate) -> Option<Self> {
+        let Discretisation { both, only_here, only_finer, neither, .. } = *found;
+        let paired = Paired::from_counts([[neither, only_here], [only_finer, both]]);
+        let (ratio, ratio_interval) = (paired.ratio?, paired.ratio_interval?);
+        let end = |ratio: f64| (rate.rate * ratio).min(1.0);
+        Some(Self {
+            ratio,
+            ratio_interval,
+            rate: Interval { low: end(ratio_interval.low), high: end(ratio_interval.high) },
+            source: found.source.clone(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn divided(level: impl IntoIterator<Item = usize>, names: &[&str]) -> Divided {
+        Divided {
+            names: names.iter().map(ToString::to_string).collect(),
+            level: level.into_iter().map(Some).collect(),
+        }
+    }
+
+    /// 400 encounters, the event in each fourth of them; the first input decides it, the second has nothing to do with it.
+    #[test]
+    fn an_input_that_decides_spreads_the_rate_and_an_idle_one_by_chance() {
+        let marks = Marks::even((0..400).map(|index| Some(index % 4 == 0)));
+        let deciding = divided((0..400).map(|index| usize::from(index % 4 == 0)), &["no", "yes"]);
+        let idle = divided((0..400).map(|index| (index / 4) % 2), &["one", "other"]);
+        let band = AssumedBand::of(&[deciding, idle], &marks).unwrap();
+        assert_eq!((band.least, band.greatest), (0.0, 1.0));
+        assert_eq!((band.least_at.as_str(), band.greatest_at.as_str()), ("no", "yes"));
+        assert!(!band.is_chance() && band.by_chance.low > 0.15 && band.by_chance.high < 0.4);
+
+        let idle = divided((0..400).map(|index| (index / 4) % 2), &["one", "other"]);
+        let band = AssumedBand::of(&[idle], &marks).unwrap();
+        assert!(band.is_chance(), "{band:?}");
+        // Two random halves: their rates differ from 0.25 by about 0.8 of √(p q / 400) either way.
+        let half = 0.8 * (0.25_f64 * 0.75 / 400.0).sqrt();
+        assert!((band.by_chance.high - 0.25 - half).abs() < 0.2 * half, "{band:?}");
+    }
+
+    #[test]
+    fn levels_count_by_weight_and_invalid_runs_do_not() {
+        let weights = [4.0, 1.0, 1.0, 2.0];
+        let came = [true, false, true, false];
+        let mut marks: Vec<Option<crate::study::stats::Mark>> = came
+            .into_iter()
+            .zip(weights)
+            .map(|(came, weight)| Some(crate::study::stats::Mark { came, weight }))
+            .collect();
+        marks.push(None);
+        let band =
+            AssumedBand::of(&[divided([0, 0, 1, 1, 1], &["a", "b"])], &Marks(marks)).unwrap();
+        assert!((band.greatest - 0.8).abs() < 1e-12 && (band.least - 1.0 / 3.0).abs() < 1e-12);
+    }
+
+    /// Ratio 24/20 by hand; the rate of the study goes with it.
+    #[test]
+    fn finer_segments_scale_the_rate() {
+        let found = Discretisation {
+            event: StudyEvent::Lodged,
+            both: 19,
+            only_here: 1,
+            only_finer: 5,
+            neither: 195,
+            source: "a study".to_owned(),
+        };
+        let band = SegmentBand::of(&found, &Rate::from_counts(10, 200)).unwrap();
+        assert!((band.ratio - 1.2).abs() < 1e-12);
+        assert!(band.ratio_interval.low < 1.0 && band.ratio_interval.high > 1.2);
+        assert!((band.rate.high - 0.05 * band.ratio_interval.high).abs() < 1e-12);
+        let none = Discretisation { both: 0, only_here: 0, ..found };
+        assert_eq!(SegmentBand::of(&none, &Rate::from_counts(10, 200)), None);
+    }
+}
