@@ -5,7 +5,8 @@
 use crate::linked::{Linked, library, model, scenario_text, told};
 use endline_gear::{Options, Scenario, assemble};
 use endline_sdk::LineEnd;
-use endline_sim::metrics::end_tension;
+use endline_sim::balance::Source;
+use endline_sim::metrics::{Metrics, end_tension};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 
 /// Steps a model to a time or until `done`.
@@ -130,6 +131,37 @@ fn a_carcass_floats_belly_up_and_drifts_with_its_gear() {
     let centre = centre(&state);
     assert!((centre.x - 0.25 * 24.0).abs() < 1.5, "carried by the tide: {} m", centre.x);
     assert_eq!(workspace.audit.tunnelled, 0);
+}
+
+/// The books of a whale that tows a trap straight on: steps miss next to nothing of momentum and energy, and what the gear gave the whale is what
+/// the whale gave the gear, as the solver's own balance of the gear has it.
+#[test]
+fn the_books_of_a_whale_close() {
+    let mut spec = model("towing-trap.toml", &[]).spec;
+    spec.settings.balance = true;
+    let model = Model::new(spec).unwrap();
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    let mut metrics = Metrics::new(&model);
+    metrics.fold(&model, &state, &[]);
+    while state.time_s < 20.0 {
+        let input = controls(&model, &state);
+        step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        metrics.fold_step(&model, &state, &workspace);
+    }
+    let books = metrics.summary(&model, &state).whale.unwrap().kinetic.unwrap().books;
+    let whale = state.whale.as_ref().unwrap();
+    let ahead = whale.orientation * DVec3::X;
+    let gear = workspace.balance.summary(&model, &state).unwrap();
+    let given_ns = -gear.impulse_ns[Source::Skin as usize].dot(ahead);
+    println!(
+        "{books:?}, missed {} N s and {} J, gear {given_ns} N s",
+        books.residual_ns(),
+        books.residual_j()
+    );
+    assert!(books.thrust_ns > 1e3 && books.gear_ns < -1e3, "{books:?}");
+    assert!(books.residual_ns().abs() < 2e-3 * books.thrust_ns, "{}", books.residual_ns());
+    assert!(books.residual_j().abs() < 2e-3 * books.thrust_j, "{}", books.residual_j());
+    assert!((books.gear_ns / given_ns - 1.0).abs() < 0.01, "{} of {given_ns}", books.gear_ns);
 }
 
 #[test]

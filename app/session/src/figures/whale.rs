@@ -228,7 +228,7 @@ pub static BEAT: &[Figure<BeatSummary>] = &[
     .shown(&[Table]),
 ];
 
-/// Figures of a kinetic whale; all but the peaks are means of the last 5 s.
+/// Figures of a kinetic whale; all down to the peaks are means of the last 5 s, all after them are of the whole run.
 pub static KINETIC: &[Figure<KineticSummary>] = &[
     Figure::new(
         "thrust_N",
@@ -285,4 +285,88 @@ pub static KINETIC: &[Figure<KineticSummary>] = &[
         |kinetic: &KineticSummary| kinetic.peak_rope_pull_n.into(),
     )
     .shown(&[Table]),
+    Figure::new(
+        "velocity_m_s",
+        "velocity through the water",
+        "Velocity through the water at the end: east, north, up.",
+        Quantity::Speed,
+        |kinetic: &KineticSummary| kinetic.velocity_m_s.into(),
+    ),
+    Figure::new(
+        "momentum_Ns",
+        "momentum",
+        "Momentum with added mass at the end: east, north, up.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.momentum_ns.into(),
+    ),
+    Figure::new(
+        "momentum_change_Ns",
+        "change of momentum ahead",
+        "Change of momentum along its own axis, with added mass.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.books.momentum_ns.into(),
+    ),
+    Figure::new(
+        "thrust_impulse_Ns",
+        "impulse of thrust",
+        "Impulse of thrust.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.books.thrust_ns.into(),
+    ),
+    Figure::new(
+        "drag_impulse_Ns",
+        "impulse of its drag",
+        "Impulse of the drag of its own body; below zero.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.books.drag_ns.into(),
+    ),
+    Figure::new(
+        "gear_impulse_Ns",
+        "impulse of the gear ahead",
+        "Impulse of the gear along its own axis; below zero where it holds the whale back.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.books.gear_ns.into(),
+    ),
+    Figure::new(
+        "residual_Ns",
+        "momentum missed",
+        "Change of momentum less the three impulses: what time steps miss, and the weight of what is out of the water.",
+        Quantity::Impulse,
+        |kinetic: &KineticSummary| kinetic.books.residual_ns().into(),
+    ),
+    Figure::new(
+        "kinetic_J",
+        "change of kinetic energy ahead",
+        "Change of kinetic energy along its own axis, with added mass.",
+        Quantity::Work,
+        |kinetic: &KineticSummary| kinetic.books.kinetic_j.into(),
+    ),
+    Figure::new(
+        "thrust_work_J",
+        "work of thrust",
+        "Work of thrust.",
+        Quantity::Work,
+        |kinetic: &KineticSummary| kinetic.books.thrust_j.into(),
+    ),
+    Figure::new(
+        "drag_work_J",
+        "work of its drag",
+        "Work of the drag of its own body; below zero.",
+        Quantity::Work,
+        |kinetic: &KineticSummary| kinetic.books.drag_j.into(),
+    ),
+    Figure::new(
+        "gear_work_J",
+        "work of the gear",
+        "Work of the gear along its own axis; below zero where it holds the whale back.",
+        Quantity::Work,
+        |kinetic: &KineticSummary| kinetic.books.gear_j.into(),
+    ),
+    Figure::new(
+        "residual_J",
+        "energy missed",
+        "Change of kinetic energy less the three works.",
+        Quantity::Work,
+        |kinetic: &KineticSummary| kinetic.books.residual_j().into(),
+    ),
 ];

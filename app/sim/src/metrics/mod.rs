@@ -7,6 +7,7 @@
 mod along;
 mod bodies;
 mod body_on_whale;
+mod books;
 mod drag;
 mod energy;
 mod event;
@@ -36,6 +37,7 @@ pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
 pub use body_on_whale::CAUGHT_S;
+pub use books::WhaleBooks;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;

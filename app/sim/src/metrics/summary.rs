@@ -6,6 +6,8 @@
 use endline_sdk::{BodyPart, Region};
 use glam::DVec3;
 
+use super::books::WhaleBooks;
+
 /// The measures of a run so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -184,7 +186,7 @@ pub struct BeatSummary {
     pub strouhal: Option<f64>,
 }
 
-/// What a kinetic whale did; all but the peaks are means of the last 5 s.
+/// What a kinetic whale did; all down to the peaks are means of the last 5 s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KineticSummary {
     /// Thrust [N].
@@ -201,6 +203,12 @@ pub struct KineticSummary {
     pub peak_thrust_n: f64,
     /// Greatest pull of all rope on it, mean over any step [N].
     pub peak_rope_pull_n: f64,
+    /// Velocity through the water at the end: east, north, up [m/s].
+    pub velocity_m_s: DVec3,
+    /// Momentum with added mass at the end: east, north, up [N s].
+    pub momentum_ns: DVec3,
+    /// Momentum and energy ahead by source.
+    pub books: WhaleBooks,
 }
 
 /// Rope on one part of the whale.

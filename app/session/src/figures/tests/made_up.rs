@@ -10,7 +10,8 @@ use endline_session::timing::Timing;
 use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{
     BeatSummary, BodyOnWhale, BodySummary, Event, EventKind, KineticSummary, LineSummary,
-    LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleBooks,
+    WhaleSummary,
 };
 use endline_sim::{Audit, CostPart, DVec3};
 
@@ -223,6 +224,18 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
             speed_lost_m_s: next.real(),
             peak_thrust_n: next.real(),
             peak_rope_pull_n: next.real(),
+            velocity_m_s: next.vector(),
+            momentum_ns: next.vector(),
+            books: WhaleBooks {
+                momentum_ns: next.real(),
+                thrust_ns: next.real(),
+                drag_ns: next.real(),
+                gear_ns: next.real(),
+                kinetic_j: next.real(),
+                thrust_j: next.real(),
+                drag_j: next.real(),
+                gear_j: next.real(),
+            },
         }),
         winding_jumps: next.whole(),
         beyond_rope_share: next.real(),
