@@ -44,6 +44,8 @@ pub struct Run {
     frames: Vec<Arc<Frame>>,
     settled: Arc<Settled>,
     stopped: Option<Stop>,
+    /// Since when every look has found it invalid [s].
+    invalid_since_s: Option<f64>,
     timing: Timing,
 }
 
@@ -92,6 +94,7 @@ impl Run {
             hashes: vec![StateHash::of(&Input::default(), &settled.state)],
             frames: Vec::new(),
             stopped: None,
+            invalid_since_s: None,
             state: settled.state.clone(),
             timing: Timing::settled_in(settled_in),
             settled,

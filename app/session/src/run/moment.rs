@@ -18,6 +18,7 @@ pub struct Moment {
     metrics: Metrics,
     audit: Audit,
     balance: Balance,
+    invalid_since_s: Option<f64>,
     /// Steps so far.
     steps: usize,
     /// Frames kept so far.
@@ -33,6 +34,7 @@ impl Run {
             metrics: self.metrics.clone(),
             audit: self.workspace.audit,
             balance: self.workspace.balance,
+            invalid_since_s: self.invalid_since_s,
             steps: self.inputs.len(),
             frames: self.frames.len(),
         }
@@ -57,6 +59,7 @@ impl Run {
             state: moment.state.clone(),
             settled: Arc::clone(&self.settled),
             stopped: None,
+            invalid_since_s: moment.invalid_since_s,
             timing: self.timing,
             options: self.options,
             prepared,

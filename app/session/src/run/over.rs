@@ -4,6 +4,7 @@ use endline_gear::RunRule;
 use endline_sim::metrics::Outcome;
 
 use super::Run;
+use crate::report::validity::reasons;
 
 /// How often a run is asked whether it is over [Hz].
 const LOOKS_HZ: f64 = 2.0;
@@ -28,6 +29,18 @@ impl Run {
                 whale.decided && (followed || settled)
             }
         }
+    }
+
+    /// Looks whether the run is valid so far; why not, where every look of the last `for_s` has found it invalid.
+    pub(crate) fn stays_invalid(&mut self, for_s: f64) -> Option<String> {
+        let now = self.state.time_s;
+        let reasons = reasons(None, &self.workspace.audit, self.summary().whale.as_ref());
+        let Some(reason) = reasons.into_iter().next() else {
+            self.invalid_since_s = None;
+            return None;
+        };
+        let since = *self.invalid_since_s.get_or_insert(now);
+        (now - since >= for_s).then_some(reason)
     }
 
     /// Whether it is time to ask whether the run is over.

@@ -26,6 +26,9 @@ const STUCK_PASSES: f64 = 20.0;
 /// That while: time for which a run may stick before it is given up, at the usual cost [s].
 const STUCK_FOR_S: f64 = 60.0;
 
+/// Time after which a run that has stayed invalid is given up: what has crossed stays crossed, and what presses too hard goes on doing so [s].
+const INVALID_FOR_S: f64 = 60.0;
+
 /// Frames kept for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;
 
@@ -155,8 +158,13 @@ impl Opened {
                 break;
             }
             if run.is_time_to_look() {
+                let invalid = run.stays_invalid(INVALID_FOR_S);
                 look(run);
                 if run.is_over(&self.study.run) {
+                    break;
+                }
+                if let Some(reason) = invalid {
+                    run.give_up(&format!("it stayed invalid for {INVALID_FOR_S} s: {reason}"));
                     break;
                 }
             }

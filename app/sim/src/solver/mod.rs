@@ -16,6 +16,7 @@ mod body_skin;
 mod columns;
 mod condensed;
 mod context;
+mod dense;
 mod elastic_grip;
 mod forces;
 mod given;
@@ -184,7 +185,7 @@ impl Solver {
             body_skin: BodySkin::new(model).map(Box::new),
             body_pairs: BodyPairs::new(model),
             coupled: Vec::new(),
-            woodbury: Woodbury::default(),
+            woodbury: Woodbury::new(),
             before: Vec::new(),
             bodies_before: Vec::new(),
             attachments: Vec::new(),

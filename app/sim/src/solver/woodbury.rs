@@ -11,10 +11,12 @@
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
+use pulp::Arch;
 
 use super::Solver;
 use super::block_tridiagonal::BlockTridiagonal;
 use super::condensed::Condensed;
+use super::dense::solve_in_place;
 use super::interface::{Attachment, InterfaceSystem};
 use crate::model::Model;
 
@@ -42,8 +44,9 @@ struct Again {
 }
 
 /// All touches of the linear system, with scratch.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Woodbury {
+    arch: Arch,
     pub touches: Vec<ContactBlock>,
     /// Slots of the four nodes of each touch.
     slots: Vec<[usize; 4]>,
@@ -166,7 +169,7 @@ impl Solver {
         if self.woodbury.touches.is_empty() {
             return;
         }
-        let mut woodbury = std::mem::take(&mut self.woodbury);
+        let mut woodbury = std::mem::replace(&mut self.woodbury, Woodbury::new());
         let mut attachments = std::mem::take(&mut self.attachments);
         attachments.clear();
         attachments.extend(
@@ -186,6 +189,19 @@ impl Solver {
 }
 
 impl Woodbury {
+    /// No touches.
+    pub fn new() -> Self {
+        Self {
+            arch: Arch::new(),
+            touches: Vec::new(),
+            slots: Vec::new(),
+            condensed: Condensed::default(),
+            again: Again::default(),
+            matrix: Vec::new(),
+            lambda: Vec::new(),
+        }
+    }
+
     /// Writes `1 + B S`, three columns a touch.
     fn measure(
         &mut self,
@@ -232,7 +248,7 @@ impl Woodbury {
         for touch in &self.touches {
             self.lambda.extend_from_slice(&(touch.block * touch.relative(step)).to_array());
         }
-        solve_in_place(&mut self.matrix, &mut self.lambda);
+        solve_in_place(self.arch, &mut self.matrix, &mut self.lambda);
     }
 
     /// `A⁻¹ Wᵀ λ`, into `again`.
@@ -250,39 +266,6 @@ impl Woodbury {
             }
         }
         self.again.solve(model, tridiagonal, interface, attachments);
-    }
-}
-
-/// Solves a dense system by elimination with partial pivoting; the solution takes the right-hand side's place.
-fn solve_in_place(matrix: &mut [f64], right: &mut [f64]) {
-    let rows = right.len();
-    for pivot in 0..rows {
-        let size = |row: usize, matrix: &[f64]| matrix[row * rows + pivot].abs();
-        let best = (pivot + 1..rows).fold(pivot, |best, row| {
-            if size(row, matrix) > size(best, matrix) { row } else { best }
-        });
-        if best != pivot {
-            let (above, below) = matrix.split_at_mut(best * rows);
-            above[pivot * rows..(pivot + 1) * rows].swap_with_slice(&mut below[..rows]);
-            right.swap(pivot, best);
-        }
-        let (above, below) = matrix.split_at_mut((pivot + 1) * rows);
-        let lead = &above[pivot * rows..];
-        for (row, values) in below.chunks_exact_mut(rows).enumerate() {
-            let factor = values[pivot] / lead[pivot];
-            if factor != 0.0 {
-                values[pivot + 1..]
-                    .iter_mut()
-                    .zip(&lead[pivot + 1..])
-                    .for_each(|(value, above)| *value -= factor * above);
-                right[pivot + 1 + row] -= factor * right[pivot];
-            }
-        }
-    }
-    for row in (0..rows).rev() {
-        let known: f64 =
-            (row + 1..rows).map(|column| matrix[row * rows + column] * right[column]).sum();
-        right[row] = (right[row] - known) / matrix[row * rows + row];
     }
 }
 
@@ -344,20 +327,5 @@ mod tests {
         assert!(apart(&free, &touched) > 1e-4, "{}", apart(&free, &touched));
         let share = apart(&touched, &forced) / apart(&free, &touched);
         assert!(share < 1e-6, "{share}");
-    }
-
-    #[test]
-    fn a_dense_system_that_needs_pivots_is_solved() {
-        let matrix = [0.0, 2.0, -1.0, 1e-9, 1.0, 3.0, 4.0, -2.0, 0.5];
-        let wanted = [1.5, -2.0, 0.25];
-        let mut right: Vec<f64> = matrix
-            .chunks_exact(3)
-            .map(|row| row.iter().zip(&wanted).map(|(a, x)| a * x).sum())
-            .collect();
-        solve_in_place(&mut matrix.clone(), &mut right);
-        assert!(
-            right.iter().zip(&wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
-            "{right:?}"
-        );
     }
 }
