@@ -433,6 +433,43 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
     }
 }
 
+/// Tables put into a scenario, the line of them that is told, and what is said.
+#[test]
+fn mistakes_in_segments_and_probes_are_told_with_their_place() {
+    let text = scenario_text("hello-endline.toml");
+    let segments = |line: &str, longest: &str| {
+        let table =
+            format!("[[segments]]\nline = \"{line}\"\nlongest = \"{longest}\"\n\n[resolution]");
+        let even = text.replacen("rope_nodes = 1000", "segment = \"1 m\"", 1);
+        even.replacen("[resolution]", &table, 1)
+    };
+    let probe = "[[probe]]\nid = \"effort\"\nof = \"whale\"\nfigure = \"thrust\"\n\n[site]";
+    let without_segment = segments("endline*", "10 cm").replacen("segment = \"1 m\"\n", "", 1);
+    for (changed, line, parts) in [
+        (segments("endlin", "10 cm"), "line = \"endlin\"", ["no line `endlin`", "endline"]),
+        (segments("endline*", "0.1 mm"), "longest =", ["`longest` is 0.0001 m", "between"]),
+        (without_segment, "line = \"endline*\"", ["no `segment` for the other lines", "1 m"]),
+        (
+            text.replacen("[site]", probe, 1),
+            "figure = \"thrust\"",
+            ["this whale has no effort", "dynamics = \"kinetic\""],
+        ),
+    ] {
+        let problems = refused(&changed);
+        assert_eq!(problems.len(), 1, "{line}: {}", told(&problems));
+        let at = 1 + changed.lines().position(|text| text.starts_with(line)).unwrap();
+        assert_eq!(
+            (problems[0].file.as_str(), problems[0].line),
+            ("test.toml", at),
+            "{}",
+            problems[0]
+        );
+        for part in parts {
+            assert!(problems[0].to_string().contains(part), "`{}` lacks `{part}`", problems[0]);
+        }
+    }
+}
+
 #[test]
 fn the_program_chooses_the_step_where_the_scenario_says_so() {
     let text = scenario_text("hello-endline.toml");
