@@ -40,14 +40,13 @@ struct Grip {
 
 impl Mouth {
     pub(super) fn new(skin: &Skin) -> Self {
-        let marked = |vertex: &u32| {
-            matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen))
-        };
-        let inside = |(corners, region): (&[u32; 3], &Region)| {
-            *region == Region::Baleen || corners.iter().all(marked)
-        };
-        let inside = skin.triangles.iter().zip(&skin.regions).map(inside).collect();
-        Self { inside, since_s: None, last_s: 0.0, lodged: false, was_lodged: false }
+        Self {
+            inside: inside_of_mouth(skin),
+            since_s: None,
+            last_s: 0.0,
+            lodged: false,
+            was_lodged: false,
+        }
     }
 
     pub(super) fn fold(
@@ -92,6 +91,16 @@ impl Mouth {
         }
         grip
     }
+}
+
+/// Whether each triangle is inside the mouth.
+pub(super) fn inside_of_mouth(skin: &Skin) -> Vec<bool> {
+    let marked =
+        |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
+    let inside = |(corners, region): (&[u32; 3], &Region)| {
+        *region == Region::Baleen || corners.iter().all(marked)
+    };
+    skin.triangles.iter().zip(&skin.regions).map(inside).collect()
 }
 
 impl Grip {

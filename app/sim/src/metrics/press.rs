@@ -11,16 +11,18 @@
 //! segments [rad]. More than that is skin that presses rope from two sides, or a balance that was not found.
 //! A stretch is rope of one line in touch with gaps of one segment at most.
 //!
-//! Lips that close on rope, or between which rope was drawn like a wedge, do press it from two sides, and friction holds it there when
-//! the rope pulls no longer. The part of the normal forces on a segment that cancels, `Σ |N| - |Σ N|`, is therefore left out
-//! where lips or baleen take part in it. Elsewhere it counts: skin does not close on rope of itself.
+//! A mouth that closes on rope, or into whose corner rope was drawn like a wedge, does press it from two sides, and friction holds it there
+//! when the rope pulls no longer. The part of the normal forces on a segment that cancels, `Σ |N| - |Σ N|`, is therefore left out
+//! where lips or the inside of the mouth take part in it. Elsewhere it counts: skin does not close on rope of itself.
 
 use endline_sdk::Region;
 use glam::DVec3;
 
+use super::mouth::inside_of_mouth;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::State;
+use crate::whale::Skin;
 
 /// Segments without touch that part two stretches.
 const GAP: usize = 2;
@@ -28,6 +30,8 @@ const GAP: usize = 2;
 /// Normal force over time: all of it, and what rope cannot press.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PressMeter {
+    /// Whether each triangle is inside the mouth.
+    inside: Vec<bool>,
     /// All [N s].
     all: f64,
     /// Beyond what rope can press [N s].
@@ -37,9 +41,14 @@ pub(super) struct PressMeter {
 }
 
 impl PressMeter {
+    /// Of a whale with this skin.
+    pub fn new(skin: &Skin) -> Self {
+        Self { inside: inside_of_mouth(skin), ..Self::default() }
+    }
+
     /// Takes in the contacts at the end of a step.
     pub fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint], dt_s: f64) {
-        let Self { all, beyond, order } = self;
+        let Self { inside, all, beyond, order } = self;
         order.clear();
         order.extend(0..contacts.len());
         order.sort_unstable_by_key(|index| (contacts[*index].segment, *index));
@@ -51,7 +60,7 @@ impl PressMeter {
             let stretch = stretch.iter().map(|index| &contacts[*index]);
             let normal_n: f64 = stretch.clone().map(|contact| contact.normal_force_n).sum();
             *all += normal_n * dt_s;
-            let by_rope_n = normal_n - in_the_mouth_n(stretch.clone());
+            let by_rope_n = normal_n - in_the_mouth_n(inside, stretch.clone());
             *beyond += (by_rope_n - most_n(model, state, stretch)).max(0.0) * dt_s;
         }
     }
@@ -63,7 +72,7 @@ impl PressMeter {
 }
 
 /// Normal force by which the mouth presses rope from two sides, segment by segment [N].
-fn in_the_mouth_n<'a>(stretch: impl Iterator<Item = &'a ContactPoint>) -> f64 {
+fn in_the_mouth_n<'a>(inside: &[bool], stretch: impl Iterator<Item = &'a ContactPoint>) -> f64 {
     let mut own = Segment::default();
     let mut sum_n = 0.0;
     for contact in stretch {
@@ -73,7 +82,8 @@ fn in_the_mouth_n<'a>(stretch: impl Iterator<Item = &'a ContactPoint>) -> f64 {
         }
         own.all_n += contact.normal_force_n;
         own.resultant_n += contact.normal * contact.normal_force_n;
-        own.in_mouth |= matches!(contact.region, Region::Lips | Region::Baleen);
+        own.in_mouth |=
+            contact.region == Region::Lips || inside.get(contact.triangle) == Some(&true);
     }
     sum_n + own.clamped_n()
 }

@@ -66,7 +66,7 @@ impl WhaleMeter {
             on_lines: vec![[0.0; 2]; model.spec.lines.len()],
             winding: Winding::new(&skin, strands),
             loads: Loads::default(),
-            press: PressMeter::default(),
+            press: PressMeter::new(&skin),
             drag: Window::new(model),
             effort: EffortMeter::new(model),
             made_good: MadeGood::default(),

@@ -10,6 +10,7 @@ use crate::contact::ContactPoint;
 use crate::metrics::press::PressMeter;
 use crate::model::Model;
 use crate::state::State;
+use crate::whale::{Mark, Skin};
 
 /// A contact of segment `segment`, with a normal force.
 fn pressed(segment: usize, normal: DVec3, normal_force_n: f64) -> ContactPoint {
@@ -32,9 +33,20 @@ fn pressed(segment: usize, normal: DVec3, normal_force_n: f64) -> ContactPoint {
     }
 }
 
+/// Triangle 1 of a skin that is inside the mouth.
+const INSIDE: usize = 1;
+
 /// Share beyond what rope can press, of contacts that last.
 fn share(model: &Model, state: &State, contacts: &[ContactPoint]) -> f64 {
-    let mut meter = PressMeter::default();
+    let skin = Skin {
+        vertices: vec![DVec3::ZERO; 4],
+        triangles: vec![[0, 1, 2], [1, 2, 3]],
+        regions: vec![Region::Head; 2],
+        weights: Vec::new(),
+        marks: vec![Mark::Skin, Mark::Mouth, Mark::Mouth, Mark::Mouth],
+        bones: Vec::new(),
+    };
+    let mut meter = PressMeter::new(&skin);
     (0..10).for_each(|_| meter.fold(model, state, contacts, 0.01));
     meter.beyond_share()
 }
@@ -90,9 +102,10 @@ fn rope_squeezed_from_two_sides_is_pressed_beyond_what_it_can() {
     assert!((share(&model, &state, &contacts) - expected).abs() < 1e-12);
 }
 
-/// A wedge between the lips keeps what rope pressed when it pulled; the same between two other places does not count as held.
+/// A wedge between the lips, or inside the mouth, keeps what rope pressed when it pulled; the same between two other places does not count as
+/// held.
 #[test]
-fn lips_may_press_rope_from_two_sides() {
+fn a_mouth_may_press_rope_from_two_sides() {
     let (model, state) = bent(20, 0.0, 10.0);
     let mut contacts =
         [pressed(5, DVec3::Y, 1000.0), pressed(5, -DVec3::Y, 900.0), pressed(15, DVec3::Z, 15.0)];
@@ -101,8 +114,11 @@ fn lips_may_press_rope_from_two_sides() {
     contacts[0].region = Region::Lips;
     // 1,800 N cancel; the 100 N left over are the resultant.
     assert!(share(&model, &state, &contacts).abs() < 1e-12);
-    // Lips elsewhere on the rope excuse nothing here.
     contacts[0].region = Region::Head;
+    contacts[1].triangle = INSIDE;
+    assert!(share(&model, &state, &contacts).abs() < 1e-12);
+    contacts[1].triangle = 0;
+    // Lips elsewhere on the rope excuse nothing here.
     contacts[2].region = Region::Lips;
     assert!((share(&model, &state, &contacts) - free).abs() < 1e-12);
 }
