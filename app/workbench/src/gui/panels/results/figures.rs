@@ -1,9 +1,9 @@
-//! Differences from the baseline as a forest of intervals, and the effect of each input as a tornado.
+//! Differences from the baseline as a forest of intervals, the bands of each rate, and the effect of each input as a tornado.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::scales::{SERIES, ticks};
 use endline_session::study::StudyResults;
-use endline_session::study::stats::{Findings, Interval, Paired};
+use endline_session::study::stats::{Bands, Findings, Interval, Paired};
 
 use super::rates::{points, rate};
 use crate::gui::theme::{Palette, Theme};
@@ -159,6 +159,56 @@ fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) 
     }
 }
 
+/// How sure the rate of a registered event is: for each option the bands of chance, of assumed inputs, and of segments and steps.
+pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
+    let own = |bands: &&Bands| bands.event == event;
+    let found: Vec<&Bands> = shown.findings.bands.iter().filter(own).collect();
+    if found.is_empty() {
+        let none = "Bands are told of registered events. Choose one, or name this event under `registered` in the study before its first run.";
+        return widgets::nothing(ui, none);
+    }
+    ui.label("Rate of the event, by three causes of doubt that do not contain each other. More encounters narrow the first alone.");
+    let rows: Vec<Vec<(&str, [f64; 3], String)>> =
+        found.iter().map(|bands| band_rows(bands)).collect();
+    let ends = rows.iter().flatten().map(|(_, [.., high], _)| *high);
+    let most = ends.fold(0.02, f64::max);
+    let figure = Figure::new(ui, rows.iter().map(|rows| rows.len() + 1).sum(), [0.0, most]);
+    figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
+    let mut row = 0;
+    for (bands, own) in found.iter().zip(rows) {
+        figure.name(row, &bands.name, figure.palette.text);
+        row += 1;
+        for (kind, (name, ends, told)) in own.into_iter().enumerate() {
+            figure.name(row, &format!("   {name}"), figure.palette.faint);
+            whisker(&figure, row, ends, kind);
+            figure.hover(ui, row, &format!("{}, {name}: {told}", bands.name));
+            row += 1;
+        }
+    }
+}
+
+/// What is drawn of an option: name, least, rate and greatest, and what is told of it.
+fn band_rows(bands: &Bands) -> Vec<(&'static str, [f64; 3], String)> {
+    let (at, Interval { low, high }) = (bands.rate.rate, bands.rate.interval);
+    let mut rows = vec![("chance", [low, at, high], rate(&bands.rate))];
+    let range = |low: f64, high: f64| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high);
+    if let Some(band) = &bands.assumed {
+        let told = format!(
+            "{}, least with {}, greatest with {}; levels at random spread it over {}",
+            range(band.least, band.greatest),
+            band.least_at,
+            band.greatest_at,
+            range(band.by_chance.low, band.by_chance.high)
+        );
+        rows.push(("assumed inputs", [band.least, at, band.greatest], told));
+    }
+    if let Some(band) = &bands.segments {
+        let told = format!("{}; {}", range(band.rate.low, band.rate.high), band.source);
+        rows.push(("segments and steps", [band.rate.low, at, band.rate.high], told));
+    }
+    rows
+}
+
 /// Least and greatest rate over the parts of each input, the greatest effect first.
 pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
     let findings = &shown.findings;
@@ -173,7 +223,7 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
         .fold(0.02, f64::max);
     let words = endline_gear::StudyEvent::find(&findings.event)
         .map_or_else(|| findings.event.clone(), |event| event.words());
-    ui.label(format!("Rate of \"{words}\" over all options, by parts of each input's range"));
+    ui.label(format!("Rate of \"{words}\" with the baseline, by parts of each input's range"));
     let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);
     figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
     for (index, input) in findings.inputs.iter().enumerate() {

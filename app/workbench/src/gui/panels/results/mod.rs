@@ -27,6 +27,8 @@ pub enum Part {
     /// Rates of every option, and differences from the baseline, in numbers.
     #[default]
     Rates,
+    /// How sure rates are, by three causes.
+    Bands,
     /// Differences from the baseline with their intervals.
     Forest,
     /// Greatest tensions of all runs.
@@ -40,8 +42,9 @@ pub enum Part {
 }
 
 impl Part {
-    const ALL: [(Self, &'static str); 6] = [
+    const ALL: [(Self, &'static str); 7] = [
         (Self::Rates, "Rates"),
+        (Self::Bands, "How sure"),
         (Self::Forest, "Differences"),
         (Self::Tensions, "Tensions"),
         (Self::Sensitivity, "Sensitivity"),
@@ -89,6 +92,7 @@ impl Panel for ResultsPanel {
             Part::Runs => runs::show(ui, self, shared, &shown),
             Part::Tensions => spread::show(ui, self, shared, &shown),
             Part::Rates => scrolled(ui, &|ui| rates::show(ui, &shown, &event)),
+            Part::Bands => scrolled(ui, &|ui| figures::bands(ui, &shown, &event)),
             Part::Forest => scrolled(ui, &|ui| figures::forest(ui, &shown, &event)),
             Part::Sensitivity => scrolled(ui, &|ui| figures::tornado(ui, &shown)),
             Part::Claims => scrolled(ui, &|ui| rates::claims(ui, &shown)),
@@ -148,7 +152,7 @@ impl ResultsPanel {
                 }
                 ui.selectable_value(&mut self.part, part, name);
             }
-            if matches!(self.part, Part::Rates | Part::Forest) {
+            if matches!(self.part, Part::Rates | Part::Bands | Part::Forest) {
                 self.choose_event(ui, shown);
             }
             if ui
