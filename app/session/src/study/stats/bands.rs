@@ -18,7 +18,7 @@ use crate::study::table::Table;
 
 use super::bootstrap::Draws;
 use super::interval::{Interval, Rate};
-use super::marks::Marks;
+use super::marks::{Mark, Marks};
 use super::paired::Paired;
 use super::sensitivity::parts_of;
 
@@ -114,52 +114,49 @@ fn divide(priors: &[Prior], table: &Table) -> Vec<Divided> {
     assumed.filter_map(of).collect()
 }
 
+/// The encounters of an input that count: the level drawn in each, whether the event came, and what it counts for.
+struct Known<'a> {
+    names: &'a [String],
+    levels: Vec<usize>,
+    values: Vec<(f64, f64)>,
+}
+
+impl<'a> Known<'a> {
+    fn of(divided: &'a Divided, marks: &Marks) -> Self {
+        let counts = |(level, mark): (&Option<usize>, &Option<Mark>)| {
+            let (level, mark) = ((*level)?, (*mark)?);
+            Some((level, (f64::from(mark.came), mark.weight)))
+        };
+        let (levels, values) = divided.level.iter().zip(&marks.0).filter_map(counts).unzip();
+        Self { names: &divided.names, levels, values }
+    }
+
+    /// Weighted rate at each level, with its name; none of a level that has no encounter.
+    fn rates(&self, levels: &[usize]) -> impl Iterator<Item = (f64, &'a String)> {
+        let mut sums = vec![(0.0, 0.0); self.names.len()];
+        for (level, (came, weight)) in levels.iter().zip(&self.values) {
+            sums[*level].0 += came * weight;
+            sums[*level].1 += weight;
+        }
+        let rate = |((came, all), name)| (all > 0.0).then(|| (came / all, name));
+        sums.into_iter().zip(self.names).filter_map(rate)
+    }
+}
+
 impl AssumedBand {
     fn of(divided: &[Divided], marks: &Marks) -> Option<Self> {
-        // Only encounters that count are dealt out.
-        let known = |divided: &Divided| -> (Vec<usize>, Vec<(f64, f64)>) {
-            let mark = |(level, mark): (&Option<usize>, &Option<super::Mark>)| {
-                let (level, mark) = ((*level)?, (*mark)?);
-                Some((level, (f64::from(mark.came), mark.weight)))
-            };
-            divided.level.iter().zip(&marks.0).filter_map(mark).unzip()
-        };
-        let inputs: Vec<(&Divided, Vec<usize>, Vec<(f64, f64)>)> = divided
-            .iter()
-            .map(|divided| {
-                let (levels, values) = known(divided);
-                (divided, levels, values)
-            })
-            .collect();
-        let mut found: Vec<(f64, &String)> = inputs
-            .iter()
-            .flat_map(|(divided, levels, values)| {
-                rates(levels, values, divided.names.len()).into_iter().zip(&divided.names)
-            })
-            .filter_map(|(rate, name)| Some((rate?, name)))
-            .collect();
+        let inputs: Vec<Known<'_>> =
+            divided.iter().map(|divided| Known::of(divided, marks)).collect();
+        let mut found: Vec<(f64, &String)> =
+            inputs.iter().flat_map(|known| known.rates(&known.levels)).collect();
         found.sort_by(|one, other| one.0.total_cmp(&other.0));
         let ((least, least_at), (greatest, greatest_at)) = (*found.first()?, *found.last()?);
-        let mut draws = Draws::of("assumed inputs");
-        let mut by_chance = Interval { low: 0.0, high: 0.0 };
-        for _ in 0..DEALS {
-            let (mut low, mut high) = (1.0_f64, 0.0_f64);
-            for (divided, levels, values) in &inputs {
-                let mut dealt = levels.clone();
-                draws.shuffle(&mut dealt);
-                for rate in rates(&dealt, values, divided.names.len()).into_iter().flatten() {
-                    (low, high) = (low.min(rate), high.max(rate));
-                }
-            }
-            by_chance.low += low / DEALS as f64;
-            by_chance.high += high / DEALS as f64;
-        }
         Some(Self {
             least,
             greatest,
             least_at: least_at.clone(),
             greatest_at: greatest_at.clone(),
-            by_chance,
+            by_chance: by_chance(&inputs),
         })
     }
 
@@ -170,14 +167,23 @@ impl AssumedBand {
     }
 }
 
-/// Weighted rate at each level; none where a level has no encounter that counts.
-fn rates(levels: &[usize], values: &[(f64, f64)], count: usize) -> Vec<Option<f64>> {
-    let mut sums = vec![(0.0, 0.0); count];
-    for (level, (came, weight)) in levels.iter().zip(values) {
-        sums[*level].0 += came * weight;
-        sums[*level].1 += weight;
+/// Least and greatest rate with levels dealt out at random, on average.
+fn by_chance(inputs: &[Known<'_>]) -> Interval {
+    let mut draws = Draws::of("assumed inputs");
+    let mut mean = Interval { low: 0.0, high: 0.0 };
+    for _ in 0..DEALS {
+        let (mut low, mut high) = (1.0_f64, 0.0_f64);
+        for known in inputs {
+            let mut dealt = known.levels.clone();
+            draws.shuffle(&mut dealt);
+            for (rate, _) in known.rates(&dealt) {
+                (low, high) = (low.min(rate), high.max(rate));
+            }
+        }
+        mean.low += low / DEALS as f64;
+        mean.high += high / DEALS as f64;
     }
-    sums.into_iter().map(|(came, all)| (all > 0.0).then(|| came / all)).collect()
+    mean
 }
 
 impl SegmentBand {
@@ -229,10 +235,10 @@ mod tests {
     fn levels_count_by_weight_and_invalid_runs_do_not() {
         let weights = [4.0, 1.0, 1.0, 2.0];
         let came = [true, false, true, false];
-        let mut marks: Vec<Option<crate::study::stats::Mark>> = came
+        let mut marks: Vec<Option<Mark>> = came
             .into_iter()
             .zip(weights)
-            .map(|(came, weight)| Some(crate::study::stats::Mark { came, weight }))
+            .map(|(came, weight)| Some(Mark { came, weight }))
             .collect();
         marks.push(None);
         let band =
