@@ -22,6 +22,7 @@ mod items;
 mod kinetic;
 #[path = "../linked/mod.rs"]
 mod linked;
+mod mistakes;
 mod momentum;
 mod pilot;
 mod resolution;

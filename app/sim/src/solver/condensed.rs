@@ -12,8 +12,7 @@ use std::ops::Range;
 use glam::DMat3;
 
 use super::block_tridiagonal::BlockTridiagonal;
-use super::interface::{Attachment, InterfaceSystem};
-use super::woodbury::Attachments;
+use super::interface::{Attachment, Attachments, InterfaceSystem};
 use crate::model::Model;
 
 /// From a touched node to the next one, or to end B.

@@ -19,6 +19,9 @@ pub(crate) enum Attachment {
     Body { block: usize, body: usize, offset: DVec3 },
 }
 
+/// Attachment of each joint and the arm from its body's origin to it.
+pub(super) type Attachments = [(Attachment, DVec3)];
+
 /// Pattern, order and storage of the interface matrix.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InterfaceSystem {

@@ -17,11 +17,8 @@ use super::Solver;
 use super::block_tridiagonal::BlockTridiagonal;
 use super::condensed::Condensed;
 use super::dense::solve_in_place;
-use super::interface::{Attachment, InterfaceSystem};
+use super::interface::{Attachment, Attachments, InterfaceSystem};
 use crate::model::Model;
-
-/// Attachment of each joint and the arm from its body's origin to it.
-pub(super) type Attachments = [(Attachment, DVec3)];
 
 /// A touch as the linear system sees it.
 #[derive(Clone, Copy, Debug)]
