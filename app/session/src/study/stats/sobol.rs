@@ -31,7 +31,7 @@ impl SobolIndex {
     /// What the input explains alone, and what chance would; a share that chance would give as well is not told.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
-        let by_chance = format!("{:.1} %", 100.0 * self.by_chance);
+        let by_chance = format!("{:.1} %", 100.0 * self.by_chance.max(0.0));
         if self.index > self.by_chance {
             [format!("{:.1} %", 100.0 * self.index), format!("by chance up to {by_chance}")]
         } else {
