@@ -16,34 +16,37 @@ use crate::state::WhaleState;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WhaleBooks {
     /// Change of momentum with added mass [N s].
-    pub momentum_ns: f64,
+    pub momentum_change_ns: f64,
     /// Impulse of thrust, of the body's drag and of the gear [N s].
-    pub thrust_ns: f64,
+    pub thrust_impulse_ns: f64,
     /// As said.
-    pub drag_ns: f64,
+    pub drag_impulse_ns: f64,
     /// As said.
-    pub gear_ns: f64,
+    pub gear_impulse_ns: f64,
     /// Change of kinetic energy with added mass [J].
     pub kinetic_j: f64,
     /// Work of thrust, of the body's drag and of the gear [J].
-    pub thrust_j: f64,
+    pub thrust_work_j: f64,
     /// As said.
-    pub drag_j: f64,
+    pub drag_work_j: f64,
     /// As said.
-    pub gear_j: f64,
+    pub gear_work_j: f64,
 }
 
 impl WhaleBooks {
     /// Change of momentum less all impulses [N s].
     #[must_use]
     pub fn residual_ns(&self) -> f64 {
-        self.momentum_ns - self.thrust_ns - self.drag_ns - self.gear_ns
+        self.momentum_change_ns
+            - self.thrust_impulse_ns
+            - self.drag_impulse_ns
+            - self.gear_impulse_ns
     }
 
     /// Change of energy less all work [J].
     #[must_use]
     pub fn residual_j(&self) -> f64 {
-        self.kinetic_j - self.thrust_j - self.drag_j - self.gear_j
+        self.kinetic_j - self.thrust_work_j - self.drag_work_j - self.gear_work_j
     }
 }
 
@@ -77,14 +80,14 @@ impl BookMeter {
             let gear = whale.exertion.rope_force_n.dot(whale.orientation * DVec3::X) * dt_s;
             let gained = self.mass_kg * (now.speed_m_s - last.speed_m_s);
             let books = &mut self.books;
-            books.momentum_ns += gained;
-            books.thrust_ns += thrust;
-            books.drag_ns += drag;
-            books.gear_ns += gear;
+            books.momentum_change_ns += gained;
+            books.thrust_impulse_ns += thrust;
+            books.drag_impulse_ns += drag;
+            books.gear_impulse_ns += gear;
             books.kinetic_j += gained * speed;
-            books.thrust_j += thrust * speed;
-            books.drag_j += drag * speed;
-            books.gear_j += gear * speed;
+            books.thrust_work_j += thrust * speed;
+            books.drag_work_j += drag * speed;
+            books.gear_work_j += gear * speed;
         }
     }
 

@@ -97,7 +97,12 @@ fn every_figure_reads_the_field_of_its_key() {
         reads(PROBE, &report.summary.probes[0], &report.summary.probes[0], &[]),
         reads(WHALE, whale, whale, &["outcome"]),
         reads(BEAT, whale.beat.as_ref().unwrap(), &whale.beat, &[]),
-        reads(KINETIC, whale.kinetic.as_ref().unwrap(), &whale.kinetic, &[]),
+        reads(
+            KINETIC,
+            whale.kinetic.as_ref().unwrap(),
+            &whale.kinetic,
+            &["residual_Ns", "residual_J"],
+        ),
         reads(PART, &parts[3], &parts[3].summary, &["region", "normal_now_N"]),
         reads(PATCH, &whale.patches[5], &whale.patches[5], &["patch"]),
         reads(EVENT, &report.events[0], &report.events[0], &["kind", "unit"]),
