@@ -4,6 +4,8 @@
 //! on inside or lips on the other. It is *lodged* once it has been held for [`LODGED_S`], and until it has not been held
 //! for [`LOST_S`]. Inside of the mouth are the triangles of the baleen, and those all of whose corners are marked so.
 
+use std::sync::Arc;
+
 use endline_sdk::Region;
 
 use super::event::{EventKind, Log};
@@ -21,7 +23,7 @@ const MIDDLE_M: f64 = 0.02;
 #[derive(Clone, Debug)]
 pub(super) struct Mouth {
     /// Whether each triangle is inside the mouth.
-    inside: Vec<bool>,
+    inside: Arc<[bool]>,
     since_s: Option<f64>,
     last_s: f64,
     /// Whether rope is lodged there now.
@@ -39,14 +41,9 @@ struct Grip {
 }
 
 impl Mouth {
-    pub(super) fn new(skin: &Skin) -> Self {
-        Self {
-            inside: inside_of_mouth(skin),
-            since_s: None,
-            last_s: 0.0,
-            lodged: false,
-            was_lodged: false,
-        }
+    /// Of a whale with these triangles inside its mouth.
+    pub(super) fn new(inside: Arc<[bool]>) -> Self {
+        Self { inside, since_s: None, last_s: 0.0, lodged: false, was_lodged: false }
     }
 
     pub(super) fn fold(
@@ -94,7 +91,7 @@ impl Mouth {
 }
 
 /// Whether each triangle is inside the mouth.
-pub(super) fn inside_of_mouth(skin: &Skin) -> Vec<bool> {
+pub(super) fn inside_of_mouth(skin: &Skin) -> Arc<[bool]> {
     let marked =
         |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
     let inside = |(corners, region): (&[u32; 3], &Region)| {

@@ -15,14 +15,14 @@
 //! when the rope pulls no longer. The part of the normal forces on a segment that cancels, `Σ |N| - |Σ N|`, is therefore left out
 //! where lips or the inside of the mouth take part in it. Elsewhere it counts: skin does not close on rope of itself.
 
+use std::sync::Arc;
+
 use endline_sdk::Region;
 use glam::DVec3;
 
-use super::mouth::inside_of_mouth;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::State;
-use crate::whale::Skin;
 
 /// Segments without touch that part two stretches.
 const GAP: usize = 2;
@@ -31,7 +31,7 @@ const GAP: usize = 2;
 #[derive(Clone, Debug, Default)]
 pub(super) struct PressMeter {
     /// Whether each triangle is inside the mouth.
-    inside: Vec<bool>,
+    inside: Arc<[bool]>,
     /// All [N s].
     all: f64,
     /// Beyond what rope can press [N s].
@@ -41,9 +41,9 @@ pub(super) struct PressMeter {
 }
 
 impl PressMeter {
-    /// Of a whale with this skin.
-    pub fn new(skin: &Skin) -> Self {
-        Self { inside: inside_of_mouth(skin), ..Self::default() }
+    /// Of a whale with these triangles inside its mouth.
+    pub fn new(inside: Arc<[bool]>) -> Self {
+        Self { inside, ..Self::default() }
     }
 
     /// Takes in the contacts at the end of a step.

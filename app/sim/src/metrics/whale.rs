@@ -10,7 +10,7 @@ use super::extent::Extent;
 use super::flukes::FlukeMeter;
 use super::gear_loads::on_line;
 use super::made_good::MadeGood;
-use super::mouth::Mouth;
+use super::mouth::{Mouth, inside_of_mouth};
 use super::outcome::Encounter;
 use super::press::PressMeter;
 use super::regions::Loads;
@@ -58,15 +58,16 @@ impl WhaleMeter {
     pub(super) fn new(model: &Model) -> Option<Self> {
         let whale = model.spec.whale.as_ref()?;
         let skin = Arc::clone(&whale.skin);
+        let inside = inside_of_mouth(&skin);
         let strands = Strands::new(model);
         Some(Self {
             wraps: WrapMeter::new(&skin, &strands),
             twists: TwistMeter::new(&strands),
-            mouth: Mouth::new(&skin),
+            mouth: Mouth::new(Arc::clone(&inside)),
             on_lines: vec![[0.0; 2]; model.spec.lines.len()],
             winding: Winding::new(&skin, strands),
             loads: Loads::default(),
-            press: PressMeter::new(&skin),
+            press: PressMeter::new(inside),
             drag: Window::new(model),
             effort: EffortMeter::new(model),
             made_good: MadeGood::default(),

@@ -166,22 +166,22 @@ impl Solver {
         if self.woodbury.touches.is_empty() {
             return;
         }
-        let mut woodbury = std::mem::replace(&mut self.woodbury, Woodbury::new());
         let mut attachments = std::mem::take(&mut self.attachments);
         attachments.clear();
         attachments.extend(
             self.plan.attachments.iter().map(|attachment| (*attachment, self.arm(*attachment))),
         );
-        woodbury.measure(model, &self.tridiagonal, &self.interface, &attachments);
-        woodbury.solve_dense(&self.tridiagonal.step);
-        woodbury.correct(model, &self.tridiagonal, &self.interface, &attachments);
-        for (step, less) in self.tridiagonal.step.iter_mut().zip(&woodbury.again.step) {
+        let Self { woodbury, tridiagonal, interface, .. } = self;
+        woodbury.measure(model, tridiagonal, interface, &attachments);
+        woodbury.solve_dense(&tridiagonal.step);
+        woodbury.correct(model, tridiagonal, interface, &attachments);
+        for (step, less) in tridiagonal.step.iter_mut().zip(&woodbury.again.step) {
             *step -= *less;
         }
-        for (step, less) in self.interface.step.iter_mut().zip(&woodbury.again.interface_step) {
+        for (step, less) in interface.step.iter_mut().zip(&woodbury.again.interface_step) {
             *step -= *less;
         }
-        (self.woodbury, self.attachments) = (woodbury, attachments);
+        self.attachments = attachments;
     }
 }
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::{model, spec};
 use crate::contact::ContactPoint;
+use crate::metrics::mouth::inside_of_mouth;
 use crate::metrics::press::PressMeter;
 use crate::model::Model;
 use crate::state::State;
@@ -46,7 +47,7 @@ fn share(model: &Model, state: &State, contacts: &[ContactPoint]) -> f64 {
         marks: vec![Mark::Skin, Mark::Mouth, Mark::Mouth, Mark::Mouth],
         bones: Vec::new(),
     };
-    let mut meter = PressMeter::new(&skin);
+    let mut meter = PressMeter::new(inside_of_mouth(&skin));
     (0..10).for_each(|_| meter.fold(model, state, contacts, 0.01));
     meter.beyond_share()
 }
