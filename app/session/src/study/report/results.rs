@@ -7,9 +7,7 @@ use crate::study::stats::{
 };
 
 use super::cell::{Cell, Line, Table};
-use super::words::{
-    event_words, force, percent_interval, percent_range, points, rate, ratio, short_rate,
-};
+use super::words::{event_words, force, percent_interval, points, rate, ratio, short_rate};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;
@@ -74,12 +72,12 @@ fn assumed(band: &AssumedBand) -> Cell {
     let by_chance = percent_interval(band.by_chance);
     if band.is_chance() {
         return Cell::lines([
-            format!("{}, no wider than by chance", percent_range(band.least, band.greatest)),
+            format!("{}, no wider than by chance", band.rates().percents()),
             format!("levels at random: {by_chance}"),
         ]);
     }
     Cell::lines([
-        percent_range(band.least, band.greatest),
+        band.rates().percents(),
         format!("least with {}", band.least_at),
         format!("greatest with {}", band.greatest_at),
         format!("levels at random: {by_chance}"),
@@ -89,7 +87,7 @@ fn assumed(band: &AssumedBand) -> Cell {
 /// `0.9 to 1.8 %`, and the ratio that it comes from.
 fn segments(band: &SegmentBand) -> Cell {
     let lines = [
-        percent_range(band.rate.low, band.rate.high),
+        band.rate.percents(),
         format!("finer ones: {} times", ratio(Some(band.ratio), Some(band.ratio_interval))),
     ];
     let mut cell = Cell::lines(lines);

@@ -36,11 +36,6 @@ pub(super) fn percent_interval(Interval { low, high }: Interval) -> String {
     format!("[{:.1},\u{a0}{:.1}]", 100.0 * low, 100.0 * high)
 }
 
-/// `0.2 to 3.1 %`.
-pub(super) fn percent_range(low: f64, high: f64) -> String {
-    format!("{:.1} to {:.1}\u{a0}%", 100.0 * low, 100.0 * high)
-}
-
 /// `0.65 [0.41, 1.02]`.
 pub(super) fn ratio(ratio: Option<f64>, interval: Option<Interval>) -> String {
     match (ratio, interval) {

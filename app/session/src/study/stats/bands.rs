@@ -160,6 +160,12 @@ impl AssumedBand {
         })
     }
 
+    /// Least and greatest rate.
+    #[must_use]
+    pub fn rates(&self) -> Interval {
+        Interval { low: self.least, high: self.greatest }
+    }
+
     /// Whether the levels spread the rate by no more than levels dealt out at random.
     #[must_use]
     pub fn is_chance(&self) -> bool {

@@ -24,6 +24,12 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// `0.2 to 3.1 %`, with a no-break space before the sign.
+    #[must_use]
+    pub fn percents(self) -> String {
+        format!("{:.1} to {:.1}\u{a0}%", 100.0 * self.low, 100.0 * self.high)
+    }
+
     /// The least interval that holds both.
     pub(super) fn with(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }

@@ -202,19 +202,15 @@ fn bands(findings: &Findings) -> String {
         "finer segments and steps",
     ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
-    let range = |low: f64, high: f64| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high);
     for bands in findings.bands.iter().filter(|bands| bands.event == findings.event) {
         let (assumed, random) = bands.assumed.as_ref().map_or_else(
             || ("none varies".to_owned(), String::new()),
-            |band| {
-                let Interval { low, high } = band.by_chance;
-                (range(band.least, band.greatest), range(low, high))
-            },
+            |band| (band.rates().percents(), band.by_chance.percents()),
         );
         let segments = bands
             .segments
             .as_ref()
-            .map_or_else(|| "not known".to_owned(), |band| range(band.rate.low, band.rate.high));
+            .map_or_else(|| "not known".to_owned(), |band| band.rate.percents());
         rows.push(vec![bands.option.clone(), rate(&bands.rate), assumed, random, segments]);
     }
     columns(&rows)

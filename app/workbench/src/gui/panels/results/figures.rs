@@ -191,19 +191,18 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
 fn band_rows(bands: &Bands) -> Vec<(&'static str, [f64; 3], String)> {
     let (at, Interval { low, high }) = (bands.rate.rate, bands.rate.interval);
     let mut rows = vec![("chance", [low, at, high], rate(&bands.rate))];
-    let range = |low: f64, high: f64| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high);
     if let Some(band) = &bands.assumed {
         let told = format!(
             "{}, least with {}, greatest with {}; levels at random spread it over {}",
-            range(band.least, band.greatest),
+            band.rates().percents(),
             band.least_at,
             band.greatest_at,
-            range(band.by_chance.low, band.by_chance.high)
+            band.by_chance.percents()
         );
         rows.push(("assumed inputs", [band.least, at, band.greatest], told));
     }
     if let Some(band) = &bands.segments {
-        let told = format!("{}; {}", range(band.rate.low, band.rate.high), band.source);
+        let told = format!("{}; {}", band.rate.percents(), band.source);
         rows.push(("segments and steps", [band.rate.low, at, band.rate.high], told));
     }
     rows
