@@ -52,6 +52,25 @@ fn roll_away_lifts_the_touched_side_and_roll_toward_lowers_it() {
     }
 }
 
+/// A roll that goes all the way round winds rope on, because it is never undone; no faster than a humpback's corkscrew.
+#[test]
+fn a_barrel_roll_away_or_toward_is_one_whole_turn_and_is_not_undone() {
+    for (part, port) in [(BodyPart::LeftFlipper, 1.0), (BodyPart::RightFlipper, -1.0)] {
+        for (answer, sign) in [("barrel-roll-away", port), ("barrel-roll-toward", -port)] {
+            let (out, flight) = touch(answer, part, 25.0);
+            let rolled = turned(&out, 0);
+            assert!(
+                (rolled - sign * 360.0).abs() < 1.0,
+                "{answer} from {part:?}: {rolled} degrees"
+            );
+            assert!(flight.attitude()[1].abs() < 1.0, "{answer} from {part:?}: belly down again");
+            let fastest = out.iter().map(|out| out.turn_rate_rad_s[0] * sign).fold(0.0, f64::max);
+            let back = out.iter().map(|out| out.turn_rate_rad_s[0] * sign).fold(0.0, f64::min);
+            assert!(fastest < 0.75 && back > -1e-3, "{answer}: {back} to {fastest} rad/s");
+        }
+    }
+}
+
 /// Rope on head, body or peduncle: the side is where it lies, and the touch before does not count.
 #[test]
 fn a_touch_of_head_body_or_peduncle_has_the_side_where_it_lies() {
