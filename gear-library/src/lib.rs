@@ -20,6 +20,7 @@ mod items;
 mod library;
 mod line;
 mod nearest;
+mod observation;
 mod plugin;
 mod scenario;
 mod schema;
@@ -50,6 +51,7 @@ pub use items::{
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
+pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Side, Site, Size, Trailing};
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
@@ -60,6 +62,6 @@ pub use sources::Sources;
 pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
     Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
-    Observation, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent,
+    ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent,
     StudyOption, Target,
 };

@@ -21,7 +21,8 @@ use crate::units::Quantity;
 pub use claim::Claim;
 pub use discretisation::Discretisation;
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
-pub use observation::Observation;
+pub use observation::ObservedShare;
+pub(crate) use option::texts;
 pub use option::{Setting, StudyOption};
 pub use prior::{Law, Level, Prior, Target};
 
@@ -72,7 +73,7 @@ pub struct Study {
     /// Statements whose sign is looked at, by id.
     pub claims: Vec<Claim>,
     /// Shares seen on real whales against which its own are held, by id.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<ObservedShare>,
     /// What finer segments and steps change.
     pub discretisations: Vec<Discretisation>,
     /// What defines the runs, in one order whatever the file's: for the study's hash.

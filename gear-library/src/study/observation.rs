@@ -10,7 +10,7 @@ use super::option::{StudyOption, check_known};
 
 /// A share that was observed, and how a study answers it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Observation {
+pub struct ObservedShare {
     /// Id.
     pub id: At<String>,
     /// What was seen, in words.
@@ -34,8 +34,8 @@ pub struct Observation {
 }
 
 /// Reads `[[observation]]`, sorted by id.
-pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Observation> {
-    let mut observations: Vec<Observation> = fields
+pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<ObservedShare> {
+    let mut observations: Vec<ObservedShare> = fields
         .tables("observation")
         .iter()
         .filter_map(|node| read(node, options, fields.problems()))
@@ -44,7 +44,7 @@ pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Obse
     observations
 }
 
-fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Observation> {
+fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<ObservedShare> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"mouth\"");
     let says = fields.need_text("says", "write what was seen, in words");
@@ -57,7 +57,7 @@ fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Obs
     let observed = observed(&fields);
     let notes = fields.text("notes").map(|notes| notes.value).unwrap_or_default();
     fields.finish();
-    Some(Observation {
+    Some(ObservedShare {
         id: id?,
         says: says?.value,
         source: source?.value,

@@ -116,7 +116,7 @@ pub(super) fn check_known(id: &At<String>, options: &[StudyOption], problems: &P
 }
 
 /// A list of texts, or one text.
-pub(super) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
+pub(crate) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
     let Some(node) = fields.get(key) else { return Vec::new() };
     let items = match &node.content {
         Content::List(items) => items.iter().collect(),

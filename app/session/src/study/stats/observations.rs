@@ -5,7 +5,7 @@
 //! lies within what was observed, from [`LEAST`] encounters on; it *misses* where its whole interval lies outside; else the study
 //! does not settle it. Of encounters of unlike weight, fewer events than that settle nothing.
 
-use endline_gear::Observation;
+use endline_gear::ObservedShare;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -71,7 +71,7 @@ pub struct ObservationFinding {
 }
 
 /// Looks at an observation.
-pub(super) fn look(observation: &Observation, table: &Table, baseline: &str) -> ObservationFinding {
+pub(super) fn look(observation: &ObservedShare, table: &Table, baseline: &str) -> ObservationFinding {
     let option = observation.option.as_deref().unwrap_or(baseline);
     let own = marks(observation, table, option);
     let rate = Rate::of(&own);
@@ -115,7 +115,7 @@ fn is_thin(rate: &Rate) -> bool {
 }
 
 /// The event's marks in an option, of the encounters that are asked about.
-fn marks(observation: &Observation, table: &Table, option: &str) -> Marks {
+fn marks(observation: &ObservedShare, table: &Table, option: &str) -> Marks {
     let own = Marks::of(table, option, &observation.of);
     match &observation.among {
         None => own,
@@ -166,7 +166,7 @@ fn agreement(
     if within && runs >= LEAST { Agreement::Agrees } else { Agreement::Open }
 }
 
-fn counted(observation: &Observation, option: &str) -> String {
+fn counted(observation: &ObservedShare, option: &str) -> String {
     let among = observation
         .among
         .as_ref()

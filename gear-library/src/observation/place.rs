@@ -1,0 +1,195 @@
+//! Places on a whale as people name them who look at one: finer than a body part at the mouth, coarser where a side was not told.
+
+use endline_sdk::BodyPart;
+
+/// A place where rope may be seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Site {
+    /// In the mouth: rope that is lodged there.
+    Mouth,
+    /// On the head, outside the mouth.
+    Head,
+    /// On the body.
+    Body,
+    /// On the left flipper.
+    LeftFlipper,
+    /// On the right flipper.
+    RightFlipper,
+    /// On either flipper.
+    Flipper,
+    /// On the tail stock.
+    Peduncle,
+    /// On the left fluke.
+    LeftFluke,
+    /// On the right fluke.
+    RightFluke,
+    /// On either fluke.
+    Fluke,
+}
+
+impl Site {
+    /// Every site, from the snout to the tail.
+    pub const ALL: [Self; 10] = [
+        Self::Mouth,
+        Self::Head,
+        Self::Body,
+        Self::LeftFlipper,
+        Self::RightFlipper,
+        Self::Flipper,
+        Self::Peduncle,
+        Self::LeftFluke,
+        Self::RightFluke,
+        Self::Fluke,
+    ];
+
+    /// Sites that are one place each.
+    pub const SINGLE: [Self; 8] = [
+        Self::Mouth,
+        Self::Head,
+        Self::Body,
+        Self::LeftFlipper,
+        Self::RightFlipper,
+        Self::Peduncle,
+        Self::LeftFluke,
+        Self::RightFluke,
+    ];
+
+    /// Its name in files, such as `left_flipper`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mouth => "mouth",
+            Self::Head => "head",
+            Self::Body => "body",
+            Self::LeftFlipper => "left_flipper",
+            Self::RightFlipper => "right_flipper",
+            Self::Flipper => "flipper",
+            Self::Peduncle => "peduncle",
+            Self::LeftFluke => "left_fluke",
+            Self::RightFluke => "right_fluke",
+            Self::Fluke => "fluke",
+        }
+    }
+
+    /// A site by its name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|site| site.name() == name)
+    }
+
+    /// The single sites that it stands for: itself, or both of a pair.
+    #[must_use]
+    pub fn singles(self) -> &'static [Self] {
+        match self {
+            Self::Mouth => &[Self::Mouth],
+            Self::Head => &[Self::Head],
+            Self::Body => &[Self::Body],
+            Self::LeftFlipper => &[Self::LeftFlipper],
+            Self::RightFlipper => &[Self::RightFlipper],
+            Self::Flipper => &[Self::LeftFlipper, Self::RightFlipper],
+            Self::Peduncle => &[Self::Peduncle],
+            Self::LeftFluke => &[Self::LeftFluke],
+            Self::RightFluke => &[Self::RightFluke],
+            Self::Fluke => &[Self::LeftFluke, Self::RightFluke],
+        }
+    }
+
+    /// The site in the mirror.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        match self {
+            Self::LeftFlipper => Self::RightFlipper,
+            Self::RightFlipper => Self::LeftFlipper,
+            Self::LeftFluke => Self::RightFluke,
+            Self::RightFluke => Self::LeftFluke,
+            same => same,
+        }
+    }
+
+    /// The site of a body part, away from the mouth.
+    #[must_use]
+    pub fn of_part(part: BodyPart) -> Self {
+        match part {
+            BodyPart::Head => Self::Head,
+            BodyPart::Body => Self::Body,
+            BodyPart::LeftFlipper => Self::LeftFlipper,
+            BodyPart::RightFlipper => Self::RightFlipper,
+            BodyPart::Peduncle => Self::Peduncle,
+            BodyPart::LeftFluke => Self::LeftFluke,
+            BodyPart::RightFluke => Self::RightFluke,
+        }
+    }
+}
+
+/// A side of the whale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// Port.
+    Left,
+    /// Starboard.
+    Right,
+}
+
+impl Side {
+    /// The other side.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+/// A place that rope passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PathPlace {
+    /// The site.
+    pub site: Site,
+    /// On which side of a site in the midplane, where it was told.
+    pub side: Option<Side>,
+}
+
+impl PathPlace {
+    /// Reads a place such as `mouth:left` or `peduncle`.
+    #[must_use]
+    pub fn named(text: &str) -> Option<Self> {
+        let (site, side) = match text.split_once(':') {
+            None => (text, None),
+            Some((site, "left")) => (site, Some(Side::Left)),
+            Some((site, "right")) => (site, Some(Side::Right)),
+            Some(_) => return None,
+        };
+        let site = Site::named(site)?;
+        (side.is_none() || site.is_in_midplane()).then_some(Self { site, side })
+    }
+
+    /// The place in the mirror.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        Self { site: self.site.mirrored(), side: self.side.map(Side::mirrored) }
+    }
+}
+
+impl std::fmt::Display for PathPlace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.site.name())?;
+        self.side.map_or(Ok(()), |side| write!(formatter, ":{}", side.name()))
+    }
+}
+
+impl Site {
+    /// Whether it lies in the midplane, so that it has two sides itself.
+    fn is_in_midplane(self) -> bool {
+        matches!(self, Self::Mouth | Self::Head | Self::Body | Self::Peduncle)
+    }
+}
