@@ -51,7 +51,7 @@ pub use items::{
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
-pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Side, Site, Size, Trailing};
+pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Site, Size, Trailing};
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,

@@ -14,7 +14,7 @@ use crate::fields::{Fields, Problems, Range};
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
-pub use place::{PathPlace, Side, Site};
+pub use place::{PathPlace, Site};
 pub use seen::{RopeEnd, SeenSite, Trailing};
 
 /// What was seen of gear on a whale.
@@ -138,6 +138,8 @@ fn twist(table: &Fields<'_>) -> Option<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use endline_sdk::Side;
+
     use super::*;
 
     const TEXT: &str = r#"

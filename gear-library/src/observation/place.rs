@@ -1,6 +1,6 @@
 //! Places on a whale as people name them who look at one: finer than a body part at the mouth, coarser where a side was not told.
 
-use endline_sdk::BodyPart;
+use endline_sdk::{BodyPart, Side};
 
 /// A place where rope may be seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -121,37 +121,8 @@ impl Site {
     }
 }
 
-/// A side of the whale.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Side {
-    /// Port.
-    Left,
-    /// Starboard.
-    Right,
-}
-
-impl Side {
-    /// The other side.
-    #[must_use]
-    pub fn mirrored(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-        }
-    }
-
-    /// Its name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Left => "left",
-            Self::Right => "right",
-        }
-    }
-}
-
 /// A place that rope passes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathPlace {
     /// The site.
     pub site: Site,
@@ -176,14 +147,22 @@ impl PathPlace {
     /// The place in the mirror.
     #[must_use]
     pub fn mirrored(self) -> Self {
-        Self { site: self.site.mirrored(), side: self.side.map(Side::mirrored) }
+        let side = self.side.map(|side| match side {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        });
+        Self { site: self.site.mirrored(), side }
     }
 }
 
 impl std::fmt::Display for PathPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(self.site.name())?;
-        self.side.map_or(Ok(()), |side| write!(formatter, ":{}", side.name()))
+        match self.side {
+            None => Ok(()),
+            Some(Side::Left) => formatter.write_str(":left"),
+            Some(Side::Right) => formatter.write_str(":right"),
+        }
     }
 }
 

@@ -121,7 +121,8 @@ pub(super) fn path(fields: &Fields<'_>) -> Vec<PathPlace> {
 
 /// Reads `[trailing]`.
 pub(super) fn trailing(table: &Fields<'_>) -> Option<Trailing> {
-    let length_m = rising(table, "length", Quantity::Length, "such as length = [\"30 m\", \"50 m\"]");
+    let length_m =
+        rising(table, "length", Quantity::Length, "such as length = [\"30 m\", \"50 m\"]");
     let names = || RopeEnd::ALL.iter().map(|end| end.name());
     let end = |text: At<String>| {
         let found = RopeEnd::ALL.into_iter().find(|end| end.name() == text.value);

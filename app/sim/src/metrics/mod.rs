@@ -22,6 +22,7 @@ mod outcome;
 mod press;
 mod probes;
 mod regions;
+mod route;
 mod summary;
 mod touches;
 mod trailing;
@@ -47,6 +48,7 @@ pub use made_good::MADE_GOOD_S;
 pub use mouth::LODGED_S;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub use probes::{reading, unit};
+pub use route::{LeadsTo, Route, RouteEnd, Station, routes};
 pub use summary::{
     BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
     PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,

@@ -71,7 +71,11 @@ pub struct ObservationFinding {
 }
 
 /// Looks at an observation.
-pub(super) fn look(observation: &ObservedShare, table: &Table, baseline: &str) -> ObservationFinding {
+pub(super) fn look(
+    observation: &ObservedShare,
+    table: &Table,
+    baseline: &str,
+) -> ObservationFinding {
     let option = observation.option.as_deref().unwrap_or(baseline);
     let own = marks(observation, table, option);
     let rate = Rate::of(&own);

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Trap - 10 m - splice - 8 m - buoy - 2 m - bare end, and a groundline of 20 m from the trap to an anchor.
-fn single() -> ModelSpec {
+pub(super) fn single() -> ModelSpec {
     let mut spec = spec(vec![0.5; 20]);
     let at = |body, z| (JointKind::Body { body, offset_m: DVec3::ZERO }, DVec3::new(0.0, 0.0, z));
     let [trap, buoy, anchor] = [at(0, -50.0), at(1, 0.0), at(2, -50.0)];

@@ -5,6 +5,7 @@ mod gear;
 mod leaving;
 mod loads;
 mod press;
+mod route;
 mod twist;
 mod winding;
 mod wraps;
