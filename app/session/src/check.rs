@@ -8,6 +8,7 @@ use crate::cases::Cases;
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
+use crate::search::Question;
 use crate::source::{Overrides, prepare};
 use crate::study::Opened;
 
@@ -40,6 +41,7 @@ impl Checked {
             self.scenarios(&folder.join("scenarios"), Some(folder), host);
             self.cases(folder, host);
             self.studies(folder, host);
+            self.observations(folder, host);
             return;
         }
         let before = self.files;
@@ -94,6 +96,9 @@ impl Checked {
         if parent == "studies" {
             return self.study(path, library, host);
         }
+        if parent == "observations" {
+            return self.observation(path, library, host);
+        }
         if endline_gear::Kind::in_folder(&parent).is_none() {
             return self.scenario(path, library, host);
         }
@@ -130,6 +135,23 @@ impl Checked {
     fn study(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
         self.note(path, Opened::open(path, library, host).map(|_| ()));
+    }
+
+    /// Every observation of a library.
+    fn observations(&mut self, root: &Path, host: &PluginHost) {
+        for entry in entries(&root.join("observations"))
+            .iter()
+            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
+        {
+            self.observation(entry, Some(root), host);
+        }
+    }
+
+    /// An observation is checked with the study whose encounters it names.
+    fn observation(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
+        self.files += 1;
+        let named = path.display().to_string();
+        self.note(path, Question::open(&named, None, library, host).map(|_| ()));
     }
 
     /// A case is checked with its table and its scenario: a file in the folder `cases` of a library.

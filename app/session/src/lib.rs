@@ -16,6 +16,7 @@
 //! | [`command`] | what a user can ask for, declared once |
 //! | [`workbench`] | what a user has open and does, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`search`] | which encounters end like what was seen on a real whale |
 //! | [`scene`] | what a frame looks like, as triangles |
 //! | [`export`] | charts and 3-D models written to files |
 //! | [`scales`] | round values for axes, colours of series |
@@ -49,6 +50,7 @@ pub mod run;
 pub mod save;
 pub mod scales;
 pub mod scene;
+pub mod search;
 pub mod settled;
 pub mod source;
 pub mod statics;

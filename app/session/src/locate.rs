@@ -52,6 +52,27 @@ fn no_library(looked: &[PathBuf]) -> String {
     )
 }
 
+/// The file that a user names: itself, or that of an item of a library's folder (`studies`, `observations`) by its id.
+///
+/// # Errors
+/// Where there is neither, with the nearest id.
+pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf, String> {
+    if Path::new(name).is_file() || name.ends_with(".toml") {
+        return Ok(PathBuf::from(name));
+    }
+    let items = self::library(None, library)?.join(folder);
+    let path = items.join(format!("{name}.toml"));
+    if path.is_file() {
+        return Ok(path);
+    }
+    let ids: Vec<String> = toml_files(&items)
+        .iter()
+        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
+        .collect();
+    let help = endline_gear::hint(name, ids.iter().map(String::as_str));
+    Err(format!("there is no file `{name}` and no `{name}.toml` in {}; {help}", items.display()))
+}
+
 /// Files of the scenarios of a library, by name.
 #[must_use]
 pub fn scenarios(root: &Path) -> Vec<PathBuf> {

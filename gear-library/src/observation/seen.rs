@@ -68,6 +68,18 @@ impl RopeEnd {
             Self::Anchor => "anchor",
         }
     }
+
+    /// What rope with this end does, in words: `at a buoy`.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Broken => "where it broke",
+            Self::Bare => "bare",
+            Self::Buoy => "at a buoy",
+            Self::Trap => "at a trap",
+            Self::Anchor => "at an anchor",
+        }
+    }
 }
 
 /// Reads `[[site]]`.

@@ -256,7 +256,7 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
         fields.missing("encounter", "write how encounters are drawn, such as [encounter.speed] with uniform = [\"0.5 m/s\", \"1.6 m/s\"]");
         return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), FROM_PRIORS);
     };
-    let lines = option::texts(&table, "aim");
+    let lines = texts(&table, "aim");
     let by = table.word("aim_by", &["baseline", "own"]);
     let gap = table.value("gap", Quantity::Length, Range::Between(0.1, 1000.0));
     let aim = Aim {

@@ -43,6 +43,35 @@ pub fn draw(study: &Study, index: u32) -> Draw {
     Draw { values, weight }
 }
 
+/// Priors that vary, by their place among all: the dimensions of the unit cube of encounters.
+#[must_use]
+pub fn dimensions(study: &Study) -> Vec<usize> {
+    (0..study.priors.len()).filter(|prior| !is_fixed(&study.priors[*prior])).collect()
+}
+
+/// Every prior's value at a point of the unit cube: below it lies the share `point[k]` of the law of dimension `k`.
+#[must_use]
+pub fn at_point(study: &Study, point: &[f64]) -> Vec<Drawn> {
+    let mut shares = point.iter().copied();
+    let mut share = |prior: &Prior| {
+        if is_fixed(prior) { 0.5 } else { shares.next().unwrap_or(0.5) }
+    };
+    study.priors.iter().map(|prior| at_share(prior, share(prior))).collect()
+}
+
+/// The value of a prior below which a share of its law lies.
+#[must_use]
+pub fn at_share(prior: &Prior, share: f64) -> Drawn {
+    value(&prior.name.value, &prior.law, share)
+}
+
+/// Point `index` of the scrambled Sobol sequence in the unit cube of encounters.
+#[must_use]
+pub fn sobol_point(seed: u64, index: u32, dimensions: usize) -> Vec<f64> {
+    let mut point = Point::of(seed, index);
+    (0..dimensions).map(|_| point.share()).collect()
+}
+
 fn is_fixed(prior: &Prior) -> bool {
     matches!(&prior.law, Law::Choice(levels) if levels.len() == 1)
 }
@@ -90,7 +119,9 @@ fn value(name: &str, law: &Law, share: f64) -> Drawn {
     }
 }
 
-fn number(name: String, value: f64, quantity: units::Quantity) -> Drawn {
+/// A number [SI] as a drawn value.
+#[must_use]
+pub fn number(name: String, value: f64, quantity: units::Quantity) -> Drawn {
     let plain = quantity == units::Quantity::Ratio;
     let text = if plain { format!("{value:?}") } else { format!("{value} {}", quantity.si_unit()) };
     Drawn { name, text, number: Some(value), plain }

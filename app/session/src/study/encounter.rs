@@ -22,8 +22,15 @@ impl Encounter {
         Self { index, drawn, weight }
     }
 
+    /// The encounter at a point of the unit cube ([`draw::dimensions`]); it has index 0, whatever the point.
+    #[must_use]
+    pub fn at_point(opened: &Opened, point: &[f64]) -> Self {
+        Self { index: 0, drawn: draw::at_point(&opened.study, point), weight: 1.0 }
+    }
+
     /// A number that was drawn, by name [SI].
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
         self.drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number)
     }
 }

@@ -42,6 +42,19 @@ impl Opened {
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        Self::of_text(text, path, library, host)
+    }
+
+    /// The same of a text that may differ from what stands in its file.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn of_text(
+        text: String,
+        path: &Path,
+        library: Option<&Path>,
+        host: &PluginHost,
+    ) -> Result<Self, Error> {
         let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
         let root = locate::library(Some(path), library).map_err(Error::Replay)?;
         let sources = host.with_clips(Sources::from_folder(&root).map_err(Error::Diagnostics)?);

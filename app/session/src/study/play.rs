@@ -122,8 +122,22 @@ impl Opened {
         encounter: &Encounter,
         frames_hz: f64,
     ) -> Result<Played, Error> {
+        self.play_watched(option, encounter, frames_hz, |_| {})
+    }
+
+    /// The same, looked at twice a second of its time.
+    ///
+    /// # Errors
+    /// As [`play`](Self::play).
+    pub fn play_watched(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        frames_hz: f64,
+        look: impl FnMut(&Run),
+    ) -> Result<Played, Error> {
         let mut run = self.begin(option, encounter, self.prepare(option, encounter)?, frames_hz)?;
-        self.to_its_end(&mut run, |_| {});
+        self.to_its_end(&mut run, look);
         let report = Report::from_run(&run);
         Ok(Played { run, report })
     }

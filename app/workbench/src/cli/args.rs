@@ -7,6 +7,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::search::SearchArgs;
 use super::study::args::StudyCommand;
 
 /// Design fishing gear that entangled whales can escape from.
@@ -49,6 +50,8 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: StudyCommand,
     },
+    /// Search for encounters that end like what was seen on a real whale.
+    Search(SearchArgs),
     /// Check files or folders of gear and report every problem.
     Check(CheckArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.

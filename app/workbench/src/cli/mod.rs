@@ -14,6 +14,7 @@ mod progress;
 mod render;
 mod replay;
 mod run;
+mod search;
 mod settle;
 mod study;
 mod table;
@@ -52,6 +53,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Check(args)) => check::check(args, library),
         Some(Command::Whale { what }) => whale::whale(what, library),
         Some(Command::Study { what }) => study::study(what, library),
+        Some(Command::Search(args)) => search::search(args, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }

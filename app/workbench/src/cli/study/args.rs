@@ -100,7 +100,7 @@ pub(in crate::cli) struct ReplayArgs {
     pub(super) json: bool,
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
+pub(in crate::cli) fn shard(text: &str) -> Result<Shard, String> {
     let parts = text
         .split_once('/')
         .and_then(|(part, of)| Some((part.parse::<u32>().ok()?, of.parse::<u32>().ok()?)));

@@ -12,7 +12,7 @@ use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
 use endline_session::study::{Control, Opened, REPLAY_HZ, batch, merge, priority, report};
-use endline_session::{Error, locate, save};
+use endline_session::{locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
 use self::progress::Bar;
@@ -104,7 +104,7 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     compare(args, &opened, option, &played.report.state_hash)
 }
 
-fn keep(to: &Path, played: &endline_session::study::Played) -> Result<(), Failure> {
+pub(super) fn keep(to: &Path, played: &endline_session::study::Played) -> Result<(), Failure> {
     std::fs::create_dir_all(to)
         .map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", to.display())))?;
     let texts = [
@@ -149,32 +149,8 @@ fn compare(
 
 /// Opens a study by its file or its id in the gear library.
 fn open(args: &StudyArgs, library: Option<&Path>) -> Result<Opened, Failure> {
-    let named = Path::new(&args.study);
-    let path = if named.is_file() || args.study.ends_with(".toml") {
-        named.to_path_buf()
-    } else {
-        in_library(&args.study, library)?
-    };
+    let path = locate::named(&args.study, "studies", library).map_err(Failure::failed)?;
     Ok(Opened::open(&path, library, &host::load())?)
-}
-
-fn in_library(id: &str, library: Option<&Path>) -> Result<PathBuf, Failure> {
-    let studies = locate::library(None, library).map_err(Failure::failed)?.join("studies");
-    let path = studies.join(format!("{id}.toml"));
-    if path.is_file() {
-        return Ok(path);
-    }
-    let entries = std::fs::read_dir(&studies).into_iter().flatten().flatten();
-    let mut ids: Vec<String> = entries
-        .filter_map(|entry| Some(entry.path().file_stem()?.to_string_lossy().into_owned()))
-        .collect();
-    ids.sort();
-    let help = endline_gear::hint(id, ids.iter().map(String::as_str));
-    Err(Error::Replay(format!(
-        "there is no file `{id}` and no study of that id in {}; {help}",
-        studies.display()
-    ))
-    .into())
 }
 
 fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {
@@ -182,12 +158,12 @@ fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {
 }
 
 /// A thread for each core.
-fn all_cores() -> usize {
+pub(super) fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Lets everything else on the machine go first.
-fn lower_priority() {
+pub(super) fn lower_priority() {
     if let Err(error) = priority::lower() {
         output::note(&format!("runs at ordinary priority: {error}"));
     }

@@ -1,0 +1,197 @@
+//! How unlike an observation an ending is: a sum of terms, each with its reason.
+//!
+//! ```text
+//! D = sum of 3 |2p - 1|   over sites seen with rope (p > 1/2) and without it now, or the reverse
+//!   + sum of e / 0.5      e: wraps, and turns of twist, beyond the range seen [turns]
+//!   + sum of 0.5          over sites tight instead of slack, or the reverse
+//!   + 1.5 n               n: edits from the nearest strand's order of places to that seen
+//!   + |ln(L / L')| / 0.4  L': the nearer end of the range of rope seen behind the whale [m]
+//!   + 1                   for each end of rope seen that no strand has
+//! ```
+//!
+//! `p` is how sure it is that rope was there. What was hidden costs nothing. A site of which nothing is told was seen free with
+//! `p` = 0.35, unless rope that was seen at its neighbour passes it. `D` up to 1 is *like* the observation. The weights are choices,
+//! not measurements: 1 is a wrap off by half a turn, or less than one edit.
+
+use endline_gear::{Observation, SeenSite, Site};
+
+use super::ending::{AtSite, Ending};
+use super::order::edits;
+
+/// An ending up to this far from an observation is like it.
+pub const LIKE: f64 = 1.0;
+
+/// Cost of rope where there was none, or of none where there was, if it was sure.
+const PRESENCE: f64 = 3.0;
+
+/// How sure it is that rope was at a site of which nothing is told.
+const UNTOLD: f64 = 0.35;
+
+/// Turns beyond the range seen that cost 1.
+const TURNS: f64 = 0.5;
+
+/// Cost of tight rope where it was slack, or the reverse.
+const TIGHTNESS: f64 = 0.5;
+
+/// Cost of an edit of the order of places.
+const EDIT: f64 = 1.5;
+
+/// Difference of the logarithms of lengths that costs 1.
+const LENGTHS: f64 = 0.4;
+
+/// Shortest rope behind a whale that is told from none [m].
+const LEAST_M: f64 = 0.5;
+
+/// How unlike an observation an ending is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Distance {
+    /// What it is made of; terms of zero are left out.
+    pub terms: Vec<Term>,
+    /// Whether the ending's mirror image was held against it.
+    pub mirrored: bool,
+}
+
+/// A term of a distance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// Its share of the distance.
+    pub cost: f64,
+    /// What it is for.
+    pub says: String,
+}
+
+impl Distance {
+    /// From an observation to an ending, or to its mirror image where that counts as well and is nearer.
+    #[must_use]
+    pub fn of(observation: &Observation, ending: &Ending) -> Self {
+        let straight = Self { terms: terms(observation, ending), mirrored: false };
+        if !observation.mirrored {
+            return straight;
+        }
+        let mirrored = Self { terms: terms(observation, &ending.mirrored()), mirrored: true };
+        if mirrored.sum() < straight.sum() { mirrored } else { straight }
+    }
+
+    /// The sum of its terms.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.terms.iter().map(|term| term.cost).sum()
+    }
+}
+
+fn terms(seen: &Observation, ending: &Ending) -> Vec<Term> {
+    let mut terms = Vec::new();
+    for site in &seen.sites {
+        told_site(site, ending.at(site.site), &mut terms);
+    }
+    untold_sites(seen, ending, &mut terms);
+    twist(seen, ending, &mut terms);
+    order(seen, ending, &mut terms);
+    behind(seen, ending, &mut terms);
+    terms.retain(|term| term.cost > 0.0);
+    terms
+}
+
+/// Presence, wraps and tightness at a site that was told of.
+fn told_site(seen: &SeenSite, at: Option<AtSite>, terms: &mut Vec<Term>) {
+    let name = words(seen.site);
+    let cost = PRESENCE * (2.0 * seen.present - 1.0).abs();
+    match (seen.present > 0.5, at) {
+        (true, None) => terms.push(Term { cost, says: format!("no rope at {name}") }),
+        (false, Some(_)) => terms.push(Term { cost, says: format!("rope at {name}") }),
+        _ => {}
+    }
+    if let Some(range) = seen.wraps {
+        let wraps = at.map_or(0.0, |at| at.wraps);
+        let says = format!("{wraps:.2} wraps about {name}, seen {} to {}", range[0], range[1]);
+        terms.push(Term { cost: beyond(wraps, range) / TURNS, says });
+    }
+    if let (Some(tight), Some(at)) = (seen.tight, at)
+        && tight != at.tight
+    {
+        let now = if at.tight { "tight" } else { "slack" };
+        terms.push(Term { cost: TIGHTNESS, says: format!("rope at {name} is {now}") });
+    }
+}
+
+/// Rope at sites of which nothing is told, and that it does not pass on its way to one with rope.
+fn untold_sites(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
+    let told = |site: Site| seen.sites.iter().any(|told| told.site.singles().contains(&site));
+    let hidden = |site: Site| seen.hidden.iter().any(|hidden| hidden.singles().contains(&site));
+    let with_rope = |site: Site| {
+        let here = |told: &&SeenSite| told.present > 0.5 && told.site.singles().contains(&site);
+        seen.sites.iter().any(|told| here(&told))
+    };
+    for at in &ending.sites {
+        let passes = neighbours(at.site).iter().any(|site| with_rope(*site));
+        if told(at.site) || hidden(at.site) || passes {
+            continue;
+        }
+        let cost = PRESENCE * (2.0 * UNTOLD - 1.0).abs();
+        terms.push(Term {
+            cost,
+            says: format!("rope at {}, of which nothing is told", words(at.site)),
+        });
+    }
+}
+
+/// Sites whose rope passes a site as well.
+fn neighbours(site: Site) -> &'static [Site] {
+    match site {
+        Site::Head => &[Site::Mouth],
+        Site::Body => &[Site::Head, Site::LeftFlipper, Site::RightFlipper, Site::Peduncle],
+        Site::Peduncle => &[Site::LeftFluke, Site::RightFluke],
+        Site::LeftFluke | Site::RightFluke => &[Site::Peduncle],
+        _ => &[],
+    }
+}
+
+fn twist(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
+    let Some(range) = seen.twist else { return };
+    let says = format!("{:.2} twists, seen {} to {}", ending.twist, range[0], range[1]);
+    terms.push(Term { cost: beyond(ending.twist, range) / TURNS, says });
+}
+
+fn order(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
+    if seen.path.is_empty() {
+        return;
+    }
+    let edits_of = |places: &[_]| edits(&seen.path, places, &seen.hidden);
+    let strands = ending.strands.iter().map(|strand| edits_of(&strand.places));
+    let least = strands.min().unwrap_or(seen.path.len());
+    let count = if least == 1 { "one place".to_owned() } else { format!("{least} places") };
+    let says = format!("{count} of the rope's path off");
+    #[expect(clippy::cast_precision_loss, reason = "a path has few places")]
+    terms.push(Term { cost: EDIT * least as f64, says });
+}
+
+/// Rope behind the whale, and what is at its ends.
+fn behind(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
+    let Some(trailing) = &seen.trailing else { return };
+    if let Some([least, most]) = trailing.length_m {
+        let now = ending.behind_m.max(LEAST_M);
+        let nearer = now.clamp(least.max(LEAST_M), most.max(LEAST_M));
+        let says =
+            format!("{:.1} m behind the whale, seen {least:.1} to {most:.1} m", ending.behind_m);
+        terms.push(Term { cost: libm::log(now / nearer).abs() / LENGTHS, says });
+    }
+    let mut left: Vec<_> = ending.strands.iter().flat_map(|strand| strand.ends).flatten().collect();
+    for end in &trailing.ends {
+        match left.iter().position(|other| other == end) {
+            Some(place) => drop(left.swap_remove(place)),
+            None => {
+                terms.push(Term { cost: 1.0, says: format!("no rope that ends {}", end.words()) });
+            }
+        }
+    }
+}
+
+/// By how much a value lies outside a range.
+fn beyond(value: f64, [least, most]: [f64; 2]) -> f64 {
+    (least - value).max(value - most).max(0.0)
+}
+
+/// A site in words.
+fn words(site: Site) -> String {
+    format!("the {}", site.name().replace('_', " "))
+}

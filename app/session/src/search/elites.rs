@@ -1,0 +1,80 @@
+//! The map of elites: the best trial of every kind of story, so that several different stories come out and not one lucky run.
+//!
+//! Reference: Mouret and Clune 2015, Illuminating search spaces by mapping elites (arXiv 1504.04909).
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use crate::study::encounter::Encounter;
+
+use super::question::Question;
+use super::trial::Trial;
+
+/// A kind of story: which part rope touched first, what the whale did before and then, and where it came from.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Kind {
+    /// The part that rope touched first.
+    pub first_part: String,
+    /// Drawn words of the whale's behaviour, such as `swim` and `barrel-roll-away`.
+    pub acts: Vec<String>,
+    /// Quarter of the compass against the current: 0 with it, 2 against it; `None` where no heading is drawn.
+    pub quarter: Option<u8>,
+}
+
+/// The best trial of a kind.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Elite {
+    /// Where in the unit cube of encounters.
+    pub(super) point: Vec<f64>,
+    /// What it came to.
+    pub(super) trial: Trial,
+    /// How many local searches have begun from it or its predecessors.
+    pub(super) begun: u32,
+}
+
+/// Elites by kind.
+#[derive(Debug, Default)]
+pub(super) struct Elites(pub(super) BTreeMap<Kind, Elite>);
+
+impl Kind {
+    fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
+        let encounter = Encounter::at_point(&question.opened, point);
+        let is_act = |name: &str| matches!(name, "behaviour" | "answer") || name.ends_with(".act");
+        let quarter = encounter.number("heading").map(|heading| {
+            let quarters = (heading / TAU * 4.0 + 0.5).rem_euclid(4.0);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 3")]
+            let quarter = quarters as u8;
+            quarter
+        });
+        Self {
+            first_part: trial.first_part.clone(),
+            acts: encounter
+                .drawn
+                .iter()
+                .filter(|drawn| is_act(&drawn.name))
+                .map(|drawn| drawn.text.clone())
+                .collect(),
+            quarter,
+        }
+    }
+}
+
+impl Elites {
+    /// Takes in a trial: it becomes the elite of its kind if it is nearer than that.
+    pub(super) fn take(&mut self, question: &Question, point: &[f64], trial: &Trial) {
+        if trial.first_part.is_empty() || !trial.fault.is_empty() {
+            return;
+        }
+        let kind = Kind::of(question, point, trial);
+        let begun = self.0.get(&kind).map_or(0, |elite| elite.begun);
+        if self.0.get(&kind).is_none_or(|elite| trial.aim() < elite.trial.aim()) {
+            self.0.insert(kind, Elite { point: point.to_vec(), trial: trial.clone(), begun });
+        }
+    }
+
+    /// The elite from which the next local search begins: near, and not begun from too often.
+    pub(super) fn next_start(&mut self) -> Option<&mut Elite> {
+        let worth = |elite: &Elite| elite.trial.aim() + f64::from(elite.begun);
+        self.0.values_mut().min_by(|one, other| worth(one).total_cmp(&worth(other)))
+    }
+}

@@ -1,0 +1,154 @@
+//! The ending of a run: where rope is on the whale, as somebody would see it who came upon the whale then.
+
+use endline_gear::{PathPlace, RopeEnd, Site};
+use endline_sdk::{BodyPart, Region};
+use endline_sim::metrics::{LeadsTo, Outcome, RegionSummary, Route, Station, WhaleSummary, routes};
+use endline_sim::model::BodyRole;
+
+use crate::run::Run;
+
+/// Rope that does not touch a part is on it from this many wraps [turns]; estimate.
+const LOOSE_WRAPS: f64 = 0.25;
+
+/// Rope under more tension than this where it presses is tight [N]; estimate.
+const TIGHT_N: f64 = 50.0;
+
+/// How a run ended.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ending {
+    /// Sites with rope, in the order of [`Site::SINGLE`].
+    pub sites: Vec<AtSite>,
+    /// Strands on the whale.
+    pub strands: Vec<Strand>,
+    /// Rope that hangs from the whale, to loose ends or to gear [m].
+    pub behind_m: f64,
+    /// Most turns of a strand's two legs about each other [turns].
+    pub twist: f64,
+}
+
+/// Rope at a site.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtSite {
+    /// The site.
+    pub site: Site,
+    /// Wraps about it [turns].
+    pub wraps: f64,
+    /// Whether rope is tight there.
+    pub tight: bool,
+}
+
+/// A strand of rope on the whale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strand {
+    /// Places it passes, in its order.
+    pub places: Vec<PathPlace>,
+    /// What its two ends lead to; `None` for what nobody would name.
+    pub ends: [Option<RopeEnd>; 2],
+}
+
+impl Ending {
+    /// The ending of a run; of a whale that came free, nothing.
+    #[must_use]
+    pub fn of(run: &Run) -> Self {
+        let summary = run.summary();
+        let Some(whale) = &summary.whale else { return Self::default() };
+        if !matches!(whale.outcome, Outcome::Entangled | Outcome::PartedEntangled) {
+            return Self::default();
+        }
+        let routes = routes(run.model(), run.state(), run.contacts());
+        let twist = summary.lines.iter().fold(0.0, |most: f64, line| most.max(line.twist.abs()));
+        Self {
+            sites: Site::SINGLE
+                .into_iter()
+                .filter_map(|site| at_site(site, whale, &routes))
+                .collect(),
+            strands: routes.iter().map(|route| strand(run, route)).collect(),
+            behind_m: whale.trailing_m + whale.tethered_m,
+            twist,
+        }
+    }
+
+    /// The same on a whale that is its mirror image.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut mirrored = self.clone();
+        mirrored.sites.iter_mut().for_each(|at| at.site = at.site.mirrored());
+        mirrored.sites.sort_by_key(|at| at.site);
+        for place in mirrored.strands.iter_mut().flat_map(|strand| strand.places.iter_mut()) {
+            *place = place.mirrored();
+        }
+        mirrored
+    }
+
+    /// Rope at a site, the most of a pair's two; `None` where there is none.
+    #[must_use]
+    pub fn at(&self, site: Site) -> Option<AtSite> {
+        let singles = site.singles();
+        let here = self.sites.iter().filter(|at| singles.contains(&at.site)).copied();
+        here.reduce(|one, other| AtSite {
+            site,
+            wraps: one.wraps.max(other.wraps),
+            tight: one.tight || other.tight,
+        })
+    }
+}
+
+/// Rope at a single site.
+fn at_site(site: Site, whale: &WhaleSummary, routes: &[Route]) -> Option<AtSite> {
+    let part = BodyPart::ALL.into_iter().find(|part| Site::of_part(*part) == site);
+    let region = whale.regions.get(part.unwrap_or(BodyPart::Head) as usize)?;
+    let wraps = most_wraps(region);
+    let is_there = match site {
+        Site::Mouth => whale.lodged_in_mouth,
+        Site::Head => passes(routes, |station| station.part == BodyPart::Head && !station.in_mouth),
+        _ => region.contact_length_m > 0.0,
+    };
+    (is_there || (wraps >= LOOSE_WRAPS && site != Site::Mouth)).then_some(AtSite {
+        site,
+        wraps,
+        tight: tension_n(site, whale) > TIGHT_N,
+    })
+}
+
+/// Turns about a part: along the centre line, or from contact to contact where they are more.
+fn most_wraps(region: &RegionSummary) -> f64 {
+    region.wraps.abs().max(region.touching_wraps.abs())
+}
+
+fn passes(routes: &[Route], is_it: impl Fn(&Station) -> bool) -> bool {
+    routes.iter().flat_map(|route| &route.stations).any(is_it)
+}
+
+/// Greatest tension of rope that presses at a single site [N].
+fn tension_n(site: Site, whale: &WhaleSummary) -> f64 {
+    let is_own = |region: Region| match site {
+        Site::Mouth => matches!(region, Region::Baleen | Region::Lips),
+        Site::Head => matches!(region, Region::Rostrum | Region::Head),
+        site => Site::of_part(region.part()) == site,
+    };
+    let own = whale.patches.iter().filter(|patch| is_own(patch.region));
+    own.fold(0.0, |most, patch| most.max(patch.tension_n))
+}
+
+fn strand(run: &Run, route: &Route) -> Strand {
+    let place = |station: &Station| PathPlace {
+        site: if station.in_mouth { Site::Mouth } else { Site::of_part(station.part) },
+        side: station.side,
+    };
+    let bodies = &run.model().spec.bodies;
+    let end = |leads_to: LeadsTo| match leads_to {
+        LeadsTo::Broken => Some(RopeEnd::Broken),
+        LeadsTo::Bare => Some(RopeEnd::Bare),
+        LeadsTo::Fixture => Some(RopeEnd::Anchor),
+        LeadsTo::Body(body) => Some(match bodies[body].role {
+            BodyRole::Buoy => RopeEnd::Buoy,
+            BodyRole::Trap => RopeEnd::Trap,
+            BodyRole::Anchor | BodyRole::Weight => RopeEnd::Anchor,
+        }),
+        LeadsTo::Whale | LeadsTo::Junction => None,
+    };
+    Strand {
+        places: route.stations.iter().map(place).collect(),
+        ends: route.ends.map(|route_end| end(route_end.leads_to)),
+    }
+}

@@ -1,0 +1,88 @@
+//! Searching for the encounters that end like what was seen on a real whale.
+//!
+//! ```text
+//! observation + study's encounters -> net (Sobol points) -> map of elites by kind of story <-> CMA-ES from its best -> stories, jittered
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `ending` | where rope is on the whale at the end of a run |
+//! | `distance`, `order` | how unlike the observation that is, term by term |
+//! | `question` | the observation, and the study whose encounters are searched |
+//! | `trial` | a point of the unit cube of encounters, run and held against the observation |
+//! | `rounds` | which points come next: the net, then a generation of every local search |
+//! | `elites`, `climb` | the best trial of every kind of story; a local search from one of them |
+//! | `batch`, `folder` | trials of a round on threads and shards, kept round by round |
+//! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
+//!
+//! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
+//! kept and goes on, and any number of threads and shards finds the same. How to use it: `docs/search.md`.
+
+mod batch;
+mod climb;
+pub mod distance;
+mod elites;
+pub mod ending;
+mod folder;
+mod jitter;
+mod order;
+mod question;
+mod rounds;
+pub mod stories;
+mod trial;
+
+use crate::error::Error;
+use crate::study::Shard;
+
+pub use distance::{Distance, LIKE, Term};
+pub use ending::Ending;
+pub use folder::Folder;
+pub use question::Question;
+pub use stories::{Stories, Story};
+use trial::Trial;
+
+/// How long to search, and with what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Trials at most; the round that reaches them is finished.
+    pub trials: usize,
+    /// Threads of this process.
+    pub threads: usize,
+    /// Which part of every round is run here.
+    pub shard: Shard,
+    /// Whether only draws of the priors are tried, without local searches: for comparison.
+    pub net_alone: bool,
+}
+
+/// How far a search is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Trials done.
+    pub trials: usize,
+    /// Trials at most.
+    pub of: usize,
+    /// The least distance so far.
+    pub best: Option<f64>,
+}
+
+/// Searches until the effort is spent, and jitters the stories that are like the observation.
+///
+/// # Errors
+/// A folder that cannot be written, or holds a round of another search.
+pub fn search(
+    question: &Question,
+    folder: &Folder,
+    effort: &Effort,
+    mut progress: impl FnMut(Progress),
+) -> Result<Stories, Error> {
+    let mut rounds = rounds::Rounds::new(question, effort.net_alone);
+    while rounds.trials() < effort.trials {
+        let points = rounds.next();
+        let trials = batch::run(folder, &rounds.name(), points.len(), effort, |number| {
+            Trial::of(question, &points[number])
+        })?;
+        rounds.take(&points, trials);
+        progress(Progress { trials: rounds.trials(), of: effort.trials, best: rounds.best() });
+    }
+    stories::of(question, folder, effort, &rounds)
+}

@@ -1,0 +1,131 @@
+//! `endline search`: which encounters end like what was seen on a real whale.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use endline_session::search::{
+    Effort, Folder, LIKE, Progress, Question, Stories, Story, search as found,
+};
+use endline_session::study::encounter::Encounter;
+use endline_session::study::{REPLAY_HZ, Shard};
+
+use super::study::args::shard;
+use super::study::{all_cores, keep, lower_priority};
+use super::{Failure, host, output};
+
+/// Time between two notes of progress.
+const BETWEEN: Duration = Duration::from_secs(30);
+
+#[derive(Debug, clap::Args)]
+pub(super) struct SearchArgs {
+    /// Observation file, or the id of an observation in the gear library.
+    #[arg(value_name = "OBSERVATION")]
+    observation: String,
+    /// Study with one option whose encounters are searched [default: the one that the observation names].
+    #[arg(long, value_name = "STUDY")]
+    encounters: Option<String>,
+    /// Folder of the search [default: results/search- followed by the observation's id].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Runs at most; give more to go on with a search that is finished.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    trials: usize,
+    /// Write the best stories as scenario, recording and picture.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    keep: usize,
+    /// Try draws of the priors alone, without local searches.
+    #[arg(long)]
+    net_alone: bool,
+    /// Run only this part of every round, such as 2/7, and wait for the others; all parts need one folder.
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    shard: Shard,
+    /// Number of threads [default: one for each core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Run at normal priority instead of low priority.
+    #[arg(long)]
+    eager: bool,
+    /// Print the result as one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Searches, tells what was found, and keeps the best stories as runs.
+pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let host = host::load();
+    let question = Question::open(&args.observation, args.encounters.as_deref(), library, &host)?;
+    let usual = || Path::new("results").join(format!("search-{}", question.observation.id));
+    let folder = Folder::open(&args.out.clone().unwrap_or_else(usual), &question)?;
+    if !args.eager {
+        lower_priority();
+    }
+    let effort = Effort {
+        trials: args.trials,
+        threads: args.threads.map_or_else(all_cores, usize::from),
+        shard: args.shard,
+        net_alone: args.net_alone,
+    };
+    let stories = found(&question, &folder, &effort, told())?;
+    for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
+        let encounter = Encounter::at_point(&question.opened, &story.point);
+        let played = question.opened.play(0, &encounter, REPLAY_HZ)?;
+        keep(&folder.path.join(format!("story-{}", number + 1)), &played)?;
+    }
+    output::print(&if args.json { stories.json() + "\n" } else { words(&stories) })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Notes progress now and then.
+fn told() -> impl FnMut(Progress) {
+    let mut last = Instant::now();
+    move |progress: Progress| {
+        if last.elapsed() < BETWEEN && progress.trials < progress.of {
+            return;
+        }
+        last = Instant::now();
+        let best = progress.best.map_or("none".to_owned(), |best| format!("{best:.2}"));
+        output::note(&format!(
+            "{} of {} runs, least distance {best}",
+            progress.trials, progress.of
+        ));
+    }
+}
+
+fn words(stories: &Stories) -> String {
+    let like = stories.stories.iter().filter(|story| story.is_like()).count();
+    let head = format!(
+        "{} runs among the encounters of `{}`, {} of them drawn from its priors\n",
+        stories.trials, stories.encounters, stories.net
+    );
+    let found = match like {
+        0 => format!("Not found: no run ends like `{}`, nearest first:\n", stories.observation),
+        1 => format!("One kind of story ends like `{}`:\n", stories.observation),
+        like => format!("{like} kinds of story end like `{}`:\n", stories.observation),
+    };
+    let share = format!(
+        "{} of {} draws from the priors end like it (distance at most {LIKE})\n",
+        stories.net_like, stories.net
+    );
+    let told: String =
+        stories.stories.iter().enumerate().map(|(number, story)| one(number + 1, story)).collect();
+    format!("{head}{share}\n{found}{told}")
+}
+
+fn one(number: usize, story: &Story) -> String {
+    let alike = story.alike.map_or(String::new(), |alike| {
+        let fragile = if story.is_fragile() { ", fragile" } else { "" };
+        format!("; {:.0} % of its neighbours end alike{fragile}", 100.0 * alike)
+    });
+    let course =
+        if story.course.is_empty() { String::new() } else { format!(", {}", story.course) };
+    let mirrored = if story.mirrored { ", as its mirror image" } else { "" };
+    let terms: String =
+        story.terms.iter().map(|(cost, says)| format!("      {cost:5.2}  {says}\n")).collect();
+    format!(
+        "{number:3}. {:.2}  first the {}; {}{course}{mirrored}{alike}\n{terms}",
+        story.distance,
+        story.first_part.replace('_', " "),
+        story.acts.join(", ")
+    )
+}
