@@ -4,16 +4,20 @@
 
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
+use super::elites::Elite;
 use super::trial::Trial;
 
-/// Step at the start, as a share of the priors' ranges.
+/// Step at the start of a first search, as a share of the priors' ranges; each later one from the same kind begins with half of it.
 const STEP: f64 = 0.12;
+
+/// Least step at the start.
+const LEAST_STEP: f64 = 0.01;
 
 /// Generations without progress after which a search ends.
 const STALE: u32 = 5;
 
-/// Progress of less than this is none.
-const PROGRESS: f64 = 0.05;
+/// Progress of less than this is none, and an aim below it is as good as none.
+pub(super) const PROGRESS: f64 = 0.05;
 
 /// Evaluations by which the strategy sets its damping; searches end long before.
 const EVALUATIONS: u64 = 1000;
@@ -30,8 +34,9 @@ pub(super) struct Climb {
 }
 
 impl Climb {
-    /// Begins at a point with the elite's own aim; `None` where nothing is continuous.
-    pub(super) fn begin(point: &[f64], free: &[usize], best: f64, seed: u64) -> Option<Self> {
+    /// Begins from an elite; `None` where nothing is continuous.
+    pub(super) fn begin(elite: &Elite, free: &[usize], seed: u64) -> Option<Self> {
+        let point = &elite.point;
         if free.is_empty() {
             return None;
         }
@@ -44,8 +49,11 @@ impl Climb {
             seed,
             ..CmaesParams::default()
         };
-        let strategy = Cmaes::new(within, &guess, &[STEP], &params);
-        Some(Self { point: point.to_vec(), free: free.to_vec(), strategy, best, stale: 0 })
+        let halvings = i32::try_from(elite.begun.saturating_sub(1)).unwrap_or(i32::MAX);
+        let step = (STEP * 0.5_f64.powi(halvings)).max(LEAST_STEP);
+        let strategy = Cmaes::new(within, &guess, &[step], &params);
+        let best = elite.trial.aim();
+        Some(Self { point: point.clone(), free: free.to_vec(), strategy, best, stale: 0 })
     }
 
     /// The next generation, as whole points.

@@ -195,3 +195,101 @@ fn beyond(value: f64, [least, most]: [f64; 2]) -> f64 {
 fn words(site: Site) -> String {
     format!("the {}", site.name().replace('_', " "))
 }
+
+#[cfg(test)]
+mod tests {
+    use endline_gear::{PathPlace, RopeEnd};
+
+    use super::super::ending::Strand;
+    use super::*;
+
+    const SEEN: &str = r#"
+format = 1
+kind = "observation"
+name = "Seen"
+source = "a test"
+confidence = "measured"
+mirrored = true
+[[site]]
+part = "left_flipper"
+present = 0.9
+wraps = [1, 2]
+tight = true
+[[site]]
+part = "mouth"
+present = 0.1
+[path]
+order = ["left_flipper", "body:left"]
+[trailing]
+length = ["20 m", "40 m"]
+ends = ["buoy", "broken"]
+[twist]
+turns = [1, 2]
+[hidden]
+parts = ["fluke"]
+"#;
+
+    fn seen() -> Observation {
+        Observation::read("seen.toml", SEEN).unwrap_or_else(|problems| panic!("{problems:?}"))
+    }
+
+    fn at(name: &str, wraps: f64, tight: bool) -> AtSite {
+        AtSite { site: Site::named(name).unwrap(), wraps, tight }
+    }
+
+    fn ending(sites: Vec<AtSite>, places: &str, ends: [Option<RopeEnd>; 2]) -> Ending {
+        let places = places.split_whitespace().map(|place| PathPlace::named(place).unwrap());
+        let strand = Strand { places: places.collect(), ends };
+        Ending { sites, strands: vec![strand], behind_m: 30.0, twist: 1.5 }
+    }
+
+    fn like() -> Ending {
+        ending(
+            vec![at("body", 0.1, false), at("left_flipper", 1.2, true)],
+            "left_flipper body:left",
+            [Some(RopeEnd::Broken), Some(RopeEnd::Buoy)],
+        )
+    }
+
+    /// Every term by hand, one change at a time.
+    #[test]
+    fn terms_are_those_of_the_formula() {
+        let changed = |change: &dyn Fn(&mut Ending)| {
+            let mut ending = like();
+            change(&mut ending);
+            Distance { terms: terms(&seen(), &ending), mirrored: false }.sum()
+        };
+        let close = |got: f64, wanted: f64| assert!((got - wanted).abs() < 1e-12, "{got}, {wanted}");
+        close(changed(&|_| {}), 0.0);
+        // No rope at the flipper: 3 x 0.8 for presence, 1 turn short at 0.5 each. Rope on the body may be on its way there.
+        close(changed(&|ending| {
+            ending.sites.pop();
+        }), 2.4 + 2.0);
+        close(changed(&|ending| ending.sites[1].wraps = 2.3), 0.6);
+        close(changed(&|ending| ending.sites[1].tight = false), 0.5);
+        close(changed(&|ending| ending.sites.push(at("mouth", 0.0, false))), 2.4);
+        close(changed(&|ending| ending.sites.push(at("peduncle", 0.0, false))), 0.9);
+        close(changed(&|ending| ending.sites.push(at("left_fluke", 1.0, true))), 0.0);
+        close(changed(&|ending| {
+            ending.strands[0].places.pop();
+        }), 1.5);
+        close(changed(&|ending| ending.behind_m = 10.0), 2.0_f64.ln() / 0.4);
+        close(changed(&|ending| ending.behind_m = 80.0), 2.0_f64.ln() / 0.4);
+        close(changed(&|ending| ending.strands[0].ends[0] = Some(RopeEnd::Trap)), 1.0);
+        close(changed(&|ending| ending.twist = 0.5), 1.0);
+        // A whale that came free: flipper, wraps, path of two places, length from 0.5 m, two ends, twist.
+        let free = 2.4 + 2.0 + 3.0 + 40.0_f64.ln() / 0.4 + 2.0 + 2.0;
+        close(Distance { terms: terms(&seen(), &Ending::default()), mirrored: false }.sum(), free);
+    }
+
+    #[test]
+    fn a_mirror_image_counts_where_the_observation_says_so() {
+        let mirrored = Distance::of(&seen(), &like().mirrored());
+        assert!(mirrored.mirrored && mirrored.terms.is_empty(), "{mirrored:?}");
+        assert_eq!(like().mirrored().mirrored(), like());
+        let only = Observation { mirrored: false, ..seen() };
+        let found = Distance::of(&only, &like().mirrored());
+        // Flipper, wraps, tightness is not told of an absent rope; two places of the path.
+        assert!(!found.mirrored && found.sum() > 2.4 + 2.0, "{found:?}");
+    }
+}

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::study::encounter::Encounter;
 
+use super::climb::PROGRESS;
 use super::question::Question;
 use super::trial::Trial;
 
@@ -72,9 +73,10 @@ impl Elites {
         }
     }
 
-    /// The elite from which the next local search begins: near, and not begun from too often.
+    /// The elite from which the next local search begins: near, not begun from too often, and not as good as it can be.
     pub(super) fn next_start(&mut self) -> Option<&mut Elite> {
         let worth = |elite: &Elite| elite.trial.aim() + f64::from(elite.begun);
-        self.0.values_mut().min_by(|one, other| worth(one).total_cmp(&worth(other)))
+        let open = self.0.values_mut().filter(|elite| elite.trial.aim() > PROGRESS);
+        open.min_by(|one, other| worth(one).total_cmp(&worth(other)))
     }
 }

@@ -29,6 +29,8 @@ mod order;
 mod question;
 mod rounds;
 pub mod stories;
+#[cfg(test)]
+mod tests;
 mod trial;
 
 use crate::error::Error;
@@ -39,6 +41,7 @@ pub use ending::Ending;
 pub use folder::Folder;
 pub use question::Question;
 pub use stories::{Stories, Story};
+use rounds::Rounds;
 use trial::Trial;
 
 /// How long to search, and with what.
@@ -73,16 +76,29 @@ pub fn search(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
-    mut progress: impl FnMut(Progress),
+    progress: impl FnMut(Progress),
 ) -> Result<Stories, Error> {
-    let mut rounds = rounds::Rounds::new(question, effort.net_alone);
+    let trial = |point: &[f64]| Trial::of(question, point);
+    let rounds = rounds_of(question, folder, effort, trial, progress)?;
+    stories::of(question, folder, effort, &rounds)
+}
+
+/// Round after round until the effort is spent; `trial` runs the encounter at a point.
+fn rounds_of<'a>(
+    question: &'a Question,
+    folder: &Folder,
+    effort: &Effort,
+    trial: impl Fn(&[f64]) -> Trial + Sync,
+    mut progress: impl FnMut(Progress),
+) -> Result<Rounds<'a>, Error> {
+    let mut rounds = Rounds::new(question, effort.net_alone);
     while rounds.trials() < effort.trials {
         let points = rounds.next();
         let trials = batch::run(folder, &rounds.name(), points.len(), effort, |number| {
-            Trial::of(question, &points[number])
+            trial(&points[number])
         })?;
         rounds.take(&points, trials);
         progress(Progress { trials: rounds.trials(), of: effort.trials, best: rounds.best() });
     }
-    stories::of(question, folder, effort, &rounds)
+    Ok(rounds)
 }

@@ -103,7 +103,7 @@ impl<'a> Rounds<'a> {
         elite.begun += 1;
         self.begun += 1;
         let seed = self.question.seed.wrapping_mul(1_000_003).wrapping_add(self.begun);
-        let climb = Climb::begin(&elite.point, &self.free, elite.trial.aim(), seed);
+        let climb = Climb::begin(elite, &self.free, seed);
         let begins = climb.is_some();
         self.climbs.extend(climb);
         begins
