@@ -25,6 +25,9 @@ mod linked;
 mod mistakes;
 mod momentum;
 mod pilot;
+mod recovered;
+#[path = "../recovery/mod.rs"]
+mod recovery;
 mod resolution;
 mod rigs;
 mod ropes;

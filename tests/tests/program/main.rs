@@ -7,4 +7,5 @@ mod cost;
 mod crossing;
 mod determinism;
 mod replay;
+mod search;
 mod studies;

@@ -259,20 +259,27 @@ parts = ["fluke"]
             change(&mut ending);
             Distance { terms: terms(&seen(), &ending), mirrored: false }.sum()
         };
-        let close = |got: f64, wanted: f64| assert!((got - wanted).abs() < 1e-12, "{got}, {wanted}");
+        let close =
+            |got: f64, wanted: f64| assert!((got - wanted).abs() < 1e-12, "{got}, {wanted}");
         close(changed(&|_| {}), 0.0);
         // No rope at the flipper: 3 x 0.8 for presence, 1 turn short at 0.5 each. Rope on the body may be on its way there.
-        close(changed(&|ending| {
-            ending.sites.pop();
-        }), 2.4 + 2.0);
+        close(
+            changed(&|ending| {
+                ending.sites.pop();
+            }),
+            2.4 + 2.0,
+        );
         close(changed(&|ending| ending.sites[1].wraps = 2.3), 0.6);
         close(changed(&|ending| ending.sites[1].tight = false), 0.5);
         close(changed(&|ending| ending.sites.push(at("mouth", 0.0, false))), 2.4);
         close(changed(&|ending| ending.sites.push(at("peduncle", 0.0, false))), 0.9);
         close(changed(&|ending| ending.sites.push(at("left_fluke", 1.0, true))), 0.0);
-        close(changed(&|ending| {
-            ending.strands[0].places.pop();
-        }), 1.5);
+        close(
+            changed(&|ending| {
+                ending.strands[0].places.pop();
+            }),
+            1.5,
+        );
         close(changed(&|ending| ending.behind_m = 10.0), 2.0_f64.ln() / 0.4);
         close(changed(&|ending| ending.behind_m = 80.0), 2.0_f64.ln() / 0.4);
         close(changed(&|ending| ending.strands[0].ends[0] = Some(RopeEnd::Trap)), 1.0);

@@ -8,9 +8,6 @@ use crate::study::encounter::Encounter;
 
 use super::question::Question;
 
-/// Neighbours of a story.
-pub(super) const NEIGHBOURS: usize = 12;
-
 /// Prior of the scale of friction.
 const FRICTION: &str = "friction.attributes.coefficient_scale";
 

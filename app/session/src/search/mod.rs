@@ -13,6 +13,7 @@
 //! | `rounds` | which points come next: the net, then a generation of every local search |
 //! | `elites`, `climb` | the best trial of every kind of story; a local search from one of them |
 //! | `batch`, `folder` | trials of a round on threads and shards, kept round by round |
+//! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
 //!
 //! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
@@ -32,6 +33,7 @@ pub mod stories;
 #[cfg(test)]
 mod tests;
 mod trial;
+pub mod written;
 
 use crate::error::Error;
 use crate::study::Shard;
@@ -40,8 +42,8 @@ pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
 pub use folder::Folder;
 pub use question::Question;
-pub use stories::{Stories, Story};
 use rounds::Rounds;
+pub use stories::{Stories, Story};
 use trial::Trial;
 
 /// How long to search, and with what.
@@ -53,6 +55,8 @@ pub struct Effort {
     pub threads: usize,
     /// Which part of every round is run here.
     pub shard: Shard,
+    /// Neighbours run of every story that is like the observation.
+    pub neighbours: usize,
     /// Whether only draws of the priors are tried, without local searches: for comparison.
     pub net_alone: bool,
 }

@@ -11,7 +11,7 @@ use super::batch;
 use super::distance::LIKE;
 use super::elites::{Elite, Kind};
 use super::folder::Folder;
-use super::jitter::{NEIGHBOURS, neighbour};
+use super::jitter::neighbour;
 use super::question::Question;
 use super::rounds::Rounds;
 use super::trial::Trial;
@@ -19,7 +19,7 @@ use super::trial::Trial;
 /// Stories told at most.
 const TOLD: usize = 12;
 
-/// Of these at most neighbours are run.
+/// Of this many, neighbours are run.
 const JITTERED: usize = 6;
 
 /// A story of which fewer neighbours end alike hangs on chance.
@@ -105,7 +105,8 @@ pub(super) fn of(
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
     let mut stories: Vec<Story> =
         elites.iter().take(TOLD).map(|(kind, elite)| story(question, kind, elite)).collect();
-    for story in stories.iter_mut().filter(|story| story.is_like()).take(JITTERED) {
+    let jittered = if effort.neighbours == 0 { 0 } else { JITTERED };
+    for story in stories.iter_mut().filter(|story| story.is_like()).take(jittered) {
         story.alike = Some(alike(question, folder, effort, &story.point)?);
     }
     let net = &rounds.net;
@@ -163,11 +164,11 @@ fn alike(
         hasher.update(&share.to_le_bytes());
     }
     let round = format!("neighbours-{}", &hasher.finalize().to_hex()[..16]);
-    let trials = batch::run(folder, &round, NEIGHBOURS, effort, |number| {
+    let trials = batch::run(folder, &round, effort.neighbours, effort, |number| {
         Trial::of_encounter(question, &neighbour(question, point, number))
     })?;
     let like = trials.iter().filter(|trial| trial.distance <= LIKE).count();
-    #[expect(clippy::cast_precision_loss, reason = "a dozen")]
-    let share = like as f64 / NEIGHBOURS as f64;
+    #[expect(clippy::cast_precision_loss, reason = "a few")]
+    let share = like as f64 / effort.neighbours as f64;
     Ok(share)
 }

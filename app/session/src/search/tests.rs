@@ -73,7 +73,8 @@ struct Place(PathBuf);
 
 impl Place {
     fn new(name: &str) -> Self {
-        let root = std::env::temp_dir().join(format!("endline-search-{name}-{}", std::process::id()));
+        let root =
+            std::env::temp_dir().join(format!("endline-search-{name}-{}", std::process::id()));
         let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
         for folder in ["friction", "knots", "ropes", "sites"] {
             fs::create_dir_all(root.join(folder)).unwrap();
@@ -115,7 +116,7 @@ impl Drop for Place {
 }
 
 fn effort(trials: usize, threads: usize, [part, of]: [u32; 2]) -> Effort {
-    Effort { trials, threads, shard: Shard { part, of }, net_alone: false }
+    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net_alone: false }
 }
 
 /// Three kinds of story, each with a narrow pit of its own; only that of the head goes down to nothing.
@@ -200,10 +201,12 @@ fn another_search_does_not_mix_with_what_a_folder_holds() {
     let question = place.question(1);
     let folder = place.folder("results", &question);
     found(&question, &folder, &effort(40, 1, [0, 1]));
-    fs::write(place.0.join("observations/made-up.toml"), OBSERVATION.replace("body", "head")).unwrap();
+    fs::write(place.0.join("observations/made-up.toml"), OBSERVATION.replace("body", "head"))
+        .unwrap();
     let error = Folder::open(&folder.path, &place.question(1)).unwrap_err().to_string();
     assert!(error.contains("choose another folder with --out"), "{error}");
     fs::write(folder.path.join("net-00000.0of1"), b"not a round").unwrap();
-    let error = rounds_of(&question, &folder, &effort(40, 1, [0, 1]), made_up, |_| {}).err().unwrap();
+    let error =
+        rounds_of(&question, &folder, &effort(40, 1, [0, 1]), made_up, |_| {}).err().unwrap();
     assert!(error.to_string().contains("is damaged"), "{error}");
 }

@@ -31,6 +31,9 @@ pub(super) struct SearchArgs {
     /// Runs at most; give more to go on with a search that is finished.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     trials: usize,
+    /// Neighbours to run of every story that ends alike; 0 runs none.
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    neighbours: usize,
     /// Write the best stories as scenario, recording and picture.
     #[arg(long, value_name = "N", default_value_t = 0)]
     keep: usize,
@@ -64,6 +67,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         trials: args.trials,
         threads: args.threads.map_or_else(all_cores, usize::from),
         shard: args.shard,
+        neighbours: args.neighbours,
         net_alone: args.net_alone,
     };
     let stories = found(&question, &folder, &effort, told())?;

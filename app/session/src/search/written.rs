@@ -1,0 +1,124 @@
+//! An observation written from a run's ending: what somebody who came upon the whale might have told of it.
+//!
+//! It serves to try a search on an encounter that is known: the ending is blurred, so that the search cannot lean on figures that
+//! nobody could see.
+
+use endline_gear::{PathPlace, RopeEnd, Site};
+
+use super::ending::Ending;
+use crate::study::draw;
+
+/// How sure an observer is of rope that is there, or not there.
+const SURE: f64 = 0.9;
+
+/// Wraps are told to this either way [turns].
+const WRAPS: f64 = 0.25;
+
+/// Wraps are misjudged by up to this [turns].
+const WRAPS_OFF: f64 = 0.15;
+
+/// Lengths are told to this share either way, and misjudged by as much.
+const LENGTH: f64 = 0.25;
+
+/// Longest path that somebody would tell.
+const PATH: usize = 4;
+
+/// The text of an observation file; `seed` decides what is misjudged, and which site nobody could see.
+#[must_use]
+pub fn observation_text(ending: &Ending, encounters: &str, seed: u64) -> String {
+    let chances = draw::sobol_point(seed, 0, Site::SINGLE.len() + 2);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place in a list"
+    )]
+    let hidden = Site::SINGLE[(chances[0] * Site::SINGLE.len() as f64) as usize];
+    let seen = Site::SINGLE.into_iter().zip(&chances[2..]).filter(|(site, _)| *site != hidden);
+    let sites: String =
+        seen.map(|(site, chance)| one_site(ending, site, 2.0 * chance - 1.0)).collect();
+    format!(
+        "format = 1\nkind = \"observation\"\nname = \"A simulated ending, blurred\"\nsource = \"a run\"\nconfidence = \"estimate\"\n\
+         encounters = \"{encounters}\"\n{sites}{}{}\n[hidden]\nparts = [\"{}\"]\n",
+        path(ending),
+        trailing(ending, 2.0 * chances[1] - 1.0),
+        hidden.name()
+    )
+}
+
+fn one_site(ending: &Ending, site: Site, off: f64) -> String {
+    let head = format!("\n[[site]]\npart = \"{}\"\n", site.name());
+    let Some(at) = ending.at(site) else { return format!("{head}present = {:.2}\n", 1.0 - SURE) };
+    let wraps = (at.wraps + WRAPS_OFF * off).max(0.0);
+    let range = [(wraps - WRAPS).max(0.0), wraps + WRAPS];
+    let [least, most] = range;
+    format!("{head}present = {SURE}\nwraps = [{least:.2}, {most:.2}]\ntight = {}\n", at.tight)
+}
+
+/// The path of the strand that passes most places, where it is short enough to be told.
+fn path(ending: &Ending) -> String {
+    let longest = ending.strands.iter().max_by_key(|strand| strand.places.len());
+    let mut sites: Vec<PathPlace> = longest
+        .map(|strand| {
+            strand.places.iter().map(|place| PathPlace { side: None, ..*place }).collect()
+        })
+        .unwrap_or_default();
+    sites.dedup();
+    if sites.is_empty() || sites.len() > PATH {
+        return String::new();
+    }
+    let order: Vec<String> = sites.iter().map(|place| format!("\"{place}\"")).collect();
+    format!("\n[path]\norder = [{}]\n", order.join(", "))
+}
+
+fn trailing(ending: &Ending, off: f64) -> String {
+    let told = ending.behind_m * (1.0 + LENGTH * off);
+    let (least, most) = (told * (1.0 - LENGTH), told * (1.0 + LENGTH));
+    let ends: Vec<String> = ending
+        .strands
+        .iter()
+        .flat_map(|strand| strand.ends)
+        .flatten()
+        .map(|end: RopeEnd| format!("\"{}\"", end.name()))
+        .collect();
+    format!(
+        "\n[trailing]\nlength = [\"{least:.1} m\", \"{most:.1} m\"]\nends = [{}]\n",
+        ends.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use endline_gear::Observation;
+
+    use super::super::distance::{Distance, LIKE};
+    use super::super::ending::{AtSite, Strand};
+    use super::*;
+
+    /// What is written reads, and the ending it was written from is like it, however it was blurred.
+    #[test]
+    fn an_ending_is_like_what_is_told_of_it() {
+        let at = |site, wraps, tight| AtSite { site, wraps, tight };
+        let places =
+            ["left_flipper", "body:left", "peduncle"].map(|name| PathPlace::named(name).unwrap());
+        let strand =
+            Strand { places: places.to_vec(), ends: [Some(RopeEnd::Trap), Some(RopeEnd::Buoy)] };
+        let ending = Ending {
+            sites: vec![
+                at(Site::Body, 0.8, true),
+                at(Site::LeftFlipper, 1.1, true),
+                at(Site::Peduncle, 0.3, false),
+            ],
+            strands: vec![strand],
+            behind_m: 22.0,
+            twist: 0.0,
+        };
+        for seed in 0..64 {
+            let text = observation_text(&ending, "met-single", seed);
+            let seen = Observation::read("blurred.toml", &text)
+                .unwrap_or_else(|problems| panic!("{text}\n{problems:?}"));
+            let distance = Distance::of(&seen, &ending).sum();
+            assert!(distance < 0.2 * LIKE, "{distance}: {text}");
+            assert!(Distance::of(&seen, &Ending::default()).sum() > LIKE, "{text}");
+        }
+    }
+}

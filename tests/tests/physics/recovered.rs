@@ -1,0 +1,13 @@
+//! A search finds an encounter again of which it is told the ending alone, blurred and with a part hidden.
+
+use crate::recovery::{hide, host, opened, recover};
+
+/// `cargo bench -p endline-tests --bench recovery` does the same with twenty encounters.
+#[test]
+fn a_hidden_encounter_is_found_by_what_it_left() {
+    let host = host();
+    let hidden = hide(&opened(&host), 1);
+    let [hidden] = hidden.as_slice() else { panic!("no draw ends entangled") };
+    let found = recover(hidden, 0, 64, &host);
+    assert!(found.nearest <= 1.0, "{}: {}", hidden.class, found.nearest);
+}

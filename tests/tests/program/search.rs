@@ -1,0 +1,94 @@
+//! A search as its users call it: located errors, and the same stories after an interruption and for any threads.
+
+use std::fs;
+
+use crate::common::{Place, library};
+
+const OBSERVATION: &str = r#"format = 1
+kind = "observation"
+name = "Seen"
+source = "a test"
+confidence = "estimate"
+encounters = "small"
+[[site]]
+part = "body"
+wraps = [1, 2]
+"#;
+
+/// Encounters with a small rig without a whale: what is checked here is the running, not the physics.
+const STUDY: &str = r#"format = 1
+kind = "study"
+name = "Small"
+scenario = "small-rig.toml"
+encounters = 10
+baseline = "one"
+[[option]]
+id = "one"
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+"#;
+
+/// The shipped rig of studies, short and coarse, without its whale, in a library of the test's own.
+fn place(name: &str) -> Place {
+    let place = Place::new(name);
+    let studies = place.library().join("studies");
+    let scenario = fs::read_to_string(library().join("scenarios/study-endline-held.toml")).unwrap();
+    let (gear, _) = scenario.split_once("[whale]").unwrap();
+    let gear = gear
+        .replace("duration = \"660 s\"", "duration = \"0.2 s\"")
+        .replace("rope_nodes = 500", "rope_nodes = 12")
+        .replace("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "");
+    fs::write(studies.join("small-rig.toml"), gear).unwrap();
+    fs::write(studies.join("small.toml"), STUDY).unwrap();
+    place.write("seen.toml", OBSERVATION);
+    place
+}
+
+#[test]
+fn a_search_goes_on_where_it_stood_and_says_plainly_what_it_did_not_find() {
+    let place = place("search");
+    let call = |out: &str, trials: &str, threads: &str| {
+        let arguments = [
+            "search",
+            "seen.toml",
+            "--out",
+            out,
+            "--trials",
+            trials,
+            "--threads",
+            threads,
+            "--eager",
+        ];
+        place.endline(&arguments).done()
+    };
+    let whole = call("whole", "96", "2");
+    assert!(whole.stdout.contains("Not found: no run ends like `seen`"), "{whole}");
+    assert!(whole.stdout.contains("0 of 96 draws from the priors end like it"), "{whole}");
+    call("parts", "32", "1");
+    fs::remove_file(place.path("parts/stories.json")).unwrap();
+    call("parts", "96", "1");
+    let stories = |out: &str| fs::read(place.path(out).join("stories.json")).unwrap();
+    assert_eq!(stories("parts"), stories("whole"));
+}
+
+#[test]
+fn mistakes_are_told_where_they_stand_all_at_once() {
+    let place = place("search-mistakes");
+    let wrong = OBSERVATION.replace("\"body\"", "\"bodi\"").replace("[1, 2]", "[2, 1]");
+    place.write("wrong.toml", &wrong);
+    place.endline(&["search", "wrong.toml"]).fails(
+        1,
+        &[
+            "wrong.toml:8:8",
+            "`bodi` is no value of `part`",
+            "wrong.toml:9:9",
+            "no two rising values",
+        ],
+    );
+    place.endline(&["check", "wrong.toml"]).fails(1, &["no kind"]);
+    place.write("lost.toml", &OBSERVATION.replace("\"small\"", "\"smal\""));
+    place.endline(&["search", "lost.toml"]).fails(1, &["lost.toml:6", "no `smal.toml`", "small"]);
+    place.endline(&["search", "no-such"]).fails(1, &["no `no-such.toml` in", "observations"]);
+    place.endline(&["search", "seen.toml", "--encounters", "weak-links"]).fails(1, &["7 options"]);
+}
