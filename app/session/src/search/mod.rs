@@ -15,6 +15,7 @@
 //! | `batch`, `folder` | trials of a round on threads and shards, kept round by round |
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
+//! | `page` | the report |
 //!
 //! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
 //! kept and goes on, and any number of threads and shards finds the same. How to use it: `docs/search.md`.
@@ -27,6 +28,7 @@ pub mod ending;
 mod folder;
 mod jitter;
 mod order;
+pub mod page;
 mod question;
 mod rounds;
 pub mod stories;

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use endline_session::search::{
-    Effort, Folder, LIKE, Progress, Question, Stories, Story, search as found,
+    Effort, Folder, LIKE, Progress, Question, Stories, Story, page, search as found,
 };
 use endline_session::study::encounter::Encounter;
 use endline_session::study::{REPLAY_HZ, Shard};
@@ -76,6 +76,8 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;
         keep(&folder.path.join(format!("story-{}", number + 1)), &played)?;
     }
+    let report = page::write(&question, &folder, &stories)?;
+    output::note(&format!("the report is {}", report.display()));
     output::print(&if args.json { stories.json() + "\n" } else { words(&stories) })?;
     Ok(ExitCode::SUCCESS)
 }

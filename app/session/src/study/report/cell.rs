@@ -1,7 +1,7 @@
 //! Tables of the report as plain text: `assets/report/parts.html` writes them as HTML and escapes every text.
 
 /// A table with a caption.
-pub(super) struct Table {
+pub(crate) struct Table {
     /// What it shows.
     pub caption: String,
     /// Heading of each column.
@@ -11,13 +11,13 @@ pub(super) struct Table {
 }
 
 /// A cell: its lines of text.
-pub(super) struct Cell {
+pub(crate) struct Cell {
     /// From the top.
     pub lines: Vec<Line>,
 }
 
 /// A line of text and how it is set.
-pub(super) enum Line {
+pub(crate) enum Line {
     /// As running text.
     Plain(String),
     /// Smaller: a source.
@@ -30,7 +30,7 @@ pub(super) enum Line {
 
 impl Table {
     /// A table with these headings.
-    pub(super) fn new(caption: impl Into<String>, headings: &[&str], rows: Vec<Vec<Cell>>) -> Self {
+    pub(crate) fn new(caption: impl Into<String>, headings: &[&str], rows: Vec<Vec<Cell>>) -> Self {
         let headings = headings.iter().map(ToString::to_string).collect();
         Self { caption: caption.into(), headings, rows }
     }
@@ -38,7 +38,7 @@ impl Table {
 
 impl Cell {
     /// Plain lines.
-    pub(super) fn lines(lines: impl IntoIterator<Item = String>) -> Self {
+    pub(crate) fn lines(lines: impl IntoIterator<Item = String>) -> Self {
         Self { lines: lines.into_iter().map(Line::Plain).collect() }
     }
 }

@@ -1,7 +1,7 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
 mod bundle;
-mod cell;
+pub(crate) mod cell;
 mod changed;
 mod curves;
 mod figures;
@@ -13,6 +13,7 @@ mod results;
 mod svg;
 mod words;
 
+pub(crate) use page::STYLE;
 use std::path::PathBuf;
 
 use crate::error::Error;

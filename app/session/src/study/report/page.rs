@@ -10,7 +10,7 @@ use super::words::event_words;
 use super::{bundle, changed, curves, figures, held, inputs, results};
 
 /// Look of the page.
-const STYLE: &str =
+pub(crate) const STYLE: &str =
     include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/report/report.css"));
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.

@@ -1,0 +1,238 @@
+//! The report of a search as one HTML page: the data of `assets/report/search.html`.
+
+use std::collections::BTreeSet;
+
+use askama::Template;
+use endline_gear::{Observation, SeenSite};
+
+use crate::error::Error;
+use crate::save;
+use crate::study::report::STYLE;
+use crate::study::report::cell::{Cell, Line, Table};
+
+use super::distance::LIKE;
+use super::folder::Folder;
+use super::question::Question;
+use super::stories::{Stories, Story};
+
+/// Stories that are told one by one.
+const TOLD: usize = 6;
+
+/// All that the page shows. The template escapes texts.
+#[derive(Template)]
+#[template(path = "search.html")]
+struct Page<'a> {
+    style: &'static str,
+    name: &'a str,
+    notes: &'a str,
+    source: &'a str,
+    answer: String,
+    like: f64,
+    seen: Table,
+    stories: Table,
+    told: Vec<Told>,
+    common: Option<Table>,
+    trials: usize,
+    encounters: &'a str,
+    net: usize,
+    net_like: usize,
+    version: &'static str,
+    hash: &'a str,
+}
+
+/// A story with its terms and what was drawn.
+struct Told {
+    heading: String,
+    picture: Option<String>,
+    terms: Table,
+    drawn: Table,
+}
+
+/// Writes `report.html` into the folder of a search, with the pictures of stories that are kept there.
+///
+/// # Errors
+/// Where it cannot be written.
+pub fn write(
+    question: &Question,
+    folder: &Folder,
+    stories: &Stories,
+) -> Result<std::path::PathBuf, Error> {
+    let file = folder.path.join("report.html");
+    let failed = |error: String| Error::at(&file, format!("cannot be written: {error}"));
+    let html =
+        Page::of(question, folder, stories).render().map_err(|error| failed(error.to_string()))?;
+    save::atomically(&file, html.as_bytes()).map_err(|error| failed(error.to_string()))?;
+    Ok(file)
+}
+
+impl<'a> Page<'a> {
+    fn of(question: &'a Question, folder: &Folder, stories: &'a Stories) -> Self {
+        let observation = &question.observation;
+        let told = stories.stories.iter().enumerate().take(TOLD);
+        Self {
+            style: STYLE,
+            name: &observation.name,
+            notes: &observation.notes,
+            source: &observation.source,
+            answer: answer(stories),
+            like: LIKE,
+            seen: seen(observation),
+            stories: table_of(stories),
+            told: told.map(|(number, story)| one(folder, number + 1, story)).collect(),
+            common: common(stories),
+            trials: stories.trials,
+            encounters: &stories.encounters,
+            net: stories.net,
+            net_like: stories.net_like,
+            version: crate::VERSION,
+            hash: &question.hash[..16],
+        }
+    }
+}
+
+/// What was found, in a sentence.
+fn answer(stories: &Stories) -> String {
+    let like = stories.stories.iter().filter(|story| story.is_like()).count();
+    let fragile =
+        stories.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
+    match like {
+        0 => format!("Not found in {} runs: no story ends like what was seen.", stories.trials),
+        1 if fragile == 1 => "One kind of story ends like this, and hangs on chance.".to_owned(),
+        1 => "One kind of story ends like this.".to_owned(),
+        _ => format!("{like} kinds of story end like this; {fragile} of them hang on chance."),
+    }
+}
+
+/// What was seen, site by site, then of the rope as a whole.
+fn seen(observation: &Observation) -> Table {
+    let range = |range: Option<[f64; 2]>| {
+        range.map_or(String::new(), |[least, most]| format!("{least} to {most}"))
+    };
+    let site = |seen: &SeenSite| {
+        let tight = seen.tight.map_or("", |tight| if tight { "tight" } else { "slack" });
+        let sure = 100.0 * seen.present.max(1.0 - seen.present);
+        let there = if seen.present > 0.5 { "rope" } else { "no rope" };
+        [
+            seen.site.name().replace('_', " "),
+            format!("{there}, {sure:.0} % sure"),
+            range(seen.wraps),
+            tight.to_owned(),
+            seen.seen_by.clone(),
+        ]
+        .map(Cell::from)
+        .into()
+    };
+    let mut rows: Vec<Vec<Cell>> = observation.sites.iter().map(site).collect();
+    let mut whole = |what: &str, text: String| {
+        if !text.is_empty() {
+            rows.push([what, &text, "", "", ""].map(Cell::from).into());
+        }
+    };
+    let places: Vec<String> = observation.path.iter().map(ToString::to_string).collect();
+    whole("path", places.join(", "));
+    let trailing = observation.trailing.as_ref();
+    let length = trailing.and_then(|trailing| trailing.length_m);
+    whole("rope behind the whale", length.map_or(String::new(), |[a, b]| format!("{a} to {b} m")));
+    let ends = trailing.map(|trailing| &trailing.ends);
+    let ends: Vec<&str> = ends.into_iter().flatten().map(|end| end.words()).collect();
+    whole("its ends", ends.join(", "));
+    whole("twists", range(observation.twist));
+    let hidden: Vec<&str> = observation.hidden.iter().map(|site| site.name()).collect();
+    whole("hidden from view", hidden.join(", ").replace('_', " "));
+    Table::new("What was seen", &["where", "what", "wraps", "tightness", "seen by"], rows)
+}
+
+/// The stories, a line each.
+fn table_of(stories: &Stories) -> Table {
+    let row = |(number, story): (usize, &Story)| {
+        [
+            format!("{}", number + 1),
+            format!("{:.2}", story.distance),
+            story.first_part.replace('_', " "),
+            story.acts.join(", "),
+            story.course.to_owned(),
+            if story.mirrored { "yes" } else { "" }.to_owned(),
+            alike(story),
+        ]
+        .map(Cell::from)
+        .into()
+    };
+    let rows = stories.stories.iter().enumerate().map(row).collect();
+    let headings = [
+        "",
+        "distance",
+        "first touched",
+        "acts",
+        "course",
+        "mirrored",
+        "neighbours that end alike",
+    ];
+    Table::new("Stories, the nearest first", &headings, rows)
+}
+
+fn alike(story: &Story) -> String {
+    let fragile = if story.is_fragile() { ", fragile" } else { "" };
+    story.alike.map_or(String::new(), |alike| format!("{:.0} %{fragile}", 100.0 * alike))
+}
+
+fn one(folder: &Folder, number: usize, story: &Story) -> Told {
+    let picture = format!("story-{number}/picture.png");
+    let terms = story
+        .terms
+        .iter()
+        .map(|(cost, says)| vec![format!("{cost:.2}").into(), says.clone().into()]);
+    let drawn = story.drawn.iter().map(|(name, text)| {
+        vec![Cell { lines: vec![Line::Code(name.clone())] }, text.clone().into()]
+    });
+    Told {
+        heading: format!(
+            "Story {number}: first the {}, {}",
+            story.first_part.replace('_', " "),
+            story.acts.join(", ")
+        ),
+        picture: folder.path.join(&picture).is_file().then_some(picture),
+        terms: Table::new("What is different from what was seen", &["cost", ""], terms.collect()),
+        drawn: Table::new("The encounter", &["drawn", ""], drawn.collect()),
+    }
+}
+
+/// What the stories that are like the observation share, quantity by quantity; `None` with fewer than two.
+fn common(stories: &Stories) -> Option<Table> {
+    let like: Vec<&Story> = stories.stories.iter().filter(|story| story.is_like()).collect();
+    let first = like.first().filter(|_| like.len() > 1)?;
+    let mut rows: Vec<Vec<Cell>> = vec![shared(
+        "first touched",
+        like.iter().map(|story| story.first_part.replace('_', " ")).collect(),
+    )];
+    for (name, _) in &first.drawn {
+        let of = |story: &&Story| {
+            let found = story.drawn.iter().find(|(other, _)| other == name);
+            found.map(|(_, text)| text.clone()).unwrap_or_default()
+        };
+        rows.push(shared(name, like.iter().map(of).collect()));
+    }
+    Some(Table::new(
+        "Stories that end like what was seen",
+        &["", "in common", "tells them apart"],
+        rows,
+    ))
+}
+
+/// A quantity: its one value, its range, or its several words.
+fn shared(name: &str, values: BTreeSet<String>) -> Vec<Cell> {
+    let number = |text: &String| {
+        let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+        number.parse::<f64>().ok().map(|number| (number, unit.to_owned()))
+    };
+    let numbers: Option<Vec<(f64, String)>> = values.iter().map(number).collect();
+    let [common, apart] = match numbers {
+        _ if values.len() == 1 => [values.into_iter().collect(), String::new()],
+        Some(numbers) => {
+            let least = numbers.iter().map(|(number, _)| *number).fold(f64::INFINITY, f64::min);
+            let most = numbers.iter().map(|(number, _)| *number).fold(f64::NEG_INFINITY, f64::max);
+            [String::new(), format!("{least:.2} to {most:.2} {}", numbers[0].1)]
+        }
+        None => [String::new(), values.into_iter().collect::<Vec<_>>().join(", ")],
+    };
+    [name.to_owned(), common, apart].map(Cell::from).into()
+}
