@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Diagnostic, Library, Sources};
+use endline_gear::{Diagnostic, Document, Library, Sources};
 
 use crate::cases::Cases;
 use crate::error::Error;
@@ -96,7 +96,7 @@ impl Checked {
         if parent == "studies" {
             return self.study(path, library, host);
         }
-        if parent == "observations" {
+        if parent == "observations" || is_observation(path) {
             return self.observation(path, library, host);
         }
         if endline_gear::Kind::in_folder(&parent).is_none() {
@@ -191,6 +191,12 @@ impl Checked {
     fn tell(&mut self, path: &Path, message: &str, help: &str) {
         self.problems.push(Diagnostic::of_file(path.display().to_string(), message, help));
     }
+}
+
+/// Whether a file says that it is an observation: these lie anywhere.
+fn is_observation(path: &Path) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    Document::parse(&text).is_ok_and(|file| file.get("kind").as_deref() == Some("observation"))
 }
 
 /// A library's problems name files within it; a user needs the way there.

@@ -95,7 +95,7 @@ impl Observation {
         let hidden = fields.table("hidden").map(|table| seen::hidden(&table)).unwrap_or_default();
         fields.finish();
         seen::check_once(&sites, &hidden, problems);
-        if sites.is_empty() {
+        if fields.tables("site").is_empty() {
             fields.missing("site", "write under [[site]] where rope was seen");
         }
         Some(Self {

@@ -50,6 +50,8 @@ fn a_search_goes_on_where_it_stood_and_says_plainly_what_it_did_not_find() {
     let place = place("search");
     let call = |out: &str, trials: &str, threads: &str| {
         let arguments = [
+            "--library",
+            "gear-library",
             "search",
             "seen.toml",
             "--out",
@@ -77,7 +79,10 @@ fn mistakes_are_told_where_they_stand_all_at_once() {
     let place = place("search-mistakes");
     let wrong = OBSERVATION.replace("\"body\"", "\"bodi\"").replace("[1, 2]", "[2, 1]");
     place.write("wrong.toml", &wrong);
-    place.endline(&["search", "wrong.toml"]).fails(
+    let call = |arguments: &[&str]| {
+        place.endline(&[["--library", "gear-library"].as_slice(), arguments].concat())
+    };
+    call(&["search", "wrong.toml"]).fails(
         1,
         &[
             "wrong.toml:8:8",
@@ -86,9 +91,11 @@ fn mistakes_are_told_where_they_stand_all_at_once() {
             "no two rising values",
         ],
     );
-    place.endline(&["check", "wrong.toml"]).fails(1, &["no kind"]);
+    call(&["check", "wrong.toml"])
+        .fails(1, &["wrong.toml:8:8", "wrong.toml:9:9", "2 of the problems are errors"]);
+    call(&["check", "seen.toml"]).done();
     place.write("lost.toml", &OBSERVATION.replace("\"small\"", "\"smal\""));
-    place.endline(&["search", "lost.toml"]).fails(1, &["lost.toml:6", "no `smal.toml`", "small"]);
-    place.endline(&["search", "no-such"]).fails(1, &["no `no-such.toml` in", "observations"]);
-    place.endline(&["search", "seen.toml", "--encounters", "weak-links"]).fails(1, &["7 options"]);
+    call(&["search", "lost.toml"]).fails(1, &["lost.toml:6", "no `smal.toml`", "small"]);
+    call(&["search", "no-such"]).fails(1, &["no `no-such.toml` in", "observations"]);
+    call(&["search", "seen.toml", "--encounters", "weak-links"]).fails(1, &["7 options"]);
 }
