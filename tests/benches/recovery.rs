@@ -1,6 +1,6 @@
 //! Blind recovery in numbers: how many hidden encounters a search finds again.
 //!
-//! ```sh
+//! ```text
 //! cargo bench -p endline-tests --bench recovery -- 20 400      # hidden encounters, trials of each search
 //! ```
 

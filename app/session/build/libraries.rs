@@ -12,8 +12,8 @@ use toml::{Table, Value};
 /// Crates all of whose libraries decide a run, as folders of the workspace.
 const CRATES: [&str; 3] = ["app/sim", "gear-library", "plugins/sdk"];
 
-/// Libraries of the session that decide a run: the draws of a study and the functions they use.
-pub const DECIDING: [&str; 3] = ["libm", "sobol_burley", "statrs"];
+/// Libraries of the session that decide a run: the draws of a study, the local searches of a search, and the functions they use.
+pub const DECIDING: [&str; 4] = ["fcmaes-core", "libm", "sobol_burley", "statrs"];
 
 /// Libraries of the session that only store, show or load.
 /// A new dependency of the session belongs here or in [`DECIDING`]; a test asks for it.
