@@ -1,5 +1,7 @@
 //! A search as its users call it: located errors, and the same stories after an interruption and for any threads.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
 use std::fs;
 
 use crate::common::{Place, library};

@@ -18,7 +18,7 @@ pub struct Kind {
     pub first_part: String,
     /// Drawn words of the whale's behaviour, such as `swim` and `barrel-roll-away`.
     pub acts: Vec<String>,
-    /// Quarter of the compass against the current: 0 with it, 2 against it; `None` where no heading is drawn.
+    /// Quarter of the compass from where the current flows on clockwise: 0 with it, 2 against it; `None` where no heading is drawn.
     pub quarter: Option<u8>,
 }
 

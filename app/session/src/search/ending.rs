@@ -93,10 +93,10 @@ impl Ending {
     }
 }
 
-/// Rope at a single site.
+/// Rope at a single site; wraps about the mouth are those about the head.
 fn at_site(site: Site, whale: &WhaleSummary, routes: &[Route]) -> Option<AtSite> {
-    let part = BodyPart::ALL.into_iter().find(|part| Site::of_part(*part) == site);
-    let region = whale.regions.get(part.unwrap_or(BodyPart::Head) as usize)?;
+    let own = BodyPart::ALL.into_iter().find(|part| Site::of_part(*part) == site);
+    let region = whale.regions.get(own.unwrap_or(BodyPart::Head) as usize)?;
     let wraps = most_wraps(region);
     let is_there = match site {
         Site::Mouth => whale.lodged_in_mouth,

@@ -147,8 +147,9 @@ fn story(question: &Question, kind: &Kind, elite: &Elite) -> Story {
 fn course(quarter: u8) -> &'static str {
     match quarter {
         0 => "with the current",
-        1 | 3 => "across the current",
-        _ => "against the current",
+        1 => "current from starboard",
+        2 => "against the current",
+        _ => "current from port",
     }
 }
 

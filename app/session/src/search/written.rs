@@ -39,7 +39,7 @@ pub fn observation_text(ending: &Ending, encounters: &str, seed: u64) -> String 
     format!(
         "format = 1\nkind = \"observation\"\nname = \"A simulated ending, blurred\"\nsource = \"a run\"\nconfidence = \"estimate\"\n\
          encounters = \"{encounters}\"\n{sites}{}{}\n[hidden]\nparts = [\"{}\"]\n",
-        path(ending),
+        path(ending, hidden),
         trailing(ending, 2.0 * chances[1] - 1.0),
         hidden.name()
     )
@@ -54,14 +54,15 @@ fn one_site(ending: &Ending, site: Site, off: f64) -> String {
     format!("{head}present = {SURE}\nwraps = [{least:.2}, {most:.2}]\ntight = {}\n", at.tight)
 }
 
-/// The path of the strand that passes most places, where it is short enough to be told.
-fn path(ending: &Ending) -> String {
+/// The path of the strand that passes most places, without the hidden one, where it is short enough to be told.
+fn path(ending: &Ending, hidden: Site) -> String {
     let longest = ending.strands.iter().max_by_key(|strand| strand.places.len());
     let mut sites: Vec<PathPlace> = longest
         .map(|strand| {
             strand.places.iter().map(|place| PathPlace { side: None, ..*place }).collect()
         })
         .unwrap_or_default();
+    sites.retain(|place| place.site != hidden);
     sites.dedup();
     if sites.is_empty() || sites.len() > PATH {
         return String::new();
