@@ -5,7 +5,7 @@
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
 use super::elites::Elite;
-use super::trial::Trial;
+use super::trial::{PROGRESS, Trial};
 
 /// Step at the start of a first search, as a share of the priors' ranges; each later one from the same kind begins with half of it.
 const STEP: f64 = 0.12;
@@ -15,9 +15,6 @@ const LEAST_STEP: f64 = 0.01;
 
 /// Generations without progress after which a search ends.
 const STALE: u32 = 5;
-
-/// Progress of less than this is none, and an aim below it is as good as none.
-pub(super) const PROGRESS: f64 = 0.05;
 
 /// Evaluations by which the strategy sets its damping; searches end long before.
 const EVALUATIONS: u64 = 1000;

@@ -7,9 +7,8 @@ use std::f64::consts::TAU;
 
 use crate::study::encounter::Encounter;
 
-use super::climb::PROGRESS;
 use super::question::Question;
-use super::trial::Trial;
+use super::trial::{PROGRESS, Trial};
 
 /// A kind of story: which part rope touched first, what the whale did before and then, and where it came from.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -37,6 +37,9 @@ pub struct Trial {
     pub state_hash: String,
 }
 
+/// Progress of less than this is none, and an aim below it is as good as none.
+pub(super) const PROGRESS: f64 = 0.05;
+
 /// Weight of the nearest moment of a run beside its end: where ends are equally far, a search follows what came near on the way.
 const ON_THE_WAY: f64 = 0.2;
 
