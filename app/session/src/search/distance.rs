@@ -156,8 +156,7 @@ fn order(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
     if seen.path.is_empty() {
         return;
     }
-    let edits_of = |places: &[_]| edits(&seen.path, places, &seen.hidden);
-    let strands = ending.strands.iter().map(|strand| edits_of(&strand.places));
+    let strands = ending.strands.iter().map(|strand| edits(&seen.path, &strand.places));
     let least = strands.min().unwrap_or(seen.path.len());
     let count = if least == 1 { "one place".to_owned() } else { format!("{least} places") };
     let says = format!("{count} of the rope's path off");
