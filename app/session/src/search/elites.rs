@@ -15,7 +15,7 @@ use super::trial::{PROGRESS, Trial};
 pub struct Kind {
     /// The part that rope touched first.
     pub first_part: String,
-    /// Drawn words of the whale's behaviour, such as `swim` and `barrel-roll-away`.
+    /// What the whale did of its own, then what it answered, such as `skim-feed` and `barrel-roll-away`.
     pub acts: Vec<String>,
     /// Quarter of the compass from where the current flows on clockwise: 0 with it, 2 against it; `None` where no heading is drawn.
     pub quarter: Option<u8>,
@@ -39,24 +39,24 @@ pub(super) struct Elites(pub(super) BTreeMap<Kind, Elite>);
 impl Kind {
     fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
         let encounter = Encounter::at_point(&question.opened, point);
-        let is_act = |name: &str| matches!(name, "behaviour" | "answer") || name.ends_with(".act");
         let quarter = encounter.number("heading").map(|heading| {
             let quarters = (heading / TAU * 4.0 + 0.5).rem_euclid(4.0);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 3")]
             let quarter = quarters as u8;
             quarter
         });
-        Self {
-            first_part: trial.first_part.clone(),
-            acts: encounter
-                .drawn
-                .iter()
-                .filter(|drawn| is_act(&drawn.name))
-                .map(|drawn| drawn.text.clone())
-                .collect(),
-            quarter,
-        }
+        Self { first_part: trial.first_part.clone(), acts: acts(&encounter), quarter }
     }
+}
+
+/// What the whale does of its own, then what it answers, then the acts of its pilot; `none` and `swim` are no acts.
+fn acts(encounter: &Encounter) -> Vec<String> {
+    let of = |is_it: fn(&str) -> bool| {
+        let drawn = encounter.drawn.iter().filter(move |drawn| is_it(&drawn.name));
+        drawn.map(|drawn| drawn.text.clone()).filter(|act| !matches!(act.as_str(), "none" | "swim"))
+    };
+    let pilot = of(|name| name.starts_with("whale.pilot.") && name.ends_with(".act"));
+    of(|name| name == "behaviour").chain(of(|name| name == "answer")).chain(pilot).collect()
 }
 
 impl Elites {

@@ -149,7 +149,7 @@ fn table_of(stories: &Stories) -> Table {
             format!("{}", number + 1),
             format!("{:.2}", story.distance),
             story.first_part.replace('_', " "),
-            story.acts.join(", "),
+            story.acts_in_words(),
             story.course.to_owned(),
             if story.mirrored { "yes" } else { "" }.to_owned(),
             alike(story),
@@ -188,7 +188,7 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Told {
         heading: format!(
             "Story {number}: first the {}, {}",
             story.first_part.replace('_', " "),
-            story.acts.join(", ")
+            story.acts_in_words()
         ),
         picture: folder.path.join(&picture).is_file().then_some(picture),
         terms: Table::new("What is different from what was seen", &["cost", ""], terms.collect()),

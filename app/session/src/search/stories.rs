@@ -70,6 +70,12 @@ pub struct Story {
 }
 
 impl Story {
+    /// What the whale did, in words.
+    #[must_use]
+    pub fn acts_in_words(&self) -> String {
+        if self.acts.is_empty() { "swims on".to_owned() } else { self.acts.join(", then ") }
+    }
+
     /// Whether it is like the observation.
     #[must_use]
     pub fn is_like(&self) -> bool {

@@ -132,6 +132,6 @@ fn one(number: usize, story: &Story) -> String {
         "{number:3}. {:.2}  first the {}; {}{course}{mirrored}{alike}\n{terms}",
         story.distance,
         story.first_part.replace('_', " "),
-        story.acts.join(", ")
+        story.acts_in_words()
     )
 }
