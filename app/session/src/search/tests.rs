@@ -1,11 +1,11 @@
 //! The search by itself, with trials that are calculated and not run.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::plugins::PluginHost;
 use crate::study::Shard;
+use crate::study::tests::Place;
 
 const OBSERVATION: &str = r#"format = 1
 kind = "observation"
@@ -39,80 +39,24 @@ choice = ["pp-3-8", "sink-3-8"]
 source = "assumed"
 "#;
 
-const SCENARIO: &str = r#"format = 1
-kind = "scenario"
-name = "Small rig"
-source = "made up"
-confidence = "estimate"
-duration = "0.2 s"
-rope_nodes = 8
-[site]
-item = "cape-cod-bay"
-[[fixture]]
-id = "foot"
-position = ["0 m", "0 m", "-24.6 m"]
-[[body]]
-id = "buoy"
-role = "buoy"
-position = ["2 m", "0 m", "0.2 m"]
-radius = "0.345 m"
-mass = "6 kg"
-volume = "172 L"
-drag_area = "0.187 m2"
-added_mass = 0.5
-[[line]]
-id = "endline"
-rope = "pp-3-8"
-from = "foot"
-to = "buoy"
-length = "30 m"
-"#;
-
-/// A library of its own with the question, removed at the end.
-struct Place(PathBuf);
-
-impl Place {
-    fn new(name: &str) -> Self {
-        let root =
-            std::env::temp_dir().join(format!("endline-search-{name}-{}", std::process::id()));
-        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
-        for folder in ["friction", "knots", "ropes", "sites"] {
-            fs::create_dir_all(root.join(folder)).unwrap();
-            for file in fs::read_dir(shipped.join(folder)).unwrap().map(Result::unwrap) {
-                if file.path().is_file() {
-                    fs::copy(file.path(), root.join(folder).join(file.file_name())).unwrap();
-                }
-            }
-        }
-        for (file, text) in [
-            ("scenarios/none.txt", ""),
-            ("studies/small.toml", SCENARIO),
-            ("studies/study.toml", STUDY),
-            ("observations/made-up.toml", OBSERVATION),
-        ] {
-            fs::create_dir_all(root.join(file).parent().unwrap()).unwrap();
-            fs::write(root.join(file), text).unwrap();
-        }
-        Self(root)
-    }
-
-    fn question(&self, seed: u64) -> Question {
-        let mut question =
-            Question::open("made-up", None, Some(&self.0), &PluginHost::empty()).unwrap();
-        question.seed = seed;
-        question
-    }
-
-    fn folder(&self, name: &str, question: &Question) -> Folder {
-        Folder::open(&self.0.join(name), question).unwrap()
-    }
+/// A question in a library of its own.
+fn place(name: &str) -> Place {
+    let place = Place::new(&format!("search-{name}"));
+    let library = place.library();
+    fs::create_dir_all(library.join("observations")).unwrap();
+    fs::write(library.join("studies/study.toml"), STUDY).unwrap();
+    fs::write(library.join("observations/made-up.toml"), OBSERVATION).unwrap();
+    place
 }
 
-impl Drop for Place {
-    fn drop(&mut self) {
-        // A folder that stays behind does no harm.
-        let _ = fs::remove_dir_all(&self.0);
-    }
+fn asked(place: &Place, seed: u64) -> Question {
+    let library = place.library();
+    let opened = Question::open("made-up", None, Some(&library), &PluginHost::empty());
+    Question { seed, ..opened.unwrap() }
+}
+
+fn folder_of(place: &Place, name: &str, question: &Question) -> Folder {
+    Folder::open(&place.0.join(name), question).unwrap()
 }
 
 fn effort(trials: usize, threads: usize, [part, of]: [u32; 2]) -> Effort {
@@ -149,13 +93,13 @@ fn found(question: &Question, folder: &Folder, effort: &Effort) -> Vec<(Vec<f64>
 
 #[test]
 fn threads_shards_kills_and_a_longer_search_change_nothing() {
-    let place = Place::new("same");
-    let question = place.question(1);
-    let whole = found(&question, &place.folder("whole", &question), &effort(600, 1, [0, 1]));
-    let folder = place.folder("threads", &question);
+    let place = place("same");
+    let question = asked(&place, 1);
+    let whole = found(&question, &folder_of(&place, "whole", &question), &effort(600, 1, [0, 1]));
+    let folder = folder_of(&place, "threads", &question);
     assert_eq!(found(&question, &folder, &effort(600, 4, [0, 1])), whole, "threads");
 
-    let folder = place.folder("shards", &question);
+    let folder = folder_of(&place, "shards", &question);
     let shards = std::thread::scope(|scope| {
         let one = |part| {
             let (question, folder) = (&question, &folder);
@@ -167,7 +111,7 @@ fn threads_shards_kills_and_a_longer_search_change_nothing() {
     assert!(shards.iter().all(|shard| *shard == whole), "shards");
 
     // Killed after some rounds, with one part of a round lost; then on with other shards than before.
-    let folder = place.folder("killed", &question);
+    let folder = folder_of(&place, "killed", &question);
     found(&question, &folder, &effort(250, 1, [0, 1]));
     fs::remove_file(folder.path.join("round-00004.0of1")).unwrap();
     assert_eq!(found(&question, &folder, &effort(600, 2, [0, 1])), whole, "killed");
@@ -176,12 +120,12 @@ fn threads_shards_kills_and_a_longer_search_change_nothing() {
 /// Every kind's pit is found to a quarter of what makes an ending unlike; the net alone stays three times as far away on average.
 #[test]
 fn local_searches_find_what_the_net_leaves() {
-    let place = Place::new("pits");
+    let place = place("pits");
     let mut above = [0.0; 2];
     for seed in 1..=4 {
-        let question = place.question(seed);
+        let question = asked(&place, seed);
         let best = |net_alone: bool| {
-            let folder = place.folder(&format!("{seed}-{net_alone}"), &question);
+            let folder = folder_of(&place, &format!("{seed}-{net_alone}"), &question);
             let effort = Effort { net_alone, ..effort(900, 1, [0, 1]) };
             found(&question, &folder, &effort).into_iter().map(|(_, distance)| distance)
         };
@@ -197,13 +141,16 @@ fn local_searches_find_what_the_net_leaves() {
 
 #[test]
 fn another_search_does_not_mix_with_what_a_folder_holds() {
-    let place = Place::new("mix");
-    let question = place.question(1);
-    let folder = place.folder("results", &question);
+    let place = place("mix");
+    let question = asked(&place, 1);
+    let folder = folder_of(&place, "results", &question);
     found(&question, &folder, &effort(40, 1, [0, 1]));
-    fs::write(place.0.join("observations/made-up.toml"), OBSERVATION.replace("body", "head"))
-        .unwrap();
-    let error = Folder::open(&folder.path, &place.question(1)).unwrap_err().to_string();
+    fs::write(
+        place.library().join("observations/made-up.toml"),
+        OBSERVATION.replace("body", "head"),
+    )
+    .unwrap();
+    let error = Folder::open(&folder.path, &asked(&place, 1)).unwrap_err().to_string();
     assert!(error.contains("choose another folder with --out"), "{error}");
     fs::write(folder.path.join("net-00000.0of1"), b"not a round").unwrap();
     let error =

@@ -49,7 +49,7 @@ mod shard;
 pub mod stats;
 pub mod table;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use control::Control;
 pub use open::Opened;

@@ -82,10 +82,10 @@ end = "to"
 const NEEDED: [&str; 5] = ["friction", "knots", "ropes", "sites", "weak-links"];
 
 /// A folder with the study and a library of its own, removed at the end.
-struct Place(PathBuf);
+pub(crate) struct Place(pub(crate) PathBuf);
 
 impl Place {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let root = std::env::temp_dir().join(format!("endline-{name}-{}", std::process::id()));
         let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
         for folder in NEEDED {
@@ -106,7 +106,7 @@ impl Place {
         Self(root)
     }
 
-    fn library(&self) -> PathBuf {
+    pub(crate) fn library(&self) -> PathBuf {
         self.0.join("gear-library")
     }
 
