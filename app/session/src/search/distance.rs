@@ -75,7 +75,7 @@ impl Distance {
     /// The sum of its terms.
     #[must_use]
     pub fn sum(&self) -> f64 {
-        self.terms.iter().map(|term| term.cost).sum()
+        self.terms.iter().fold(0.0, |sum, term| sum + term.cost)
     }
 }
 
