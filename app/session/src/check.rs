@@ -113,21 +113,15 @@ impl Checked {
 
     /// Every validation case of a library.
     fn cases(&mut self, root: &Path, host: &PluginHost) {
-        for entry in entries(&root.join("cases"))
-            .iter()
-            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
-        {
-            self.case(entry, Some(root), host);
+        for file in locate::toml_files(&root.join("cases")) {
+            self.case(&file, Some(root), host);
         }
     }
 
     /// Every study of a library.
     fn studies(&mut self, root: &Path, host: &PluginHost) {
-        for entry in entries(&root.join("studies"))
-            .iter()
-            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
-        {
-            self.study(entry, Some(root), host);
+        for file in locate::toml_files(&root.join("studies")) {
+            self.study(&file, Some(root), host);
         }
     }
 
@@ -139,11 +133,8 @@ impl Checked {
 
     /// Every observation of a library.
     fn observations(&mut self, root: &Path, host: &PluginHost) {
-        for entry in entries(&root.join("observations"))
-            .iter()
-            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
-        {
-            self.observation(entry, Some(root), host);
+        for file in locate::toml_files(&root.join("observations")) {
+            self.observation(&file, Some(root), host);
         }
     }
 

@@ -85,7 +85,8 @@ pub fn studies(root: &Path) -> Vec<PathBuf> {
     toml_files(&root.join("studies"))
 }
 
-fn toml_files(folder: &Path) -> Vec<PathBuf> {
+/// Files of a folder that end in `.toml`, by name.
+pub(crate) fn toml_files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let toml = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(toml).collect();

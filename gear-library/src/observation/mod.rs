@@ -149,7 +149,7 @@ name = "Eg 1"
 source = "a paper"
 confidence = "measured"
 age = "1 yr"
-encounters = "slack-single"
+encounters = "met-single"
 [[site]]
 part = "mouth"
 present = 0.99

@@ -17,7 +17,7 @@ pub struct Question {
     pub opened: Opened,
     /// Seed of the net and of the local searches.
     pub seed: u64,
-    /// BLAKE3 of observation, study and seed, hexadecimal.
+    /// BLAKE3 of observation and study, hexadecimal.
     pub hash: String,
 }
 
@@ -70,7 +70,7 @@ fn study_of(observation: &Observation, given: Option<&str>, root: &Path) -> Resu
         (None, Some(named)) => find(&named.value)
             .map_err(|message| Error::Diagnostics(vec![named.place.error(message, "")])),
         (None, None) => {
-            let help = "write the id of a study with one option, such as encounters = \"slack-single\", or give --encounters";
+            let help = "write the id of a study with one option, such as encounters = \"met-single\", or give --encounters";
             Err(Error::Diagnostics(vec![observation.place.error("`encounters` is missing", help)]))
         }
     }
