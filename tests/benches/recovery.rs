@@ -1,7 +1,8 @@
 //! Blind recovery in numbers: how many hidden encounters a search finds again.
 //!
 //! ```text
-//! cargo bench -p endline-tests --bench recovery -- 20 400      # hidden encounters, trials of each search
+//! cargo bench -p endline-tests --bench recovery -- 20 1300 1000 --folder=results/recovery
+//! # hidden encounters, runs of each search, draws of its net; the same call goes on from what the folder holds
 //! ```
 
 #![allow(clippy::print_stdout, reason = "its result is a table for documents")]
@@ -9,14 +10,21 @@
 #[path = "../tests/recovery/mod.rs"]
 mod recovery;
 
-use recovery::{hide, host, opened, recover};
+use std::time::Instant;
+
+use recovery::{Way, hide, host, opened, recover};
 
 fn main() {
     let numbers: Vec<usize> =
         std::env::args().filter_map(|argument| argument.parse().ok()).collect();
-    let (count, trials) =
-        (numbers.first().copied().unwrap_or(20), numbers.get(1).copied().unwrap_or(400));
+    let number = |place: usize, usual| numbers.get(place).copied().unwrap_or(usual);
+    let (count, trials, net) = (number(0, 20), number(1, 1300), number(2, 1000));
+    let folder =
+        std::env::args().find_map(|argument| Some(argument.strip_prefix("--folder=")?.into()));
+    let folder = folder.unwrap_or_else(|| std::env::temp_dir().join("endline-recovery"));
+    let way = Way { trials, net, folder: &folder };
     let host = host();
+    let begun = Instant::now();
     let hidden = hide(&opened(&host), count);
     println!(
         "| | seen | first touched | D | part first touched among the stories | runs to D <= 1 |"
@@ -24,7 +32,7 @@ fn main() {
     println!("|---|---|---|---|---|---|");
     let (mut like, mut named) = (0, 0);
     for (number, hidden) in hidden.iter().enumerate() {
-        let found = recover(hidden, number, trials, &host);
+        let found = recover(hidden, number, &way, &host);
         like += usize::from(found.nearest <= 1.0);
         named += usize::from(found.named);
         println!(
@@ -37,5 +45,9 @@ fn main() {
             found.after.map_or("-".to_owned(), |after| after.to_string())
         );
     }
-    println!("\n{like} of {} with D <= 1, {named} with the part first touched", hidden.len());
+    println!(
+        "\n{like} of {} with D <= 1, {named} with the part first touched; {:.0} s",
+        hidden.len(),
+        begun.elapsed().as_secs_f64()
+    );
 }

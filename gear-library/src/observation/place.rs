@@ -1,9 +1,11 @@
 //! Places on a whale as people name them who look at one: finer than a body part at the mouth, coarser where a side was not told.
 
 use endline_sdk::{BodyPart, Side};
+use serde::{Deserialize, Serialize};
 
 /// A place where rope may be seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Site {
     /// In the mouth: rope that is lodged there.
     Mouth,
@@ -122,7 +124,8 @@ impl Site {
 }
 
 /// A place that rope passes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct PathPlace {
     /// The site.
     pub site: Site,
@@ -152,6 +155,20 @@ impl PathPlace {
             Side::Right => Side::Left,
         });
         Self { site: self.site.mirrored(), side }
+    }
+}
+
+impl From<PathPlace> for String {
+    fn from(place: PathPlace) -> Self {
+        place.to_string()
+    }
+}
+
+impl TryFrom<String> for PathPlace {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        Self::named(&text).ok_or_else(|| format!("`{text}` is no place on a whale"))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Parts of an observation: sites, the path of the rope, what hung behind, what was hidden.
 
+use serde::{Deserialize, Serialize};
+
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
 use crate::nearest::hint;
@@ -39,7 +41,8 @@ pub struct Trailing {
 }
 
 /// What is at an end of rope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RopeEnd {
     /// It parted there.
     Broken,

@@ -1,6 +1,6 @@
 //! A search finds an encounter again of which it is told the ending alone, blurred and with a part hidden.
 
-use crate::recovery::{hide, host, opened, recover};
+use crate::recovery::{Way, hide, host, opened, recover};
 
 /// `cargo bench -p endline-tests --bench recovery` does the same with twenty encounters.
 #[test]
@@ -8,6 +8,8 @@ fn a_hidden_encounter_is_found_by_what_it_left() {
     let host = host();
     let hidden = hide(&opened(&host), 1);
     let [hidden] = hidden.as_slice() else { panic!("no draw ends entangled") };
-    let found = recover(hidden, 0, 64, &host);
+    let folder = std::env::temp_dir().join(format!("endline-recovered-{}", std::process::id()));
+    let found = recover(hidden, 0, &Way { trials: 64, net: 64, folder: &folder }, &host);
+    std::fs::remove_dir_all(&folder).unwrap();
     assert!(found.nearest <= 1.0, "{}: {}", hidden.class, found.nearest);
 }

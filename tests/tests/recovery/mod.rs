@@ -7,13 +7,14 @@
 )]
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_gear::Site;
 use endline_session::plugins::{Hook, PluginHost};
 use endline_session::search::written::observation_text;
-use endline_session::search::{Effort, Ending, Folder, Question, search};
+use endline_session::search::{Effort, Ending, Folder, LIKE, Question, search};
 use endline_session::study::encounter::Encounter;
 use endline_session::study::{Opened, Shard, draw};
 use endline_sim::metrics::EventKind;
@@ -23,6 +24,9 @@ const STUDY: &str = "met-single";
 
 /// Seed of the hidden encounters; that of the search is the study's.
 const SEED: u64 = 77;
+
+/// Draws run before it is asked whether there are enough.
+const AT_ONCE: u32 = 16;
 
 /// An encounter that a search shall recover.
 pub struct Hidden {
@@ -57,25 +61,44 @@ fn root() -> PathBuf {
 pub fn hide(opened: &Opened, count: usize) -> Vec<Hidden> {
     let of_each = count.div_ceil(5);
     let mut hidden: BTreeMap<&'static str, Vec<Hidden>> = BTreeMap::new();
-    let dimensions = draw::dimensions(&opened.study).len();
-    for index in 0..1000 {
-        let point = draw::sobol_point(SEED, index, dimensions);
-        let Ok(played) = opened.play(0, &Encounter::at_point(opened, &point), 0.0) else {
-            continue;
-        };
-        let ending = Ending::of(&played.run);
-        let Some(class) = class(&ending).filter(|_| played.report.is_valid()) else { continue };
-        let events = played.run.metrics().events();
-        let first = events.iter().find(|event| event.kind == EventKind::Contact).unwrap();
-        let own = hidden.entry(class).or_default();
-        if own.len() < of_each {
-            own.push(Hidden { class, first_part: first.subject.clone(), ending });
+    for first in (0..1000).step_by(AT_ONCE as usize) {
+        for found in some(opened, first..first + AT_ONCE).into_iter().flatten() {
+            let own = hidden.entry(found.class).or_default();
+            if own.len() < of_each {
+                own.push(found);
+            }
         }
         if hidden.values().map(Vec::len).sum::<usize>() >= count {
             break;
         }
     }
     hidden.into_values().flatten().take(count).collect()
+}
+
+/// Draws that end with rope on the whale, in order, on every core.
+fn some(opened: &Opened, numbers: Range<u32>) -> Vec<Option<Hidden>> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let numbers: Vec<u32> = numbers.collect();
+    let run = |numbers: &[u32]| -> Vec<Option<Hidden>> {
+        numbers.iter().map(|number| one(opened, *number)).collect()
+    };
+    let run = &run;
+    std::thread::scope(|scope| {
+        let shares = numbers.chunks(numbers.len().div_ceil(threads));
+        let all: Vec<_> = shares.map(|share| scope.spawn(move || run(share))).collect();
+        all.into_iter().flat_map(|share| share.join().unwrap()).collect()
+    })
+}
+
+/// A draw, where it ends with rope on the whale.
+fn one(opened: &Opened, number: u32) -> Option<Hidden> {
+    let point = draw::sobol_point(SEED, number, draw::dimensions(&opened.study).len());
+    let played = opened.play(0, &Encounter::at_point(opened, &point), 0.0).ok()?;
+    let ending = Ending::of(&played.run);
+    let class = class(&ending).filter(|_| played.report.is_valid())?;
+    let events = played.run.metrics().events();
+    let first = events.iter().find(|event| event.kind == EventKind::Contact)?;
+    Some(Hidden { class, first_part: first.subject.clone(), ending })
 }
 
 /// What kind of ending it is; `None` of a whale that came free.
@@ -108,20 +131,30 @@ pub struct Recovered {
     pub after: Option<usize>,
 }
 
+/// How hidden encounters are searched for.
+pub struct Way<'a> {
+    /// Runs of a search.
+    pub trials: usize,
+    /// Of these, draws from the priors before the first local search.
+    pub net: usize,
+    /// Folder of the observations, the searches, and the draws that they share; the same call goes on from what it holds.
+    pub folder: &'a Path,
+}
+
 /// Searches for a hidden encounter by what is told of its ending.
-pub fn recover(hidden: &Hidden, number: usize, trials: usize, host: &PluginHost) -> Recovered {
-    let place =
-        std::env::temp_dir().join(format!("endline-recovery-{}-{number}", std::process::id()));
-    std::fs::create_dir_all(&place).unwrap();
-    let file = place.join(format!("hidden-{number}.toml"));
+pub fn recover(hidden: &Hidden, number: usize, way: &Way<'_>, host: &PluginHost) -> Recovered {
+    let Way { trials, net, folder } = *way;
+    std::fs::create_dir_all(folder).unwrap();
+    let file = folder.join(format!("hidden-{number}.toml"));
     std::fs::write(&file, observation_text(&hidden.ending, STUDY, number as u64)).unwrap();
     let question = Question::open(&file.display().to_string(), None, Some(&root()), host).unwrap();
-    let folder = Folder::open(&place.join(format!("search-{number}")), &question).unwrap();
+    let own = folder.join(format!("search-{number}"));
+    let runs = Folder::open(&own, Some(&folder.join("net")), &question).unwrap();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let effort = Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net_alone: false };
+    let effort = Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net };
     let mut after = None;
-    let stories = search(&question, &folder, &effort, |progress| {
-        if after.is_none() && progress.best.is_some_and(|best| best <= 1.0) {
+    let stories = search(&question, &runs, &effort, |progress| {
+        if after.is_none() && progress.best.is_some_and(|best| best <= LIKE) {
             after = Some(progress.trials);
         }
     })
@@ -131,6 +164,5 @@ pub fn recover(hidden: &Hidden, number: usize, trials: usize, host: &PluginHost)
         .stories
         .iter()
         .any(|story| story.is_like() && story.first_part == hidden.first_part);
-    std::fs::remove_dir_all(place).unwrap();
     Recovered { nearest, named, after }
 }

@@ -37,7 +37,7 @@ pub(super) struct Elite {
 pub(super) struct Elites(pub(super) BTreeMap<Kind, Elite>);
 
 impl Kind {
-    fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
+    pub(super) fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
         let encounter = Encounter::at_point(&question.opened, point);
         let quarter = encounter.number("heading").map(|heading| {
             let quarters = (heading / TAU * 4.0 + 0.5).rem_euclid(4.0);
@@ -62,7 +62,7 @@ fn acts(encounter: &Encounter) -> Vec<String> {
 impl Elites {
     /// Takes in a trial: it becomes the elite of its kind if it is nearer than that.
     pub(super) fn take(&mut self, question: &Question, point: &[f64], trial: &Trial) {
-        if trial.first_part.is_empty() || !trial.fault.is_empty() {
+        if trial.first_part.is_empty() || !trial.is_valid {
             return;
         }
         let kind = Kind::of(question, point, trial);
@@ -70,6 +70,13 @@ impl Elites {
         if self.0.get(&kind).is_none_or(|elite| trial.aim() < elite.trial.aim()) {
             self.0.insert(kind, Elite { point: point.to_vec(), trial: trial.clone(), begun });
         }
+    }
+
+    /// The elites, the nearest first.
+    pub(super) fn nearest(&self) -> Vec<&Elite> {
+        let mut elites: Vec<&Elite> = self.0.values().collect();
+        elites.sort_by(|one, other| one.trial.aim().total_cmp(&other.trial.aim()));
+        elites
     }
 
     /// The elite from which the next local search begins: near, not begun from too often, and not as good as it can be.

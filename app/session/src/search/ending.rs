@@ -4,6 +4,7 @@ use endline_gear::{PathPlace, RopeEnd, Site};
 use endline_sdk::{BodyPart, Region};
 use endline_sim::metrics::{LeadsTo, Outcome, RegionSummary, Route, Station, WhaleSummary, routes};
 use endline_sim::model::BodyRole;
+use serde::{Deserialize, Serialize};
 
 use crate::run::Run;
 
@@ -14,7 +15,7 @@ const LOOSE_WRAPS: f64 = 0.25;
 const TIGHT_N: f64 = 50.0;
 
 /// How a run ended.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ending {
     /// Sites with rope, in the order of [`Site::SINGLE`].
     pub sites: Vec<AtSite>,
@@ -27,7 +28,7 @@ pub struct Ending {
 }
 
 /// Rope at a site.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AtSite {
     /// The site.
     pub site: Site,
@@ -38,7 +39,7 @@ pub struct AtSite {
 }
 
 /// A strand of rope on the whale.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Strand {
     /// Places it passes, in its order.
     pub places: Vec<PathPlace>,
@@ -66,6 +67,11 @@ impl Ending {
             behind_m: whale.trailing_m + whale.tethered_m,
             twist,
         }
+    }
+
+    /// Whether there is no rope on the whale.
+    pub(super) fn is_free(&self) -> bool {
+        self.sites.is_empty() && self.strands.is_empty()
     }
 
     /// The same on a whale that is its mirror image.

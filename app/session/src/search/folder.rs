@@ -1,12 +1,12 @@
-//! A search's folder: which search it belongs to, and its rounds.
+//! A search's folder: which search it belongs to, and its runs.
 //!
 //! | file | what |
 //! |---|---|
 //! | `search.json` | which search this is: observation, study, hash, version |
-//! | `round-00007.0of2` | trials of a round that one shard ran, whole or not there |
+//! | `round-00007.0-36.0of2` | runs of the local searches' round that one shard ran |
+//! | `net.128-136.0of2` | runs of the net, here or in a folder that searches share |
 //! | `stories.json` | what was found |
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,10 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::save;
-use crate::study::Shard;
 
 use super::question::Question;
-use super::trial::Trial;
+use super::store::Store;
 
 /// Name of the schema of `search.json`.
 const SCHEMA: &str = "endline.search/1";
@@ -32,27 +31,24 @@ struct Label {
     version: String,
 }
 
-/// Trials of a round by their number, with the search that they belong to.
-#[derive(Serialize, Deserialize)]
-struct Part {
-    hash: String,
-    trials: BTreeMap<u32, Trial>,
-}
-
 /// A folder of one search.
 #[derive(Clone, Debug)]
 pub struct Folder {
     /// Where.
     pub path: PathBuf,
-    hash: String,
+    /// Runs that local searches asked for, and neighbours.
+    pub(super) rounds: Store,
+    /// Draws from the priors, which no observation changes.
+    pub(super) net: Store,
 }
 
 impl Folder {
-    /// Opens a folder for a search, made where it is not there.
+    /// Opens a folder for a search, made where it is not there. Runs of the net are kept in it, or in `shared` below a name that tells
+    /// their encounters.
     ///
     /// # Errors
     /// A folder that belongs to another search, or cannot be written.
-    pub fn open(path: &Path, question: &Question) -> Result<Self, Error> {
+    pub fn open(path: &Path, shared: Option<&Path>, question: &Question) -> Result<Self, Error> {
         fs::create_dir_all(path)
             .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
         let file = path.join("search.json");
@@ -71,57 +67,12 @@ impl Folder {
                     .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
             }
         }
-        Ok(Self { path: path.to_path_buf(), hash: question.hash.clone() })
-    }
-
-    /// Trials of a round that are kept, whichever shards ran them.
-    ///
-    /// # Errors
-    /// A file of that round that is damaged or belongs to another search.
-    pub(super) fn read(&self, round: &str) -> Result<BTreeMap<u32, Trial>, Error> {
-        let mut trials = BTreeMap::new();
-        for entry in fs::read_dir(&self.path).into_iter().flatten().flatten() {
-            let file = entry.path();
-            let is_own = file.file_stem().is_some_and(|stem| stem == round)
-                && file.extension().is_some_and(|ending| ending.to_string_lossy().contains("of"));
-            if is_own {
-                trials.extend(self.part(&file)?);
-            }
-        }
-        Ok(trials)
-    }
-
-    fn part(&self, file: &Path) -> Result<BTreeMap<u32, Trial>, Error> {
-        let bytes =
-            fs::read(file).map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
-        let part: Part = postcard::from_bytes(&bytes).map_err(|error| {
-            Error::at(file, format!("is damaged: {error}; delete it and search again"))
-        })?;
-        if part.hash != self.hash {
-            return Err(Error::at(file, "belongs to another search; delete it and search again"));
-        }
-        Ok(part.trials)
-    }
-
-    /// Keeps trials of a round, whole or not at all.
-    ///
-    /// # Errors
-    /// Where the folder cannot be written.
-    pub(super) fn write(
-        &self,
-        round: &str,
-        shard: Shard,
-        trials: BTreeMap<u32, Trial>,
-    ) -> Result<(), Error> {
-        let file = self.path.join(format!("{round}.{}of{}", shard.part, shard.of));
-        let part = Part { hash: self.hash.clone(), trials };
-        let bytes = postcard::to_allocvec(&part)
-            .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
-        save::atomically(&file, &bytes).map_err(|error| {
-            Error::at(
-                &file,
-                format!("cannot be written: {error}; the rounds that are there are whole, and the same command goes on from them"),
-            )
+        let of_encounters = || format!("{}-{}", question.opened.study.id, &question.net_hash[..12]);
+        let net = shared.map_or_else(|| path.to_path_buf(), |shared| shared.join(of_encounters()));
+        Ok(Self {
+            path: path.to_path_buf(),
+            rounds: Store::open(path, question.hash.clone())?,
+            net: Store::open(&net, question.net_hash.clone())?,
         })
     }
 }

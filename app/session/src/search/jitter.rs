@@ -12,10 +12,10 @@ use super::question::Question;
 const FRICTION: &str = "friction.attributes.coefficient_scale";
 
 /// Neighbour `number` of the encounter at a point.
-pub(super) fn neighbour(question: &Question, point: &[f64], number: usize) -> Encounter {
+pub(super) fn neighbour(question: &Question, point: &[f64], number: u32) -> Encounter {
     let priors = &question.opened.study.priors;
     let seed = question.seed ^ 0x9e37_79b9_7f4a_7c15;
-    let shares = draw::sobol_point(seed, u32::try_from(number).unwrap_or(0), priors.len());
+    let shares = draw::sobol_point(seed, number, priors.len());
     let mut encounter = Encounter::at_point(&question.opened, point);
     for ((prior, drawn), share) in priors.iter().zip(&mut encounter.drawn).zip(shares) {
         *drawn = jittered(prior, drawn, share);

@@ -9,10 +9,11 @@
 //! | `ending` | where rope is on the whale at the end of a run |
 //! | `distance`, `order` | how unlike the observation that is, term by term |
 //! | `question` | the observation, and the study whose encounters are searched |
-//! | `trial` | a point of the unit cube of encounters, run and held against the observation |
+//! | `ended` | what the run of an encounter came to, whatever observation it is held against |
+//! | `trial` | a run held against the observation |
 //! | `rounds` | which points come next: the net, then a generation of every local search |
-//! | `elites`, `climb` | the best trial of every kind of story; a local search from one of them |
-//! | `batch`, `folder` | trials of a round on threads and shards, kept round by round |
+//! | `elites`, `climb`, `variation` | the best trial of every kind of story; a local search from one of them; one with another act |
+//! | `batch`, `store`, `folder` | runs of a round on threads and shards, kept round by round; those of the net are shared |
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
 //! | `page` | the report |
@@ -24,6 +25,7 @@ mod batch;
 mod climb;
 pub mod distance;
 mod elites;
+mod ended;
 pub mod ending;
 mod folder;
 mod jitter;
@@ -31,22 +33,26 @@ mod order;
 pub mod page;
 mod question;
 mod rounds;
+mod store;
 pub mod stories;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod variation;
 pub mod written;
 
 use crate::error::Error;
 use crate::study::Shard;
+use crate::study::encounter::Encounter;
 
 pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
 pub use folder::Folder;
 pub use question::Question;
-use rounds::Rounds;
 pub use stories::{Stories, Story};
-use trial::Trial;
+
+use ended::Ended;
+use rounds::Rounds;
 
 /// How long to search, and with what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +65,8 @@ pub struct Effort {
     pub shard: Shard,
     /// Neighbours run of every story that is like the observation.
     pub neighbours: usize,
-    /// Whether only draws of the priors are tried, without local searches: for comparison.
-    pub net_alone: bool,
+    /// Draws from the priors before the first local search; as many as trials, and there is none.
+    pub net: usize,
 }
 
 /// How far a search is.
@@ -84,26 +90,31 @@ pub fn search(
     effort: &Effort,
     progress: impl FnMut(Progress),
 ) -> Result<Stories, Error> {
-    let trial = |point: &[f64]| Trial::of(question, point);
-    let rounds = rounds_of(question, folder, effort, trial, progress)?;
+    let run =
+        |point: &[f64]| Ended::of(&question.opened, &Encounter::at_point(&question.opened, point));
+    let rounds = rounds_of(question, folder, effort, run, progress)?;
     stories::of(question, folder, effort, &rounds)
 }
 
-/// Round after round until the effort is spent; `trial` runs the encounter at a point.
+/// Round after round until the effort is spent; `run` runs the encounter at a point.
 fn rounds_of<'a>(
     question: &'a Question,
     folder: &Folder,
     effort: &Effort,
-    trial: impl Fn(&[f64]) -> Trial + Sync,
+    run: impl Fn(&[f64]) -> Ended + Sync,
     mut progress: impl FnMut(Progress),
 ) -> Result<Rounds<'a>, Error> {
-    let mut rounds = Rounds::new(question, effort.net_alone);
+    let mut rounds = Rounds::new(question, effort.net);
     while rounds.trials() < effort.trials {
-        let points = rounds.next();
-        let trials = batch::run(folder, &rounds.name(), points.len(), effort, |number| {
-            trial(&points[number])
+        let round = rounds.next();
+        let count = u32::try_from(round.local.len()).unwrap_or(u32::MAX);
+        let local = batch::run(&folder.rounds, &round.name, 0..count, effort, |number| {
+            run(&round.local[number as usize])
         })?;
-        rounds.take(&points, trials);
+        let net = batch::run(&folder.net, "net", round.net.clone(), effort, |number| {
+            run(&rounds.net_point(number))
+        })?;
+        rounds.take(round, &local, &net);
         progress(Progress { trials: rounds.trials(), of: effort.trials, best: rounds.best() });
     }
     Ok(rounds)

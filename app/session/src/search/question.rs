@@ -19,6 +19,8 @@ pub struct Question {
     pub seed: u64,
     /// BLAKE3 of observation and study, hexadecimal.
     pub hash: String,
+    /// BLAKE3 of the study and the animal alone, hexadecimal: observations of the same encounters share the runs of their net.
+    pub net_hash: String,
 }
 
 impl Question {
@@ -48,14 +50,15 @@ impl Question {
             return Err(Error::at(&study, message));
         }
         let seed = opened.study.seed;
-        let hash = hash(&text, &opened.hash);
-        Ok(Self { observation, opened, seed, hash })
+        let hash = hash_of("endline search 2", &[&text, &opened.hash]);
+        let net_hash = hash_of("endline net 1", &[&opened.hash]);
+        Ok(Self { observation, opened, seed, hash, net_hash })
     }
 }
 
-fn hash(observation: &str, study: &str) -> String {
-    let mut hasher = blake3::Hasher::new_derive_key("endline search 1");
-    for text in [observation, study] {
+fn hash_of(context: &str, texts: &[&str]) -> String {
+    let mut hasher = blake3::Hasher::new_derive_key(context);
+    for text in texts {
         hasher.update(&(text.len() as u64).to_le_bytes());
         hasher.update(text.as_bytes());
     }

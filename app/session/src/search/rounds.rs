@@ -1,4 +1,7 @@
-//! The rounds of a search: first a net of Sobol points alone, then a generation of every local search and a few more points.
+//! The rounds of a search: first a net of Sobol points alone, then a generation of every local search, variations of the nearest
+//! elites and a few more points of the net.
+
+use std::ops::Range;
 
 use endline_gear::Law;
 
@@ -6,33 +9,45 @@ use crate::study::draw;
 
 use super::climb::Climb;
 use super::elites::Elites;
+use super::ended::Ended;
 use super::question::Question;
 use super::trial::Trial;
+use super::variation::variation;
 
-/// Trials of a round of the net.
-const NET: usize = 32;
-
-/// Rounds of the net alone.
-const NET_ROUNDS: u32 = 4;
+/// Points of a round of the net alone, at most.
+const NET: u32 = 32;
 
 /// Points of the net in every later round.
-const NET_BESIDE: usize = 8;
+const NET_BESIDE: u32 = 8;
+
+/// Variations of elites in every later round.
+const VARIATIONS: u32 = 8;
 
 /// Local searches at a time.
 const CLIMBS: usize = 4;
 
+/// A round that comes next.
+pub(super) struct Round {
+    /// Name of its local searches' runs.
+    pub(super) name: String,
+    /// Points that local searches ask for, then variations of elites.
+    pub(super) local: Vec<Vec<f64>>,
+    /// Points of the net, by their place in its sequence.
+    pub(super) net: Range<u32>,
+}
+
 /// Which points come next, from what came of those before.
 pub(super) struct Rounds<'a> {
-    question: &'a Question,
+    pub(super) question: &'a Question,
     /// Dimensions of the unit cube.
     dimensions: usize,
     /// Those with a continuous law.
     free: Vec<usize>,
-    /// Whether local searches are left out: the net alone, for comparison.
-    net_alone: bool,
+    /// Points of the net before the first local search.
+    first: u32,
     round: u32,
-    /// Points of the net so far.
-    pub(super) net: Vec<Trial>,
+    /// Runs of the net so far, each with its point.
+    pub(super) net: Vec<(Vec<f64>, Trial)>,
     pub(super) elites: Elites,
     climbs: Vec<Climb>,
     /// How many points of the round under way are each local search's.
@@ -42,7 +57,7 @@ pub(super) struct Rounds<'a> {
 }
 
 impl<'a> Rounds<'a> {
-    pub(super) fn new(question: &'a Question, net_alone: bool) -> Self {
+    pub(super) fn new(question: &'a Question, first: usize) -> Self {
         let study = &question.opened.study;
         let varied = draw::dimensions(study);
         let is_free = |prior: usize| !matches!(study.priors[prior].law, Law::Choice(_));
@@ -50,7 +65,7 @@ impl<'a> Rounds<'a> {
             question,
             dimensions: varied.len(),
             free: (0..varied.len()).filter(|dimension| is_free(varied[*dimension])).collect(),
-            net_alone,
+            first: u32::try_from(first).unwrap_or(u32::MAX),
             round: 0,
             net: Vec::new(),
             elites: Elites::default(),
@@ -66,35 +81,39 @@ impl<'a> Rounds<'a> {
         self.done
     }
 
-    /// Name of the round that comes next; the net alone has its own.
-    pub(super) fn name(&self) -> String {
-        let kind = if self.is_net() { "net" } else { "round" };
-        format!("{kind}-{:05}", self.round)
+    /// The point of the net at a place in its sequence.
+    pub(super) fn net_point(&self, number: u32) -> Vec<f64> {
+        draw::sobol_point(self.question.seed, number, self.dimensions)
     }
 
-    fn is_net(&self) -> bool {
-        self.net_alone || self.round < NET_ROUNDS
-    }
-
-    /// Points of the next round: those of the local searches first.
-    pub(super) fn next(&mut self) -> Vec<Vec<f64>> {
-        let mut points = Vec::new();
+    /// The next round.
+    pub(super) fn next(&mut self) -> Round {
+        let from = u32::try_from(self.net.len()).unwrap_or(u32::MAX);
+        let name = format!("round-{:05}", self.round);
         self.shares.clear();
-        if !self.is_net() {
-            self.climbs.retain(|climb| !climb.is_over());
-            while self.climbs.len() < CLIMBS && self.begin() {}
-            for climb in &mut self.climbs {
-                let generation = climb.generation();
-                self.shares.push(generation.len());
-                points.extend(generation);
-            }
+        if from < self.first {
+            let net = from..from.saturating_add(NET).min(self.first);
+            return Round { name, local: Vec::new(), net };
         }
-        let net = if self.is_net() { NET } else { NET_BESIDE };
-        let seed = self.question.seed;
-        let index = |number: usize| u32::try_from(self.net.len() + number).unwrap_or(u32::MAX);
-        points
-            .extend((0..net).map(|number| draw::sobol_point(seed, index(number), self.dimensions)));
-        points
+        self.climbs.retain(|climb| !climb.is_over());
+        while self.climbs.len() < CLIMBS && self.begin() {}
+        let mut local = Vec::new();
+        for climb in &mut self.climbs {
+            let generation = climb.generation();
+            self.shares.push(generation.len());
+            local.extend(generation);
+        }
+        local.extend(self.variations());
+        Round { name, local, net: from..from.saturating_add(NET_BESIDE) }
+    }
+
+    /// Variations of the nearest elites.
+    fn variations(&self) -> Vec<Vec<f64>> {
+        let one = |(number, elite)| {
+            let number = self.round.wrapping_mul(VARIATIONS).wrapping_add(number);
+            variation(elite, &self.free, self.question.seed, number)
+        };
+        (0..VARIATIONS).zip(self.elites.nearest()).map(one).collect()
     }
 
     /// Begins a local search from the worthiest elite; false where there is none.
@@ -109,19 +128,25 @@ impl<'a> Rounds<'a> {
         begins
     }
 
-    /// Takes in what the points of the round came to.
-    pub(super) fn take(&mut self, points: &[Vec<f64>], trials: Vec<Trial>) {
-        for (point, trial) in points.iter().zip(&trials) {
+    /// Takes in what the runs of a round came to.
+    pub(super) fn take(&mut self, round: Round, local: &[Ended], net: &[Ended]) {
+        let observation = &self.question.observation;
+        let held: Vec<Trial> = local.iter().map(|ended| Trial::of(observation, ended)).collect();
+        for (point, trial) in round.local.iter().zip(&held) {
             self.elites.take(self.question, point, trial);
         }
-        let mut rest = trials.as_slice();
+        let mut rest = held.as_slice();
         for (climb, share) in self.climbs.iter_mut().zip(&self.shares) {
             let (own, others) = rest.split_at(*share);
             climb.take(own);
             rest = others;
         }
-        self.net.extend(rest.iter().cloned());
-        self.done += trials.len();
+        for (number, ended) in round.net.zip(net) {
+            let (point, trial) = (self.net_point(number), Trial::of(observation, ended));
+            self.elites.take(self.question, &point, &trial);
+            self.net.push((point, trial));
+        }
+        self.done += local.len() + net.len();
         self.round += 1;
     }
 

@@ -1,4 +1,5 @@
-//! What a search found: the best trial of every kind of story, and how many of its neighbours end alike.
+//! What a search found: the best trial of every kind of story, its share of the draws that end alike, and whether it hangs on chance
+//! or on the resolution.
 
 use serde::Serialize;
 
@@ -10,6 +11,7 @@ use super::Effort;
 use super::batch;
 use super::distance::LIKE;
 use super::elites::{Elite, Kind};
+use super::ended::Ended;
 use super::folder::Folder;
 use super::jitter::neighbour;
 use super::question::Question;
@@ -19,8 +21,8 @@ use super::trial::Trial;
 /// Stories told at most.
 const TOLD: usize = 12;
 
-/// Of this many, neighbours are run.
-const JITTERED: usize = 6;
+/// Of this many, neighbours and the encounter on a finer resolution are run.
+const TRIED: usize = 6;
 
 /// A story of which fewer neighbours end alike hangs on chance.
 pub const FRAGILE: f64 = 0.5;
@@ -40,7 +42,8 @@ pub struct Stories {
     pub mean_simulated_s: f64,
     /// Trials of the net: draws of the priors themselves.
     pub net: usize,
-    /// Of these, those like the observation.
+    /// Of these, those like the observation: what shares of kinds rest on (all draws count alike, so that this is the effective
+    /// number).
     pub net_like: usize,
 }
 
@@ -61,6 +64,10 @@ pub struct Story {
     pub mirrored: bool,
     /// Share of its neighbours that end alike; `None` where none was run.
     pub alike: Option<f64>,
+    /// Distance of the same encounter on a finer resolution; `None` where it was not run.
+    pub finer: Option<f64>,
+    /// Draws from the priors that are of this kind and like the observation.
+    pub draws_like: usize,
     /// What was drawn, by name.
     pub drawn: Vec<(String, String)>,
     /// Hash of the last state.
@@ -80,6 +87,34 @@ impl Story {
     #[must_use]
     pub fn is_like(&self) -> bool {
         self.distance <= LIKE
+    }
+
+    /// Share of the draws like the observation that are of this kind; `None` where no draw is.
+    #[must_use]
+    pub fn share(&self, stories: &Stories) -> Option<f64> {
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 draws")]
+        let share = || self.draws_like as f64 / stories.net_like as f64;
+        (stories.net_like > 0).then(share)
+    }
+
+    /// How far it is to be trusted, in words: neighbours, finer resolution, share of draws; `None` where nothing is known.
+    #[must_use]
+    pub fn trust(&self, stories: &Stories) -> Option<String> {
+        let fragile = if self.is_fragile() { ", fragile" } else { "" };
+        let alike = self
+            .alike
+            .map(|alike| format!("{:.0} % of its neighbours end alike{fragile}", 100.0 * alike));
+        let finer = self.finer.map(|distance| match distance <= LIKE {
+            true => format!("on a finer resolution as well ({distance:.2})"),
+            false => format!("not on a finer resolution ({distance:.2})"),
+        });
+        let share = self.share(stories).filter(|share| *share > 0.0);
+        let share = share.map(|share| {
+            let (own, like) = (self.draws_like, stories.net_like);
+            format!("{:.0} % of the draws that end alike ({own} of {like})", 100.0 * share)
+        });
+        let told: Vec<String> = [alike, finer, share].into_iter().flatten().collect();
+        (!told.is_empty()).then(|| told.join("; "))
     }
 
     /// Whether it hangs on chance.
@@ -110,13 +145,13 @@ pub(super) fn of(
     let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.0.iter().collect();
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
     let mut stories: Vec<Story> =
-        elites.iter().take(TOLD).map(|(kind, elite)| story(question, kind, elite)).collect();
-    let jittered = if effort.neighbours == 0 { 0 } else { JITTERED };
-    for story in stories.iter_mut().filter(|story| story.is_like()).take(jittered) {
-        story.alike = Some(alike(question, folder, effort, &story.point)?);
+        elites.iter().take(TOLD).map(|(kind, elite)| story(rounds, kind, elite)).collect();
+    if effort.neighbours > 0 {
+        let like = stories.iter_mut().filter(|story| story.is_like()).take(TRIED);
+        like.into_iter().try_for_each(|story| tried(question, folder, effort, story))?;
     }
     let net = &rounds.net;
-    let simulated: f64 = net.iter().map(|trial| trial.simulated_s).sum();
+    let simulated: f64 = net.iter().map(|(_, trial)| trial.simulated_s).sum();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 trials")]
     let found = Stories {
         observation: question.observation.id.clone(),
@@ -125,7 +160,7 @@ pub(super) fn of(
         trials: rounds.trials(),
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),
-        net_like: net.iter().filter(|trial| trial.distance <= LIKE).count(),
+        net_like: net.iter().filter(|(_, trial)| trial.distance <= LIKE).count(),
     };
     let file = folder.path.join("stories.json");
     save::atomically(&file, (found.json() + "\n").as_bytes())
@@ -133,9 +168,12 @@ pub(super) fn of(
     Ok(found)
 }
 
-fn story(question: &Question, kind: &Kind, elite: &Elite) -> Story {
+fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite) -> Story {
+    let question = rounds.question;
     let Trial { distance, terms, mirrored, state_hash, .. } = elite.trial.clone();
     let drawn = Encounter::at_point(&question.opened, &elite.point).drawn;
+    let like = rounds.net.iter().filter(|(_, trial)| trial.distance <= LIKE);
+    let is_own = |point: &[f64], trial: &Trial| Kind::of(question, point, trial) == *kind;
     Story {
         first_part: kind.first_part.clone(),
         acts: kind.acts.clone(),
@@ -144,6 +182,8 @@ fn story(question: &Question, kind: &Kind, elite: &Elite) -> Story {
         terms,
         mirrored,
         alike: None,
+        finer: None,
+        draws_like: like.filter(|(point, trial)| is_own(point, trial)).count(),
         drawn: drawn.into_iter().map(|drawn| (drawn.name, drawn.text)).collect(),
         state_hash,
         point: elite.point.clone(),
@@ -159,23 +199,39 @@ fn course(quarter: u8) -> &'static str {
     }
 }
 
-/// Share of a story's neighbours that are like the observation as well.
-fn alike(
+/// Runs neighbours of a story, and the story itself on a finer resolution.
+fn tried(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
-    point: &[f64],
-) -> Result<f64, Error> {
+    story: &mut Story,
+) -> Result<(), Error> {
+    let (opened, observation) = (&question.opened, &question.observation);
+    let encounter = Encounter::at_point(opened, &story.point);
+    let name = name(&story.point);
+    let count = u32::try_from(effort.neighbours).unwrap_or(u32::MAX);
+    // The last is the story itself.
+    let ended = batch::run(&folder.rounds, &name, 0..count.saturating_add(1), effort, |number| {
+        if number == count {
+            return Ended::finer(opened, &encounter);
+        }
+        Ended::of(opened, &neighbour(question, &story.point, number))
+    })?;
+    let distances: Vec<f64> =
+        ended.iter().map(|ended| Trial::of(observation, ended).distance).collect();
+    let like = distances[..effort.neighbours].iter().filter(|distance| **distance <= LIKE).count();
+    #[expect(clippy::cast_precision_loss, reason = "a few")]
+    let share = like as f64 / effort.neighbours as f64;
+    story.alike = Some(share);
+    story.finer = distances.last().copied();
+    Ok(())
+}
+
+/// Name of the runs that belong to a story.
+fn name(point: &[f64]) -> String {
     let mut hasher = blake3::Hasher::new();
     for share in point {
         hasher.update(&share.to_le_bytes());
     }
-    let round = format!("neighbours-{}", &hasher.finalize().to_hex()[..16]);
-    let trials = batch::run(folder, &round, effort.neighbours, effort, |number| {
-        Trial::of_encounter(question, &neighbour(question, point, number))
-    })?;
-    let like = trials.iter().filter(|trial| trial.distance <= LIKE).count();
-    #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let share = like as f64 / effort.neighbours as f64;
-    Ok(share)
+    format!("neighbours-{}", &hasher.finalize().to_hex()[..16])
 }

@@ -1,7 +1,12 @@
 //! The search by itself, with trials that are calculated and not run.
 
 use std::fs;
+use std::path::PathBuf;
+use std::sync::Mutex;
 
+use endline_gear::Site;
+
+use super::ending::AtSite;
 use super::*;
 use crate::plugins::PluginHost;
 use crate::study::Shard;
@@ -15,6 +20,8 @@ confidence = "estimate"
 encounters = "study"
 [[site]]
 part = "body"
+[trailing]
+length = ["1 m", "1 m"]
 "#;
 
 const STUDY: &str = r#"format = 1
@@ -56,15 +63,15 @@ fn asked(place: &Place, seed: u64) -> Question {
 }
 
 fn folder_of(place: &Place, name: &str, question: &Question) -> Folder {
-    Folder::open(&place.0.join(name), question).unwrap()
+    Folder::open(&place.0.join(name), None, question).unwrap()
 }
 
 fn effort(trials: usize, threads: usize, [part, of]: [u32; 2]) -> Effort {
-    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net_alone: false }
+    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net: 128 }
 }
 
 /// Three kinds of story, each with a narrow pit of its own; only that of the head goes down to nothing.
-fn made_up(point: &[f64]) -> Trial {
+fn made_up(point: &[f64]) -> Ended {
     let (kind, pit, floor) = match point[3] {
         share if share < 0.5 => ("head", [0.32, 0.81, 0.17], 0.0),
         _ if point[0] < 0.5 => ("body", [0.21, 0.4, 0.9], 1.4),
@@ -72,17 +79,11 @@ fn made_up(point: &[f64]) -> Trial {
     };
     let away: f64 = point.iter().zip(pit).map(|(share, pit)| (share - pit).powi(2)).sum();
     let distance = floor + 8.0 * away.sqrt();
-    Trial {
-        distance,
-        nearest: distance,
-        terms: Vec::new(),
-        mirrored: false,
-        first_part: kind.into(),
-        outcome: "entangled".into(),
-        fault: String::new(),
-        simulated_s: 1.0,
-        state_hash: String::new(),
-    }
+    // As far from the observation as wanted: rope behind the whale that is too long costs the logarithm of its length.
+    let behind_m = libm::exp(0.4 * distance);
+    let body = AtSite { site: Site::Body, wraps: 0.0, tight: false };
+    let ending = Ending { sites: vec![body], behind_m, ..Ending::default() };
+    Ended { ending, first_part: kind.into(), simulated_s: 1.0, ..Ended::default() }
 }
 
 fn found(question: &Question, folder: &Folder, effort: &Effort) -> Vec<(Vec<f64>, f64)> {
@@ -113,7 +114,11 @@ fn threads_shards_kills_and_a_longer_search_change_nothing() {
     // Killed after some rounds, with one part of a round lost; then on with other shards than before.
     let folder = folder_of(&place, "killed", &question);
     found(&question, &folder, &effort(250, 1, [0, 1]));
-    fs::remove_file(folder.path.join("round-00004.0of1")).unwrap();
+    let lost = fs::read_dir(&folder.path).unwrap().map(|entry| entry.unwrap().path());
+    let is_lost = |file: &PathBuf| file.to_string_lossy().contains("round-00004.");
+    let lost: Vec<PathBuf> = lost.filter(is_lost).collect();
+    assert_eq!(lost.len(), 1);
+    fs::remove_file(&lost[0]).unwrap();
     assert_eq!(found(&question, &folder, &effort(600, 2, [0, 1])), whole, "killed");
 }
 
@@ -126,7 +131,8 @@ fn local_searches_find_what_the_net_leaves() {
         let question = asked(&place, seed);
         let best = |net_alone: bool| {
             let folder = folder_of(&place, &format!("{seed}-{net_alone}"), &question);
-            let effort = Effort { net_alone, ..effort(900, 1, [0, 1]) };
+            let net = if net_alone { 900 } else { 128 };
+            let effort = Effort { net, ..effort(900, 1, [0, 1]) };
             found(&question, &folder, &effort).into_iter().map(|(_, distance)| distance)
         };
         let (searched, net): (Vec<f64>, Vec<f64>) = (best(false).collect(), best(true).collect());
@@ -150,10 +156,41 @@ fn another_search_does_not_mix_with_what_a_folder_holds() {
         OBSERVATION.replace("body", "head"),
     )
     .unwrap();
-    let error = Folder::open(&folder.path, &asked(&place, 1)).unwrap_err().to_string();
+    let error = Folder::open(&folder.path, None, &asked(&place, 1)).unwrap_err().to_string();
     assert!(error.contains("choose another folder with --out"), "{error}");
-    fs::write(folder.path.join("net-00000.0of1"), b"not a round").unwrap();
+    fs::write(folder.path.join("net.0-32.0of1"), b"not a round").unwrap();
     let error =
         rounds_of(&question, &folder, &effort(40, 1, [0, 1]), made_up, |_| {}).err().unwrap();
     assert!(error.to_string().contains("is damaged"), "{error}");
+}
+
+#[test]
+fn observations_of_the_same_encounters_share_draws() {
+    let place = place("shared");
+    let shared = place.0.join("net");
+    let runs = Mutex::new(Vec::new());
+    let kept = |point: &[f64]| {
+        runs.lock().unwrap().push(point.to_vec());
+        made_up(point)
+    };
+    // Draws of a search, and how many of them it ran itself.
+    let search = |name: &str, trials: usize| {
+        let question = asked(&place, 1);
+        let folder = Folder::open(&place.0.join(name), Some(&shared), &question).unwrap();
+        let effort = Effort { net: 100, ..effort(trials, 1, [0, 1]) };
+        let rounds = rounds_of(&question, &folder, &effort, kept, |_| {}).unwrap();
+        let ran = std::mem::take(&mut *runs.lock().unwrap());
+        let own = rounds.net.iter().filter(|(point, _)| ran.contains(point)).count();
+        (rounds.net.len(), own)
+    };
+    let observation = place.library().join("observations/made-up.toml");
+    assert_eq!(search("one", 100), (100, 100));
+    let other = OBSERVATION.replace(r#""1 m", "1 m""#, r#""2 m", "3 m""#);
+    assert_ne!(other, OBSERVATION);
+    fs::write(&observation, other).unwrap();
+    assert_eq!(search("other", 100), (100, 0));
+    // Each later round brings eight draws; the first search finds them kept when it goes on.
+    assert_eq!(search("other", 101), (108, 8));
+    fs::write(&observation, OBSERVATION).unwrap();
+    assert_eq!(search("one", 101), (108, 0));
 }

@@ -13,6 +13,7 @@
 //! | `aim`, `equilibria` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
 //! | `prepare` | plan, draws and aim together, assembled |
 //! | `play`, `equivalence`, `branch` | the run, or the run that another option has already |
+//! | `finer` | the run on a finer resolution |
 //! | `row` | the run's figures |
 //!
 //! Run `i` of an option is defined by the study's hash and `i`. Blocks of encounters are written whole or not at all, so
@@ -29,6 +30,7 @@ mod drawn;
 pub mod encounter;
 mod equilibria;
 mod equivalence;
+mod finer;
 pub mod folder;
 pub mod merge;
 mod open;

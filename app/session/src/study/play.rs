@@ -136,8 +136,25 @@ impl Opened {
         frames_hz: f64,
         look: impl FnMut(&Run),
     ) -> Result<Played, Error> {
-        let mut run = self.begin(option, encounter, self.prepare(option, encounter)?, frames_hz)?;
+        let prepared = self.prepare(option, encounter)?;
+        let mut run = self.begin(option, encounter, prepared, frames_hz)?;
         self.to_its_end(&mut run, look);
+        let report = Report::from_run(&run);
+        Ok(Played { run, report })
+    }
+
+    /// Plays an encounter as prepared.
+    ///
+    /// # Errors
+    /// Gear that does not come to rest.
+    pub(super) fn play_prepared(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        prepared: Prepared,
+    ) -> Result<Played, Error> {
+        let mut run = self.begin(option, encounter, prepared, 0.0)?;
+        self.to_its_end(&mut run, |_| {});
         let report = Report::from_run(&run);
         Ok(Played { run, report })
     }

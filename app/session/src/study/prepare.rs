@@ -104,6 +104,6 @@ impl Opened {
 }
 
 /// A value of a scenario [SI].
-fn value(scenario: &Document, field: &str, quantity: units::Quantity) -> Option<f64> {
+pub(super) fn value(scenario: &Document, field: &str, quantity: units::Quantity) -> Option<f64> {
     units::parse(&scenario.get(field)?, quantity).ok()
 }

@@ -6,7 +6,10 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::batch;
+use endline_sim::Model;
+
 use super::control::{Control, Count, Progress};
+use super::encounter::Encounter;
 use super::folder::Folder;
 use super::merge;
 use super::open::Opened;
@@ -269,4 +272,21 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     assert!(read.whole && read.table.rows() == 8 && read.folder == folder);
     let reported: Vec<bool> = results::list(&root).iter().map(|found| found.reported).collect();
     assert!(reported.contains(&true) && reported.contains(&false), "{reported:?}");
+}
+
+#[test]
+fn a_finer_resolution_halves_segments_and_steps_and_keeps_the_encounter() {
+    let place = Place::new("finer");
+    let study = place.library().join("studies/study.toml");
+    let opened = Opened::open(&study, Some(&place.library()), &PluginHost::empty()).unwrap();
+    let encounter = Encounter::of(&opened, 3);
+    let [usual, finer] = [
+        opened.play(0, &encounter, 0.0).unwrap(),
+        opened.play_finer(0, &encounter).unwrap(),
+    ]
+    .map(|played| played.run.model().clone());
+    assert_eq!(finer.node_count, 2 * usual.node_count);
+    let step_s = |model: &Model| model.spec.settings.contact_step_s;
+    assert_eq!(step_s(&finer), 0.5 * step_s(&usual));
+    assert_eq!(finer.spec.bodies[0].drag_area_m2, usual.spec.bodies[0].drag_area_m2);
 }

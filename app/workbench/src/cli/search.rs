@@ -37,9 +37,12 @@ pub(super) struct SearchArgs {
     /// Write the best stories as scenario, recording and picture.
     #[arg(long, value_name = "N", default_value_t = 0)]
     keep: usize,
-    /// Try draws of the priors alone, without local searches.
-    #[arg(long)]
-    net_alone: bool,
+    /// Draws from the priors before the first local search; as many as `--trials`, and draws alone are tried.
+    #[arg(long, value_name = "N", default_value_t = 128)]
+    net: usize,
+    /// Folder of draws that searches among the same encounters share [default: the search's own].
+    #[arg(long, value_name = "DIR")]
+    net_folder: Option<PathBuf>,
     /// Run only this part of every round, such as 2/7, and wait for the others; all parts need one folder.
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
     shard: Shard,
@@ -59,7 +62,8 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
     let host = host::load();
     let question = Question::open(&args.observation, args.encounters.as_deref(), library, &host)?;
     let usual = || Path::new("results").join(format!("search-{}", question.observation.id));
-    let folder = Folder::open(&args.out.clone().unwrap_or_else(usual), &question)?;
+    let out = args.out.clone().unwrap_or_else(usual);
+    let folder = Folder::open(&out, args.net_folder.as_deref(), &question)?;
     if !args.eager {
         lower_priority();
     }
@@ -68,7 +72,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         threads: args.threads.map_or_else(all_cores, usize::from),
         shard: args.shard,
         neighbours: args.neighbours,
-        net_alone: args.net_alone,
+        net: args.net,
     };
     let stories = found(&question, &folder, &effort, told())?;
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
@@ -114,15 +118,12 @@ fn words(stories: &Stories) -> String {
         stories.net_like, stories.net
     );
     let told: String =
-        stories.stories.iter().enumerate().map(|(number, story)| one(number + 1, story)).collect();
+        stories.stories.iter().enumerate().map(|(n, story)| one(n + 1, story, stories)).collect();
     format!("{head}{share}\n{found}{told}")
 }
 
-fn one(number: usize, story: &Story) -> String {
-    let alike = story.alike.map_or(String::new(), |alike| {
-        let fragile = if story.is_fragile() { ", fragile" } else { "" };
-        format!("; {:.0} % of its neighbours end alike{fragile}", 100.0 * alike)
-    });
+fn one(number: usize, story: &Story, stories: &Stories) -> String {
+    let alike = story.trust(stories).map_or(String::new(), |trust| format!("; {trust}"));
     let course =
         if story.course.is_empty() { String::new() } else { format!(", {}", story.course) };
     let mirrored = if story.mirrored { ", as its mirror image" } else { "" };
