@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::study::encounter::Encounter;
 
+use super::distance::LIKE;
 use super::question::Question;
 use super::trial::{PROGRESS, Trial};
 
@@ -34,7 +35,12 @@ pub(super) struct Elite {
 
 /// Elites by kind.
 #[derive(Debug, Default)]
-pub(super) struct Elites(pub(super) BTreeMap<Kind, Elite>);
+pub(super) struct Elites {
+    /// The nearest of every kind.
+    pub(super) best: BTreeMap<Kind, Elite>,
+    /// Every run that is like the observation, in the order in which they came.
+    like: Vec<(Kind, Elite)>,
+}
 
 impl Kind {
     pub(super) fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
@@ -66,15 +72,27 @@ impl Elites {
             return;
         }
         let kind = Kind::of(question, point, trial);
-        let begun = self.0.get(&kind).map_or(0, |elite| elite.begun);
-        if self.0.get(&kind).is_none_or(|elite| trial.aim() < elite.trial.aim()) {
-            self.0.insert(kind, Elite { point: point.to_vec(), trial: trial.clone(), begun });
+        let begun = self.best.get(&kind).map_or(0, |elite| elite.begun);
+        let elite = Elite { point: point.to_vec(), trial: trial.clone(), begun };
+        if trial.distance <= LIKE {
+            self.like.push((kind.clone(), elite.clone()));
         }
+        if self.best.get(&kind).is_none_or(|best| trial.aim() < best.trial.aim()) {
+            self.best.insert(kind, elite);
+        }
+    }
+
+    /// Runs of a kind that are like the observation, the nearest first.
+    pub(super) fn like(&self, kind: &Kind) -> Vec<&Elite> {
+        let own = self.like.iter().filter(|(other, _)| other == kind);
+        let mut own: Vec<&Elite> = own.map(|(_, elite)| elite).collect();
+        own.sort_by(|one, other| one.trial.distance.total_cmp(&other.trial.distance));
+        own
     }
 
     /// The elites, the nearest first.
     pub(super) fn nearest(&self) -> Vec<&Elite> {
-        let mut elites: Vec<&Elite> = self.0.values().collect();
+        let mut elites: Vec<&Elite> = self.best.values().collect();
         elites.sort_by(|one, other| one.trial.aim().total_cmp(&other.trial.aim()));
         elites
     }
@@ -82,7 +100,7 @@ impl Elites {
     /// The elite from which the next local search begins: near, not begun from too often, and not as good as it can be.
     pub(super) fn next_start(&mut self) -> Option<&mut Elite> {
         let worth = |elite: &Elite| elite.trial.aim() + f64::from(elite.begun);
-        let open = self.0.values_mut().filter(|elite| elite.trial.aim() > PROGRESS);
+        let open = self.best.values_mut().filter(|elite| elite.trial.aim() > PROGRESS);
         open.min_by(|one, other| worth(one).total_cmp(&worth(other)))
     }
 }

@@ -15,7 +15,7 @@
 //! | `elites`, `climb`, `variation` | the best trial of every kind of story; a local search from one of them; one with another act |
 //! | `batch`, `store`, `folder` | runs of a round on threads and shards, kept round by round; those of the net are shared |
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
-//! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
+//! | `stories`, `robust`, `jitter` | what was found; the most robust run of a kind, by its neighbours and on a finer resolution |
 //! | `page` | the report |
 //!
 //! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
@@ -32,6 +32,7 @@ mod jitter;
 mod order;
 pub mod page;
 mod question;
+mod robust;
 mod rounds;
 mod store;
 pub mod stories;

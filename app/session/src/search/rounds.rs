@@ -152,6 +152,6 @@ impl<'a> Rounds<'a> {
 
     /// The least distance so far.
     pub(super) fn best(&self) -> Option<f64> {
-        self.elites.0.values().map(|elite| elite.trial.distance).reduce(f64::min)
+        self.elites.best.values().map(|elite| elite.trial.distance).reduce(f64::min)
     }
 }

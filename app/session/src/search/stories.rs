@@ -8,20 +8,18 @@ use crate::save;
 use crate::study::encounter::Encounter;
 
 use super::Effort;
-use super::batch;
 use super::distance::LIKE;
 use super::elites::{Elite, Kind};
-use super::ended::Ended;
 use super::folder::Folder;
-use super::jitter::neighbour;
 use super::question::Question;
+use super::robust::{Tried, most_robust};
 use super::rounds::Rounds;
 use super::trial::Trial;
 
 /// Stories told at most.
 const TOLD: usize = 12;
 
-/// Of this many, neighbours and the encounter on a finer resolution are run.
+/// Of the nearest kinds, so many are tried by neighbours and on a finer resolution.
 const TRIED: usize = 6;
 
 /// A story of which fewer neighbours end alike hangs on chance.
@@ -34,7 +32,7 @@ pub struct Stories {
     pub observation: String,
     /// Id of the study whose encounters were searched.
     pub encounters: String,
-    /// The best of every kind, the nearest first.
+    /// A run of every kind, the kind with the nearest first: the most robust of those like the observation, or else the nearest.
     pub stories: Vec<Story>,
     /// Trials run, neighbours not counted.
     pub trials: usize,
@@ -142,13 +140,16 @@ pub(super) fn of(
     effort: &Effort,
     rounds: &Rounds<'_>,
 ) -> Result<Stories, Error> {
-    let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.0.iter().collect();
+    let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.best.iter().collect();
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
-    let mut stories: Vec<Story> =
-        elites.iter().take(TOLD).map(|(kind, elite)| story(rounds, kind, elite)).collect();
-    if effort.neighbours > 0 {
-        let like = stories.iter_mut().filter(|story| story.is_like()).take(TRIED);
-        like.into_iter().try_for_each(|story| tried(question, folder, effort, story))?;
+    let mut stories = Vec::new();
+    for (place, (kind, elite)) in elites.into_iter().take(TOLD).enumerate() {
+        let is_tried = effort.neighbours > 0 && place < TRIED;
+        let like = if is_tried { rounds.elites.like(kind) } else { Vec::new() };
+        stories.push(match most_robust(question, folder, effort, &like)? {
+            Some(tried) => story(rounds, kind, tried.elite, Some(&tried)),
+            None => story(rounds, kind, elite, None),
+        });
     }
     let net = &rounds.net;
     let simulated: f64 = net.iter().map(|(_, trial)| trial.simulated_s).sum();
@@ -168,7 +169,7 @@ pub(super) fn of(
     Ok(found)
 }
 
-fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite) -> Story {
+fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite, tried: Option<&Tried<'_>>) -> Story {
     let question = rounds.question;
     let Trial { distance, terms, mirrored, state_hash, .. } = elite.trial.clone();
     let drawn = Encounter::at_point(&question.opened, &elite.point).drawn;
@@ -181,8 +182,8 @@ fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite) -> Story {
         distance,
         terms,
         mirrored,
-        alike: None,
-        finer: None,
+        alike: tried.map(|tried| tried.alike),
+        finer: tried.map(|tried| tried.finer),
         draws_like: like.filter(|(point, trial)| is_own(point, trial)).count(),
         drawn: drawn.into_iter().map(|drawn| (drawn.name, drawn.text)).collect(),
         state_hash,
@@ -197,41 +198,4 @@ fn course(quarter: u8) -> &'static str {
         2 => "against the current",
         _ => "current from port",
     }
-}
-
-/// Runs neighbours of a story, and the story itself on a finer resolution.
-fn tried(
-    question: &Question,
-    folder: &Folder,
-    effort: &Effort,
-    story: &mut Story,
-) -> Result<(), Error> {
-    let (opened, observation) = (&question.opened, &question.observation);
-    let encounter = Encounter::at_point(opened, &story.point);
-    let name = name(&story.point);
-    let count = u32::try_from(effort.neighbours).unwrap_or(u32::MAX);
-    // The last is the story itself.
-    let ended = batch::run(&folder.rounds, &name, 0..count.saturating_add(1), effort, |number| {
-        if number == count {
-            return Ended::finer(opened, &encounter);
-        }
-        Ended::of(opened, &neighbour(question, &story.point, number))
-    })?;
-    let distances: Vec<f64> =
-        ended.iter().map(|ended| Trial::of(observation, ended).distance).collect();
-    let like = distances[..effort.neighbours].iter().filter(|distance| **distance <= LIKE).count();
-    #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let share = like as f64 / effort.neighbours as f64;
-    story.alike = Some(share);
-    story.finer = distances.last().copied();
-    Ok(())
-}
-
-/// Name of the runs that belong to a story.
-fn name(point: &[f64]) -> String {
-    let mut hasher = blake3::Hasher::new();
-    for share in point {
-        hasher.update(&share.to_le_bytes());
-    }
-    format!("neighbours-{}", &hasher.finalize().to_hex()[..16])
 }

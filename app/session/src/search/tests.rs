@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-use endline_gear::Site;
+use endline_gear::{Observation, Site};
 
 use super::ending::AtSite;
 use super::*;
@@ -62,6 +62,11 @@ fn asked(place: &Place, seed: u64) -> Question {
     Question { seed, ..opened.unwrap() }
 }
 
+/// The observation of these tests.
+pub(crate) fn observation() -> Observation {
+    Observation::read("made-up.toml", OBSERVATION).unwrap()
+}
+
 fn folder_of(place: &Place, name: &str, question: &Question) -> Folder {
     Folder::open(&place.0.join(name), None, question).unwrap()
 }
@@ -88,7 +93,7 @@ fn made_up(point: &[f64]) -> Ended {
 
 fn found(question: &Question, folder: &Folder, effort: &Effort) -> Vec<(Vec<f64>, f64)> {
     let rounds = rounds_of(question, folder, effort, made_up, |_| {}).unwrap();
-    let elites = rounds.elites.0.values();
+    let elites = rounds.elites.best.values();
     elites.map(|elite| (elite.point.clone(), elite.trial.distance)).collect()
 }
 

@@ -280,11 +280,9 @@ fn a_finer_resolution_halves_segments_and_steps_and_keeps_the_encounter() {
     let study = place.library().join("studies/study.toml");
     let opened = Opened::open(&study, Some(&place.library()), &PluginHost::empty()).unwrap();
     let encounter = Encounter::of(&opened, 3);
-    let [usual, finer] = [
-        opened.play(0, &encounter, 0.0).unwrap(),
-        opened.play_finer(0, &encounter).unwrap(),
-    ]
-    .map(|played| played.run.model().clone());
+    let [usual, finer] =
+        [opened.play(0, &encounter, 0.0).unwrap(), opened.play_finer(0, &encounter).unwrap()]
+            .map(|played| played.run.model().clone());
     assert_eq!(finer.node_count, 2 * usual.node_count);
     let step_s = |model: &Model| model.spec.settings.contact_step_s;
     assert_eq!(step_s(&finer), 0.5 * step_s(&usual));

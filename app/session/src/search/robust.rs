@@ -1,0 +1,138 @@
+//! The most robust story of a kind: of its runs that are like the observation, the one whose neighbours most often are as well.
+//!
+//! The nearest run is often at the rim of what ends alike. A few neighbours of some runs far apart from each other tell which one is not;
+//! of that, all neighbours are run, and the encounter on a finer resolution.
+
+use crate::error::Error;
+use crate::study::encounter::Encounter;
+
+use super::Effort;
+use super::batch;
+use super::distance::LIKE;
+use super::elites::Elite;
+use super::ended::Ended;
+use super::folder::Folder;
+use super::jitter::neighbour;
+use super::question::Question;
+use super::trial::Trial;
+
+/// Runs of a kind that are tried.
+const CANDIDATES: usize = 4;
+
+/// Neighbours by which they are compared.
+const FIRST: u32 = 4;
+
+/// A run that was tried.
+pub(super) struct Tried<'a> {
+    /// The run.
+    pub(super) elite: &'a Elite,
+    /// Share of its neighbours that are like the observation.
+    pub(super) alike: f64,
+    /// Distance of the same encounter on a finer resolution.
+    pub(super) finer: f64,
+}
+
+/// The most robust of the runs of a kind that are like the observation, the nearest of which stands first; `None` where there is none.
+///
+/// # Errors
+/// A folder that cannot be read or written.
+pub(super) fn most_robust<'a>(
+    question: &Question,
+    folder: &Folder,
+    effort: &Effort,
+    like: &[&'a Elite],
+) -> Result<Option<Tried<'a>>, Error> {
+    let asked = u32::try_from(effort.neighbours).unwrap_or(u32::MAX);
+    let first = FIRST.min(asked);
+    let share = |elite: &Elite| share_alike(question, folder, effort, elite, first);
+    let mut best: Option<(f64, &Elite)> = None;
+    for elite in far_apart(like) {
+        let alike = share(elite)?;
+        if best.is_none_or(|(most, _)| alike > most) {
+            best = Some((alike, elite));
+        }
+    }
+    let Some((_, elite)) = best else { return Ok(None) };
+    let alike = share_alike(question, folder, effort, elite, asked)?;
+    Ok(Some(Tried { elite, alike, finer: finer(question, folder, effort, elite)? }))
+}
+
+/// A few of the runs: the first, then each time the one farthest from those chosen.
+fn far_apart<'a>(like: &[&'a Elite]) -> Vec<&'a Elite> {
+    let mut chosen: Vec<&Elite> = like.first().copied().into_iter().collect();
+    while chosen.len() < CANDIDATES.min(like.len()) {
+        let away = |elite: &Elite| {
+            let from = chosen.iter().map(|other| distance(&elite.point, &other.point));
+            from.fold(f64::INFINITY, f64::min)
+        };
+        let far = like.iter().max_by(|one, other| away(one).total_cmp(&away(other)));
+        chosen.extend(far);
+    }
+    chosen
+}
+
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Share of a run's first neighbours that are like the observation; those that were run before are read.
+fn share_alike(
+    question: &Question,
+    folder: &Folder,
+    effort: &Effort,
+    elite: &Elite,
+    count: u32,
+) -> Result<f64, Error> {
+    let name = format!("neighbours-{}", name(&elite.point));
+    let ended = batch::run(&folder.rounds, &name, 0..count, effort, |number| {
+        Ended::of(&question.opened, &neighbour(question, &elite.point, number))
+    })?;
+    let distance = |ended| Trial::of(&question.observation, ended).distance;
+    let like = ended.iter().filter(|ended| distance(ended) <= LIKE).count();
+    #[expect(clippy::cast_precision_loss, reason = "a few")]
+    let share = like as f64 / f64::from(count);
+    Ok(share)
+}
+
+/// Distance of a run's encounter on a finer resolution.
+fn finer(
+    question: &Question,
+    folder: &Folder,
+    effort: &Effort,
+    elite: &Elite,
+) -> Result<f64, Error> {
+    let name = format!("finer-{}", name(&elite.point));
+    let ended = batch::run(&folder.rounds, &name, 0..1, effort, |_| {
+        Ended::finer(&question.opened, &Encounter::at_point(&question.opened, &elite.point))
+    })?;
+    Ok(ended.iter().map(|ended| Trial::of(&question.observation, ended).distance).sum())
+}
+
+/// Name of a point.
+fn name(point: &[f64]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for share in point {
+        hasher.update(&share.to_le_bytes());
+    }
+    hasher.finalize().to_hex()[..16].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn candidates_are_the_nearest_and_then_far_apart() {
+        let elite = |share: f64| Elite {
+            point: vec![share],
+            trial: Trial::of(&crate::search::tests::observation(), &Ended::default()),
+            begun: 0,
+        };
+        let all = [0.5, 0.52, 0.9, 0.0, 0.48, 0.7, 0.1].map(elite);
+        let like: Vec<&Elite> = all.iter().collect();
+        let chosen: Vec<f64> = far_apart(&like).iter().map(|elite| elite.point[0]).collect();
+        assert_eq!(chosen, [0.5, 0.0, 0.9, 0.7]);
+        assert_eq!(far_apart(&like[..2]).len(), 2);
+        assert!(far_apart(&[]).is_empty());
+    }
+}
