@@ -15,7 +15,7 @@ use endline_session::plugins::{Hook, PluginHost};
 use endline_session::search::written::observation_text;
 use endline_session::search::{Effort, Ending, Folder, Question, search};
 use endline_session::study::encounter::Encounter;
-use endline_session::study::{Opened, Shard, draw};
+use endline_session::study::{Control, Opened, Shard, draw};
 use endline_sim::metrics::EventKind;
 
 /// Study whose encounters are hidden and searched.
@@ -120,7 +120,7 @@ pub fn recover(hidden: &Hidden, number: usize, trials: usize, host: &PluginHost)
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let effort = Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net_alone: false };
     let mut after = None;
-    let stories = search(&question, &folder, &effort, |progress| {
+    let stories = search(&question, &folder, &effort, &Control::default(), |progress| {
         if after.is_none() && progress.best.is_some_and(|best| best <= 1.0) {
             after = Some(progress.trials);
         }

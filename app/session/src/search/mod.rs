@@ -16,6 +16,8 @@
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `jitter` | what was found, and how many neighbours of each story end alike |
 //! | `page` | the report |
+//! | `open` | a story as a run or a scenario of its own |
+//! | `job` | a search on threads of its own, for a window |
 //!
 //! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
 //! kept and goes on, and any number of threads and shards finds the same. How to use it: `docs/search.md`.
@@ -27,6 +29,8 @@ mod elites;
 pub mod ending;
 mod folder;
 mod jitter;
+pub mod job;
+pub mod open;
 mod order;
 pub mod page;
 mod question;
@@ -39,10 +43,12 @@ pub mod written;
 
 use crate::error::Error;
 use crate::study::Shard;
+use crate::study::control::{Control, Count};
 
 pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
 pub use folder::Folder;
+pub use job::Job;
 pub use question::Question;
 use rounds::Rounds;
 pub use stories::{Stories, Story};
@@ -64,7 +70,7 @@ pub struct Effort {
 }
 
 /// How far a search is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Trials done.
     pub trials: usize,
@@ -72,9 +78,12 @@ pub struct Progress {
     pub of: usize,
     /// The least distance so far.
     pub best: Option<f64>,
+    /// The stories so far, without their neighbours.
+    pub stories: Stories,
 }
 
-/// Searches until the effort is spent, and jitters the stories that are like the observation.
+/// Searches until the effort is spent, and jitters the stories that are like the observation. The control pauses and cancels it
+/// between two trials; `progress` is told of every round. Of a search that is cancelled, the stories so far.
 ///
 /// # Errors
 /// A folder that cannot be written, or holds a round of another search.
@@ -82,29 +91,41 @@ pub fn search(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     progress: impl FnMut(Progress),
 ) -> Result<Stories, Error> {
     let trial = |point: &[f64]| Trial::of(question, point);
-    let rounds = rounds_of(question, folder, effort, trial, progress)?;
-    stories::of(question, folder, effort, &rounds)
+    let rounds = rounds_of(question, folder, effort, trial, control, progress)?;
+    let stories = stories::of(question, folder, effort, control, &rounds);
+    control.end();
+    stories
 }
 
-/// Round after round until the effort is spent; `trial` runs the encounter at a point.
+/// Round after round until the effort is spent or the control cancels; `trial` runs the encounter at a point.
 fn rounds_of<'a>(
     question: &'a Question,
     folder: &Folder,
     effort: &Effort,
     trial: impl Fn(&[f64]) -> Trial + Sync,
+    control: &Control,
     mut progress: impl FnMut(Progress),
 ) -> Result<Rounds<'a>, Error> {
     let mut rounds = Rounds::new(question, effort.net_alone);
+    control.begin(Count::of(effort.trials), Count::default());
     while rounds.trials() < effort.trials {
         let points = rounds.next();
-        let trials = batch::run(folder, &rounds.name(), points.len(), effort, |number| {
-            trial(&points[number])
-        })?;
+        let name = rounds.name();
+        let trial = |number: usize| trial(&points[number]);
+        let Some(trials) = batch::run(folder, &name, points.len(), effort, control, trial)? else {
+            break;
+        };
         rounds.take(&points, trials);
-        progress(Progress { trials: rounds.trials(), of: effort.trials, best: rounds.best() });
+        progress(Progress {
+            trials: rounds.trials(),
+            of: effort.trials,
+            best: rounds.best(),
+            stories: stories::so_far(question, &rounds),
+        });
     }
     Ok(rounds)
 }

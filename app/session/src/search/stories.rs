@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::save;
+use crate::study::control::{Control, Count};
 use crate::study::encounter::Encounter;
 
 use super::Effort;
@@ -61,6 +62,8 @@ pub struct Story {
     pub mirrored: bool,
     /// Share of its neighbours that end alike; `None` where none was run.
     pub alike: Option<f64>,
+    /// Time that its run took [s].
+    pub simulated_s: f64,
     /// What was drawn, by name.
     pub drawn: Vec<(String, String)>,
     /// Hash of the last state.
@@ -90,6 +93,22 @@ impl Story {
 }
 
 impl Stories {
+    /// What was found, in a sentence.
+    #[must_use]
+    pub fn answer(&self) -> String {
+        let like = self.stories.iter().filter(|story| story.is_like()).count();
+        let fragile =
+            self.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
+        match like {
+            0 => format!("Not found in {} runs: no story ends like what was seen.", self.trials),
+            1 if fragile == 1 => {
+                "One kind of story ends like this, and hangs on chance.".to_owned()
+            }
+            1 => "One kind of story ends like this.".to_owned(),
+            _ => format!("{like} kinds of story end like this; {fragile} of them hang on chance."),
+        }
+    }
+
     /// As JSON.
     #[must_use]
     pub fn json(&self) -> String {
@@ -105,20 +124,32 @@ pub(super) fn of(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     rounds: &Rounds<'_>,
 ) -> Result<Stories, Error> {
+    let mut found = so_far(question, rounds);
+    let jittered = if effort.neighbours == 0 { 0 } else { JITTERED };
+    let like = found.stories.iter().filter(|story| story.is_like()).count().min(jittered);
+    control.begin(Count::of(like * effort.neighbours), Count::default());
+    for story in found.stories.iter_mut().filter(|story| story.is_like()).take(jittered) {
+        story.alike = alike(question, folder, effort, control, &story.point)?;
+    }
+    let file = folder.path.join("stories.json");
+    save::atomically(&file, (found.json() + "\n").as_bytes())
+        .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+    Ok(found)
+}
+
+/// The stories of the rounds so far, without their neighbours.
+pub(super) fn so_far(question: &Question, rounds: &Rounds<'_>) -> Stories {
     let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.0.iter().collect();
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
-    let mut stories: Vec<Story> =
+    let stories =
         elites.iter().take(TOLD).map(|(kind, elite)| story(question, kind, elite)).collect();
-    let jittered = if effort.neighbours == 0 { 0 } else { JITTERED };
-    for story in stories.iter_mut().filter(|story| story.is_like()).take(jittered) {
-        story.alike = Some(alike(question, folder, effort, &story.point)?);
-    }
     let net = &rounds.net;
     let simulated: f64 = net.iter().map(|trial| trial.simulated_s).sum();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 trials")]
-    let found = Stories {
+    Stories {
         observation: question.observation.id.clone(),
         encounters: question.opened.study.id.clone(),
         stories,
@@ -126,15 +157,11 @@ pub(super) fn of(
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),
         net_like: net.iter().filter(|trial| trial.distance <= LIKE).count(),
-    };
-    let file = folder.path.join("stories.json");
-    save::atomically(&file, (found.json() + "\n").as_bytes())
-        .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
-    Ok(found)
+    }
 }
 
 fn story(question: &Question, kind: &Kind, elite: &Elite) -> Story {
-    let Trial { distance, terms, mirrored, state_hash, .. } = elite.trial.clone();
+    let Trial { distance, terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
     let drawn = Encounter::at_point(&question.opened, &elite.point).drawn;
     Story {
         first_part: kind.first_part.clone(),
@@ -144,6 +171,7 @@ fn story(question: &Question, kind: &Kind, elite: &Elite) -> Story {
         terms,
         mirrored,
         alike: None,
+        simulated_s,
         drawn: drawn.into_iter().map(|drawn| (drawn.name, drawn.text)).collect(),
         state_hash,
         point: elite.point.clone(),
@@ -159,23 +187,24 @@ fn course(quarter: u8) -> &'static str {
     }
 }
 
-/// Share of a story's neighbours that are like the observation as well.
+/// Share of a story's neighbours that are like the observation as well; `None` where the search was cancelled before all were run.
 fn alike(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     point: &[f64],
-) -> Result<f64, Error> {
+) -> Result<Option<f64>, Error> {
     let mut hasher = blake3::Hasher::new();
     for share in point {
         hasher.update(&share.to_le_bytes());
     }
     let round = format!("neighbours-{}", &hasher.finalize().to_hex()[..16]);
-    let trials = batch::run(folder, &round, effort.neighbours, effort, |number| {
-        Trial::of_encounter(question, &neighbour(question, point, number))
-    })?;
+    let trial = |number: usize| Trial::of_encounter(question, &neighbour(question, point, number));
+    let run = batch::run(folder, &round, effort.neighbours, effort, control, trial)?;
+    let Some(trials) = run else { return Ok(None) };
     let like = trials.iter().filter(|trial| trial.distance <= LIKE).count();
     #[expect(clippy::cast_precision_loss, reason = "a few")]
     let share = like as f64 / effort.neighbours as f64;
-    Ok(share)
+    Ok(Some(share))
 }

@@ -35,7 +35,7 @@ mod open;
 mod parquet;
 mod plan;
 mod play;
-mod prepare;
+pub(crate) mod prepare;
 pub mod priority;
 mod priors;
 pub mod queue;

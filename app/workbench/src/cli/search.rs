@@ -8,7 +8,7 @@ use endline_session::search::{
     Effort, Folder, LIKE, Progress, Question, Stories, Story, page, search as found,
 };
 use endline_session::study::encounter::Encounter;
-use endline_session::study::{REPLAY_HZ, Shard};
+use endline_session::study::{Control, REPLAY_HZ, Shard};
 
 use super::study::args::shard;
 use super::study::{all_cores, keep, lower_priority};
@@ -70,7 +70,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         neighbours: args.neighbours,
         net_alone: args.net_alone,
     };
-    let stories = found(&question, &folder, &effort, told())?;
+    let stories = found(&question, &folder, &effort, &Control::default(), told())?;
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
         let encounter = Encounter::at_point(&question.opened, &story.point);
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;
