@@ -148,13 +148,14 @@ impl Workbench {
         Ok(())
     }
 
-    /// Reads what an earlier search for the open observation has left, unless a search is at work.
+    /// Reads what an earlier search for the open observation has left, unless it has errors or a search is at work.
     fn read_search(&mut self) {
         if self.searches.at_work().is_some() {
             return;
         }
         let (host, waker) = self.helpers();
-        self.searches.job = self.search_request().map(|request| Job::read(request, &host, &waker));
+        let request = self.search_request().filter(|_| self.observation_is_sound());
+        self.searches.job = request.map(|request| Job::read(request, &host, &waker));
     }
 
     /// What a search for the open observation asks for; `None` where none is open.

@@ -1,6 +1,6 @@
 //! The four faces of a whale in a panel, two beside each other.
 
-use egui::{Align2, Color32, FontId, Painter, Rect, Sense, Ui, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
 use endline_sdk::Region;
 
 use super::{BodyMap, Face};
@@ -40,6 +40,8 @@ impl BodyMap {
                     if !ui.is_rect_visible(rect) {
                         continue;
                     }
+                    let told = || WidgetInfo::labeled(WidgetType::Image, true, face.name());
+                    response.widget_info(told);
                     let below = rect.with_min_y(rect.top() + NAME).shrink(2.0);
                     self.face(ui, *face, rect, below, &colour);
                     over(self, &ui.painter_at(rect), *face, below);

@@ -35,10 +35,10 @@ impl Face {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Above => "from above",
-            Self::Below => "from below",
-            Self::Port => "port side",
-            Self::Starboard => "starboard side",
+            Self::Above => "from above, left is up",
+            Self::Below => "from below, left is down",
+            Self::Port => "left side",
+            Self::Starboard => "right side",
         }
     }
 

@@ -41,19 +41,34 @@ impl BodyMap {
         (whole > 0.0).then(|| rect.center() + sum / whole * rect.width())
     }
 
-    /// The outline of what a face shows of some regions.
+    /// The outline of what a face shows of some regions; what lies behind other skin is left out.
     #[must_use]
     pub fn outline(&self, face: Face, is_it: impl Fn(Region) -> bool) -> Vec<Edge> {
-        let mut edges: BTreeMap<[u32; 2], (Edge, u32)> = BTreeMap::new();
+        let mut edges: BTreeMap<[u32; 2], (Edge, u32, u32)> = BTreeMap::new();
         for triangle in self.seen[face as usize].iter().filter(|seen| is_it(seen.region)) {
             let vertices = self.skin.triangles[triangle.triangle as usize];
             for (one, other) in [(0, 1), (1, 2), (2, 0)] {
                 let (a, b) = (vertices[one], vertices[other]);
                 let ends = [triangle.corners[one], triangle.corners[other]];
-                edges.entry([a.min(b), a.max(b)]).or_insert((ends, 0)).1 += 1;
+                let of = triangle.triangle;
+                edges.entry([a.min(b), a.max(b)]).or_insert((ends, of, 0)).2 += 1;
             }
         }
-        edges.into_values().filter(|(_, count)| *count == 1).map(|(edge, _)| edge).collect()
+        let border = edges.into_values().filter(|(.., count)| *count == 1);
+        border
+            .filter(|(edge, of, _)| self.is_seen(face, *edge, *of))
+            .map(|(edge, ..)| edge)
+            .collect()
+    }
+
+    /// Whether a triangle is the nearest to the eye just inside one of its edges.
+    fn is_seen(&self, face: Face, [one, other]: Edge, triangle: u32) -> bool {
+        let seen = &self.seen[face as usize];
+        let Some(own) = seen.iter().find(|seen| seen.triangle == triangle) else { return false };
+        let middle = own.corners.iter().fold(Vec2::ZERO, |sum, corner| sum + *corner / 3.0);
+        let inside = (one + other) * 0.45 + middle * 0.1;
+        let nearest = seen.iter().rev().find(|seen| holds(seen.corners, inside));
+        nearest.is_some_and(|nearest| nearest.triangle == triangle)
     }
 }
 

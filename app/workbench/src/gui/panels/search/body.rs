@@ -114,7 +114,9 @@ fn colour(told: Told, plain: Color32, palette: Palette) -> Color32 {
         Told::Nothing => plain,
         Told::Hidden => palette.ground.lerp_to_gamma(plain, 0.25),
         Told::Seen(present) => {
-            let end = if present > 0.5 { palette.warning } else { palette.good };
+            // Those of the dark theme are light enough to be filled with.
+            let Palette { warning, good, .. } = Theme::Dark.palette();
+            let end = if present > 0.5 { warning } else { good };
             let sure = (2.0 * present - 1.0).abs() as f32;
             plain.lerp_to_gamma(end, 0.25 + 0.75 * sure)
         }
@@ -127,7 +129,9 @@ fn marks(body: &BodyMap, painter: &Painter, rect: Rect, seen: &Seen) {
     for (single, words) in &seen.wraps {
         let is_it = |region| Site::of_region(region) == *single;
         if let Some(middle) = body.middle(Face::Above, rect, is_it, None) {
-            badge(painter, middle, &format!("{words} ×"), palette.panel, palette.text);
+            let numbered = seen.path.iter().any(|place| is_of(place.site, *single));
+            let at = middle + vec2(0.0, if numbered { 16.0 } else { 0.0 });
+            badge(painter, at, &format!("{words} ×"), palette.panel, palette.text);
         }
     }
     let place = |place: &PathPlace| {
@@ -140,8 +144,7 @@ fn marks(body: &BodyMap, painter: &Painter, rect: Rect, seen: &Seen) {
         painter.line_segment([pair[0], pair[1]], Stroke::new(1.6, palette.error));
     }
     for (number, at) in places.iter().enumerate() {
-        let at = *at + vec2(0.0, if seen.wraps.is_empty() { 0.0 } else { 13.0 });
-        badge(painter, at, &(number + 1).to_string(), palette.error, palette.panel);
+        badge(painter, *at, &(number + 1).to_string(), palette.error, palette.panel);
     }
 }
 

@@ -31,6 +31,8 @@ type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;
 pub struct SearchPanel {
     /// The part whose form is shown: a single one.
     pub chosen: Site,
+    /// The observation that it is of.
+    of: Option<PathBuf>,
     map: body::Map,
     /// Observations of the library, by file and name, while the list of them is open.
     listed: Option<Vec<(PathBuf, String)>>,
@@ -41,6 +43,7 @@ impl Default for SearchPanel {
     fn default() -> Self {
         Self {
             chosen: Site::Body,
+            of: None,
             map: body::Map::default(),
             listed: None,
             text: about::Typed::default(),
@@ -62,6 +65,7 @@ impl Panel for SearchPanel {
             );
             return;
         }
+        self.begin(shared);
         run::show(ui, shared);
         ui.separator();
         ScrollArea::vertical().id_salt("observation").auto_shrink(false).show(ui, |ui| {
@@ -77,6 +81,20 @@ impl Panel for SearchPanel {
 }
 
 impl SearchPanel {
+    /// Chooses a part with rope of an observation that is shown for the first time.
+    fn begin(&mut self, shared: &Shared) {
+        let documents = &shared.workbench.project.documents;
+        let path = documents.observation_path();
+        if self.of.as_deref() == path {
+            return;
+        }
+        self.of = path.map(Path::to_owned);
+        let has_rope = |single: &Site| {
+            observation::told(documents, observation::site_of(documents, *single)).has_rope()
+        };
+        self.chosen = Site::SINGLE.into_iter().find(has_rope).unwrap_or(Site::Body);
+    }
+
     /// The observation: chosen from the library, opened from a file, begun anew.
     fn pick(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let documents = &shared.workbench.project.documents;

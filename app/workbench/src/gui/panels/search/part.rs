@@ -82,7 +82,8 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
         widgets::name(ui, "How sure");
         let mut percent = 100.0 * present.max(1.0 - present);
         ui.spacing_mut().slider_width = (ui.available_width() - 90.0).clamp(60.0, 220.0);
-        let slider = Slider::new(&mut percent, 51.0..=100.0).suffix(" %").step_by(1.0);
+        let slider =
+            Slider::new(&mut percent, 51.0..=100.0).suffix(" %").step_by(1.0).max_decimals(0);
         let response = ui.add(slider);
         let documents = &mut shared.workbench.project.documents;
         if response.changed() {

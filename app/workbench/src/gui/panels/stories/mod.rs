@@ -126,12 +126,12 @@ impl StoriesPanel {
             .resizable(true)
             .sense(Sense::click())
             .cell_layout(Layout::left_to_right(Align::Center))
-            .column(Column::exact(20.0))
-            .column(Column::initial(58.0))
-            .column(Column::initial(86.0).clip(true))
-            .column(Column::initial(130.0).clip(true))
-            .column(Column::initial(120.0).clip(true))
-            .column(Column::remainder().clip(true));
+            .column(Column::exact(22.0))
+            .column(Column::initial(56.0))
+            .column(Column::initial(76.0).clip(true))
+            .column(Column::initial(104.0).clip(true))
+            .column(Column::initial(92.0).clip(true))
+            .column(Column::remainder().at_least(84.0).clip(true));
         table
             .header(20.0, |mut header| {
                 for (name, help) in HEADS {
@@ -174,7 +174,10 @@ const HEADS: [(&str, &str); 6] = [
 ];
 
 fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
-    line.col(|ui| drop(ui.label((index + 1).to_string())));
+    line.col(|ui| {
+        ui.add_space(4.0);
+        ui.label((index + 1).to_string());
+    });
     line.col(|ui| {
         let palette = Theme::palette_of(ui);
         let colour = if story.is_like() { palette.good } else { palette.text };
@@ -186,8 +189,12 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
         }
     });
     line.col(|ui| drop(ui.label(spoken(&story.first_part))));
-    line.col(|ui| drop(ui.label(story.acts_in_words())));
-    line.col(|ui| drop(ui.label(story.course)));
+    for text in [story.acts_in_words(), story.course.to_owned()] {
+        line.col(|ui| {
+            // A long text is cut in a narrow panel.
+            ui.label(&text).on_hover_text(&text);
+        });
+    }
     line.col(|ui| {
         let palette = Theme::palette_of(ui);
         let Some(alike) = story.alike else { return };

@@ -36,13 +36,20 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, story: &Story, number: usiz
     Grid::new("drawn").num_columns(2).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
         for (name, text) in &story.drawn {
             ui.label(RichText::new(name.replace('_', " ")).color(palette.faint));
-            ui.label(text);
+            ui.label(short(text)).on_hover_text(text);
             ui.end_row();
         }
         ui.label(RichText::new("run for").color(palette.faint));
         ui.label(format!("{:.0} s", story.simulated_s));
         ui.end_row();
     });
+}
+
+/// A drawn value to four digits, with its unit.
+fn short(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let rounded = number.parse::<f64>().ok().and_then(|value| format!("{value:.3e}").parse().ok());
+    rounded.map_or_else(|| text.to_owned(), |value: f64| format!("{value} {unit}"))
 }
 
 /// The terms of the distance as bars, the greatest first; a line marks what alone would be unlike.
