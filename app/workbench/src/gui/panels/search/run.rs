@@ -38,6 +38,7 @@ fn begin(ui: &mut Ui, shared: &mut Shared) {
         let searches = &shared.workbench.searches;
         let at_work = searches.at_work().map(Job::state);
         let trials = searches.job.as_ref().map_or(0, |job| job.found().trials);
+        let at_most = searches.trials;
         let goes_on = trials > 0 && !shared.workbench.stories_are_of_another();
         if let Some(state) = at_work {
             let words = if state == State::Paused { "Resume" } else { "Pause" };
@@ -50,10 +51,13 @@ fn begin(ui: &mut Ui, shared: &mut Shared) {
             if primary(ui, ready, words).on_hover_text(help).clicked() {
                 shared.give(SearchAction::Run);
             }
-            if !ready {
-                let faint = Theme::palette_of(ui).faint;
-                ui.label(RichText::new("errors below, or in Problems").color(faint));
-            }
+            let spent = goes_on && trials >= at_most;
+            let why = match (ready, spent) {
+                (false, _) => "errors below, or in Problems",
+                (true, true) => "give more runs to go on",
+                (true, false) => "",
+            };
+            ui.label(RichText::new(why).color(Theme::palette_of(ui).faint));
         }
         command(ui, shared, "Copy as command line", WindowAction::CopySearchLine);
     });
