@@ -30,6 +30,7 @@ layouts() {
     command "show run"; command "views at once: 4"; picture "$1-four-views-run"
     command "views at once: 1"
     command "layout study"; command "open study weak-link"; picture "$1-study" 60
+    command "layout search"; command "open observation eg-5120"; picture "$1-search" 60
     command "layout design"; command "show 3-d view"
     command "show plugins"; picture "$1-plugins"
     command "show keys and help"; picture "$1-help"

@@ -85,6 +85,12 @@ pub fn studies(root: &Path) -> Vec<PathBuf> {
     toml_files(&root.join("studies"))
 }
 
+/// Files of the observations of a library, by name.
+#[must_use]
+pub fn observations(root: &Path) -> Vec<PathBuf> {
+    toml_files(&root.join("observations"))
+}
+
 /// Files of a folder that end in `.toml`, by name.
 pub(crate) fn toml_files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();

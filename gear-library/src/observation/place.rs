@@ -1,6 +1,6 @@
 //! Places on a whale as people name them who look at one: finer than a body part at the mouth, coarser where a side was not told.
 
-use endline_sdk::{BodyPart, Side};
+use endline_sdk::{BodyPart, Region, Side};
 use serde::{Deserialize, Serialize};
 
 /// A place where rope may be seen.
@@ -121,6 +121,15 @@ impl Site {
             BodyPart::RightFluke => Self::RightFluke,
         }
     }
+
+    /// The site that a region of skin belongs to.
+    #[must_use]
+    pub fn of_region(region: Region) -> Self {
+        match region {
+            Region::Baleen | Region::Lips => Self::Mouth,
+            other => Self::of_part(other.part()),
+        }
+    }
 }
 
 /// A place that rope passes.
@@ -185,7 +194,8 @@ impl std::fmt::Display for PathPlace {
 
 impl Site {
     /// Whether it lies in the midplane, so that it has two sides itself.
-    fn is_in_midplane(self) -> bool {
+    #[must_use]
+    pub fn is_in_midplane(self) -> bool {
         matches!(self, Self::Mouth | Self::Head | Self::Body | Self::Peduncle)
     }
 }

@@ -16,7 +16,7 @@ use endline_session::plugins::{Hook, PluginHost};
 use endline_session::search::written::observation_text;
 use endline_session::search::{Effort, Ending, Folder, LIKE, Question, search};
 use endline_session::study::encounter::Encounter;
-use endline_session::study::{Opened, Shard, draw};
+use endline_session::study::{Control, Opened, Shard, draw};
 use endline_sim::metrics::EventKind;
 
 /// Study whose encounters are hidden and searched.
@@ -153,7 +153,7 @@ pub fn recover(hidden: &Hidden, number: usize, way: &Way<'_>, host: &PluginHost)
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let effort = Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net };
     let mut after = None;
-    let stories = search(&question, &runs, &effort, |progress| {
+    let stories = search(&question, &runs, &effort, &Control::default(), |progress| {
         if after.is_none() && progress.best.is_some_and(|best| best <= LIKE) {
             after = Some(progress.trials);
         }

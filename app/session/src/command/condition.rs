@@ -120,6 +120,31 @@ pub(super) fn study_at_work(workbench: &Workbench) -> Condition {
     require(workbench.studies.queue.current().is_some(), "no study is at work")
 }
 
+/// An observation is open.
+pub(super) fn observation_opened(workbench: &Workbench) -> Condition {
+    let opened = workbench.project.documents.observation_path().is_some();
+    require(opened, "open an observation first")
+}
+
+/// The open observation and the gear have no errors, and no search is at work.
+pub(super) fn search_runs(workbench: &Workbench) -> Condition {
+    observation_opened(workbench)?;
+    require(workbench.observation_is_sound(), "observation or gear have errors; see Problems")?;
+    require(workbench.searches.at_work().is_none(), "a search is at work; pause or cancel it")
+}
+
+/// A search is at work or paused.
+pub(super) fn search_at_work(workbench: &Workbench) -> Condition {
+    require(workbench.searches.at_work().is_some(), "no search is at work")
+}
+
+/// Stories of a search are shown.
+pub(super) fn has_stories(workbench: &Workbench) -> Condition {
+    let stories = workbench.searches.job.as_ref().and_then(|job| job.found().stories);
+    let shown = stories.is_some_and(|found| !found.stories.is_empty());
+    require(shown, "no story was found yet")
+}
+
 /// Results of a study are shown.
 pub(super) fn has_results(workbench: &Workbench) -> Condition {
     let shown = workbench.studies.results.shown().is_some();

@@ -14,6 +14,7 @@ pub mod export;
 pub mod info;
 pub mod plugin;
 pub mod run;
+pub mod search;
 pub mod study;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ pub use export::ExportAction;
 pub use info::{Choice, CommandInfo, FileQuestion, FileUse, Make, Shortcut, When};
 pub use plugin::PluginAction;
 pub use run::RunAction;
+pub use search::SearchAction;
 pub use study::StudyAction;
 pub use time::TimeAction;
 
@@ -39,6 +41,8 @@ pub enum Command {
     Edit(EditAction),
     /// Open and run studies.
     Study(StudyAction),
+    /// Search for encounters that end like an observation.
+    Search(SearchAction),
     /// Write files that others read.
     Export(ExportAction),
     /// Load and use plugins.
@@ -60,6 +64,7 @@ into_command!(
     TimeAction => Time,
     EditAction => Edit,
     StudyAction => Study,
+    SearchAction => Search,
     ExportAction => Export,
     PluginAction => Plugin
 );
@@ -76,11 +81,12 @@ pub struct Group {
 }
 
 /// Every command, by group.
-pub static COMMANDS: [Group; 6] = [
+pub static COMMANDS: [Group; 7] = [
     Group { title: "Run", commands: run::COMMANDS },
     Group { title: "Time", commands: time::COMMANDS },
     Group { title: "Edit", commands: edit::COMMANDS },
     Group { title: "Study", commands: study::COMMANDS },
+    Group { title: "Search", commands: search::COMMANDS },
     Group { title: "Export", commands: export::COMMANDS },
     Group { title: "Plugins", commands: plugin::COMMANDS },
 ];
@@ -105,6 +111,7 @@ impl Command {
             Self::Time(action) => action.id(),
             Self::Edit(action) => action.id(),
             Self::Study(action) => action.id(),
+            Self::Search(action) => action.id(),
             Self::Export(action) => action.id(),
             Self::Plugin(action) => action.id(),
         }
@@ -126,6 +133,7 @@ impl Workbench {
             Command::Time(action) => time::perform(self, action),
             Command::Edit(action) => edit::perform(self, action),
             Command::Study(action) => study::perform(self, action),
+            Command::Search(action) => search::perform(self, action),
             Command::Export(action) => export::perform(self, action),
             Command::Plugin(action) => plugin::perform(self, action),
         };

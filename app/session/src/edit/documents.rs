@@ -1,4 +1,4 @@
-//! The texts being edited: library files, the scenario and a study, with undo, saving and problems.
+//! The texts being edited: library files, the scenario, a study and an observation, with undo, saving and problems.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,11 +12,12 @@ use super::texts::Texts;
 
 /// All texts that are open. The key of a library file is its path in the library's folder, such as
 /// `ropes/x.toml`; the scenario's is [`SCENARIO`](Self::SCENARIO), the study's
-/// [`STUDY`](Self::STUDY).
+/// [`STUDY`](Self::STUDY), the observation's [`OBSERVATION`](Self::OBSERVATION).
 pub struct Documents {
     root: PathBuf,
     scenario_path: PathBuf,
     study_path: Option<PathBuf>,
+    observation_path: Option<PathBuf>,
     texts: Texts,
     history: History,
     problems: Problems,
@@ -34,6 +35,9 @@ impl Documents {
     /// Key of the study's text, where one is open.
     pub const STUDY: &'static str = "study";
 
+    /// Key of the observation's text, where one is open.
+    pub const OBSERVATION: &'static str = "observation";
+
     /// Opens the library in a folder and a scenario.
     ///
     /// # Errors
@@ -50,6 +54,7 @@ impl Documents {
             root: root.to_owned(),
             scenario_path: scenario_path.to_owned(),
             study_path: None,
+            observation_path: None,
             texts: Texts::new(texts),
             history: History::default(),
             problems: Problems::default(),
@@ -83,6 +88,17 @@ impl Documents {
         Ok(())
     }
 
+    /// Opens an observation in place of the present one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read; the present one then stays.
+    pub fn open_observation(&mut self, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.observation_path = Some(path.to_owned());
+        self.begin(Self::OBSERVATION, text);
+        Ok(())
+    }
+
     /// Sets the text of a key as its file has it; earlier edits under this key are forgotten.
     fn begin(&mut self, key: &str, text: String) {
         self.history.forget(key);
@@ -109,6 +125,12 @@ impl Documents {
         self.study_path.as_deref()
     }
 
+    /// The observation's file, where one is open.
+    #[must_use]
+    pub fn observation_path(&self) -> Option<&Path> {
+        self.observation_path.as_deref()
+    }
+
     /// The library as read from the present texts; items with errors are missing.
     #[must_use]
     pub fn library(&self) -> &Arc<Library> {
@@ -127,10 +149,11 @@ impl Documents {
         self.problems.all()
     }
 
-    /// Whether any text of gear or scenario has an error; a study has no part in a single run.
+    /// Whether any text of gear or scenario has an error; study and observation have no part in a single run.
     #[must_use]
     pub fn any_error(&self) -> bool {
-        self.problems.any_error_outside(&self.shown_name(Self::STUDY))
+        self.problems
+            .any_error_outside(&[Self::STUDY, Self::OBSERVATION].map(|key| self.shown_name(key)))
     }
 
     /// The worst problem at a field of a file.
@@ -151,10 +174,16 @@ impl Documents {
     /// The name under which problems of a text are reported.
     #[must_use]
     pub fn shown_name(&self, path: &str) -> String {
-        match (path, &self.study_path) {
-            (Self::SCENARIO, _) => self.scenario_path.display().to_string(),
-            (Self::STUDY, Some(study)) => study.display().to_string(),
-            _ => path.to_owned(),
+        self.file_outside(path).map_or_else(|| path.to_owned(), |file| file.display().to_string())
+    }
+
+    /// The file of a text that is none of the library's gear.
+    fn file_outside(&self, key: &str) -> Option<&Path> {
+        match key {
+            Self::SCENARIO => Some(&self.scenario_path),
+            Self::STUDY => self.study_path.as_deref(),
+            Self::OBSERVATION => self.observation_path.as_deref(),
+            _ => None,
         }
     }
 
@@ -186,14 +215,14 @@ impl Documents {
     /// The library's present texts.
     #[must_use]
     pub fn sources(&self) -> Sources {
-        let of_library = |path: &str| ![Self::SCENARIO, Self::STUDY].contains(&path);
+        let of_library = |path: &str| is_of_run(path) && path != Self::SCENARIO;
         Sources::from_map(self.copies(of_library)).with_meshes_of(&self.meshes)
     }
 
-    /// The texts a single run is made from: all but the study's.
+    /// The texts a single run is made from: all but the study's and the observation's.
     #[must_use]
     pub fn texts_of_run(&self) -> BTreeMap<String, String> {
-        self.copies(|path| path != Self::STUDY)
+        self.copies(is_of_run)
     }
 
     fn copies(&self, wanted: impl Fn(&str) -> bool) -> BTreeMap<String, String> {
@@ -204,7 +233,7 @@ impl Documents {
     /// Whether these are the [texts of a run](Self::texts_of_run) as they stand.
     #[must_use]
     pub fn same_run(&self, texts: &BTreeMap<String, String>) -> bool {
-        texts.iter().eq(self.texts.present().iter().filter(|(path, _)| *path != Self::STUDY))
+        texts.iter().eq(self.texts.present().iter().filter(|(path, _)| is_of_run(path)))
     }
 
     /// A field as typed; `None` where it is missing.
@@ -350,18 +379,53 @@ impl Documents {
     /// Where no study is open, or the copy cannot be written.
     pub fn duplicate_study(&mut self) -> Result<PathBuf, String> {
         let path = self.study_path.as_deref().ok_or("open a study first")?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = self.root.join("studies");
-        let mut copies = (2..1000).map(|number| folder.join(format!("{stem}-{number}.toml")));
-        let fresh = copies.find(|path| !path.exists()).ok_or("there are 1000 copies already")?;
-        let failed = |message: String| format!("{}: {message}", fresh.display());
-        let mut document = self.document(Self::STUDY)?;
-        let name = document.get("name").unwrap_or_default();
-        document.set("name", &format!("{name} (copy)")).map_err(|error| failed(error.message))?;
-        std::fs::create_dir_all(&folder).map_err(|error| failed(error.to_string()))?;
-        document.save(&fresh).map_err(|error| failed(error.to_string()))?;
+        let fresh = self.copy_beside(Self::STUDY, path, "studies")?;
         self.open_study(&fresh)?;
         Ok(fresh)
+    }
+
+    /// Writes a copy of the open observation to a fresh file in the library and opens it; returns its path.
+    ///
+    /// # Errors
+    /// Where no observation is open, or the copy cannot be written.
+    pub fn duplicate_observation(&mut self) -> Result<PathBuf, String> {
+        let path = self.observation_path.as_deref().ok_or("open an observation first")?;
+        let fresh = self.copy_beside(Self::OBSERVATION, path, "observations")?;
+        self.open_observation(&fresh)?;
+        Ok(fresh)
+    }
+
+    /// Writes a new observation to a fresh file in the library and opens it; returns its path.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn new_observation(&mut self, text: &str) -> Result<PathBuf, String> {
+        let fresh = self.fresh_file("observations", "observation")?;
+        save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
+        self.open_observation(&fresh)?;
+        Ok(fresh)
+    }
+
+    /// Writes a copy of a text to a fresh file in a folder of the library.
+    fn copy_beside(&self, key: &str, path: &Path, folder: &str) -> Result<PathBuf, String> {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let fresh = self.fresh_file(folder, &stem)?;
+        let failed = |message: String| format!("{}: {message}", fresh.display());
+        let mut document = self.document(key)?;
+        let name = document.get("name").unwrap_or_default();
+        document.set("name", &format!("{name} (copy)")).map_err(|error| failed(error.message))?;
+        document.save(&fresh).map_err(|error| failed(error.to_string()))?;
+        Ok(fresh)
+    }
+
+    /// A file in a folder of the library that is not there yet; the folder is made.
+    fn fresh_file(&self, folder: &str, stem: &str) -> Result<PathBuf, String> {
+        let folder = self.root.join(folder);
+        std::fs::create_dir_all(&folder)
+            .map_err(|error| format!("{}: {error}", folder.display()))?;
+        let numbered = (2..1000).map(|number| folder.join(format!("{stem}-{number}.toml")));
+        let mut files = std::iter::once(folder.join(format!("{stem}.toml"))).chain(numbered);
+        files.find(|path| !path.exists()).ok_or_else(|| "there are 1000 copies already".to_owned())
     }
 
     fn change(&mut self, texts: Vec<(String, Option<String>)>) {
@@ -442,11 +506,7 @@ impl Documents {
 
     /// The file of a text.
     fn file_of(&self, path: &str) -> PathBuf {
-        match (path, &self.study_path) {
-            (Self::SCENARIO, _) => self.scenario_path.clone(),
-            (Self::STUDY, Some(study)) => study.clone(),
-            _ => self.root.join(path),
-        }
+        self.file_outside(path).map_or_else(|| self.root.join(path), Path::to_owned)
     }
 
     /// Writes the scenario to another file and continues with that file; the earlier file stays as
@@ -466,16 +526,18 @@ impl Documents {
     /// Reads all texts again: the library, and every problem.
     fn read_all(&mut self) {
         self.texts.refresh();
-        let (scenario, study) = (self.shown_name(Self::SCENARIO), self.shown_name(Self::STUDY));
-        let named = |name, key| self.texts.get(key).map(|text| Named { name, text });
-        let (library, problems) = Problems::of(
-            &self.sources(),
-            named(&scenario, Self::SCENARIO),
-            named(&study, Self::STUDY),
-        );
+        let outside = [Self::SCENARIO, Self::STUDY, Self::OBSERVATION]
+            .map(|key| (self.shown_name(key), self.texts.get(key)));
+        let named = outside.each_ref().map(|(name, text)| text.map(|text| Named { name, text }));
+        let (library, problems) = Problems::of(&self.sources(), named);
         (self.library, self.problems) = (Arc::new(library), problems);
         self.version += 1;
     }
+}
+
+/// Whether a text has a part in a single run.
+fn is_of_run(path: &str) -> bool {
+    ![Documents::STUDY, Documents::OBSERVATION].contains(&path)
 }
 
 fn read_text(path: &Path) -> Result<String, String> {

@@ -3,7 +3,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`documents`] | every open text: library files, the scenario, the study |
+//! | [`documents`] | every open text: library files, the scenario, the study, the observation |
 //! | `texts` | texts as they stand and as their files have them |
 //! | `history` | undo and redo |
 //! | [`problems`] | located problems of the texts |
@@ -11,12 +11,14 @@
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
 //! | [`assembly`] | parts of an assembly added, split and joined |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
+//! | [`observation`] | parts of an observation told, its path of rope put in order |
 //! | [`pilot_program`] | entries of the scenario's pilot program |
 
 pub mod assembly;
 pub mod documents;
 mod history;
 pub mod library_table;
+pub mod observation;
 pub mod pilot_program;
 pub mod problems;
 pub mod recovery;

@@ -1,6 +1,6 @@
 //! Located problems of the open texts.
 
-use endline_gear::{Diagnostic, Library, Scenario, Sources, Study};
+use endline_gear::{Diagnostic, Library, Observation, Scenario, Sources, Study};
 
 /// A problem in one or two lines: what is wrong, then how to fix it.
 #[must_use]
@@ -33,18 +33,21 @@ pub(super) struct Named<'a> {
 pub(super) struct Problems(Vec<Diagnostic>);
 
 impl Problems {
-    /// Reads the library, the scenario and the study; returns the library without the items that
+    /// Reads the library, the scenario, the study and the observation; returns the library without the items that
     /// have errors, and all problems.
     pub(super) fn of(
         library: &Sources,
-        scenario: Option<Named<'_>>,
-        study: Option<Named<'_>>,
+        [scenario, study, observation]: [Option<Named<'_>>; 3],
     ) -> (Library, Self) {
         let (library, mut all) = Library::read(library);
         if let Some(Err(problems)) = scenario.map(|file| Scenario::read(file.name, file.text)) {
             all.extend(problems);
         }
         if let Some(Err(problems)) = study.map(|file| Study::read(file.name, file.text)) {
+            all.extend(problems);
+        }
+        if let Some(Err(problems)) = observation.map(|file| Observation::read(file.name, file.text))
+        {
             all.extend(problems);
         }
         (library, Self(all))
@@ -74,8 +77,8 @@ impl Problems {
         self.0.iter().any(|problem| problem.file == file && problem.is_error())
     }
 
-    /// Whether any file but this one has an error.
-    pub(super) fn any_error_outside(&self, file: &str) -> bool {
-        self.0.iter().any(|problem| problem.file != file && problem.is_error())
+    /// Whether any file but these has an error.
+    pub(super) fn any_error_outside(&self, files: &[String]) -> bool {
+        self.0.iter().any(|problem| !files.contains(&problem.file) && problem.is_error())
     }
 }

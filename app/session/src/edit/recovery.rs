@@ -25,6 +25,9 @@ pub struct UnsavedEdits {
     /// The study's file, where one was open.
     #[serde(default)]
     pub study: Option<PathBuf>,
+    /// The observation's file, where one was open.
+    #[serde(default)]
+    pub observation: Option<PathBuf>,
     /// Texts that differ from their files, by path; `None` for a file that was removed.
     pub texts: BTreeMap<String, Option<String>>,
 }
@@ -76,6 +79,7 @@ impl Autosave {
             root: documents.root().to_owned(),
             scenario: documents.scenario_path().to_owned(),
             study: documents.study_path().map(Path::to_owned),
+            observation: documents.observation_path().map(Path::to_owned),
             texts,
         };
         let write = move || {

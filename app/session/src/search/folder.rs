@@ -21,6 +21,9 @@ use super::store::Store;
 /// Name of the schema of `search.json`.
 const SCHEMA: &str = "endline.search/1";
 
+/// Name of the file that says which search it is.
+const LABEL: &str = "search.json";
+
 /// Which search a folder belongs to.
 #[derive(Debug, Serialize, Deserialize)]
 struct Label {
@@ -43,6 +46,19 @@ pub struct Folder {
 }
 
 impl Folder {
+    /// Where the folder of a search is under a root: the observation's id and the head of the search's hash.
+    #[must_use]
+    pub fn path_under(root: &Path, question: &Question) -> PathBuf {
+        let hash = question.hash.get(..8).unwrap_or(&question.hash);
+        root.join(format!("{}-{hash}", question.observation.id))
+    }
+
+    /// Whether a folder has a search.
+    #[must_use]
+    pub fn is_there(path: &Path) -> bool {
+        path.join(LABEL).is_file()
+    }
+
     /// Opens a folder for a search, made where it is not there. Runs of the net are kept in it, or in `shared` below a name that tells
     /// their encounters.
     ///
@@ -51,7 +67,7 @@ impl Folder {
     pub fn open(path: &Path, shared: Option<&Path>, question: &Question) -> Result<Self, Error> {
         fs::create_dir_all(path)
             .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
-        let file = path.join("search.json");
+        let file = path.join(LABEL);
         let label = Label {
             schema: SCHEMA.into(),
             observation: question.observation.id.clone(),

@@ -17,6 +17,8 @@
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `robust`, `jitter` | what was found; the most robust run of a kind, by its neighbours and on a finer resolution |
 //! | `page` | the report |
+//! | `open` | a story as a run or a scenario of its own |
+//! | `job` | a search on threads of its own, for a window |
 //!
 //! A round depends on the trials of the rounds before it and on nothing else. A search that was killed reads the rounds that are
 //! kept and goes on, and any number of threads and shards finds the same. How to use it: `docs/search.md`.
@@ -29,6 +31,8 @@ mod ended;
 pub mod ending;
 mod folder;
 mod jitter;
+pub mod job;
+pub mod open;
 mod order;
 pub mod page;
 mod question;
@@ -44,16 +48,21 @@ pub mod written;
 
 use crate::error::Error;
 use crate::study::Shard;
+use crate::study::control::{Control, Count};
 use crate::study::encounter::Encounter;
 
 pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
 pub use folder::Folder;
+pub use job::Job;
 pub use question::Question;
 pub use stories::{Stories, Story};
 
 use ended::Ended;
 use rounds::Rounds;
+
+/// Draws from the priors before the first local search, where nobody asks for another number.
+pub const USUAL_NET: usize = 128;
 
 /// How long to search, and with what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +80,7 @@ pub struct Effort {
 }
 
 /// How far a search is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Trials done.
     pub trials: usize,
@@ -79,9 +88,12 @@ pub struct Progress {
     pub of: usize,
     /// The least distance so far.
     pub best: Option<f64>,
+    /// The stories so far, without their neighbours.
+    pub stories: Stories,
 }
 
-/// Searches until the effort is spent, and jitters the stories that are like the observation.
+/// Searches until the effort is spent, and jitters the stories that are like the observation. The control pauses and cancels it
+/// between two trials; `progress` is told of every round. Of a search that is cancelled, the stories so far.
 ///
 /// # Errors
 /// A folder that cannot be written, or holds a round of another search.
@@ -89,34 +101,43 @@ pub fn search(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     progress: impl FnMut(Progress),
 ) -> Result<Stories, Error> {
     let run =
         |point: &[f64]| Ended::of(&question.opened, &Encounter::at_point(&question.opened, point));
-    let rounds = rounds_of(question, folder, effort, run, progress)?;
-    stories::of(question, folder, effort, &rounds)
+    let rounds = rounds_of(question, folder, effort, run, control, progress)?;
+    let stories = stories::of(question, folder, effort, control, &rounds);
+    control.end();
+    stories
 }
 
-/// Round after round until the effort is spent; `run` runs the encounter at a point.
+/// Round after round until the effort is spent or the control cancels; `run` runs the encounter at a point.
 fn rounds_of<'a>(
     question: &'a Question,
     folder: &Folder,
     effort: &Effort,
     run: impl Fn(&[f64]) -> Ended + Sync,
+    control: &Control,
     mut progress: impl FnMut(Progress),
 ) -> Result<Rounds<'a>, Error> {
     let mut rounds = Rounds::new(question, effort.net);
+    control.begin(Count::of(effort.trials), Count::default());
     while rounds.trials() < effort.trials {
         let round = rounds.next();
         let count = u32::try_from(round.local.len()).unwrap_or(u32::MAX);
-        let local = batch::run(&folder.rounds, &round.name, 0..count, effort, |number| {
-            run(&round.local[number as usize])
-        })?;
-        let net = batch::run(&folder.net, "net", round.net.clone(), effort, |number| {
-            run(&rounds.net_point(number))
-        })?;
+        let one = |number: u32| run(&round.local[number as usize]);
+        let local = batch::run(&folder.rounds, &round.name, 0..count, effort, control, one)?;
+        let one = |number: u32| run(&rounds.net_point(number));
+        let net = batch::run(&folder.net, "net", round.net.clone(), effort, control, one)?;
+        let (Some(local), Some(net)) = (local, net) else { break };
         rounds.take(round, &local, &net);
-        progress(Progress { trials: rounds.trials(), of: effort.trials, best: rounds.best() });
+        progress(Progress {
+            trials: rounds.trials(),
+            of: effort.trials,
+            best: rounds.best(),
+            stories: stories::so_far(&rounds),
+        });
     }
     Ok(rounds)
 }

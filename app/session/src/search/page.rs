@@ -74,7 +74,7 @@ impl<'a> Page<'a> {
             name: &observation.name,
             notes: &observation.notes,
             source: &observation.source,
-            answer: answer(stories),
+            answer: stories.answer(),
             like: LIKE,
             seen: seen(observation),
             stories: table_of(stories),
@@ -87,19 +87,6 @@ impl<'a> Page<'a> {
             version: crate::VERSION,
             hash: &question.hash[..16],
         }
-    }
-}
-
-/// What was found, in a sentence.
-fn answer(stories: &Stories) -> String {
-    let like = stories.stories.iter().filter(|story| story.is_like()).count();
-    let fragile =
-        stories.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
-    match like {
-        0 => format!("Not found in {} runs: no story ends like what was seen.", stories.trials),
-        1 if fragile == 1 => "One kind of story ends like this, and hangs on chance.".to_owned(),
-        1 => "One kind of story ends like this.".to_owned(),
-        _ => format!("{like} kinds of story end like this; {fragile} of them hang on chance."),
     }
 }
 

@@ -37,11 +37,25 @@ impl Question {
         let path = locate::named(named, "observations", library).map_err(Error::Replay)?;
         let text = std::fs::read_to_string(&path)
             .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-        let observation =
-            Observation::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
         let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
-        let study = study_of(&observation, encounters, &root)?;
-        let opened = opened(&observation, &study, &root, host)?;
+        Self::of_text(&path, &text, encounters, &root, host)
+    }
+
+    /// The same of a text that may differ from what stands in its file.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn of_text(
+        path: &Path,
+        text: &str,
+        encounters: Option<&str>,
+        root: &Path,
+        host: &PluginHost,
+    ) -> Result<Self, Error> {
+        let observation =
+            Observation::read(&path.display().to_string(), text).map_err(Error::Diagnostics)?;
+        let study = study_of(&observation, encounters, root)?;
+        let opened = opened(&observation, &study, root, host)?;
         if opened.options.len() != 1 {
             let message = format!(
                 "has {} options; a search takes the encounters of a study with one",
@@ -50,7 +64,7 @@ impl Question {
             return Err(Error::at(&study, message));
         }
         let seed = opened.study.seed;
-        let hash = hash_of("endline search 2", &[&text, &opened.hash]);
+        let hash = hash_of("endline search 2", &[text, &opened.hash]);
         let net_hash = hash_of("endline net 1", &[&opened.hash]);
         Ok(Self { observation, opened, seed, hash, net_hash })
     }

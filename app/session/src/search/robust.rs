@@ -4,6 +4,7 @@
 //! of that, all neighbours are run, and the encounter on a finer resolution.
 
 use crate::error::Error;
+use crate::study::Control;
 use crate::study::encounter::Encounter;
 
 use super::Effort;
@@ -32,7 +33,14 @@ pub(super) struct Tried<'a> {
     pub(super) finer: f64,
 }
 
-/// The most robust of the runs of a kind that are like the observation, the nearest of which stands first; `None` where there is none.
+/// Runs that trying a kind takes at most.
+pub(super) fn most_runs(effort: &Effort) -> usize {
+    let first = effort.neighbours.min(FIRST as usize);
+    CANDIDATES * first + (effort.neighbours - first) + 1
+}
+
+/// The most robust of the runs of a kind that are like the observation, the nearest of which stands first; `None` where there is none, or
+/// the search was cancelled.
 ///
 /// # Errors
 /// A folder that cannot be read or written.
@@ -40,21 +48,21 @@ pub(super) fn most_robust<'a>(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     like: &[&'a Elite],
 ) -> Result<Option<Tried<'a>>, Error> {
     let asked = u32::try_from(effort.neighbours).unwrap_or(u32::MAX);
-    let first = FIRST.min(asked);
-    let share = |elite: &Elite| share_alike(question, folder, effort, elite, first);
+    let own = Runs { question, folder, effort, control };
     let mut best: Option<(f64, &Elite)> = None;
     for elite in far_apart(like) {
-        let alike = share(elite)?;
+        let Some(alike) = own.share_alike(elite, FIRST.min(asked))? else { return Ok(None) };
         if best.is_none_or(|(most, _)| alike > most) {
             best = Some((alike, elite));
         }
     }
     let Some((_, elite)) = best else { return Ok(None) };
-    let alike = share_alike(question, folder, effort, elite, asked)?;
-    Ok(Some(Tried { elite, alike, finer: finer(question, folder, effort, elite)? }))
+    let (alike, finer) = (own.share_alike(elite, asked)?, own.finer(elite)?);
+    Ok(alike.zip(finer).map(|(alike, finer)| Tried { elite, alike, finer }))
 }
 
 /// A few of the runs: the first, then each time the one farthest from those chosen.
@@ -75,37 +83,46 @@ fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Share of a run's first neighbours that are like the observation; those that were run before are read.
-fn share_alike(
-    question: &Question,
-    folder: &Folder,
-    effort: &Effort,
-    elite: &Elite,
-    count: u32,
-) -> Result<f64, Error> {
-    let name = format!("neighbours-{}", name(&elite.point));
-    let ended = batch::run(&folder.rounds, &name, 0..count, effort, |number| {
-        Ended::of(&question.opened, &neighbour(question, &elite.point, number))
-    })?;
-    let distance = |ended| Trial::of(&question.observation, ended).distance;
-    let like = ended.iter().filter(|ended| distance(ended) <= LIKE).count();
-    #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let share = like as f64 / f64::from(count);
-    Ok(share)
+/// What runs of neighbours need.
+struct Runs<'a> {
+    question: &'a Question,
+    folder: &'a Folder,
+    effort: &'a Effort,
+    control: &'a Control,
 }
 
-/// Distance of a run's encounter on a finer resolution.
-fn finer(
-    question: &Question,
-    folder: &Folder,
-    effort: &Effort,
-    elite: &Elite,
-) -> Result<f64, Error> {
-    let name = format!("finer-{}", name(&elite.point));
-    let ended = batch::run(&folder.rounds, &name, 0..1, effort, |_| {
-        Ended::finer(&question.opened, &Encounter::at_point(&question.opened, &elite.point))
-    })?;
-    Ok(ended.iter().map(|ended| Trial::of(&question.observation, ended).distance).sum())
+impl Runs<'_> {
+    /// Share of a run's first neighbours that are like the observation; those that were run before are read.
+    fn share_alike(&self, elite: &Elite, count: u32) -> Result<Option<f64>, Error> {
+        let question = self.question;
+        let one = |number| Ended::of(&question.opened, &neighbour(question, &elite.point, number));
+        let name = format!("neighbours-{}", name(&elite.point));
+        let Some(distances) = self.distances(&name, count, one)? else { return Ok(None) };
+        let like = distances.iter().filter(|distance| **distance <= LIKE).count();
+        #[expect(clippy::cast_precision_loss, reason = "a few")]
+        let share = like as f64 / f64::from(count);
+        Ok(Some(share))
+    }
+
+    /// Distance of a run's encounter on a finer resolution.
+    fn finer(&self, elite: &Elite) -> Result<Option<f64>, Error> {
+        let opened = &self.question.opened;
+        let one = |_| Ended::finer(opened, &Encounter::at_point(opened, &elite.point));
+        let distances = self.distances(&format!("finer-{}", name(&elite.point)), 1, one)?;
+        Ok(distances.and_then(|distances| distances.first().copied()))
+    }
+
+    fn distances(
+        &self,
+        name: &str,
+        count: u32,
+        one: impl Fn(u32) -> Ended + Sync,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let Self { question, folder, effort, control } = self;
+        let ended = batch::run(&folder.rounds, name, 0..count, effort, control, one)?;
+        let distance = |ended: &Ended| Trial::of(&question.observation, ended).distance;
+        Ok(ended.map(|ended| ended.iter().map(distance).collect()))
+    }
 }
 
 /// Name of a point.

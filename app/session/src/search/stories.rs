@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::save;
+use crate::study::control::{Control, Count};
 use crate::study::encounter::Encounter;
 
 use super::Effort;
@@ -12,7 +13,7 @@ use super::distance::LIKE;
 use super::elites::{Elite, Kind};
 use super::folder::Folder;
 use super::question::Question;
-use super::robust::{Tried, most_robust};
+use super::robust::{self, Tried, most_robust};
 use super::rounds::Rounds;
 use super::trial::Trial;
 
@@ -66,6 +67,8 @@ pub struct Story {
     pub finer: Option<f64>,
     /// Draws from the priors that are of this kind and like the observation.
     pub draws_like: usize,
+    /// Time that its run took [s].
+    pub simulated_s: f64,
     /// What was drawn, by name.
     pub drawn: Vec<(String, String)>,
     /// Hash of the last state.
@@ -123,6 +126,22 @@ impl Story {
 }
 
 impl Stories {
+    /// What was found, in a sentence.
+    #[must_use]
+    pub fn answer(&self) -> String {
+        let like = self.stories.iter().filter(|story| story.is_like()).count();
+        let fragile =
+            self.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
+        match like {
+            0 => format!("Not found in {} runs: no story ends like what was seen.", self.trials),
+            1 if fragile == 1 => {
+                "One kind of story ends like this, and hangs on chance.".to_owned()
+            }
+            1 => "One kind of story ends like this.".to_owned(),
+            _ => format!("{like} kinds of story end like this; {fragile} of them hang on chance."),
+        }
+    }
+
     /// As JSON.
     #[must_use]
     pub fn json(&self) -> String {
@@ -138,23 +157,40 @@ pub(super) fn of(
     question: &Question,
     folder: &Folder,
     effort: &Effort,
+    control: &Control,
     rounds: &Rounds<'_>,
 ) -> Result<Stories, Error> {
+    let mut found = so_far(rounds);
+    let like = found.stories.iter().filter(|story| story.is_like()).count();
+    let tried = if effort.neighbours == 0 { 0 } else { like.min(TRIED) };
+    control.begin(Count::of(tried * robust::most_runs(effort)), Count::default());
+    for (place, (kind, _)) in nearest(rounds).into_iter().take(tried).enumerate() {
+        let like = rounds.elites.like(kind);
+        let Some(tried) = most_robust(question, folder, effort, control, &like)? else { break };
+        found.stories[place] = story(rounds, kind, tried.elite, Some(&tried));
+    }
+    let file = folder.path.join("stories.json");
+    save::atomically(&file, (found.json() + "\n").as_bytes())
+        .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+    Ok(found)
+}
+
+/// The nearest of every kind, the nearest first.
+fn nearest<'a>(rounds: &'a Rounds<'_>) -> Vec<(&'a Kind, &'a Elite)> {
     let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.best.iter().collect();
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
-    let mut stories = Vec::new();
-    for (place, (kind, elite)) in elites.into_iter().take(TOLD).enumerate() {
-        let is_tried = effort.neighbours > 0 && place < TRIED;
-        let like = if is_tried { rounds.elites.like(kind) } else { Vec::new() };
-        stories.push(match most_robust(question, folder, effort, &like)? {
-            Some(tried) => story(rounds, kind, tried.elite, Some(&tried)),
-            None => story(rounds, kind, elite, None),
-        });
-    }
+    elites
+}
+
+/// The stories of the rounds so far, without their neighbours.
+pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
+    let question = rounds.question;
+    let told = nearest(rounds).into_iter().take(TOLD);
+    let stories = told.map(|(kind, elite)| story(rounds, kind, elite, None)).collect();
     let net = &rounds.net;
     let simulated: f64 = net.iter().map(|(_, trial)| trial.simulated_s).sum();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 trials")]
-    let found = Stories {
+    Stories {
         observation: question.observation.id.clone(),
         encounters: question.opened.study.id.clone(),
         stories,
@@ -162,16 +198,12 @@ pub(super) fn of(
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),
         net_like: net.iter().filter(|(_, trial)| trial.distance <= LIKE).count(),
-    };
-    let file = folder.path.join("stories.json");
-    save::atomically(&file, (found.json() + "\n").as_bytes())
-        .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
-    Ok(found)
+    }
 }
 
 fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite, tried: Option<&Tried<'_>>) -> Story {
     let question = rounds.question;
-    let Trial { distance, terms, mirrored, state_hash, .. } = elite.trial.clone();
+    let Trial { distance, terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
     let drawn = Encounter::at_point(&question.opened, &elite.point).drawn;
     let like = rounds.net.iter().filter(|(_, trial)| trial.distance <= LIKE);
     let is_own = |point: &[f64], trial: &Trial| Kind::of(question, point, trial) == *kind;
@@ -185,6 +217,7 @@ fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite, tried: Option<&Tried<'
         alike: tried.map(|tried| tried.alike),
         finer: tried.map(|tried| tried.finer),
         draws_like: like.filter(|(point, trial)| is_own(point, trial)).count(),
+        simulated_s,
         drawn: drawn.into_iter().map(|drawn| (drawn.name, drawn.text)).collect(),
         state_hash,
         point: elite.point.clone(),

@@ -3,14 +3,15 @@
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use endline_gear::{Observation, Site};
 
 use super::ending::AtSite;
 use super::*;
 use crate::plugins::PluginHost;
-use crate::study::Shard;
 use crate::study::tests::Place;
+use crate::study::{Control, Shard};
 
 const OBSERVATION: &str = r#"format = 1
 kind = "observation"
@@ -47,7 +48,7 @@ source = "assumed"
 "#;
 
 /// A question in a library of its own.
-fn place(name: &str) -> Place {
+pub(super) fn place(name: &str) -> Place {
     let place = Place::new(&format!("search-{name}"));
     let library = place.library();
     fs::create_dir_all(library.join("observations")).unwrap();
@@ -72,7 +73,7 @@ fn folder_of(place: &Place, name: &str, question: &Question) -> Folder {
 }
 
 fn effort(trials: usize, threads: usize, [part, of]: [u32; 2]) -> Effort {
-    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net: 128 }
+    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net: USUAL_NET }
 }
 
 /// Three kinds of story, each with a narrow pit of its own; only that of the head goes down to nothing.
@@ -92,7 +93,8 @@ fn made_up(point: &[f64]) -> Ended {
 }
 
 fn found(question: &Question, folder: &Folder, effort: &Effort) -> Vec<(Vec<f64>, f64)> {
-    let rounds = rounds_of(question, folder, effort, made_up, |_| {}).unwrap();
+    let control = Control::default();
+    let rounds = rounds_of(question, folder, effort, made_up, &control, |_| {}).unwrap();
     let elites = rounds.elites.best.values();
     elites.map(|elite| (elite.point.clone(), elite.trial.distance)).collect()
 }
@@ -136,7 +138,7 @@ fn local_searches_find_what_the_net_leaves() {
         let question = asked(&place, seed);
         let best = |net_alone: bool| {
             let folder = folder_of(&place, &format!("{seed}-{net_alone}"), &question);
-            let net = if net_alone { 900 } else { 128 };
+            let net = if net_alone { 900 } else { USUAL_NET };
             let effort = Effort { net, ..effort(900, 1, [0, 1]) };
             found(&question, &folder, &effort).into_iter().map(|(_, distance)| distance)
         };
@@ -164,9 +166,44 @@ fn another_search_does_not_mix_with_what_a_folder_holds() {
     let error = Folder::open(&folder.path, None, &asked(&place, 1)).unwrap_err().to_string();
     assert!(error.contains("choose another folder with --out"), "{error}");
     fs::write(folder.path.join("net.0-32.0of1"), b"not a round").unwrap();
-    let error =
-        rounds_of(&question, &folder, &effort(40, 1, [0, 1]), made_up, |_| {}).err().unwrap();
+    let (effort, control) = (effort(40, 1, [0, 1]), Control::default());
+    let error = rounds_of(&question, &folder, &effort, made_up, &control, |_| {}).err().unwrap();
     assert!(error.to_string().contains("is damaged"), "{error}");
+}
+
+/// Cancelled amid a round: what was run is kept, nothing is run twice, and the search goes on to the same end.
+#[test]
+fn a_search_that_is_cancelled_between_trials_goes_on_from_them() {
+    let place = place("cancelled");
+    let question = asked(&place, 1);
+    let effort = effort(300, 2, [0, 1]);
+    let whole = found(&question, &folder_of(&place, "whole", &question), &effort);
+    let folder = folder_of(&place, "parts", &question);
+    let (control, count) = (Control::default(), AtomicUsize::new(0));
+    let counted = |point: &[f64]| {
+        if count.fetch_add(1, Ordering::Relaxed) + 1 == 180 {
+            control.cancel();
+        }
+        made_up(point)
+    };
+    let mut rounds = 0;
+    let part = rounds_of(&question, &folder, &effort, counted, &control, |_| rounds += 1).unwrap();
+    let run = count.load(Ordering::Relaxed);
+    assert!((180..=181).contains(&run), "each thread finishes its trial: {run}");
+    assert!(part.trials() <= run && rounds > 3, "{} of {run}", part.trials());
+    assert_eq!(usize::try_from(control.progress().encounters.done).unwrap(), run);
+
+    let again = Control::default();
+    let counted = |point: &[f64]| {
+        count.fetch_add(1, Ordering::Relaxed);
+        made_up(point)
+    };
+    let rest = rounds_of(&question, &folder, &effort, counted, &again, |_| {}).unwrap();
+    assert_eq!(count.load(Ordering::Relaxed), rest.trials(), "no trial is run twice");
+    assert_eq!(usize::try_from(again.progress().encounters.found).unwrap(), run);
+    let elites = rest.elites.best.values();
+    let elites: Vec<_> = elites.map(|elite| (elite.point.clone(), elite.trial.distance)).collect();
+    assert_eq!(elites, whole);
 }
 
 #[test]
@@ -183,7 +220,8 @@ fn observations_of_the_same_encounters_share_draws() {
         let question = asked(&place, 1);
         let folder = Folder::open(&place.0.join(name), Some(&shared), &question).unwrap();
         let effort = Effort { net: 100, ..effort(trials, 1, [0, 1]) };
-        let rounds = rounds_of(&question, &folder, &effort, kept, |_| {}).unwrap();
+        let rounds =
+            rounds_of(&question, &folder, &effort, kept, &Control::default(), |_| {}).unwrap();
         let ran = std::mem::take(&mut *runs.lock().unwrap());
         let own = rounds.net.iter().filter(|(point, _)| ran.contains(point)).count();
         (rounds.net.len(), own)

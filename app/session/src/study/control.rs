@@ -1,4 +1,4 @@
-//! Pausing, cancelling and watching a study at work, from any thread.
+//! Pausing, cancelling and watching a study or a search at work, from any thread.
 
 use std::fmt;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,6 +13,13 @@ pub struct Count {
     pub found: u32,
     /// All of them.
     pub total: u32,
+}
+
+impl Count {
+    /// None of so many.
+    pub(crate) fn of(total: usize) -> Self {
+        Self { total: u32::try_from(total).unwrap_or(u32::MAX), ..Self::default() }
+    }
 }
 
 /// How far a study is.
@@ -62,7 +69,7 @@ enum Wish {
 /// Called with each progress.
 type Watcher = Box<dyn Fn(&Progress) + Send + Sync>;
 
-/// Controls one study at work.
+/// Controls one study or search at work.
 pub struct Control {
     wish: Mutex<Wish>,
     changed: Condvar,
@@ -152,7 +159,7 @@ impl Control {
     }
 
     /// Waits while the study is paused; false where it is cancelled.
-    pub(super) fn goes_on(&self) -> bool {
+    pub(crate) fn goes_on(&self) -> bool {
         let mut wish = lock(&self.wish);
         while *wish == Wish::Pause {
             wish = self.changed.wait(wish).unwrap_or_else(PoisonError::into_inner);
@@ -161,7 +168,7 @@ impl Control {
     }
 
     /// Begins to count; the clock runs unless the study is paused or cancelled.
-    pub(super) fn begin(&self, encounters: Count, blocks: Count) {
+    pub(crate) fn begin(&self, encounters: Count, blocks: Count) {
         let runs = *lock(&self.wish) == Wish::Run;
         let since = runs.then(Instant::now);
         self.note(|progress| {
@@ -169,8 +176,17 @@ impl Control {
         });
     }
 
+    /// Counts encounters that were run before.
+    pub(crate) fn encounters_found(&self, count: usize) {
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        self.note(|progress| {
+            progress.encounters.done += count;
+            progress.encounters.found += count;
+        });
+    }
+
     /// Counts an encounter.
-    pub(super) fn encounter_done(&self) {
+    pub(crate) fn encounter_done(&self) {
         self.note(|progress| progress.encounters.done += 1);
     }
 
@@ -180,7 +196,7 @@ impl Control {
     }
 
     /// Stops the clock.
-    pub(super) fn end(&self) {
+    pub(crate) fn end(&self) {
         lock(&self.progress).stop_clock();
     }
 

@@ -37,7 +37,7 @@ mod open;
 mod parquet;
 mod plan;
 mod play;
-mod prepare;
+pub(crate) mod prepare;
 pub mod priority;
 mod priors;
 pub mod queue;

@@ -119,6 +119,11 @@ impl Opened {
 }
 
 impl Opened {
+    /// Text of a library file before anything is set in it.
+    pub(crate) fn library_text(&self, path: &str) -> Option<&str> {
+        self.sources.get(path)
+    }
+
     /// Ids of the options by families: those of one differ in strengths alone, and share their runs until something parts.
     #[must_use]
     pub fn families(&self) -> Vec<Vec<&str>> {

@@ -7,6 +7,7 @@
 use endline_gear::{Document, EditError, Setting, units};
 
 use crate::error::Error;
+use crate::plugins::PluginHost;
 use crate::source::{Overrides, Prepared, Source};
 
 use super::encounter::Encounter;
@@ -101,6 +102,19 @@ impl Opened {
         let named = value(scenario, "whale.length", units::Quantity::Length);
         named.or(by_age).or(item.map(|item| item.form.length_m)).unwrap_or(USUAL_LENGTH_M)
     }
+}
+
+/// The same run for a window, up to a time at which it is over [s].
+///
+/// # Errors
+/// Where the scenario cannot be assembled.
+pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Result<Prepared, Error> {
+    let failed = |error: EditError| Error::Replay(error.message);
+    let mut source = (*prepared.source).clone();
+    let mut scenario = Document::parse(&source.scenario).map_err(failed)?;
+    scenario.put("duration", &Setting::text(&format!("{end_s} s"))).map_err(failed)?;
+    source.scenario = scenario.text();
+    source.prepare(host)
 }
 
 /// A value of a scenario [SI].

@@ -187,7 +187,7 @@ impl Job {
         *lock(&shared.state) = State::Opening;
         let work = move || {
             if !eager {
-                step_back();
+                priority::step_back();
             }
             let worked =
                 catch_unwind(AssertUnwindSafe(|| run(&shared, &file, &library, &root, &host)));
@@ -208,13 +208,6 @@ impl Job {
     }
 }
 
-/// Lowers this thread's priority on Linux. On other systems that would slow the whole program.
-fn step_back() {
-    #[cfg(target_os = "linux")]
-    // A thread whose priority cannot be lowered runs at the ordinary one.
-    let _ = priority::lower();
-}
-
 /// Opens a study, runs the missing encounters, and writes its table and report.
 fn run(
     shared: &Shared,
@@ -227,7 +220,7 @@ fn run(
     let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
     *lock(&shared.opened) = Some((Arc::clone(&opened), folder.path.clone()));
     *lock(&shared.state) = State::Running;
-    batch::run(&opened, &folder, Shard::WHOLE, threads(), &shared.control)?;
+    batch::run(&opened, &folder, Shard::WHOLE, priority::threads(), &shared.control)?;
     if !shared.control.goes_on() {
         return Ok(State::Cancelled);
     }
@@ -236,11 +229,6 @@ fn run(
     merge::save(&opened, &folder, &table)?;
     report::write(&opened, &folder, &Findings::of(&opened, &table, &folder.registration))?;
     Ok(State::Done)
-}
-
-/// Threads for encounters: one core is left to whatever shows the queue.
-fn threads() -> usize {
-    std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1))
 }
 
 /// The command lines that run, merge and report a study as the queue does.

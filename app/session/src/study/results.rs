@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::{Document, EditError, Setting};
-
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
@@ -13,6 +11,7 @@ use super::encounter::Encounter;
 use super::folder::{Folder, Label};
 use super::merge;
 use super::open::Opened;
+use super::prepare;
 use super::stats::Findings;
 use super::table::Table;
 
@@ -86,12 +85,7 @@ impl StudyResults {
     ) -> Result<Prepared, Error> {
         let prepared = self.opened.prepare(option, &Encounter::of(&self.opened, encounter))?;
         let Some(end_s) = self.end_s(option, encounter) else { return Ok(prepared) };
-        let mut source = (*prepared.source).clone();
-        let failed = |error: EditError| Error::Replay(error.message);
-        let mut scenario = Document::parse(&source.scenario).map_err(failed)?;
-        scenario.put("duration", &Setting::text(&format!("{end_s} s"))).map_err(failed)?;
-        source.scenario = scenario.text();
-        source.prepare(host)
+        prepare::until(&prepared, end_s, host)
     }
 
     /// When a run ended in the study [s].

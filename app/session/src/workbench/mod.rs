@@ -9,6 +9,7 @@
 //! | [`run`] | the run shown: its model, its thread, its speed |
 //! | [`comparison`] | a second run beside it |
 //! | [`studies`] | studies at work and their results |
+//! | [`searches`] | the search at work and the stories found |
 //! | [`plugins`] | plugins loaded, allowed, checked and used |
 //! | [`preferences`] | what is kept between sessions |
 
@@ -23,6 +24,7 @@ pub mod project;
 mod recordings;
 mod replay;
 pub mod run;
+pub mod searches;
 pub mod studies;
 
 use std::path::PathBuf;
@@ -40,6 +42,7 @@ pub use plugins::Plugins;
 pub use preferences::Preferences;
 pub use project::Project;
 pub use run::{CurrentRun, Direction, SPEEDS, Speed};
+pub use searches::Searches;
 pub use studies::Studies;
 
 /// What a user has open and does.
@@ -50,6 +53,8 @@ pub struct Workbench {
     pub run: CurrentRun,
     /// Studies at work and their results.
     pub studies: Studies,
+    /// The search at work and the stories found.
+    pub searches: Searches,
     /// Plugins in use, and those that are not.
     pub plugins: Plugins,
     /// What the user prefers.
@@ -72,6 +77,7 @@ impl Workbench {
             project: Project::new(documents),
             run: CurrentRun::new(launch),
             studies: Studies::default(),
+            searches: Searches::default(),
             plugins: Plugins::new(host),
             preferences: Preferences::default(),
             recordings: None,
@@ -90,6 +96,7 @@ impl Workbench {
         self.take_model();
         self.take_plugins();
         self.refresh_studies();
+        self.refresh_searches();
         self.run.refresh();
         self.keep_finished_run();
         self.take_program();

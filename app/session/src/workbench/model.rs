@@ -81,7 +81,8 @@ impl Workbench {
     }
 
     /// Whether the run shown is of something else than the texts, and these are as they were when it was loaded.
-    pub(super) fn shows_guest(&self) -> bool {
+    #[must_use]
+    pub fn shows_guest(&self) -> bool {
         self.run.made.guest == Some(self.project.documents.version())
     }
 

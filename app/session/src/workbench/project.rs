@@ -120,6 +120,11 @@ impl Workbench {
             edits.texts.contains_key(Documents::STUDY) && Some(*study) != documents.study_path()
         });
         study.map_or(Ok(()), |study| documents.open_study(study))?;
+        let observation = edits.observation.as_deref().filter(|observation| {
+            edits.texts.contains_key(Documents::OBSERVATION)
+                && Some(*observation) != documents.observation_path()
+        });
+        observation.map_or(Ok(()), |observation| documents.open_observation(observation))?;
         let texts = edits.texts.iter().map(|(path, text)| (path.clone(), text.clone()));
         documents.restore(texts.collect());
         self.notice = Some(Notice::done("unsaved edits are back; Save all writes them"));

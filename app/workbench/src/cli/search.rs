@@ -5,10 +5,10 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use endline_session::search::{
-    Effort, Folder, LIKE, Progress, Question, Stories, Story, page, search as found,
+    Effort, Folder, LIKE, Progress, Question, Stories, Story, USUAL_NET, page, search as found,
 };
 use endline_session::study::encounter::Encounter;
-use endline_session::study::{REPLAY_HZ, Shard};
+use endline_session::study::{Control, REPLAY_HZ, Shard};
 
 use super::study::args::shard;
 use super::study::{all_cores, keep, lower_priority};
@@ -38,7 +38,7 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     keep: usize,
     /// Draws from the priors before the first local search; as many as `--trials`, and draws alone are tried.
-    #[arg(long, value_name = "N", default_value_t = 128)]
+    #[arg(long, value_name = "N", default_value_t = USUAL_NET)]
     net: usize,
     /// Folder of draws that searches among the same encounters share [default: the search's own].
     #[arg(long, value_name = "DIR")]
@@ -74,7 +74,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         neighbours: args.neighbours,
         net: args.net,
     };
-    let stories = found(&question, &folder, &effort, told())?;
+    let stories = found(&question, &folder, &effort, &Control::default(), told())?;
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
         let encounter = Encounter::at_point(&question.opened, &story.point);
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;

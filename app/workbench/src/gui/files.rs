@@ -1,8 +1,23 @@
 //! Files of a library that a user chooses among.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use endline_gear::Document;
+use endline_session::locate;
 
 pub use endline_session::locate::{scenarios, studies};
+
+/// The observations of a library, each by its file and its name.
+#[must_use]
+pub fn observations(root: &Path) -> Vec<(PathBuf, String)> {
+    let named = |path: PathBuf| {
+        let text = std::fs::read_to_string(&path).ok();
+        let name = text.and_then(|text| Document::parse(&text).ok()?.get("name"));
+        let name = name.unwrap_or_else(|| stem(&path));
+        (path, name)
+    };
+    locate::observations(root).into_iter().map(named).collect()
+}
 
 /// The name of a file without folder and ending.
 #[must_use]
@@ -10,7 +25,7 @@ pub fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Shows a folder in the system's file manager.
+/// Shows a folder in the system's file manager, or opens a file with the program that is usual for it.
 ///
 /// # Errors
 /// Where there is no program that does.

@@ -15,11 +15,13 @@ pub enum Layout {
     Review,
     /// Compare options on the same encounters: designer and queue, what was found, any run again.
     Study,
+    /// Find encounters that end like what was seen on a real whale: observation, stories, any of them run.
+    Search,
 }
 
 impl Layout {
     /// Every layout, in the order of the menu.
-    pub const ALL: [Self; 4] = [Self::Design, Self::Fly, Self::Review, Self::Study];
+    pub const ALL: [Self; 5] = [Self::Design, Self::Fly, Self::Review, Self::Study, Self::Search];
 
     /// Its name.
     #[must_use]
@@ -29,6 +31,7 @@ impl Layout {
             Self::Fly => "Fly",
             Self::Review => "Review",
             Self::Study => "Study",
+            Self::Search => "Search",
         }
     }
 
@@ -40,6 +43,7 @@ impl Layout {
             Self::Fly => fly(),
             Self::Review => review(),
             Self::Study => study(),
+            Self::Search => search(),
         }
     }
 }
@@ -92,6 +96,16 @@ fn study() -> DockState<String> {
     );
     let [_, below] = tree.split_below(right, 0.52, ids(&[PanelId::VIEW, PanelId::PLOTS]));
     tree.split_right(below, 0.62, ids(&[PanelId::SUMMARY, PanelId::ENTANGLEMENT, PanelId::EVENTS]));
+    dock
+}
+
+fn search() -> DockState<String> {
+    let mut dock = DockState::new(ids(&[PanelId::STORIES]));
+    let tree = dock.main_surface_mut();
+    let [right, _] =
+        tree.split_left(NodeIndex::root(), 0.38, ids(&[PanelId::SEARCH, PanelId::PROBLEMS]));
+    let [_, below] = tree.split_below(right, 0.46, ids(&[PanelId::VIEW, PanelId::PLOTS]));
+    tree.split_right(below, 0.66, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY, PanelId::EVENTS]));
     dock
 }
 

@@ -90,6 +90,7 @@ pub fn open(options: Options) -> Result<(), String> {
             shared.workbench.project.autosave = Autosave::in_folder(folder.clone());
             shared.workbench.recordings = Some(folder.join("recordings"));
             shared.workbench.studies.folder = Some(folder.join("studies"));
+            shared.workbench.searches.folder = Some(folder.join("searches"));
         }
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, shared));
         Ok(app)

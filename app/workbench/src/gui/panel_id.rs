@@ -44,13 +44,17 @@ impl PanelId {
     pub const STUDY: Self = Self::new("study", "Study");
     /// What a study found.
     pub const RESULTS: Self = Self::new("results", "Results");
+    /// What was seen on a whale, and the search for encounters that end like it.
+    pub const SEARCH: Self = Self::new("search", "Search");
+    /// What a search found.
+    pub const STORIES: Self = Self::new("stories", "Stories");
     /// The pilot program on a timeline.
     pub const PROGRAM: Self = Self::new("pilot", "Pilot program");
     /// Two runs beside one another.
     pub const COMPARE: Self = Self::new("compare", "Compare");
 
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::LIBRARY,
         Self::ASSEMBLY,
         Self::SCENARIO,
@@ -69,6 +73,8 @@ impl PanelId {
         Self::PLUGINS,
         Self::STUDY,
         Self::RESULTS,
+        Self::SEARCH,
+        Self::STORIES,
         Self::PROGRAM,
         Self::COMPARE,
     ];

@@ -14,6 +14,7 @@ use endline_workbench::gui::panels::help::markdown;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, Told, give, linked, opened_with, wait, workbench};
+use crate::search::add_observation;
 use crate::study::add_study;
 
 /// All that a command may change, as text.
@@ -23,8 +24,13 @@ fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
     let (workbench, documents) = (&shared.workbench, &shared.workbench.project.documents);
     let view = workbench.view().map(|view| (view.status.clone(), view.frame.step, view.speed));
     let jobs = workbench.studies.queue.jobs.iter().map(|job| job.state()).collect::<Vec<_>>();
-    let texts = (documents.version(), documents.scenario_path(), documents.study_path());
-    let work = (workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
+    let texts = (
+        (documents.version(), documents.scenario_path()),
+        (documents.study_path(), documents.observation_path()),
+    );
+    let search = workbench.searches.job.as_ref().map(|job| (job.state(), job.only_reads));
+    let work =
+        (search, workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
     let eyes: Vec<_> = panels.view.eyes.iter().map(|eye| (eye.named, eye.follow)).collect();
     let picks = (&panels.view.picks, panels.view.eyes.iter().any(|eye| eye.frame_again));
     let flight = (shared.flying, shared.posing, shared.pilot.act(), shared.pilot.mouth_open());
@@ -84,10 +90,12 @@ fn every_command(
 #[test]
 fn every_declared_command_has_an_effect_or_a_reason() {
     let folder = Folder::new("commands");
-    // Commands that open a study need one.
+    // Commands that open a study or an observation need one.
     add_study(&folder);
+    add_observation(&folder);
     let (mut harness, told) = workbench(&folder, Pilot::default());
     harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
+    harness.state_mut().shared.workbench.searches.folder = Some(folder.0.join("results"));
     let mut effects = BTreeMap::new();
     every_command(&mut harness, &told, &mut effects);
     // Once more while the whale is flown, with an entry chosen and an edit to be taken back.

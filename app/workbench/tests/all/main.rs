@@ -11,6 +11,7 @@ mod killed;
 mod plugins;
 mod runs;
 mod scenario;
+mod search;
 mod study;
 mod view;
 mod workbench;

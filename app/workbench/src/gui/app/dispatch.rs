@@ -5,7 +5,9 @@
 use std::path::PathBuf;
 
 use egui::{Context, ViewportCommand};
-use endline_session::command::{Command, EditAction, FileQuestion, RunAction, StudyAction};
+use endline_session::command::{
+    Command, EditAction, FileQuestion, RunAction, SearchAction, StudyAction,
+};
 use endline_session::edit::Documents;
 use endline_session::workbench::{Event, Notice};
 
@@ -83,7 +85,14 @@ impl App {
         if matches!(command, Command::Run(RunAction::Hold | RunAction::CompareWith(_))) {
             return Some(PanelId::COMPARE);
         }
-        let replays = matches!(command, Command::Study(StudyAction::Replay { .. }));
+        if matches!(command, Command::Search(SearchAction::Open(_) | SearchAction::New)) {
+            return Some(PanelId::SEARCH);
+        }
+        let replays = matches!(
+            command,
+            Command::Study(StudyAction::Replay { .. })
+                | Command::Search(SearchAction::Replay(_) | SearchAction::FlyOn(_))
+        );
         replays.then_some(PanelId::VIEW)
     }
 
@@ -184,6 +193,11 @@ impl App {
             WindowAction::CopyStudyLine => {
                 if let Some(line) = self.shared.workbench.study_command_line() {
                     self.copy(context, line, "command lines");
+                }
+            }
+            WindowAction::CopySearchLine => {
+                if let Some(line) = self.shared.workbench.search_command_line() {
+                    self.copy(context, line, "command line");
                 }
             }
             WindowAction::OpenFolder(folder) => open_folder(&folder)?,

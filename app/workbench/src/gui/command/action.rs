@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::Kind;
 use endline_session::command::{
-    Command, EditAction, ExportAction, PluginAction, RunAction, StudyAction, TimeAction,
+    Command, EditAction, ExportAction, PluginAction, RunAction, SearchAction, StudyAction,
+    TimeAction,
 };
 use endline_session::units::Units;
 
@@ -106,7 +107,9 @@ pub enum WindowAction {
     CopyCommandLine,
     /// Copy the command lines that run the open study.
     CopyStudyLine,
-    /// Show a folder in the system's file manager.
+    /// Copy the command line that searches for the open observation.
+    CopySearchLine,
+    /// Show a folder in the system's file manager, or open a file.
     OpenFolder(PathBuf),
     /// Ask for the file of the command of this identity.
     Ask(&'static str),
@@ -197,6 +200,7 @@ impl WindowAction {
             Self::Size(_) => "window.size",
             Self::CopyCommandLine => "window.copy-run",
             Self::CopyStudyLine => "window.copy-study",
+            Self::CopySearchLine => "window.copy-search",
             Self::OpenFolder(_) => "window.open-folder",
             Self::Ask(id) => id,
             Self::Quit => "window.quit",
@@ -237,6 +241,7 @@ into_workbench_command!(
     TimeAction => Time,
     EditAction => Edit,
     StudyAction => Study,
+    SearchAction => Search,
     ExportAction => Export,
     PluginAction => Plugin
 );

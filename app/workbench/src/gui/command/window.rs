@@ -70,9 +70,16 @@ pub static COMMANDS: &[WindowInfo] = &[
     )
     .only_if(study_opened),
     WindowInfo::new(
+        "window.copy-search",
+        "Copy the search as command line",
+        "Copies the command that searches for the open observation.",
+        Make::Plain(|| WindowAction::CopySearchLine.into()),
+    )
+    .only_if(observation_opened),
+    WindowInfo::new(
         "window.open-folder",
         "Open a folder",
-        "Shows a folder in the system's file manager.",
+        "Shows a folder in the system's file manager, or opens a file with its usual program.",
         Make::Values("folder"),
     ),
     WindowInfo::new(
@@ -82,6 +89,11 @@ pub static COMMANDS: &[WindowInfo] = &[
         Make::Plain(|| WindowAction::Quit.into()),
     ),
 ];
+
+fn observation_opened(shared: &Shared) -> Result<(), String> {
+    let opened = shared.workbench.project.documents.observation_path();
+    opened.map(|_| ()).ok_or_else(|| "open an observation first".to_owned())
+}
 
 fn study_opened(shared: &Shared) -> Result<(), String> {
     let opened = shared.workbench.project.documents.study_path();

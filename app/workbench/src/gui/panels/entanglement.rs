@@ -3,8 +3,8 @@
 use endline_session::command::TimeAction;
 use std::sync::Arc;
 
-use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
-use endline_sdk::BodyPart;
+use egui::{Color32, Grid, Painter, Rect, RichText, ScrollArea, Sense, Stroke, Ui};
+use endline_sdk::{BodyPart, Region};
 use endline_session::figures::{Figure, PART, Part, Quantity, View, WHALE, parts, shown};
 use endline_session::live::LiveView;
 use endline_session::scene::colour::tension_colour;
@@ -90,27 +90,15 @@ impl EntanglementPanel {
             own.and_then(|own| (measure.read)(own).number()).unwrap_or_default()
         };
         let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
-        let plain = if ui.visuals().dark_mode {
-            Color32::from_rgb(0x6d, 0x7b, 0x84)
-        } else {
-            Color32::from_rgb(0xb4, 0xc0, 0xc7)
+        let plain = BodyMap::plain(ui);
+        let colour = |region: Region| {
+            let value = value(region.part());
+            if value > 0.0 { tint(value / top) } else { plain }
         };
-        let colour =
-            |part: BodyPart| if value(part) > 0.0 { tint(value(part) / top) } else { plain };
-        let width = (ui.available_width() - 16.0) / 2.0;
-        for faces in Face::ALL.chunks(2) {
-            let height =
-                faces.iter().map(|face| width * map.aspect(*face)).fold(0.0, f32::max) + 18.0;
-            ui.horizontal(|ui| {
-                for face in faces {
-                    let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-                    if !ui.is_rect_visible(rect) {
-                        continue;
-                    }
-                    draw(ui, map, *face, rect, view, &colour);
-                }
-            });
-        }
+        let error = Theme::palette_of(ui).error;
+        map.faces(ui, Sense::hover(), colour, |map, painter, face, rect| {
+            contacts(map, painter, face, rect, view, error);
+        });
         ui.label(
             RichText::new(format!("brightest: {}", measure.quantity.text(&top.into(), units)))
                 .small()
@@ -139,31 +127,21 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
     wanted
 }
 
-fn draw(
-    ui: &Ui,
-    map: &mut BodyMap,
+/// Where rope presses on the side of the whale that a face shows.
+fn contacts(
+    map: &BodyMap,
+    painter: &Painter,
     face: Face,
     rect: Rect,
     view: &LiveView,
-    colour: &impl Fn(BodyPart) -> Color32,
+    colour: Color32,
 ) {
-    let palette = Theme::palette_of(ui);
-    let painter = ui.painter_at(rect);
-    painter.text(
-        rect.left_top(),
-        egui::Align2::LEFT_TOP,
-        face.name(),
-        egui::FontId::proportional(11.0),
-        palette.faint,
-    );
-    let below = rect.with_min_y(rect.top() + 16.0).shrink(2.0);
-    painter.add(map.mesh(face, below, colour));
     let strongest =
         view.frame.contacts.iter().map(|contact| contact.normal_force_n).fold(1.0, f64::max);
     for contact in view.frame.contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
-        if let Some(at) = map.contact(face, below, contact) {
+        if let Some(at) = map.contact(face, rect, contact) {
             let size = 1.5 + 3.0 * (contact.normal_force_n / strongest).sqrt() as f32;
-            painter.circle(at, size, palette.error, Stroke::new(0.5, Color32::BLACK));
+            painter.circle(at, size, colour, Stroke::new(0.5, Color32::BLACK));
         }
     }
 }

@@ -15,7 +15,9 @@ pub mod recordings;
 pub mod results;
 pub mod run;
 pub mod scenario;
+pub mod search;
 pub mod start;
+pub mod stories;
 pub mod study;
 pub mod summary;
 pub mod tension;
@@ -63,6 +65,10 @@ pub struct Panels {
     pub study: study::StudyPanel,
     /// What a study found.
     pub results: results::ResultsPanel,
+    /// What was seen on a whale, and the search for it.
+    pub search: search::SearchPanel,
+    /// What a search found.
+    pub stories: stories::StoriesPanel,
     /// The pilot program on a timeline.
     pub program: pilot::PilotPanel,
     /// Two runs beside one another.
@@ -91,6 +97,8 @@ impl Panels {
             &mut self.plugins,
             &mut self.study,
             &mut self.results,
+            &mut self.search,
+            &mut self.stories,
             &mut self.program,
             &mut self.compare,
         ]

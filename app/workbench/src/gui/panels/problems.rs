@@ -4,6 +4,7 @@ use crate::gui::command::action::PanelAction;
 use egui::{Label, RichText, ScrollArea, Ui};
 use endline_gear::Diagnostic;
 use endline_gear::Kind;
+use endline_session::edit::Documents;
 
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
@@ -51,6 +52,14 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 
 /// Opens the panel where a problem can be fixed.
 fn go_to(shared: &mut Shared, problem: &Diagnostic) {
+    let documents = &shared.workbench.project.documents;
+    for (key, panel) in
+        [(Documents::STUDY, PanelId::STUDY), (Documents::OBSERVATION, PanelId::SEARCH)]
+    {
+        if documents.shown_name(key) == problem.file {
+            return shared.give(PanelAction::Show(panel));
+        }
+    }
     let kind = problem.file.split_once('/').and_then(|(folder, _)| Kind::in_folder(folder));
     match kind.filter(|kind| KINDS.iter().any(|(shown, _)| shown == kind)) {
         Some(_) => shared.give(PanelAction::Entry(problem.file.clone())),

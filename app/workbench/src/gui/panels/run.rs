@@ -64,7 +64,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Says that the run shows gear from before the last edits.
+/// Says that the run shows gear from before the last edits, or something else than the scenario.
 fn stale(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     if shared.workbench.making() {
@@ -77,7 +77,10 @@ fn stale(ui: &mut Ui, shared: &mut Shared) {
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Gear or scenario changed.").color(palette.warning));
+            let guest = shared.workbench.shows_guest();
+            let text =
+                if guest { "Not a run of the scenario." } else { "Gear or scenario changed." };
+            ui.label(RichText::new(text).color(palette.warning));
             command(ui, shared, "Apply", RunAction::Apply);
         });
     }

@@ -7,7 +7,7 @@ pub mod plot_key;
 pub mod problem;
 pub mod words;
 
-use egui::{Grid, Rect, RichText, Ui, UiBuilder};
+use egui::{Align2, FontId, Grid, Rect, RichText, Sense, Ui, UiBuilder, vec2};
 
 use super::theme::Theme;
 
@@ -16,6 +16,13 @@ pub fn caption(ui: &mut Ui, text: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.add_space(3.0);
     ui.label(RichText::new(text.to_uppercase()).size(10.5).color(faint).strong());
+}
+
+/// The name of a field, all as wide, so that fields line up.
+pub fn name(ui: &mut Ui, text: &str) {
+    let (rect, _) = ui.allocate_exact_size(vec2(84.0, 20.0), Sense::hover());
+    let (colour, font) = (Theme::palette_of(ui).faint, FontId::proportional(13.0));
+    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
 }
 
 /// A line that says why a panel is empty.

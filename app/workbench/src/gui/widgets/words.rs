@@ -1,5 +1,7 @@
 //! Words and colours for what a run reports: its status, events and outcome; names of the format as titles.
 
+use std::time::Duration;
+
 use egui::Color32;
 use endline_gear::Confidence;
 use endline_session::live::Status;
@@ -89,6 +91,17 @@ pub fn spoken(name: &str) -> String {
 #[must_use]
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// A time in the largest fitting units.
+#[must_use]
+pub fn time_left(left: Duration) -> String {
+    let minutes = left.as_secs().div_ceil(60);
+    match left.as_secs() {
+        seconds @ 0..=59 => format!("{seconds} s"),
+        60..=3599 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
+    }
 }
 
 /// Keys that say too little without their table.

@@ -181,22 +181,9 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     );
 }
 
-/// Labels all as wide, so that fields line up.
-fn label(ui: &mut Ui, text: &str) {
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(84.0, 20.0), egui::Sense::hover());
-    let colour = Theme::palette_of(ui).faint;
-    ui.painter().text(
-        rect.left_center(),
-        egui::Align2::LEFT_CENTER,
-        text,
-        egui::FontId::proportional(13.0),
-        colour,
-    );
-}
-
 fn text(ui: &mut Ui, shared: &mut Shared, name: &str, field: &str, help: &str) {
     ui.horizontal(|ui| {
-        label(ui, name);
+        widgets::name(ui, name);
         let width = ui.available_width() - 12.0;
         if let Some(typed) = fields::edit(
             ui,
@@ -219,7 +206,7 @@ fn number(
     edits: &mut Edits,
 ) {
     ui.horizontal(|ui| {
-        label(ui, name);
+        widgets::name(ui, name);
         if let Some(typed) = fields::edit(
             ui,
             &shared.workbench.project.documents,
@@ -255,7 +242,7 @@ fn choice(
     edits: &mut Edits,
 ) {
     ui.horizontal(|ui| {
-        label(ui, name);
+        widgets::name(ui, name);
         let width = ui.available_width() - 12.0;
         if let Some(taken) = fields::choose(
             ui,

@@ -77,7 +77,7 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         return;
     };
     ui.horizontal(|ui| {
-        super::label(ui, &name.replace('_', " ").replace('"', ""));
+        widgets::name(ui, &name.replace('_', " ").replace('"', ""));
         laws(ui, &at, law, name, edits);
         match *law {
             "uniform" | "normal" => pair(ui, shared, &format!("{at}.{law}"), edits),
@@ -95,7 +95,7 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
     if *law == "normal" {
         // On a line of its own: four fields beside the law are wider than the panel.
         ui.horizontal(|ui| {
-            super::label(ui, "  within");
+            widgets::name(ui, "  within");
             pair(ui, shared, &format!("{at}.between"), edits);
         });
     }
@@ -177,7 +177,7 @@ fn one(ui: &mut Ui, shared: &Shared, field: &str, width: f32, edits: &mut Edits)
 /// A list of values as one line with commas.
 fn list(ui: &mut Ui, shared: &Shared, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
-        super::label(ui, name);
+        widgets::name(ui, name);
         let id = egui::Id::new(("list", field));
         let values: Vec<String> = (0..)
             .map_while(|index| {
@@ -224,7 +224,7 @@ fn written(typed: &str) -> Option<Setting> {
 
 fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
-        super::label(ui, "  source");
+        widgets::name(ui, "  source");
         let field = format!("{at}.source");
         let assumed = shared.workbench.project.documents.field(Documents::STUDY, &field).as_deref()
             == Some("assumed");

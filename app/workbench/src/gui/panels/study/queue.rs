@@ -10,6 +10,7 @@ use endline_session::study::results;
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::words::time_left;
 
 /// What is done with a job.
 #[derive(Clone, Copy)]
@@ -58,7 +59,7 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
             State::Running => (
                 progress
                     .left()
-                    .map_or_else(|| "running".into(), |left| format!("{} left", time(left))),
+                    .map_or_else(|| "running".into(), |left| format!("{} left", time_left(left))),
                 palette.good,
             ),
             State::Paused => ("paused".to_owned(), palette.warning),
@@ -132,14 +133,4 @@ fn list(root: &std::path::Path) -> Vec<(PathBuf, String)> {
         (found.folder, words)
     };
     results::list(root).into_iter().map(words).collect()
-}
-
-/// A time in the largest fitting units.
-fn time(left: Duration) -> String {
-    let minutes = left.as_secs().div_ceil(60);
-    match left.as_secs() {
-        seconds @ 0..=59 => format!("{seconds} s"),
-        60..=3599 => format!("{minutes} min"),
-        _ => format!("{} h {} min", minutes / 60, minutes % 60),
-    }
 }

@@ -149,6 +149,7 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     let roomy = pane.rect.width() > ROOMY;
     let standing = match (view.sought && pane.run == 0, shared.workbench.stale() && pane.run == 0) {
         (true, _) => "looking back",
+        (false, true) if shared.workbench.shows_guest() => "not of the scenario",
         (false, true) => "before the last edits",
         (false, false) => "",
     };

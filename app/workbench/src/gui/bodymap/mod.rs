@@ -1,12 +1,18 @@
-//! The whale's skin laid flat: four views of it at rest, each part in a colour, for pressures and wraps to be read off.
+//! The whale's skin laid flat: four views of it at rest, each region in a colour, for pressures and wraps to be read off and parts to
+//! be chosen.
+
+mod faces;
+mod pick;
 
 use std::sync::Arc;
 
 use egui::epaint::{Mesh, Vertex, WHITE_UV};
 use egui::{Color32, Pos2, Rect, Vec2, vec2};
-use endline_sdk::BodyPart;
+use endline_sdk::Region;
 use endline_sim::whale::Skin;
 use endline_sim::{ContactPoint, DVec3};
+
+pub use pick::Edge;
 
 /// From where the whale is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,10 +35,10 @@ impl Face {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Above => "from above",
-            Self::Below => "from below",
-            Self::Port => "port side",
-            Self::Starboard => "starboard side",
+            Self::Above => "from above, left is up",
+            Self::Below => "from below, left is down",
+            Self::Port => "left side",
+            Self::Starboard => "right side",
         }
     }
 
@@ -58,20 +64,24 @@ pub struct BodyMap {
     drawn: [Option<Drawn>; 4],
 }
 
-/// A face as it was drawn last: where, in which colours of the parts, and its triangles.
-type Drawn = (Rect, [Color32; PARTS], Arc<Mesh>);
+/// A face as it was drawn last: where, in which colours of the regions, and its triangles.
+type Drawn = (Rect, [Color32; REGIONS], Arc<Mesh>);
 
 /// A triangle as a face shows it.
 #[derive(Clone, Copy)]
 struct Seen {
     /// Corners from the middle of the picture, in widths of it, y down.
     corners: [Vec2; 3],
-    part: BodyPart,
+    /// Its place in the skin.
+    triangle: u32,
+    region: Region,
+    /// Whether its middle lies to port.
+    to_port: bool,
     /// How it is lit [1].
     light: f32,
 }
 
-const PARTS: usize = BodyPart::ALL.len();
+const REGIONS: usize = Region::ALL.len();
 
 impl BodyMap {
     /// Of a skin at rest.
@@ -116,21 +126,23 @@ impl BodyMap {
         let seen = |triangle: u32| {
             let corners = corners(&self.skin, triangle);
             let light = 0.55 + 0.45 * normal(corners).dot(eye).clamp(0.0, 1.0) as f32;
-            let part = self.skin.regions[triangle as usize].part();
-            Seen { corners: corners.map(|corner| self.flat(face, corner)), part, light }
+            let region = self.skin.regions[triangle as usize];
+            let to_port = corners.iter().map(|corner| corner.y).sum::<f64>() > 0.0;
+            let corners = corners.map(|corner| self.flat(face, corner));
+            Seen { corners, triangle, region, to_port, light }
         };
         sorted(&self.skin, face).into_iter().map(seen).collect()
     }
 
-    /// A face in a rectangle, each part in its colour, lit from the eye; the same as last where nothing has changed.
+    /// A face in a rectangle, each region in its colour, lit from the eye; the same as last where nothing has changed.
     #[must_use]
     pub fn mesh(
         &mut self,
         face: Face,
         rect: Rect,
-        colour: impl Fn(BodyPart) -> Color32,
+        colour: impl Fn(Region) -> Color32,
     ) -> Arc<Mesh> {
-        let colours = BodyPart::ALL.map(colour);
+        let colours = Region::ALL.map(colour);
         let drawn = self.drawn[face as usize]
             .as_ref()
             .filter(|(place, of, _)| *place == rect && *of == colours);
@@ -142,7 +154,7 @@ impl BodyMap {
         mesh.indices.extend(0..3 * u32::try_from(seen.len()).unwrap_or(0));
         mesh.vertices.reserve(3 * seen.len());
         for triangle in seen {
-            let color = shade(colours[triangle.part as usize], triangle.light);
+            let color = shade(colours[triangle.region as usize], triangle.light);
             let vertex = |corner: Vec2| Vertex {
                 pos: rect.center() + corner * rect.width(),
                 uv: WHITE_UV,

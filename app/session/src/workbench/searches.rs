@@ -1,0 +1,254 @@
+//! The search of a user: its observation, the search at work, and the stories found.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_sim::whale::Skin;
+
+use super::Workbench;
+use super::model::Then;
+use super::notice::Notice;
+use crate::edit::{Documents, observation};
+use crate::save;
+use crate::search::job::{self, Job, Request, State};
+use crate::search::open::Length;
+use crate::search::{Question, Story};
+use crate::study::priority;
+use crate::task::{Fault, Task};
+
+/// Runs at most, where nobody says otherwise.
+const TRIALS: usize = 1000;
+
+/// Neighbours of each story, where nobody says otherwise.
+const NEIGHBOURS: usize = 12;
+
+/// The animal drawn where the observation names none.
+const WHALE: &str = "right-whale";
+
+/// A scenario that was kept: its file, and library files that its story has otherwise than the library.
+type Kept = (PathBuf, Vec<String>);
+
+/// The search at work, and how long to search.
+pub struct Searches {
+    /// The search at work, or the one whose stories are shown.
+    pub job: Option<Job>,
+    /// Runs at most.
+    pub trials: usize,
+    /// Threads.
+    pub threads: usize,
+    /// Neighbours run of every story that is like the observation.
+    pub neighbours: usize,
+    /// Whether it runs at ordinary priority rather than the lowest.
+    pub eager: bool,
+    /// Folder that searches are kept in; `results` where the program was started, without one.
+    pub folder: Option<PathBuf>,
+    keeping: Task<Result<Kept, String>>,
+}
+
+impl Default for Searches {
+    fn default() -> Self {
+        Self {
+            job: None,
+            trials: TRIALS,
+            threads: priority::threads(),
+            neighbours: NEIGHBOURS,
+            eager: false,
+            folder: None,
+            keeping: Task::default(),
+        }
+    }
+}
+
+impl Searches {
+    /// The search that runs or is paused; one that only reads what is there is none.
+    #[must_use]
+    pub fn at_work(&self) -> Option<&Job> {
+        self.job.as_ref().filter(|job| job.unfinished() && !job.only_reads)
+    }
+}
+
+impl Workbench {
+    /// Takes in what was kept.
+    pub(super) fn refresh_searches(&mut self) {
+        let Some(kept) = self.searches.keeping.poll() else { return };
+        let kept = kept.unwrap_or_else(|Fault| {
+            Err("keeping the story ended by a fault inside the program".to_owned())
+        });
+        self.notice = Some(match kept {
+            Ok((file, other)) if other.is_empty() => {
+                Notice::done(format!("kept as {}", file.display()))
+            }
+            Ok((file, other)) => Notice::hint(format!(
+                "kept as {}; the story has other values of {} than the library",
+                file.display(),
+                other.join(", ")
+            )),
+            Err(reason) => Notice::fault(reason),
+        });
+    }
+
+    /// Whether neither the open observation nor the gear has an error.
+    #[must_use]
+    pub fn observation_is_sound(&self) -> bool {
+        let documents = &self.project.documents;
+        !documents.file_has_error(Documents::OBSERVATION) && !documents.any_error()
+    }
+
+    /// Whether the stories shown are of another observation than the open one as it stands.
+    #[must_use]
+    pub fn stories_are_of_another(&self) -> bool {
+        let text = self.project.documents.text(Documents::OBSERVATION);
+        self.searches.job.as_ref().is_some_and(|job| Some(job.request.text.as_str()) != text)
+    }
+
+    /// Skin of the animal of the open observation, at the length of its file.
+    #[must_use]
+    pub fn observed_skin(&self) -> Option<Arc<Skin>> {
+        let documents = &self.project.documents;
+        let id = documents.field(Documents::OBSERVATION, "whale");
+        let id = id.as_deref().unwrap_or(WHALE);
+        let whales = &documents.library().whales;
+        let whale = whales.iter().find(|whale| whale.entry.id == id).or(whales.first())?;
+        Some(whale.skin_for(whale.form.length_m, 1.0, false))
+    }
+
+    /// Opens an observation for editing, and the stories that were found for it.
+    pub(crate) fn open_observation(&mut self, path: &Path) -> Result<(), String> {
+        self.leave_observation()?;
+        self.project.documents.open_observation(path)?;
+        self.read_search();
+        Ok(())
+    }
+
+    /// Goes on with a new observation beside those of the library.
+    pub(crate) fn new_observation(&mut self) -> Result<(), String> {
+        self.leave_observation()?;
+        let file = self.project.documents.new_observation(observation::NEW)?;
+        self.notice = Some(Notice::done(format!("a new observation: {}", file.display())));
+        self.read_search();
+        Ok(())
+    }
+
+    /// Goes on with a copy of the open observation beside those of the library.
+    pub(crate) fn duplicate_observation(&mut self) -> Result<(), String> {
+        let copy = self.project.documents.duplicate_observation()?;
+        self.notice = Some(Notice::done(format!("a copy: {}", copy.display())));
+        self.read_search();
+        Ok(())
+    }
+
+    fn leave_observation(&self) -> Result<(), String> {
+        let documents = &self.project.documents;
+        let unsaved =
+            documents.observation_path().is_some() && documents.is_unsaved(Documents::OBSERVATION);
+        if unsaved {
+            let reason = "the open observation has unsaved edits; save or undo them first";
+            return Err(reason.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Reads what an earlier search for the open observation has left, unless it has errors or a search is at work.
+    fn read_search(&mut self) {
+        if self.searches.at_work().is_some() {
+            return;
+        }
+        let (host, waker) = self.helpers();
+        let request = self.search_request().filter(|_| self.observation_is_sound());
+        self.searches.job = request.map(|request| Job::read(request, &host, &waker));
+    }
+
+    /// What a search for the open observation asks for; `None` where none is open.
+    fn search_request(&self) -> Option<Request> {
+        let (documents, searches) = (&self.project.documents, &self.searches);
+        Some(Request {
+            file: documents.observation_path()?.to_owned(),
+            text: documents.text(Documents::OBSERVATION)?.to_owned(),
+            library: documents.root().to_owned(),
+            root: searches.folder.clone().unwrap_or_else(|| PathBuf::from("results")),
+            trials: searches.trials,
+            threads: searches.threads,
+            neighbours: searches.neighbours,
+            eager: searches.eager,
+        })
+    }
+
+    /// Searches for the open observation, or goes on; its text is saved first, so that the command line finds the same.
+    pub(crate) fn run_search(&mut self) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        if !documents.unsaved().is_empty() {
+            documents.save().map_err(|error| format!("not saved, so not searched: {error}"))?;
+        }
+        let request = self.search_request().ok_or("open an observation first")?;
+        let (host, waker) = self.helpers();
+        self.searches.job = Some(Job::begin(request, &host, &waker));
+        Ok(())
+    }
+
+    /// Pauses the search at work, or goes on with it.
+    pub(crate) fn pause_search(&mut self) -> Result<(), String> {
+        let job = self.searches.at_work().ok_or("no search is at work")?;
+        if job.state() == State::Paused {
+            job.resume()
+        } else {
+            job.pause()
+        }
+        Ok(())
+    }
+
+    /// Ends the search at work; what was run stays.
+    pub(crate) fn cancel_search(&mut self) -> Result<(), String> {
+        self.searches.at_work().ok_or("no search is at work")?.cancel();
+        Ok(())
+    }
+
+    /// Runs a story, to its ending in the search or to the end of its scenario.
+    pub(crate) fn run_story(&mut self, story: usize, length: Length) -> Result<(), String> {
+        let (question, story) = self.story(story)?;
+        self.keep_run();
+        let host = Arc::clone(&self.plugins.host);
+        self.make_guest(Then::Start, move || question.prepare(&story, length, &host))
+    }
+
+    /// Writes a story as a scenario of the library.
+    pub(crate) fn keep_story(&mut self, number: usize) -> Result<(), String> {
+        let (question, story) = self.story(number)?;
+        let folder = self.project.documents.root().join("scenarios");
+        let stem = format!("{}-story", question.observation.id);
+        let work = move || {
+            let (text, other) = question.scenario(&story).map_err(|error| error.to_string())?;
+            let named = |number: u32| folder.join(format!("{stem}-{number}.toml"));
+            let mut files = (1..10_000).map(named);
+            let file = files.find(|file| !file.exists()).ok_or("there are 10,000 already")?;
+            save::atomically(&file, text.as_bytes())
+                .map_err(|error| format!("{}: {error}", file.display()))?;
+            Ok((file, other))
+        };
+        let (_, waker) = self.helpers();
+        self.searches
+            .keeping
+            .start("endline-keep-story", work, waker)
+            .map_err(|error| error.to_string())
+    }
+
+    fn story(&self, number: usize) -> Result<(Arc<Question>, Story), String> {
+        let found = self.searches.job.as_ref().map(Job::found).unwrap_or_default();
+        let story = found.stories.and_then(|found| found.stories.get(number).cloned());
+        found.question.zip(story).ok_or_else(|| "there is no such story".to_owned())
+    }
+
+    /// The command line that searches for the open observation; `None` where none is open.
+    #[must_use]
+    pub fn search_command_line(&self) -> Option<String> {
+        let request = self.search_request()?;
+        let own = self.searches.job.as_ref().filter(|job| job.request.text == request.text);
+        let usual = || {
+            request.root.join(format!(
+                "search-{}",
+                request.file.file_stem().unwrap_or_default().to_string_lossy()
+            ))
+        };
+        let folder = own.and_then(|job| job.found().folder).unwrap_or_else(usual);
+        Some(job::command_line(&request, &folder))
+    }
+}

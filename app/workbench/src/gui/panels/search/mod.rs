@@ -1,0 +1,196 @@
+//! The search for a real case: what was seen on a whale, as a form on the map of its body; and the search at work.
+
+mod about;
+mod body;
+mod part;
+mod rope;
+mod run;
+
+use std::path::{Path, PathBuf};
+
+use egui::{ComboBox, RichText, ScrollArea, Ui};
+use endline_gear::{Diagnostic, Document, Site};
+use endline_session::command::SearchAction;
+use endline_session::edit::Documents;
+use endline_session::edit::observation::{self, Range};
+
+use crate::gui::command::action::WindowAction;
+use crate::gui::fields::{self, Said};
+use crate::gui::files;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::command::command;
+use crate::gui::widgets::{self, problem};
+
+/// Edits of the observation's text, each one step to be taken back.
+type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;
+
+/// What was seen, and the search for it.
+pub struct SearchPanel {
+    /// The part whose form is shown: a single one.
+    pub chosen: Site,
+    /// The observation that it is of.
+    of: Option<PathBuf>,
+    map: body::Map,
+    /// Observations of the library, by file and name, while the list of them is open.
+    listed: Option<Vec<(PathBuf, String)>>,
+    text: about::Typed,
+}
+
+impl Default for SearchPanel {
+    fn default() -> Self {
+        Self {
+            chosen: Site::Body,
+            of: None,
+            map: body::Map::default(),
+            listed: None,
+            text: about::Typed::default(),
+        }
+    }
+}
+
+impl Panel for SearchPanel {
+    fn id(&self) -> PanelId {
+        PanelId::SEARCH
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        self.pick(ui, shared);
+        if shared.workbench.project.documents.text(Documents::OBSERVATION).is_none() {
+            widgets::nothing(
+                ui,
+                "Choose an observation above, or begin a new one: where rope was seen on a whale. The search looks for encounters that end like it.",
+            );
+            return;
+        }
+        self.begin(shared);
+        run::show(ui, shared);
+        ui.separator();
+        ScrollArea::vertical().id_salt("observation").auto_shrink(false).show(ui, |ui| {
+            let mut edits = Edits::new();
+            body::show(ui, self, shared);
+            part::show(ui, self.chosen, shared, &mut edits);
+            rope::show(ui, shared, &mut edits);
+            about::show(ui, &mut self.text, shared, &mut edits);
+            problems(ui, shared);
+            apply(shared, edits);
+        });
+    }
+}
+
+impl SearchPanel {
+    /// Chooses a part with rope of an observation that is shown for the first time.
+    fn begin(&mut self, shared: &Shared) {
+        let documents = &shared.workbench.project.documents;
+        let path = documents.observation_path();
+        if self.of.as_deref() == path {
+            return;
+        }
+        self.of = path.map(Path::to_owned);
+        let has_rope = |single: &Site| {
+            observation::told(documents, observation::site_of(documents, *single)).has_rope()
+        };
+        self.chosen = Site::SINGLE.into_iter().find(has_rope).unwrap_or(Site::Body);
+    }
+
+    /// The observation: chosen from the library, opened from a file, begun anew.
+    fn pick(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let documents = &shared.workbench.project.documents;
+        let path = documents.observation_path().map(Path::to_owned);
+        let unsaved = path.is_some() && documents.is_unsaved(Documents::OBSERVATION);
+        let mark = if unsaved { "• " } else { "" };
+        let name = documents.field(Documents::OBSERVATION, "name");
+        let shown = path.as_deref().map_or_else(
+            || "Choose an observation".to_owned(),
+            |path| format!("{mark}{}", name.unwrap_or_else(|| files::stem(path))),
+        );
+        ui.horizontal(|ui| {
+            let width = (ui.available_width() - 206.0).max(120.0);
+            let combo = ComboBox::from_id_salt("observation").width(width).truncate();
+            let open = combo.selected_text(shown).show_ui(ui, |ui| {
+                let root = shared.workbench.project.documents.root();
+                let listed = self.listed.get_or_insert_with(|| files::observations(root));
+                let mut wanted = None;
+                for (file, name) in listed {
+                    let own = path.as_ref() == Some(file);
+                    let stem = files::stem(file);
+                    if ui.selectable_label(own, &*name).on_hover_text(stem).clicked() && !own {
+                        wanted = Some(file.clone());
+                    }
+                }
+                shared.commands.extend(wanted.map(|file| SearchAction::Open(file).into()));
+            });
+            if open.inner.is_none() {
+                self.listed = None;
+            }
+            command(ui, shared, "Open …", WindowAction::Ask("search.open-file"));
+            command(ui, shared, "New", SearchAction::New);
+            command(ui, shared, "Duplicate", SearchAction::Duplicate);
+        });
+    }
+}
+
+/// Puts edits into the observation's text.
+fn apply(shared: &mut Shared, edits: Edits) {
+    for edit in edits {
+        if let Err(error) = shared.workbench.project.documents.alter(Documents::OBSERVATION, edit) {
+            shared.fault(error);
+        }
+    }
+}
+
+/// A field of the observation for typing, with its name before it.
+fn typed(ui: &mut Ui, shared: &Shared, name: &str, field: &str, said: Said<'_>, edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        widgets::name(ui, name);
+        let documents = &shared.workbench.project.documents;
+        let width = ui.available_width() - 12.0;
+        if let Some(typed) = fields::edit(ui, documents, Documents::OBSERVATION, field, width, said)
+        {
+            let field = field.to_owned();
+            edits.push(Box::new(move |document| observation::set_field(document, &field, &typed)));
+        }
+    });
+}
+
+/// Least and most of a range, with its name before them and its unit after them.
+fn ends(
+    ui: &mut Ui,
+    shared: &Shared,
+    (name, unit): (&str, &str),
+    range: Range,
+    help: &str,
+    edits: &mut Edits,
+) {
+    let documents = &shared.workbench.project.documents;
+    let Some(path) = range.path(documents) else { return };
+    ui.horizontal(|ui| {
+        widgets::name(ui, name);
+        for (end, hint) in [(0, "least"), (1, "most")] {
+            let field = format!("{path}.{end}");
+            let said = Said { hint, help };
+            if let Some(typed) =
+                fields::edit(ui, documents, Documents::OBSERVATION, &field, 64.0, said)
+            {
+                let before = observation::range(documents, range);
+                edits.push(Box::new(move |document| {
+                    observation::set_range(document, range, before, end, &typed)
+                }));
+            }
+            ui.label(RichText::new(["to", unit][end]).color(Theme::palette_of(ui).faint));
+        }
+    });
+}
+
+/// What is wrong with the observation's text.
+fn problems(ui: &mut Ui, shared: &Shared) {
+    let documents = &shared.workbench.project.documents;
+    let file = documents.shown_name(Documents::OBSERVATION);
+    let own = documents.problems().iter().filter(|problem| problem.file == file);
+    let own: Vec<Diagnostic> = own.cloned().collect();
+    for problem in &own {
+        problem::entry(ui, problem);
+    }
+}

@@ -1,0 +1,97 @@
+//! The rope as a whole: the order of places that it passes, what hung behind, how its legs were twisted.
+
+use egui::{ComboBox, RichText, Ui};
+use endline_gear::{PathPlace, RopeEnd, Site};
+use endline_sdk::Side;
+use endline_session::edit::observation::{self, Range};
+
+use super::{Edits, ends};
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+use crate::gui::widgets::words::spoken;
+
+/// Draws the form of the rope.
+pub(super) fn show(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
+    widgets::caption(ui, "Path of the rope");
+    path(ui, shared, edits);
+    widgets::caption(ui, "Behind the whale");
+    let help =
+        "Least and most rope that hung from the whale, with its unit, such as 50 m or 200 ft";
+    ends(ui, shared, ("Length", ""), Range::Trailing, help, edits);
+    rope_ends(ui, shared, edits);
+    let help = "Least and most turns of the rope's two legs about each other";
+    ends(ui, shared, ("Twist", "turns"), Range::Twist, help, edits);
+}
+
+/// The places in their order: moved, taken out, added.
+fn path(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
+    let places = observation::places(&shared.workbench.project.documents);
+    let faint = Theme::palette_of(ui).faint;
+    for (index, place) in places.iter().enumerate() {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(format!("{}", index + 1)).color(faint));
+            let up = egui::Button::new("⏶").small();
+            if ui.add_enabled(index > 0, up).on_hover_text("Earlier").clicked() {
+                edits.push(Box::new(move |document| observation::move_place(document, index)));
+            }
+            if ui.small_button("✖").on_hover_text("Take this place out").clicked() {
+                edits.push(Box::new(move |document| observation::remove_place(document, index)));
+            }
+            ui.label(PathPlace::named(place).map_or_else(|| place.clone(), in_words));
+        });
+    }
+    ui.horizontal(|ui| {
+        let combo = ComboBox::from_id_salt("add place").width(150.0).selected_text("Add a place");
+        combo.height(360.0).show_ui(ui, |ui| {
+            for place in every_place() {
+                if ui.selectable_label(false, in_words(place)).clicked() {
+                    edits.push(Box::new(move |document| observation::add_place(document, place)));
+                }
+            }
+        });
+        if places.is_empty() {
+            ui.label(RichText::new("in the order in which the rope passes them").color(faint));
+        }
+    });
+}
+
+/// Every place that a path may name, from the snout to the tail.
+fn every_place() -> impl Iterator<Item = PathPlace> {
+    Site::ALL.into_iter().flat_map(|site| {
+        let sides = [None, Some(Side::Left), Some(Side::Right)];
+        let may = move |side: &Option<Side>| side.is_none() || site.is_in_midplane();
+        sides.into_iter().filter(may).map(move |side| PathPlace { site, side })
+    })
+}
+
+fn in_words(place: PathPlace) -> String {
+    let side = match place.side {
+        None => "",
+        Some(Side::Left) => ", left side",
+        Some(Side::Right) => ", right side",
+    };
+    format!("{}{side}", spoken(place.site.name()))
+}
+
+/// What was at the ends of the rope.
+fn rope_ends(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
+    let now = observation::ends(&shared.workbench.project.documents);
+    ui.horizontal_wrapped(|ui| {
+        widgets::name(ui, "Its ends");
+        for (index, end) in now.iter().enumerate() {
+            let help = "Click to take this end away";
+            if ui.button(format!("{end}  ✖")).on_hover_text(help).clicked() {
+                edits.push(Box::new(move |document| observation::remove_end(document, index)));
+            }
+        }
+        let combo = ComboBox::from_id_salt("add end").width(90.0).selected_text("Add an end");
+        combo.show_ui(ui, |ui| {
+            for end in RopeEnd::ALL {
+                if ui.selectable_label(false, end.name()).on_hover_text(end.words()).clicked() {
+                    edits.push(Box::new(move |document| observation::add_end(document, end)));
+                }
+            }
+        });
+    });
+}

@@ -1,0 +1,213 @@
+//! What a search found: the map of stories as a table, the chosen one with its terms, to be run, flown on and kept.
+
+mod story;
+
+use std::sync::Arc;
+
+use egui::{Align, Label, Layout, RichText, ScrollArea, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+use endline_session::command::SearchAction;
+use endline_session::search::job::State;
+use endline_session::search::{Job, LIKE, Stories, Story};
+
+use crate::gui::command::action::WindowAction;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+use crate::gui::widgets::words::spoken;
+
+/// Least width at which the chosen story stands beside the table.
+const WIDE: f32 = 640.0;
+
+/// What a search found.
+#[derive(Debug, Default)]
+pub struct StoriesPanel {
+    /// Hash of the chosen story's last state; the nearest where it is not there.
+    chosen: Option<String>,
+}
+
+impl Panel for StoriesPanel {
+    fn id(&self) -> PanelId {
+        PanelId::STORIES
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let job = shared.workbench.searches.job.as_ref();
+        let Some(found) = job.and_then(|job| job.found().stories) else {
+            return missing(ui, job);
+        };
+        head(ui, shared, &found);
+        if found.stories.is_empty() {
+            return widgets::nothing(ui, "No run has touched the whale so far.");
+        }
+        ui.separator();
+        let number = self.number(&found);
+        if ui.available_width() < WIDE {
+            let height = 0.45 * ui.available_height();
+            ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+                self.table(ui, shared, &found, number);
+            });
+            ui.separator();
+            return chosen(ui, shared, &found, number);
+        }
+        let wide = 0.58 * ui.available_width();
+        let whole = ui.available_rect_before_wrap();
+        let (mut left, mut right) = (whole, whole);
+        left.set_right(whole.left() + wide);
+        right.set_left(left.right() + 12.0);
+        widgets::within(ui, left, |ui| self.table(ui, shared, &found, number));
+        widgets::within(ui, right, |ui| chosen(ui, shared, &found, number));
+    }
+}
+
+/// Says why there are no stories.
+fn missing(ui: &mut Ui, job: Option<&Job>) {
+    let none = "No stories yet. Choose an observation in Search and begin; the first stories come after 32 runs.";
+    match job.map(Job::state) {
+        Some(State::Failed(why)) => {
+            let colour = Theme::palette_of(ui).error;
+            ui.add(Label::new(RichText::new(why).color(colour)).wrap());
+        }
+        Some(State::Opening) => {
+            ui.vertical_centered(|ui| ui.spinner());
+            widgets::nothing(ui, "Reading the observation and its encounters …");
+        }
+        Some(State::Running | State::Paused) => {
+            widgets::nothing(ui, "The first stories come after 32 runs.");
+        }
+        _ => widgets::nothing(ui, none),
+    }
+}
+
+/// What was found in a sentence, and the report.
+fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
+    let palette = Theme::palette_of(ui);
+    let Some(job) = &shared.workbench.searches.job else { return };
+    let name = job.found().question.map(|question| question.observation.name.clone());
+    let so_far = if job.unfinished() { "So far: " } else { "" };
+    let report = job.report();
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(name.unwrap_or_default()).strong());
+        ui.label(format!("{so_far}{}", found.answer()));
+    });
+    ui.horizontal_wrapped(|ui| {
+        let draws = format!(
+            "{} runs, {} of them draws from the priors, of which {} end alike (distance at most {LIKE}).",
+            found.trials, found.net, found.net_like
+        );
+        let caveat = "An encounter that can end like this in the model: neither that it was so, nor how often";
+        ui.label(RichText::new(draws).small().color(palette.faint)).on_hover_text(caveat);
+        if shared.workbench.stories_are_of_another() {
+            let words = "Of another observation, or before it was edited.";
+            ui.label(RichText::new(words).small().color(palette.warning));
+        }
+        if let Some(file) = report
+            && ui.small_button("Open the report").on_hover_text(file.display().to_string()).clicked()
+        {
+            shared.give(WindowAction::OpenFolder(file));
+        }
+    });
+}
+
+impl StoriesPanel {
+    /// Place of the chosen story.
+    fn number(&self, found: &Stories) -> usize {
+        let own = |story: &Story| Some(&story.state_hash) == self.chosen.as_ref();
+        found.stories.iter().position(own).unwrap_or(0)
+    }
+
+    fn table(&mut self, ui: &mut Ui, shared: &mut Shared, found: &Arc<Stories>, number: usize) {
+        let mut wanted = None;
+        let table = TableBuilder::new(ui)
+            .id_salt("stories")
+            .striped(true)
+            .resizable(true)
+            .sense(Sense::click())
+            .cell_layout(Layout::left_to_right(Align::Center))
+            .column(Column::exact(22.0))
+            .column(Column::initial(56.0))
+            .column(Column::initial(76.0).clip(true))
+            .column(Column::initial(104.0).clip(true))
+            .column(Column::initial(92.0).clip(true))
+            .column(Column::remainder().at_least(84.0).clip(true));
+        table
+            .header(20.0, |mut header| {
+                for (name, help) in HEADS {
+                    header.col(|ui| {
+                        let faint = Theme::palette_of(ui).faint;
+                        ui.label(RichText::new(name).small().color(faint)).on_hover_text(help);
+                    });
+                }
+            })
+            .body(|body| {
+                body.rows(21.0, found.stories.len(), |mut line| {
+                    let index = line.index();
+                    let story = &found.stories[index];
+                    line.set_selected(index == number);
+                    cells(&mut line, index, story);
+                    let hint = "Click for its reasons; twice to see it in the 3-D view";
+                    let response = line.response().on_hover_text(hint);
+                    if response.clicked() {
+                        self.chosen = Some(story.state_hash.clone());
+                    }
+                    if response.double_clicked() {
+                        wanted = Some(index);
+                    }
+                });
+            });
+        shared.commands.extend(wanted.map(|story| SearchAction::Replay(story).into()));
+    }
+}
+
+const HEADS: [(&str, &str); 6] = [
+    ("", "Place, the nearest first"),
+    ("Distance", "How unlike the observation it ends; up to 1 is like it"),
+    ("First", "The part that rope touched first"),
+    ("Acts", "What the whale did before and then"),
+    ("Course", "Where it came from, against the current"),
+    (
+        "Neighbours",
+        "Share of runs a little different that end alike; below half it hangs on chance",
+    ),
+];
+
+fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
+    line.col(|ui| {
+        ui.add_space(4.0);
+        ui.label((index + 1).to_string());
+    });
+    line.col(|ui| {
+        let palette = Theme::palette_of(ui);
+        let colour = if story.is_like() { palette.good } else { palette.text };
+        let mirrored = if story.mirrored { " ⇄" } else { "" };
+        let text = RichText::new(format!("{:.2}{mirrored}", story.distance)).color(colour);
+        let response = ui.label(text);
+        if story.mirrored {
+            response.on_hover_text("As its mirror image");
+        }
+    });
+    line.col(|ui| drop(ui.label(spoken(&story.first_part))));
+    for text in [story.acts_in_words(), story.course.to_owned()] {
+        line.col(|ui| {
+            // A long text is cut in a narrow panel.
+            ui.label(&text).on_hover_text(&text);
+        });
+    }
+    line.col(|ui| {
+        let palette = Theme::palette_of(ui);
+        let Some(alike) = story.alike else { return };
+        let (words, colour) =
+            if story.is_fragile() { (", fragile", palette.warning) } else { ("", palette.text) };
+        ui.label(RichText::new(format!("{:.0} %{words}", 100.0 * alike)).color(colour));
+    });
+}
+
+/// The chosen story.
+fn chosen(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: usize) {
+    let Some(story) = found.stories.get(number) else { return };
+    ScrollArea::vertical().id_salt("story").auto_shrink(false).show(ui, |ui| {
+        story::show(ui, shared, story, number);
+    });
+}

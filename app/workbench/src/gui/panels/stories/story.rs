@@ -1,0 +1,86 @@
+//! The chosen story: what can be done with it, its distance term by term, and what was drawn for it.
+
+use egui::{Color32, Grid, Label, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::command::SearchAction;
+use endline_session::search::{LIKE, Story};
+
+use crate::gui::shared::Shared;
+use crate::gui::theme::{Palette, Theme};
+use crate::gui::widgets;
+use crate::gui::widgets::command::command;
+use crate::gui::widgets::words::{capital, spoken};
+
+/// Width of the longest bar.
+const BAR: f32 = 84.0;
+
+/// Draws a story.
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, story: &Story, number: usize) {
+    let palette = Theme::palette_of(ui);
+    let first = capital(&spoken(&story.first_part));
+    let course =
+        if story.course.is_empty() { String::new() } else { format!(", {}", story.course) };
+    ui.add(
+        Label::new(
+            RichText::new(format!("{first} first; {}{course}", story.acts_in_words())).strong(),
+        )
+        .wrap(),
+    );
+    ui.horizontal_wrapped(|ui| {
+        command(ui, shared, "Show in 3-D", SearchAction::Replay(number));
+        command(ui, shared, "Fly on", SearchAction::FlyOn(number));
+        command(ui, shared, "Keep as scenario", SearchAction::Keep(number));
+    });
+    widgets::caption(ui, &format!("Distance {:.2}", story.distance));
+    terms(ui, story, palette);
+    widgets::caption(ui, "The encounter");
+    Grid::new("drawn").num_columns(2).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for (name, text) in &story.drawn {
+            ui.label(RichText::new(name.replace('_', " ")).color(palette.faint));
+            ui.label(short(text)).on_hover_text(text);
+            ui.end_row();
+        }
+        ui.label(RichText::new("run for").color(palette.faint));
+        ui.label(format!("{:.0} s", story.simulated_s));
+        ui.end_row();
+    });
+}
+
+/// A drawn value to four digits, with its unit.
+fn short(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let rounded = number.parse::<f64>().ok().and_then(|value| format!("{value:.3e}").parse().ok());
+    rounded.map_or_else(|| text.to_owned(), |value: f64| format!("{value} {unit}"))
+}
+
+/// The terms of the distance as bars, the greatest first; a line marks what alone would be unlike.
+fn terms(ui: &mut Ui, story: &Story, palette: Palette) {
+    if story.terms.is_empty() {
+        ui.label(RichText::new("It ends exactly as was seen.").color(palette.good));
+        return;
+    }
+    let mut terms: Vec<&(f64, String)> = story.terms.iter().collect();
+    terms.sort_by(|one, other| other.0.total_cmp(&one.0));
+    let most = terms.iter().map(|(cost, _)| *cost).fold(LIKE, f64::max);
+    for (cost, says) in terms {
+        ui.horizontal(|ui| {
+            bar(ui, cost / most, LIKE / most, palette);
+            ui.label(RichText::new(format!("{cost:.2}")).monospace());
+            ui.add(Label::new(says).wrap());
+        });
+    }
+}
+
+fn bar(ui: &mut Ui, share: f64, like: f64, palette: Palette) {
+    let (rect, _) = ui.allocate_exact_size(vec2(BAR, 12.0), Sense::hover());
+    let painter = ui.painter();
+    let x = |share: f64| rect.left() + share as f32 * rect.width();
+    painter.rect_filled(rect, 2.0, palette.field);
+    let colour: Color32 = if share > like { palette.warning } else { palette.accent };
+    let filled = Rect::from_min_max(rect.min, pos2(x(share).max(rect.left() + 1.0), rect.bottom()));
+    painter.rect_filled(filled, 2.0, colour);
+    let at = x(like).min(rect.right() - 0.5);
+    painter.line_segment(
+        [pos2(at, rect.top()), pos2(at, rect.bottom())],
+        Stroke::new(1.0, palette.text),
+    );
+}
