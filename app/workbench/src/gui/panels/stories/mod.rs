@@ -206,8 +206,7 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
 
 /// The chosen story.
 fn chosen(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: usize) {
-    let Some(story) = found.stories.get(number) else { return };
     ScrollArea::vertical().id_salt("story").auto_shrink(false).show(ui, |ui| {
-        story::show(ui, shared, story, number);
+        story::show(ui, shared, found, number);
     });
 }

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Grid, Label, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::command::SearchAction;
-use endline_session::search::{LIKE, Story};
+use endline_session::search::{LIKE, Stories, Story};
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
@@ -14,7 +14,8 @@ use crate::gui::widgets::words::{capital, spoken};
 const BAR: f32 = 84.0;
 
 /// Draws a story.
-pub(super) fn show(ui: &mut Ui, shared: &mut Shared, story: &Story, number: usize) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: usize) {
+    let Some(story) = found.stories.get(number) else { return };
     let palette = Theme::palette_of(ui);
     let first = capital(&spoken(&story.first_part));
     let course =
@@ -32,6 +33,10 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, story: &Story, number: usiz
     });
     widgets::caption(ui, &format!("Distance {:.2}", story.distance));
     terms(ui, story, palette);
+    if let Some(trust) = story.trust(found) {
+        widgets::caption(ui, "How far to trust it");
+        ui.add(Label::new(trust).wrap());
+    }
     widgets::caption(ui, "The encounter");
     Grid::new("drawn").num_columns(2).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
         for (name, text) in &story.drawn {
