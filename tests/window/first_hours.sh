@@ -207,12 +207,12 @@ team() {
     still 10
     # The second story, and its button Show in 3-D.
     click 600 192
-    click 993 161
+    click 1024 161
     check "a story is run again" "within 30 '[ \$(performed search.replay) -eq 1 ]'"
     command "show 3-d view"
     picture team-4-story 60
     command "layout search"
-    click 1186 161
+    click 1197 161
     check "a story is kept as a scenario" "within 60 \"ls '$SCENARIOS'/first-case-story-1.toml >/dev/null 2>&1\""
 }
 

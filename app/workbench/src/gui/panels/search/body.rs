@@ -129,9 +129,14 @@ fn marks(body: &BodyMap, painter: &Painter, rect: Rect, seen: &Seen) {
     for (single, words) in &seen.wraps {
         let is_it = |region| Site::of_region(region) == *single;
         if let Some(middle) = body.middle(Face::Above, rect, is_it, None) {
-            let numbered = seen.path.iter().any(|place| is_of(place.site, *single));
-            let at = middle + vec2(0.0, if numbered { 16.0 } else { 0.0 });
-            badge(painter, at, &format!("{words} ×"), palette.panel, palette.text);
+            // Below the part, so that it stays to be seen.
+            badge(
+                painter,
+                middle + vec2(0.0, 17.0),
+                &format!("{words} ×"),
+                palette.panel,
+                palette.text,
+            );
         }
     }
     let place = |place: &PathPlace| {

@@ -57,7 +57,9 @@ fn begin(ui: &mut Ui, shared: &mut Shared) {
                 (true, true) => "give more runs to go on",
                 (true, false) => "",
             };
-            ui.label(RichText::new(why).color(Theme::palette_of(ui).faint));
+            if !why.is_empty() {
+                ui.label(RichText::new(why).color(Theme::palette_of(ui).faint));
+            }
         }
         command(ui, shared, "Copy as command line", WindowAction::CopySearchLine);
     });

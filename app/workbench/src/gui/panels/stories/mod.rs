@@ -52,7 +52,7 @@ impl Panel for StoriesPanel {
             ui.separator();
             return chosen(ui, shared, &found, number);
         }
-        let wide = 0.58 * ui.available_width();
+        let wide = 0.62 * ui.available_width();
         let whole = ui.available_rect_before_wrap();
         let (mut left, mut right) = (whole, whole);
         left.set_right(whole.left() + wide);
@@ -127,9 +127,9 @@ impl StoriesPanel {
             .sense(Sense::click())
             .cell_layout(Layout::left_to_right(Align::Center))
             .column(Column::exact(22.0))
-            .column(Column::initial(56.0))
+            .column(Column::initial(54.0))
             .column(Column::initial(76.0).clip(true))
-            .column(Column::initial(104.0).clip(true))
+            .column(Column::initial(122.0).clip(true))
             .column(Column::initial(92.0).clip(true))
             .column(Column::remainder().at_least(84.0).clip(true));
         table

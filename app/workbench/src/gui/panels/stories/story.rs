@@ -40,7 +40,9 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: us
     widgets::caption(ui, "The encounter");
     Grid::new("drawn").num_columns(2).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
         for (name, text) in &story.drawn {
-            ui.label(RichText::new(name.replace('_', " ")).color(palette.faint));
+            let own = name.rsplit('.').next().unwrap_or(name);
+            let own = RichText::new(spoken(own)).color(palette.faint);
+            ui.label(own).on_hover_text(name);
             ui.label(short(text)).on_hover_text(text);
             ui.end_row();
         }
