@@ -16,6 +16,7 @@
 //! | `batch`, `store`, `folder` | runs of a round on threads and shards, kept round by round; those of the net are shared |
 //! | `written` | an observation written from an ending, to try a search on an encounter that is known |
 //! | `stories`, `robust`, `jitter` | what was found; the most robust run of a kind, by its neighbours and on a finer resolution |
+//! | `posterior` | what the draws that end alike tell of an encounter, beside all draws |
 //! | `page` | the report |
 //! | `open` | a story as a run or a scenario of its own |
 //! | `job` | a search on threads of its own, for a window |
@@ -35,6 +36,7 @@ pub mod job;
 pub mod open;
 mod order;
 pub mod page;
+pub mod posterior;
 mod question;
 mod robust;
 mod rounds;

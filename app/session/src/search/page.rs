@@ -12,6 +12,7 @@ use crate::study::report::cell::{Cell, Line, Table};
 
 use super::distance::LIKE;
 use super::folder::Folder;
+use super::posterior::Quantity;
 use super::question::Question;
 use super::stories::{Stories, Story};
 
@@ -32,6 +33,7 @@ struct Page<'a> {
     stories: Table,
     told: Vec<Told>,
     common: Option<Table>,
+    posterior: Option<Table>,
     trials: usize,
     encounters: &'a str,
     net: usize,
@@ -80,6 +82,7 @@ impl<'a> Page<'a> {
             stories: table_of(stories),
             told: told.map(|(number, story)| one(folder, number + 1, story)).collect(),
             common: common(stories),
+            posterior: posterior(stories),
             trials: stories.trials,
             encounters: &stories.encounters,
             net: stories.net,
@@ -214,6 +217,18 @@ fn common(stories: &Stories) -> Option<Table> {
         &["", "in common", "tells them apart"],
         rows,
     ))
+}
+
+/// What the draws that end alike tell, beside all draws; `None` where they are too few.
+fn posterior(stories: &Stories) -> Option<Table> {
+    let row = |quantity: &Quantity| -> Vec<Cell> {
+        let Quantity { name, like, all } = quantity;
+        [name, like, all].map(|text| Cell::from(text.clone())).into()
+    };
+    let rows: Vec<Vec<Cell>> = stories.posterior.iter().map(row).collect();
+    let caption = format!("{} of {} draws that end alike", stories.net_like, stories.net);
+    (!rows.is_empty())
+        .then(|| Table::new(&caption, &["", "draws that end alike", "all draws"], rows))
 }
 
 /// A quantity: its one value, its range, or its several words.

@@ -12,6 +12,7 @@ use super::Effort;
 use super::distance::LIKE;
 use super::elites::{Elite, Kind};
 use super::folder::Folder;
+use super::posterior::{Quantity, quantities};
 use super::question::Question;
 use super::robust::{self, Tried, most_robust};
 use super::rounds::Rounds;
@@ -44,6 +45,8 @@ pub struct Stories {
     /// Of these, those like the observation: what shares of kinds rest on (all draws count alike, so that this is the effective
     /// number).
     pub net_like: usize,
+    /// Every quantity among the draws like the observation, beside all draws; none where too few are like it.
+    pub posterior: Vec<Quantity>,
 }
 
 /// A story: an encounter, and how it ended.
@@ -198,6 +201,7 @@ pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),
         net_like: net.iter().filter(|(_, trial)| trial.distance <= LIKE).count(),
+        posterior: quantities(rounds),
     }
 }
 

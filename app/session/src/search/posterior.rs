@@ -1,0 +1,122 @@
+//! What the draws that end alike tell of an encounter: each quantity among them, beside all draws.
+//!
+//! Draws come from the priors themselves and count alike. Those like the observation are therefore a sample of the posterior,
+//! `p(encounter | ending) ∝ p(ending | encounter) p(encounter)`, and their number is its effective size.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::study::draw::Drawn;
+use crate::study::encounter::Encounter;
+
+use super::distance::LIKE;
+use super::rounds::Rounds;
+
+/// Fewer draws tell nothing of quartiles or shares.
+pub const LEAST: usize = 4;
+
+/// Words of a quantity that are told, the most frequent first.
+const WORDS: usize = 4;
+
+/// A quantity among the draws.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Quantity {
+    /// Its name; `first touched` for the part that rope touched first.
+    pub name: String,
+    /// Among the draws that end alike: the middle half, or words with their shares.
+    pub like: String,
+    /// Among all draws.
+    pub all: String,
+}
+
+/// Every quantity that varies; none where too few draws end alike.
+pub(super) fn quantities(rounds: &Rounds<'_>) -> Vec<Quantity> {
+    let is_like: Vec<bool> = rounds.net.iter().map(|(_, trial)| trial.distance <= LIKE).collect();
+    if is_like.iter().filter(|like| **like).count() < LEAST {
+        return Vec::new();
+    }
+    let mut columns: BTreeMap<String, Vec<Drawn>> = BTreeMap::new();
+    for (point, trial) in &rounds.net {
+        let first = Drawn {
+            name: "first touched".into(),
+            text: trial.first_part.replace('_', " "),
+            number: None,
+            plain: false,
+        };
+        let drawn = Encounter::at_point(&rounds.question.opened, point).drawn;
+        for drawn in drawn.into_iter().chain([first]) {
+            columns.entry(drawn.name.clone()).or_default().push(drawn);
+        }
+    }
+    columns.into_iter().filter_map(|(name, column)| quantity(name, &column, &is_like)).collect()
+}
+
+fn quantity(name: String, column: &[Drawn], is_like: &[bool]) -> Option<Quantity> {
+    let like = column.iter().zip(is_like).filter(|(_, like)| **like).map(|(drawn, _)| drawn);
+    let (like, all) = (told(like.collect()), told(column.iter().collect()));
+    let varies = column.iter().any(|drawn| drawn.text != column[0].text);
+    varies.then_some(Quantity { name, like, all })
+}
+
+/// The middle half of numbers, or words with their shares.
+fn told(mut drawn: Vec<&Drawn>) -> String {
+    if drawn.iter().all(|drawn| drawn.number.is_some()) {
+        drawn.sort_by(|one, other| {
+            one.number.partial_cmp(&other.number).unwrap_or(one.name.cmp(&other.name))
+        });
+        let at = |quarters: usize| short(&drawn[(drawn.len() - 1) * quarters / 4].text);
+        return format!("{} to {}", at(1), at(3));
+    }
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for one in &drawn {
+        *counts.entry(&one.text).or_default() += 1;
+    }
+    let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
+    counts.sort_by_key(|(word, count)| (std::cmp::Reverse(*count), *word));
+    let word = |(word, count): &(&str, usize)| {
+        let word = if word.is_empty() { "none" } else { word };
+        format!("{word} {} %", 100 * count / drawn.len())
+    };
+    counts.iter().take(WORDS).map(word).collect::<Vec<_>>().join(", ")
+}
+
+/// A drawn value to two decimals, with its unit.
+fn short(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    number.parse().map_or_else(
+        |_| text.to_owned(),
+        |value: f64| format!("{value:.2} {unit}").trim_end().to_owned(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(name: &str, text: &str) -> Drawn {
+        let number = text.split(' ').next().and_then(|number| number.parse().ok());
+        Drawn { name: name.into(), text: text.into(), number, plain: false }
+    }
+
+    #[test]
+    fn numbers_are_told_by_their_middle_half_and_words_by_their_shares() {
+        let depths: Vec<Drawn> =
+            (0..9).rev().map(|depth| drawn("depth", &format!("{depth}.125 m"))).collect();
+        let is_like: Vec<bool> = (0..9).map(|place| place >= 4).collect();
+        let told = quantity("depth".into(), &depths, &is_like).unwrap();
+        // All lie from 0 to 8 m; those that end alike are the five from 0 to 4 m.
+        assert_eq!(
+            (told.all.as_str(), told.like.as_str()),
+            ("2.12 m to 6.12 m", "1.12 m to 3.12 m")
+        );
+
+        let acts: Vec<Drawn> = ["bolt", "", "", "roll", "roll", "roll", "roll", "", ""]
+            .map(|act| drawn("answer", act))
+            .into();
+        let told = quantity("answer".into(), &acts, &is_like).unwrap();
+        assert_eq!(told.all, "none 44 %, roll 44 %, bolt 11 %");
+        assert_eq!(told.like, "roll 60 %, none 40 %");
+        assert_eq!(quantity("same".into(), &vec![drawn("same", "1 m"); 9], &is_like), None);
+    }
+}
