@@ -1,4 +1,4 @@
-//! Rope in pieces of sixteen segments: a box around the move of each over a step, and whether it runs straight.
+//! Rope in pieces of sixteen segments, in groups of four: a box around the move of each over a step, and whether a piece runs straight.
 //!
 //! They are measured once for all that looks for rope near something: skin (`contact/near/mod.rs`), obstacles and bodies
 //! (`solids/broad.rs`), other rope (`contact/ropes/broad.rs`).
@@ -13,6 +13,10 @@ use crate::whale::Bounds;
 
 /// Segments in one piece.
 const IN_A_PIECE: usize = 16;
+/// Segments in one group of a piece.
+const IN_A_GROUP: usize = 4;
+/// Groups of a piece.
+const GROUPS: usize = IN_A_PIECE / IN_A_GROUP;
 /// Cosine of 40°: how far a straight piece's segments, and two pieces in a row, may turn from each other. Together they then
 /// stay within 60° of one direction.
 const STRAIGHT: f64 = 0.766;
@@ -27,6 +31,8 @@ pub(crate) struct Piece {
     pub segments: Range<usize>,
     pub nodes: Range<usize>,
     pub bounds: Bounds,
+    /// Boxes around its groups, empty beyond its end.
+    groups: [Bounds; GROUPS],
     /// Whether each of its segments goes on along one direction.
     pub is_straight: bool,
     /// Direction from its first node to its last, at the start and at the end of the step.
@@ -65,6 +71,7 @@ impl Pieces {
                     segments: start..end,
                     nodes: node..node + end - start + 1,
                     bounds: Bounds::EMPTY,
+                    groups: [Bounds::EMPTY; GROUPS],
                     directions: [DVec3::ZERO; 2],
                     is_straight: false,
                 });
@@ -121,19 +128,41 @@ impl Piece {
         let both = |node: usize| Both::of(places[node], to(node));
         let mut here = both(first);
         let directions = both(last).less(&here).normalized();
-        let (mut low, mut high, mut is_straight) = (here, here, true);
-        for (node, length) in (first + 1..=last).zip(&lengths[self.segments.clone()]) {
-            let next = both(node);
-            let [from, end] = next.less(&here).dot(&directions);
-            let least = STRAIGHT * length;
-            is_straight &= (from >= least) & (end >= least);
-            here = next;
-            low = low.joined(&here, |a, b| if b < a { b } else { a });
-            high = high.joined(&here, |a, b| if b > a { b } else { a });
+        let (mut is_straight, mut node) = (true, first);
+        self.bounds = Bounds::EMPTY;
+        let lengths = lengths[self.segments.clone()].chunks(IN_A_GROUP);
+        for (group, lengths) in self.groups.iter_mut().zip(lengths) {
+            let (mut low, mut high) = (here, here);
+            for length in lengths {
+                node += 1;
+                let next = both(node);
+                let [from, end] = next.less(&here).dot(&directions);
+                let least = STRAIGHT * length;
+                is_straight &= (from >= least) & (end >= least);
+                here = next;
+                low = low.joined(&here, |a, b| if b < a { b } else { a });
+                high = high.joined(&here, |a, b| if b > a { b } else { a });
+            }
+            let ([low_from, low_end], [high_from, high_end]) = (low.two(), high.two());
+            *group = Bounds { low: low_from.min(low_end), high: high_from.max(high_end) };
+            self.bounds = self.bounds.join(*group);
         }
-        let ([low_from, low_end], [high_from, high_end]) = (low.two(), high.two());
-        self.bounds = Bounds { low: low_from.min(low_end), high: high_from.max(high_end) };
         (self.directions, self.is_straight) = (directions.two(), is_straight);
+    }
+
+    /// Groups whose box passes a test: their segments, and the first node of these.
+    #[inline(always)]
+    pub fn groups(
+        &self,
+        passes: impl Fn(&Bounds) -> bool,
+    ) -> impl Iterator<Item = (Range<usize>, usize)> {
+        let (segments, node) = (self.segments.clone(), self.nodes.start);
+        let near = self.groups.iter().enumerate().filter(move |(_, bounds)| passes(bounds));
+        near.map(move |(group, _)| {
+            let start = segments.start + group * IN_A_GROUP;
+            let end = (start + IN_A_GROUP).min(segments.end);
+            (start..end, node + group * IN_A_GROUP)
+        })
     }
 
     /// Whether the two are one straight run of one line.

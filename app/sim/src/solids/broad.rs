@@ -35,8 +35,10 @@ pub(crate) fn near<'a>(
     lines.flat_map(move |(pieces, _)| {
         let pieces = all.pieces[pieces.clone()].iter().filter(move |piece| meets(&piece.bounds));
         pieces.flat_map(move |piece| {
-            let segments = piece.segments.clone().zip(piece.nodes.clone());
-            segments.map(move |(segment, node)| NearSegment { segment, node, line: piece.line })
+            piece.groups(meets).flat_map(move |(segments, node)| {
+                let near = segments.zip(node..);
+                near.map(move |(segment, node)| NearSegment { segment, node, line: piece.line })
+            })
         })
     })
 }

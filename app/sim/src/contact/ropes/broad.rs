@@ -98,6 +98,13 @@ impl Broad {
     }
 }
 
+/// The box around a node's way.
+#[inline(always)]
+fn way_of(node: usize, moves: &Moves<'_, impl Fn(usize) -> DVec3>) -> Bounds {
+    let [from, to] = [moves.from[node], (moves.to)(node)];
+    Bounds { low: from.min(to), high: from.max(to) }
+}
+
 /// Boxes of a piece's segments that reach into another box.
 fn boxes_of(
     piece: &Piece,
@@ -108,12 +115,15 @@ fn boxes_of(
 ) {
     boxes.clear();
     let into = into.grown(margin);
-    for (node, segment) in (piece.nodes.start..).zip(piece.segments.clone()) {
-        let corners =
-            [moves.from[node], moves.from[node + 1], (moves.to)(node), (moves.to)(node + 1)];
-        let bounds = Bounds::around(&corners).grown(margin);
-        if bounds.meets(&into) {
-            boxes.push((segment, bounds));
+    for (segments, node) in piece.groups(|bounds| bounds.grown(margin).meets(&into)) {
+        let mut here = way_of(node, moves);
+        for (segment, node) in segments.zip(node + 1..) {
+            let next = way_of(node, moves);
+            let bounds = here.join(next).grown(margin);
+            if bounds.meets(&into) {
+                boxes.push((segment, bounds));
+            }
+            here = next;
         }
     }
 }
@@ -165,17 +175,15 @@ fn knots_near(
         if !bounds.meets(&piece.bounds) {
             continue;
         }
-        let way_of = |node: usize| {
-            let [from, to] = [moves.from[node], (moves.to)(node)];
-            Bounds { low: from.min(to), high: from.max(to) }
-        };
-        let mut here = way_of(piece.nodes.start);
-        for (node, segment) in (piece.nodes.start + 1..).zip(piece.segments.clone()) {
-            let next = way_of(node);
-            if segment != ball.segment && bounds.meets(&here.join(next)) {
-                found.push([index, segment]);
+        for (segments, node) in piece.groups(|group| bounds.meets(group)) {
+            let mut here = way_of(node, moves);
+            for (segment, node) in segments.zip(node + 1..) {
+                let next = way_of(node, moves);
+                if segment != ball.segment && bounds.meets(&here.join(next)) {
+                    found.push([index, segment]);
+                }
+                here = next;
             }
-            here = next;
         }
     }
 }

@@ -7,12 +7,14 @@ use super::{MARGIN_M, Pair, SolidWorkspace};
 use crate::contact::pieces::Pieces;
 use crate::model::Knot;
 use crate::solids::broad::{NearSegment, near};
-use crate::solids::shape::SolidShape;
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{Bears, State};
 
 /// How far beyond its radius rope is gathered in statics, where a pass moves rope far [m].
 const STATIC_MARGIN_M: f64 = 2.0;
+
+/// What rounding may take from a distance [m].
+const ROUNDING_M: f64 = 1e-9;
 
 /// How a segment and a solid move over a step.
 struct Motion {
@@ -23,13 +25,19 @@ struct Motion {
 }
 
 impl Motion {
-    /// Whether a segment that goes from two places to two others may come within reach of a shape.
-    fn may_reach(&self, shape: &SolidShape, reach: f64) -> bool {
+    /// Whether a segment that goes from two places to two others may come within reach of a solid, which does not turn.
+    fn may_reach(&self, solid: &Solid, reach: f64) -> bool {
         let Self { places, poses } = self;
         let middles = [0.5 * (places[0] + places[1]), 0.5 * (places[2] + places[3])];
         let half = 0.5 * (places[1] - places[0]).length().max((places[3] - places[2]).length());
+        let [from, to] = [0, 1].map(|end| middles[end] - poses[end].place);
+        let travel = 0.5 * (to - from).length();
+        // The ball that holds the solid asks less than the solid does, and is nearer.
+        if from.length().min(to.length()) - solid.radius_m - half - travel > reach + ROUNDING_M {
+            return false;
+        }
         let (from, to) = (poses[0].inward(middles[0]), poses[1].inward(middles[1]));
-        let nearest = shape.distance(from).min(shape.distance(to));
+        let nearest = solid.shape.distance(from).min(solid.shape.distance(to));
         nearest - half - 0.5 * (to - from).length() <= reach
     }
 }
@@ -90,6 +98,9 @@ impl SolidWorkspace {
         self.bodies.clear();
         self.bodies.extend(bodies);
         self.within.clear();
+        if !self.solids.is_empty() {
+            self.measure_lengths(&state.rope.segment_length);
+        }
         pieces.measure(from, |node| from[node], &state.rope.segment_length);
         let margin = STATIC_MARGIN_M;
         self.gather_anew(state, &Search { pieces, from, dt: 0.0, margin, again: false });
@@ -104,7 +115,6 @@ impl SolidWorkspace {
         if self.solids.is_empty() {
             return;
         }
-        self.measure_lengths(&state.rope.segment_length);
         let drift = |node: usize| search.from[node] + state.rope.velocity[node] * search.dt;
         self.add_pairs(state, search, drift);
     }
@@ -135,7 +145,7 @@ impl SolidWorkspace {
                 let known = again
                     && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
                 let motion = Motion { places, poses };
-                if !known && motion.may_reach(&solid.shape, reach) {
+                if !known && motion.may_reach(solid, reach) {
                     self.add_pair(state, index, solid, near, &motion, again);
                 }
             }
