@@ -155,22 +155,22 @@ fn typed(ui: &mut Ui, shared: &Shared, name: &str, field: &str, said: Said<'_>, 
     });
 }
 
-/// Least and most of a range, with its name before them and its unit after them.
-fn ends(
-    ui: &mut Ui,
-    shared: &Shared,
-    (name, unit): (&str, &str),
-    range: Range,
-    help: &str,
-    edits: &mut Edits,
-) {
+/// What is said of a range: its name before it, its unit after it, and help on hover.
+struct Words {
+    name: &'static str,
+    unit: &'static str,
+    help: &'static str,
+}
+
+/// Least and most of a range.
+fn ends(ui: &mut Ui, shared: &Shared, words: &Words, range: Range, edits: &mut Edits) {
     let documents = &shared.workbench.project.documents;
     let Some(path) = range.path(documents) else { return };
     ui.horizontal(|ui| {
-        widgets::name(ui, name);
+        widgets::name(ui, words.name);
         for (end, hint) in [(0, "least"), (1, "most")] {
             let field = format!("{path}.{end}");
-            let said = Said { hint, help };
+            let said = Said { hint, help: words.help };
             if let Some(typed) =
                 fields::edit(ui, documents, Documents::OBSERVATION, &field, 64.0, said)
             {
@@ -179,7 +179,7 @@ fn ends(
                     observation::set_range(document, range, before, end, &typed)
                 }));
             }
-            ui.label(RichText::new(["to", unit][end]).color(Theme::palette_of(ui).faint));
+            ui.label(RichText::new(["to", words.unit][end]).color(Theme::palette_of(ui).faint));
         }
     });
 }

@@ -5,7 +5,7 @@ use endline_gear::{Setting, Site};
 use endline_session::edit::Documents;
 use endline_session::edit::observation::{self, Range, Told};
 
-use super::{Edits, ends};
+use super::{Edits, Words, ends};
 use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -14,6 +14,12 @@ use crate::gui::widgets::words::{capital, spoken};
 
 /// How sure somebody is who says that there was rope, or that there was none.
 const SURE: f64 = 0.95;
+
+const WRAPS: Words = Words {
+    name: "Wraps",
+    unit: "turns",
+    help: "Least and most turns about it; empty where nobody could count them",
+};
 
 /// Draws the form of a part.
 pub(super) fn show(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &mut Edits) {
@@ -110,8 +116,7 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
 /// Wraps, tightness, and how it was seen.
 fn rope(ui: &mut Ui, shared: &Shared, site: Site, told: Told, edits: &mut Edits) {
     if told.has_rope() {
-        let help = "Least and most turns about it; empty where nobody could count them";
-        ends(ui, shared, ("Wraps", "turns"), Range::Wraps(site), help, edits);
+        ends(ui, shared, &WRAPS, Range::Wraps(site), edits);
         tight(ui, shared, site, edits);
     }
     let documents = &shared.workbench.project.documents;

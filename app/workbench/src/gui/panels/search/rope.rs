@@ -5,23 +5,32 @@ use endline_gear::{PathPlace, RopeEnd, Site};
 use endline_sdk::Side;
 use endline_session::edit::observation::{self, Range};
 
-use super::{Edits, ends};
+use super::{Edits, Words, ends};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::words::spoken;
+
+const LENGTH: Words = Words {
+    name: "Length",
+    unit: "",
+    help: "Least and most rope that hung from the whale, with its unit, such as 50 m or 200 ft",
+};
+
+const TWIST: Words = Words {
+    name: "Twist",
+    unit: "turns",
+    help: "Least and most turns of the rope's two legs about each other",
+};
 
 /// Draws the form of the rope.
 pub(super) fn show(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
     widgets::caption(ui, "Path of the rope");
     path(ui, shared, edits);
     widgets::caption(ui, "Behind the whale");
-    let help =
-        "Least and most rope that hung from the whale, with its unit, such as 50 m or 200 ft";
-    ends(ui, shared, ("Length", ""), Range::Trailing, help, edits);
+    ends(ui, shared, &LENGTH, Range::Trailing, edits);
     rope_ends(ui, shared, edits);
-    let help = "Least and most turns of the rope's two legs about each other";
-    ends(ui, shared, ("Twist", "turns"), Range::Twist, help, edits);
+    ends(ui, shared, &TWIST, Range::Twist, edits);
 }
 
 /// The places in their order: moved, taken out, added.
