@@ -16,6 +16,7 @@
 //! | [`command`] | what a user can ask for, declared once |
 //! | [`workbench`] | what a user has open and does, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`rules`] | what laws ask of an assembly: rule packs checked |
 //! | [`search`] | which encounters end like what was seen on a real whale |
 //! | [`scene`] | what a frame looks like, as triangles |
 //! | [`export`] | charts and 3-D models written to files |
@@ -46,6 +47,7 @@ pub mod locate;
 pub mod plugins;
 pub mod recording;
 pub mod report;
+pub mod rules;
 pub mod run;
 pub mod save;
 pub mod scales;

@@ -7,6 +7,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::study::args::StudyCommand;
 
@@ -54,6 +55,11 @@ pub(super) enum Command {
     Search(SearchArgs),
     /// Check files or folders of gear and report every problem.
     Check(CheckArgs),
+    /// Check an assembly against rules of fishing law, or list them.
+    Rules {
+        #[command(subcommand)]
+        what: RulesCommand,
+    },
     /// Write a whale's mesh to a file for other programs, such as Blender.
     Whale {
         #[command(subcommand)]
