@@ -16,10 +16,11 @@ const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// Folders among them that only report runs.
-const REPORTING: [&str; 6] = [
+const REPORTING: [&str; 7] = [
     "../../gear-library/src/rules",
     "src/cases",
     "src/live",
+    "src/mill",
     "src/rules",
     "src/study/report",
     "src/study/stats",

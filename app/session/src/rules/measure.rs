@@ -3,10 +3,10 @@
 use endline_gear::units::Quantity;
 
 use super::facts::{About, Fact};
+use super::fishing::Fishing;
 use super::gear::{Endline, Gear, Piece};
 use super::makeup::{MadeUp, Stretch};
-use super::sheet::Fishing;
-use super::value::{Kind, Value};
+use super::value::Value;
 
 /// Sea water that rope sinks in [kg/m³].
 const SEA_WATER_KG_M3: f64 = 1025.0;
@@ -42,7 +42,7 @@ pub(super) fn value(fact: &Fact, gear: &Gear, part: Part<'_>, fishing: &Fishing)
         (About::Groundline, Part::Groundline(piece)) => of_groundline(fact.name, piece),
         _ => None,
     };
-    let why = || format!("an assembly does not say {}", fact.help);
+    let why = || format!("an assembly does not say: {}", fact.help);
     value.unwrap_or_else(|| Value::Unknown { kind: fact.kind, why: why() })
 }
 
@@ -134,9 +134,4 @@ fn density(si: f64) -> Value {
 #[cfg(test)]
 pub(super) fn fits(fact: &Fact, value: &Value) -> bool {
     value.kind() == Some(fact.kind)
-}
-
-/// A kind that a number of a rule has.
-pub(super) fn kind_of(quantity: Quantity) -> Kind {
-    Kind::Number(quantity)
 }

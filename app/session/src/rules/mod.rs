@@ -3,7 +3,8 @@
 //! | module | what |
 //! |---|---|
 //! | [`facts`] | what expressions may use, declared once |
-//! | `gear`, `measure` | endlines and groundlines of an assembled model, and the facts measured on them |
+//! | `gear`, `walk`, `measure` | endlines and groundlines of an assembled model, and the facts measured on them |
+//! | `fishing` | where, when and how gear is fished |
 //! | `expression`, `operators`, [`value`], `makeup` | expressions over values with units, on the library `exmex` |
 //! | [`packs`] | packs read, with every mistake at its place |
 //! | `verdict` | one rule on one assembly |
@@ -13,6 +14,7 @@
 
 mod expression;
 pub mod facts;
+mod fishing;
 mod gear;
 mod makeup;
 mod measure;
@@ -23,8 +25,10 @@ pub mod sheet;
 mod tests;
 pub mod value;
 mod verdict;
+mod walk;
 
+pub use fishing::Fishing;
 pub use makeup::{MadeUp, Places, Stretch};
 pub use packs::Packs;
-pub use sheet::{Fishing, RuleGear, RuleSheet, assembly, check, of_library};
+pub use sheet::{RuleGear, RuleSheet, assembly, check, of_library};
 pub use verdict::{Measured, RuleResult, Verdict};

@@ -96,7 +96,7 @@ fn compare(a: Value, b: Value, sign: &'static str) -> Value {
         ) => {
             let (left, right) = (*left, *right);
             let slack = ROUNDING * left.abs().min(right.abs());
-            let equal = left == right || (left - right).abs() <= slack;
+            let equal = left.total_cmp(&right).is_eq() || (left - right).abs() <= slack;
             let holds = match sign {
                 "<=" => left < right || equal,
                 ">=" => left > right || equal,

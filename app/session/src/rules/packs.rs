@@ -9,7 +9,7 @@ use crate::locate;
 
 use super::expression::{Expression, Names, begins_with_function};
 use super::facts::of_subject;
-use super::measure::kind_of;
+use super::value::Kind;
 
 /// Folder of the packs in a library.
 const FOLDER: &str = "rules";
@@ -163,14 +163,14 @@ fn mistakes_of(draft: &RuleDraft) -> Vec<Diagnostic> {
 fn names(draft: &RuleDraft) -> Names {
     let facts = of_subject(draft.subject).map(|fact| (fact.name.to_owned(), fact.kind));
     let parameters = draft.parameters.iter();
-    facts.chain(parameters.map(|one| (one.key.clone(), kind_of(one.quantity)))).collect()
+    facts.chain(parameters.map(|one| (one.key.clone(), Kind::Number(one.quantity)))).collect()
 }
 
 /// An expression of a rule that was read before.
 pub(super) fn expression(rule: &Rule, text: &At<String>) -> Result<Expression, Vec<Diagnostic>> {
     let facts = of_subject(rule.subject).map(|fact| (fact.name.to_owned(), fact.kind));
     let parameters = rule.parameters.iter();
-    let names = facts.chain(parameters.map(|one| (one.key.clone(), kind_of(one.quantity))));
+    let names = facts.chain(parameters.map(|one| (one.key.clone(), Kind::Number(one.quantity))));
     Expression::read(text, &names.collect())
 }
 

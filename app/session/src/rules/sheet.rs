@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use endline_gear::{
-    Assembled, Date, Diagnostic, Document, Library, Options, Scenario, Setting, Sources,
-    assemble_traced,
+    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, assemble_traced,
 };
 use serde::Serialize;
 
@@ -12,27 +11,14 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 
+use super::fishing::Fishing;
 use super::gear::Gear;
 use super::packs::Packs;
 use super::verdict::{RuleResult, Verdict, of};
+use super::walk::gear_of;
 
 /// Depth in which gear is assembled where none is given: that of the shipped inshore gear [m].
 const USUAL_DEPTH_M: f64 = 25.0;
-
-/// Where, when and how gear is fished.
-#[derive(Clone, Debug)]
-pub struct Fishing {
-    /// Id of the area.
-    pub area: String,
-    /// The day.
-    pub on: Date,
-    /// Depth of the water, where it is given [m].
-    pub depth_m: Option<f64>,
-    /// Distance from shore, where it is given [m].
-    pub distance_m: Option<f64>,
-    /// Traps on one set, in place of those counted.
-    pub traps: Option<u16>,
-}
 
 /// Gear assembled for rules.
 #[derive(Clone, Debug)]
@@ -117,7 +103,7 @@ pub fn of_library(
     let scenario = Scenario::read("scenario", &text).map_err(Error::Diagnostics)?;
     let made: Assembled = assemble_traced(&scenario, library, host, &Options::default())
         .map_err(Error::Diagnostics)?;
-    Ok(RuleGear { assembly: id.to_owned(), depth_m, gear: Gear::of(&made, library) })
+    Ok(RuleGear { assembly: id.to_owned(), depth_m, gear: gear_of(&made, library) })
 }
 
 /// The text of a scenario with one assembly in still water.

@@ -12,7 +12,7 @@ use super::facts::FACTS;
 use super::gear::Gear;
 use super::measure::{Part, fits, value};
 use super::{Fishing, Packs, RuleResult, Verdict, check};
-use gear::{ONE_INSERT, TWO_INSERTS, WEAK, assembled, flyer, inserts, line, link, rig};
+use gear::{ONE_INSERT, STOWED, TWO_INSERTS, WEAK, assembled, flyer, inserts, line, link, rig};
 
 fn library() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library")
@@ -223,7 +223,7 @@ fn a_rule_applies_in_its_time_its_area_and_its_distance_and_says_what_it_needs()
         ("us.weak", "lma-1, 2022-04-30", Verdict::NotApplicable, "in force from 2022-05-01"),
         ("us.weak", "me-b, 2022-05-01", Verdict::Fail, ""),
         ("legacy.buoylink", "lma-1, 2022-05-01", Verdict::NotApplicable, "until 2022-04-30"),
-        ("us.weak", "gulf-snow-crab, 2024-01-01", Verdict::NotApplicable, "in us-northeast"),
+        ("us.weak", "gulf-snow-crab, 2024-01-01", Verdict::NotApplicable, "applies in lma-1"),
         ("me.singles", "me-b, 2024-01-01", Verdict::CannotBeChecked, "needs --distance"),
         ("me.singles", "me-b, 2024-01-01, 2 nmi", Verdict::NotApplicable, "at a distance from"),
         ("us.oneline", "me-b, 2024-01-01,, 6", Verdict::NotApplicable, "applies to 1 to 5 traps"),
@@ -237,6 +237,17 @@ fn a_rule_applies_in_its_time_its_area_and_its_distance_and_says_what_it_needs()
     ] {
         let result = verdict(&packs, rule, &single, place);
         assert_eq!((result.verdict, result.why.contains(why)), (expected, true), "{result:?}");
+    }
+    let stowed = rig(2, "sink-3-8", "20 m", &[]) + STOWED;
+    for (rule, place, expected, why) in [
+        ("us.weak", "lma-1, 2024-01-01", Verdict::NotApplicable, "the gear has no endline"),
+        ("us.groundline.floats", "lma-1, 2024-01-01", Verdict::NotApplicable, "!stowed"),
+        ("us.groundline", "lma-1, 2024-01-01", Verdict::Pass, ""),
+    ] {
+        let result = verdict(&packs, rule, &stowed, place);
+        assert_eq!((result.verdict, result.why.contains(why)), (expected, true), "{result:?}");
+        // The stowed floating line is no groundline.
+        assert!(result.measured.len() <= 1, "{result:?}");
     }
     let nowhere = check(&assembled(&single), &packs, &fishing("lma-11, 2024-01-01"));
     assert!(nowhere.unwrap_err().to_string().contains("did you mean `lma-1`?"));
@@ -271,5 +282,5 @@ fn the_weakest_place_of_a_line_is_told_with_its_limit() {
     assert_eq!(result.measured.len(), 1, "{result:?}");
     assert_eq!(result.measured[0].says, "57 ft <= 60 ft");
     assert!((result.measured[0].value.unwrap() - 57.0 * 0.3048).abs() < 1e-6);
-    assert_eq!(result.measured[0].part, "endline-1.3");
+    assert_eq!(result.measured[0].part, "endline-1");
 }

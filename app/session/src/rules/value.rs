@@ -143,7 +143,8 @@ impl Compared {
         }
         let unit = self.unit.or_else(|| self.quantity.units().first());
         let factor = unit.map_or(1.0, Unit::factor);
-        let number = si / factor;
+        // The sum of nothing is minus zero.
+        let number = if si == 0.0 { 0.0 } else { si / factor };
         let size = if number == 0.0 { 0.0 } else { number.abs().log10().floor() };
         let digits = (3.0 - size).clamp(0.0, 4.0);
         let scale = 10f64.powf(digits);

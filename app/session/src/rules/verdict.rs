@@ -5,10 +5,10 @@ use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
 use serde::Serialize;
 
 use super::facts::of_subject;
+use super::fishing::Fishing;
 use super::gear::Gear;
 use super::measure::{Part, value};
 use super::packs::expression;
-use super::sheet::Fishing;
 use super::value::{Compared, Value};
 
 /// What a rule says about an assembly.

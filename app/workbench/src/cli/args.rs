@@ -7,6 +7,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::mill::MillArgs;
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::study::args::StudyCommand;
@@ -60,6 +61,8 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: RulesCommand,
     },
+    /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.
+    Mill(MillArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.
     Whale {
         #[command(subcommand)]

@@ -10,6 +10,9 @@ use endline_session::rules::{Fishing, Packs, RuleResult, RuleSheet, Verdict, ass
 use super::table::columns;
 use super::{Failure, host, output};
 
+/// Measured values shown of a rule; all are in the JSON.
+const MOST_SHOWN: usize = 6;
+
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum RulesCommand {
     /// Check an assembly against every rule that applies where and when it is fished.
@@ -114,11 +117,14 @@ fn one(rule: &RuleResult) -> String {
     if !rule.why.is_empty() {
         text += &format!("{indent}{}\n", rule.why);
     }
-    for measured in &rule.measured {
+    for measured in rule.measured.iter().take(MOST_SHOWN) {
         let part =
             if measured.part.is_empty() { String::new() } else { format!("{}: ", measured.part) };
         let fails = if measured.holds { "" } else { ", which does not hold" };
         text += &format!("{indent}{part}{}{fails}\n", measured.says);
+    }
+    if rule.measured.len() > MOST_SHOWN {
+        text += &format!("{indent}and {} more\n", rule.measured.len() - MOST_SHOWN);
     }
     if rule.verdict == Verdict::Fail {
         text += &format!("{indent}mend: {}\n{indent}{}\n", rule.mend, rule.cite);

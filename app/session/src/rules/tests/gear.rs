@@ -17,6 +17,31 @@ pub const ONE_INSERT: &str = "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength =
 /// Inserts at a quarter and at half of 40 m from the buoy.
 pub const TWO_INSERTS: &str = "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nfirst = \"9.5 m\"\nevery = \"10 m\"\nwithin = 0.6\n";
 
+/// A buoy that a release holds down at the first trap, with its endline.
+pub const STOWED: &str = r#"[[body]]
+id = "buoy"
+kind = "buoy"
+item = "bullet-6x14"
+height = 0.1
+[[line]]
+id = "stowed"
+rope = "pp-3-8"
+from = "trap-1"
+to = "buoy"
+length = "40 m"
+[[line]]
+id = "hold"
+rope = "sink-3-8"
+from = "trap-1"
+to = "buoy"
+length = "2 m"
+[[link]]
+id = "release"
+item = "acoustic-release"
+line = "hold"
+end = "to"
+"#;
+
 /// The items that gear is made of.
 static ITEMS: LazyLock<Sources> = LazyLock::new(|| {
     let all = Sources::from_folder(&super::library()).unwrap();
