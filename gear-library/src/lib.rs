@@ -22,6 +22,7 @@ mod line;
 mod nearest;
 mod observation;
 mod plugin;
+mod rules;
 mod scenario;
 mod schema;
 mod sources;
@@ -53,6 +54,7 @@ pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
 pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Site, Size, Trailing};
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
+pub use rules::{Area, Date, Parameter, Rule, RuleDraft, RulePack, Standing, Subject};
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
     LineStart, ObstacleOf, PlacedGear, PlacedWhale, ProbeOf, ProbePart, RowHeight, Scenario, Sea,

@@ -23,6 +23,7 @@ pub const REPORTING: &[&str] = &[
     "blake3",
     "bytes",
     "csv",
+    "exmex",
     "glam",
     "libloading",
     "parquet",

@@ -16,7 +16,15 @@ const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// Folders among them that only report runs.
-const REPORTING: [&str; 4] = ["src/cases", "src/live", "src/study/report", "src/study/stats"];
+const REPORTING: [&str; 7] = [
+    "../../gear-library/src/rules",
+    "src/cases",
+    "src/live",
+    "src/mill",
+    "src/rules",
+    "src/study/report",
+    "src/study/stats",
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();

@@ -8,6 +8,7 @@ use crate::cases::Cases;
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
+use crate::rules::Packs;
 use crate::search::Question;
 use crate::source::{Overrides, prepare};
 use crate::study::Opened;
@@ -42,6 +43,7 @@ impl Checked {
             self.cases(folder, host);
             self.studies(folder, host);
             self.observations(folder, host);
+            self.rules(folder);
             return;
         }
         let before = self.files;
@@ -96,8 +98,11 @@ impl Checked {
         if parent == "studies" {
             return self.study(path, library, host);
         }
-        if parent == "observations" || is_observation(path) {
+        if parent == "observations" || kind(path).as_deref() == Some("observation") {
             return self.observation(path, library, host);
+        }
+        if parent == "rules" || kind(path).as_deref() == Some("rules") {
+            return self.rule_pack(path, library);
         }
         if endline_gear::Kind::in_folder(&parent).is_none() {
             return self.scenario(path, library, host);
@@ -145,6 +150,19 @@ impl Checked {
         self.note(path, Question::open(&named, None, library, host).map(|_| ()));
     }
 
+    /// Every rule pack of a library.
+    fn rules(&mut self, root: &Path) {
+        for file in locate::toml_files(&root.join("rules")) {
+            self.rule_pack(&file, Some(root));
+        }
+    }
+
+    /// A rule pack is checked with its expressions, and with the areas of the library's other packs.
+    fn rule_pack(&mut self, path: &Path, library: Option<&Path>) {
+        self.files += 1;
+        self.note(path, Packs::check(path, library));
+    }
+
     /// A case is checked with its table and its scenario: a file in the folder `cases` of a library.
     fn case(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
@@ -184,10 +202,10 @@ impl Checked {
     }
 }
 
-/// Whether a file says that it is an observation: these lie anywhere.
-fn is_observation(path: &Path) -> bool {
+/// The kind that a file says it is: observations and rule packs lie anywhere.
+fn kind(path: &Path) -> Option<String> {
     let text = std::fs::read_to_string(path).unwrap_or_default();
-    Document::parse(&text).is_ok_and(|file| file.get("kind").as_deref() == Some("observation"))
+    Document::parse(&text).ok()?.get("kind")
 }
 
 /// A library's problems name files within it; a user needs the way there.

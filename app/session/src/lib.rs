@@ -16,6 +16,8 @@
 //! | [`command`] | what a user can ask for, declared once |
 //! | [`workbench`] | what a user has open and does, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`mill`] | breaks of a product: its law of strength, and the probability that it is approved |
+//! | [`rules`] | what laws ask of an assembly: rule packs checked |
 //! | [`search`] | which encounters end like what was seen on a real whale |
 //! | [`scene`] | what a frame looks like, as triangles |
 //! | [`export`] | charts and 3-D models written to files |
@@ -43,9 +45,11 @@ pub mod hash;
 mod hooks;
 pub mod live;
 pub mod locate;
+pub mod mill;
 pub mod plugins;
 pub mod recording;
 pub mod report;
+pub mod rules;
 pub mod run;
 pub mod save;
 pub mod scales;

@@ -3,6 +3,7 @@
 mod figure;
 mod problems;
 mod range;
+mod rising;
 mod value;
 
 use std::cell::RefCell;
@@ -17,6 +18,7 @@ pub use figure::{
 };
 pub use problems::Problems;
 pub use range::Range;
+pub use rising::rising;
 pub use value::read_value;
 
 /// A table being read: what was asked for is known, the rest is refused by [`finish`](Self::finish).

@@ -10,7 +10,7 @@ mod seen;
 use crate::confidence::Confidence;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Problems, Range, rising};
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
@@ -131,7 +131,7 @@ fn size(fields: &Fields<'_>) -> Option<Size> {
 
 /// `[twist]`: turns of the rope's two legs about each other.
 fn twist(table: &Fields<'_>) -> Option<[f64; 2]> {
-    let turns = seen::rising(table, "turns", Quantity::Ratio, "such as turns = [1, 3]");
+    let turns = rising(table, "turns", Quantity::Ratio, "such as turns = [1, 3]");
     table.finish();
     turns
 }

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::At;
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Problems, Range, rising};
 use crate::nearest::hint;
 use crate::study::texts;
-use crate::tree::{Content, Node};
+use crate::tree::Node;
 use crate::units::Quantity;
 
 use super::place::{PathPlace, Site};
@@ -176,32 +176,6 @@ pub(super) fn check_once(sites: &[SeenSite], hidden: &[At<Site>], problems: &Pro
         if given[..index].iter().any(|(other, _)| other == site) {
             let message = format!("`{}` is given twice", site.name());
             problems.push(place.error(message, "give each part once, under [[site]] or [hidden]"));
-        }
-    }
-}
-
-/// Two rising values.
-pub(super) fn rising(
-    fields: &Fields<'_>,
-    key: &'static str,
-    quantity: Quantity,
-    example: &str,
-) -> Option<[f64; 2]> {
-    let node = fields.get(key)?;
-    if matches!(&node.content, Content::List(items) if items.len() != 2) {
-        let help = format!("write the least and the most, {example}");
-        fields.problems().push(node.place.error(format!("`{key}` is not two values"), help));
-        return None;
-    }
-    let values = fields.values(key, quantity, &[2])?;
-    match values.value.as_slice() {
-        [least, most] if *least >= 0.0 && least <= most => Some([*least, *most]),
-        _ => {
-            let help = format!("write the least and the most, {example}");
-            fields
-                .problems()
-                .push(values.place.error(format!("`{key}` are no two rising values"), help));
-            None
         }
     }
 }

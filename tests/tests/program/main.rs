@@ -6,6 +6,8 @@ mod common;
 mod cost;
 mod crossing;
 mod determinism;
+mod mill;
 mod replay;
+mod rules;
 mod search;
 mod studies;

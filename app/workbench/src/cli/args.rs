@@ -7,6 +7,8 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::mill::MillArgs;
+use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::study::args::StudyCommand;
 
@@ -54,6 +56,13 @@ pub(super) enum Command {
     Search(SearchArgs),
     /// Check files or folders of gear and report every problem.
     Check(CheckArgs),
+    /// Check an assembly against rules of fishing law, or list them.
+    Rules {
+        #[command(subcommand)]
+        what: RulesCommand,
+    },
+    /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.
+    Mill(MillArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.
     Whale {
         #[command(subcommand)]

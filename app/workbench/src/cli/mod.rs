@@ -6,6 +6,7 @@ mod args;
 mod check;
 mod failure;
 mod host;
+mod mill;
 mod output;
 mod picture;
 mod pilot;
@@ -13,6 +14,7 @@ mod plugins;
 mod progress;
 mod render;
 mod replay;
+mod rules;
 mod run;
 mod search;
 mod settle;
@@ -54,6 +56,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Whale { what }) => whale::whale(what, library),
         Some(Command::Study { what }) => study::study(what, library),
         Some(Command::Search(args)) => search::search(args, library),
+        Some(Command::Rules { what }) => rules::rules(what, library),
+        Some(Command::Mill(args)) => mill::mill(args),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }

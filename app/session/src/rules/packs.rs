@@ -1,0 +1,188 @@
+//! The packs of a library, with their areas.
+
+use std::path::{Path, PathBuf};
+
+use endline_gear::{Area, At, Diagnostic, Rule, RuleDraft, RulePack, hint};
+
+use crate::error::Error;
+use crate::locate;
+
+use super::expression::{Expression, Names, begins_with_function};
+use super::facts::of_subject;
+use super::value::Kind;
+
+/// Folder of the packs in a library.
+const FOLDER: &str = "rules";
+
+/// Packs of rules, which may name each other's areas.
+#[derive(Clone, Debug, Default)]
+pub struct Packs {
+    /// The packs, by file.
+    pub packs: Vec<RulePack>,
+}
+
+impl Packs {
+    /// Reads the packs of a library, found as [`locate::library`] says where `library` is `None`, and others beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read, no library, or every mistake in the packs.
+    pub fn open(library: Option<&Path>, others: &[PathBuf]) -> Result<Self, Error> {
+        let root = locate::library(None, library).map_err(Error::Replay)?;
+        let mut files = locate::toml_files(&root.join(FOLDER));
+        files.extend(others.iter().cloned());
+        Self::read(&files)
+    }
+
+    /// Reads one pack alone, beside those of the library whose areas it may name.
+    ///
+    /// # Errors
+    /// As [`Packs::open`], for this pack.
+    pub fn check(file: &Path, library: Option<&Path>) -> Result<(), Error> {
+        let own = read(file)?;
+        let root = locate::library(Some(file), library);
+        let files = root.map(|root| locate::toml_files(&root.join(FOLDER))).unwrap_or_default();
+        let others = files.iter().filter(|other| !is_same(other, file));
+        let mut all = Self { packs: others.filter_map(|other| read(other).ok()).collect() };
+        all.packs.push(own);
+        let name = file.display().to_string();
+        let problems = all.mistakes().into_iter().filter(|problem| problem.file == name);
+        told(problems.collect())
+    }
+
+    fn read(files: &[PathBuf]) -> Result<Self, Error> {
+        let (mut all, mut problems) = (Self::default(), Vec::new());
+        for file in files {
+            match read(file) {
+                Ok(pack) => all.packs.push(pack),
+                Err(Error::Diagnostics(more)) => problems.extend(more),
+                Err(other) => return Err(other),
+            }
+        }
+        if problems.is_empty() {
+            problems = all.mistakes();
+        }
+        told(problems).map(|()| all)
+    }
+
+    /// Every rule with its pack, in order.
+    pub fn rules(&self) -> impl Iterator<Item = (&RulePack, &Rule)> {
+        self.packs.iter().flat_map(|pack| pack.rules.iter().map(move |rule| (pack, rule)))
+    }
+
+    /// Every area.
+    pub fn areas(&self) -> impl Iterator<Item = &Area> {
+        self.packs.iter().flat_map(|pack| &pack.areas)
+    }
+
+    /// An area and those that contain it, from the inside out.
+    ///
+    /// # Errors
+    /// Where no pack declares the area, with the nearest name.
+    pub fn around(&self, area: &str) -> Result<Vec<&str>, String> {
+        let find = |id: &str| self.areas().find(|area| area.id.value == id);
+        let mut around = Vec::new();
+        let mut at = Some(find(area).ok_or_else(|| {
+            let known = self.areas().map(|area| area.id.value.as_str());
+            format!("there is no area `{area}`; {}", hint(area, known))
+        })?);
+        while let Some(area) = at {
+            // A circle of areas ends where it began.
+            if around.contains(&area.id.value.as_str()) {
+                break;
+            }
+            around.push(area.id.value.as_str());
+            at = area.within.as_ref().and_then(|within| find(&within.value));
+        }
+        Ok(around)
+    }
+
+    /// Names of areas that no pack declares, and ids given by two packs.
+    fn mistakes(&self) -> Vec<Diagnostic> {
+        let known: Vec<&str> = self.areas().map(|area| area.id.value.as_str()).collect();
+        let of_rules = self.rules().flat_map(|(_, rule)| &rule.areas);
+        let named = self.areas().filter_map(|area| area.within.as_ref()).chain(of_rules);
+        let unknown = named.filter(|area| !known.contains(&area.value.as_str()));
+        let mut problems: Vec<Diagnostic> = unknown
+            .map(|area| {
+                let message = format!("no pack declares the area `{}`", area.value);
+                area.place.error(message, hint(&area.value, known.iter().copied()))
+            })
+            .collect();
+        problems.extend(twice(self.areas().map(|area| &area.id)));
+        problems.extend(twice(self.rules().map(|(_, rule)| &rule.id)));
+        problems
+    }
+}
+
+fn told(problems: Vec<Diagnostic>) -> Result<(), Error> {
+    if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
+}
+
+fn is_same(one: &Path, other: &Path) -> bool {
+    one == other
+        || one.canonicalize().ok().is_some_and(|one| other.canonicalize().ok() == Some(one))
+}
+
+fn read(file: &Path) -> Result<RulePack, Error> {
+    let text = std::fs::read_to_string(file)
+        .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+    read_text(&file.display().to_string(), &text).map_err(Error::Diagnostics)
+}
+
+/// Reads a pack's text with its expressions.
+///
+/// # Errors
+/// Every mistake that can be seen without other packs.
+pub fn read_text(name: &str, text: &str) -> Result<RulePack, Vec<Diagnostic>> {
+    RulePack::read(name, text, &mistakes_of)
+}
+
+/// What is wrong with the expressions of a rule and the names of its parameters.
+fn mistakes_of(draft: &RuleDraft) -> Vec<Diagnostic> {
+    let facts: Vec<&str> = of_subject(draft.subject).map(|fact| fact.name).collect();
+    let mut problems = Vec::new();
+    for parameter in &draft.parameters {
+        let key = parameter.key.as_str();
+        let why = match begins_with_function(key) {
+            Some(function) => {
+                Some(format!("`{key}` begins with the name of the function `{function}`"))
+            }
+            None if facts.contains(&key) => Some(format!("`{key}` is the name of a fact")),
+            None => None,
+        };
+        problems
+            .extend(why.map(|why| parameter.place.error(why, "give the parameter another name")));
+    }
+    let names = names(draft);
+    for text in draft.when.iter().chain(&draft.check) {
+        problems.extend(Expression::read(text, &names).err().into_iter().flatten());
+    }
+    problems
+}
+
+fn names(draft: &RuleDraft) -> Names {
+    let facts = of_subject(draft.subject).map(|fact| (fact.name.to_owned(), fact.kind));
+    let parameters = draft.parameters.iter();
+    facts.chain(parameters.map(|one| (one.key.clone(), Kind::Number(one.quantity)))).collect()
+}
+
+/// An expression of a rule that was read before.
+pub(super) fn expression(rule: &Rule, text: &At<String>) -> Result<Expression, Vec<Diagnostic>> {
+    let facts = of_subject(rule.subject).map(|fact| (fact.name.to_owned(), fact.kind));
+    let parameters = rule.parameters.iter();
+    let names = facts.chain(parameters.map(|one| (one.key.clone(), Kind::Number(one.quantity))));
+    Expression::read(text, &names.collect())
+}
+
+/// Ids that are given a second time.
+fn twice<'a>(ids: impl Iterator<Item = &'a At<String>>) -> Vec<Diagnostic> {
+    let (mut seen, mut problems) = (Vec::<&str>::new(), Vec::new());
+    for id in ids {
+        if seen.contains(&id.value.as_str()) {
+            let message = format!("`{}` is given by another pack too", id.value);
+            problems.push(id.place.error(message, "give each id once"));
+        }
+        seen.push(&id.value);
+    }
+    problems
+}

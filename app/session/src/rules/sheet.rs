@@ -1,0 +1,140 @@
+//! An assembly with the verdict on every rule.
+
+use std::path::Path;
+
+use endline_gear::{
+    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, assemble_traced,
+};
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::locate;
+use crate::plugins::PluginHost;
+
+use super::fishing::Fishing;
+use super::gear::Gear;
+use super::packs::Packs;
+use super::verdict::{RuleResult, Verdict, of};
+use super::walk::gear_of;
+
+/// Depth in which gear is assembled where none is given: that of the shipped inshore gear [m].
+const USUAL_DEPTH_M: f64 = 25.0;
+
+/// Gear assembled for rules.
+#[derive(Clone, Debug)]
+pub struct RuleGear {
+    /// Id of the assembly.
+    pub assembly: String,
+    /// Depth in which it was assembled [m].
+    pub depth_m: f64,
+    pub(super) gear: Gear,
+}
+
+/// The verdict on every rule.
+#[derive(Clone, Debug, Serialize)]
+pub struct RuleSheet {
+    /// Id of the assembly.
+    pub assembly: String,
+    /// Id of the area.
+    pub area: String,
+    /// The day.
+    pub on: String,
+    /// Depth in which the gear was assembled [m].
+    pub depth_m: f64,
+    /// Whether that depth was taken because none was given.
+    pub depth_is_usual: bool,
+    /// Every rule with its verdict, by pack.
+    pub rules: Vec<RuleResult>,
+}
+
+impl RuleSheet {
+    /// Rules with a verdict.
+    pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
+        self.rules.iter().filter(move |rule| rule.verdict == verdict)
+    }
+
+    /// The sheet as one JSON object.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // Strings and finite numbers always become JSON.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}
+
+/// Assembles an assembly of the library, by its id or its file, alone in still water.
+///
+/// # Errors
+/// A file that cannot be read, no library, or every located error of assembly and library.
+pub fn assembly(
+    named: &str,
+    depth_m: Option<f64>,
+    library: Option<&Path>,
+    host: &PluginHost,
+) -> Result<RuleGear, Error> {
+    let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
+    let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
+    let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+    let text = std::fs::read_to_string(&path)
+        .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+    let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let file = format!("assemblies/{id}.toml");
+    sources.set(file.as_str(), text);
+    let (library, problems) = Library::read(&sources);
+    let own: Vec<Diagnostic> =
+        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
+    if !own.is_empty() {
+        return Err(Error::Diagnostics(own));
+    }
+    of_library(&id, depth_m, &library, host)
+}
+
+/// Assembles an assembly of a library that was read.
+///
+/// # Errors
+/// Every located error of assembly and library.
+pub fn of_library(
+    id: &str,
+    depth_m: Option<f64>,
+    library: &Library,
+    host: &PluginHost,
+) -> Result<RuleGear, Error> {
+    let depth_m = depth_m.unwrap_or(USUAL_DEPTH_M);
+    let text = alone(id, depth_m, library)?;
+    let scenario = Scenario::read("scenario", &text).map_err(Error::Diagnostics)?;
+    let made: Assembled = assemble_traced(&scenario, library, host, &Options::default())
+        .map_err(Error::Diagnostics)?;
+    Ok(RuleGear { assembly: id.to_owned(), depth_m, gear: gear_of(&made, library) })
+}
+
+/// The text of a scenario with one assembly in still water.
+fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
+    let head = "format = 1\nkind = \"scenario\"\nname = \"rules\"\nduration = \"1 s\"\nsegment = \"1 m\"\nstrength_scatter = false\n";
+    let site = library.sites.first().map_or("", |site| site.entry.id.as_str());
+    let depth = format!("{depth_m} m");
+    let settings = [("site.item", site), ("site.depth", &depth), ("gear.0.assembly", id)];
+    let failed =
+        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
+    let mut document = Document::parse(head).map_err(|error| failed(error.to_string()))?;
+    for (field, text) in settings {
+        let put = document.put(field, &Setting::text(text));
+        put.map_err(|error| failed(error.to_string()))?;
+    }
+    Ok(document.text())
+}
+
+/// Checks every rule of the packs on gear.
+///
+/// # Errors
+/// An area that no pack declares, or mistakes in expressions.
+pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
+    let around = packs.around(&fishing.area).map_err(Error::Replay)?;
+    let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
+    Ok(RuleSheet {
+        assembly: gear.assembly.clone(),
+        area: fishing.area.clone(),
+        on: fishing.on.to_string(),
+        depth_m: gear.depth_m,
+        depth_is_usual: fishing.depth_m.is_none(),
+        rules: rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?,
+    })
+}

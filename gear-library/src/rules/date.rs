@@ -1,0 +1,95 @@
+//! Days of the calendar, as rules name them.
+
+use std::fmt;
+
+use crate::diagnostic::At;
+use crate::fields::Fields;
+use crate::tree::Content;
+
+/// A day of the Gregorian calendar; dates compare by time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Date {
+    year: u16,
+    month: u8,
+    day: u8,
+}
+
+impl Date {
+    /// A day written as `2022-05-01`; `None` where the calendar has no such day.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut parts = text.split('-');
+        let mut part = |digits: usize| {
+            let part = parts.next()?;
+            let is_number = part.len() == digits && part.bytes().all(|byte| byte.is_ascii_digit());
+            if is_number { part.parse::<u16>().ok() } else { None }
+        };
+        let (year, month, day) = (part(4)?, part(2)?, part(2)?);
+        if parts.next().is_some() || !(1..=12).contains(&month) {
+            return None;
+        }
+        let (month, day) = (u8::try_from(month).ok()?, u8::try_from(day).ok()?);
+        (1..=days_of(year, month)).contains(&day).then_some(Self { year, month, day })
+    }
+
+    /// Its number in the year: 1 is 1 January.
+    #[must_use]
+    pub fn day_of_year(self) -> u16 {
+        let before = (1..self.month).map(|month| u16::from(days_of(self.year, month)));
+        before.sum::<u16>() + u16::from(self.day)
+    }
+}
+
+impl fmt::Display for Date {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
+    }
+}
+
+fn days_of(year: u16, month: u8) -> u8 {
+    let is_leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    match month {
+        2 => 28 + u8::from(is_leap),
+        4 | 6 | 9 | 11 => 30,
+        _ => 31,
+    }
+}
+
+/// Reads a date, in quotes or not; `unknown` is no problem where it may be written.
+pub(super) fn date(
+    fields: &Fields<'_>,
+    key: &'static str,
+    may_be_unknown: bool,
+) -> Option<At<Option<Date>>> {
+    let node = fields.get(key)?;
+    let (Content::Text(text) | Content::Date(text)) = &node.content else {
+        let message = format!("`{key}` is {}, not a date", node.content.noun());
+        fields.problems().push(node.place.error(message, "write a day such as \"2022-05-01\""));
+        return None;
+    };
+    let value = Date::parse(text);
+    if value.is_none() && !(may_be_unknown && text == "unknown") {
+        let unknown = if may_be_unknown { ", or \"unknown\"" } else { "" };
+        let help = format!("write year, month and day, such as \"2022-05-01\"{unknown}");
+        fields.problems().push(node.place.error(format!("`{text}` is no date"), help));
+        return None;
+    }
+    Some(At { value, place: node.place.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        let day = |text: &str| Date::parse(text).map(Date::day_of_year);
+        assert_eq!(day("2022-05-01"), Some(31 + 28 + 31 + 30 + 1));
+        assert_eq!((day("2024-12-31"), day("2024-02-29")), (Some(366), Some(60)));
+        for wrong in ["2023-02-29", "1900-02-29", "2022-13-01", "2022-5-1", "22-05-01", "May"] {
+            assert_eq!(day(wrong), None, "{wrong}");
+        }
+        assert!(Date::parse("2022-04-30") < Date::parse("2022-05-01"));
+        assert_eq!(Date::parse("2022-05-01").unwrap().to_string(), "2022-05-01");
+    }
+}
