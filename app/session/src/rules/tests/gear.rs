@@ -1,6 +1,7 @@
 //! Gear of tests as text: traps in a row, endlines from the first and the last, a second buoy.
 
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use endline_gear::{Library, Sources};
@@ -44,7 +45,7 @@ end = "to"
 
 /// The items that gear is made of.
 static ITEMS: LazyLock<Sources> = LazyLock::new(|| {
-    let all = Sources::from_folder(&super::library()).unwrap();
+    let all = Sources::from_folder(&library()).unwrap();
     let folders =
         ["ropes/", "traps/", "buoys/", "weak-links/", "knots/", "anchors/", "sites/", "friction/"];
     let mut items = Sources::default();
@@ -53,6 +54,11 @@ static ITEMS: LazyLock<Sources> = LazyLock::new(|| {
     }
     items
 });
+
+/// The shipped library.
+pub fn library() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library")
+}
 
 /// Assembles an assembly's text.
 pub fn assembled(text: &str) -> RuleGear {
