@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{Place, library};
+use crate::common::{Called, Place, library, text};
 
 const PACK: &str = r#"format = 1
 kind = "rules"
@@ -29,10 +29,9 @@ mend = "Use sinking rope."
 least = 0.5
 "#;
 
-fn check(place: &Place, arguments: &[&str]) -> crate::common::Called {
-    let library = library();
-    let library = library.to_str().unwrap();
-    place.endline(&[&["--library", library, "rules", "check"], arguments].concat())
+fn check(place: &Place, arguments: &[&str]) -> Called {
+    let library = text(&library());
+    place.endline(&[&["--library", &library, "rules", "check"], arguments].concat())
 }
 
 #[test]
