@@ -1,7 +1,5 @@
 //! Rules as their users call them: verdicts, exit codes, a pack of one's own, mistakes at their lines.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
-
 use std::fs;
 
 use crate::common::{Called, Place, library, text};

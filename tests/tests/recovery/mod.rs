@@ -6,7 +6,7 @@
     reason = "a test fails by panicking, in its helpers too, and each user uses its part"
 )]
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,6 +27,12 @@ const SEED: u64 = 77;
 
 /// Draws run before it is asked whether there are enough.
 const AT_ONCE: u32 = 16;
+
+/// Draws run at most.
+const MOST_DRAWS: u32 = 400;
+
+/// Kinds of ending.
+const CLASSES: usize = 5;
 
 /// An encounter that a search shall recover.
 pub struct Hidden {
@@ -57,22 +63,25 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../gear-library")
 }
 
-/// Runs draws until there are as many of each class as asked for, or enough draws were tried.
+/// Runs draws until there are as many of each class as asked for, or enough were tried; then classes take turns.
 pub fn hide(opened: &Opened, count: usize) -> Vec<Hidden> {
-    let of_each = count.div_ceil(5);
-    let mut hidden: BTreeMap<&'static str, Vec<Hidden>> = BTreeMap::new();
-    for first in (0..1000).step_by(AT_ONCE as usize) {
+    let of_each = count.div_ceil(CLASSES);
+    let mut classes: BTreeMap<&'static str, VecDeque<Hidden>> = BTreeMap::new();
+    for first in (0..MOST_DRAWS).step_by(AT_ONCE as usize) {
         for found in some(opened, first..first + AT_ONCE).into_iter().flatten() {
-            let own = hidden.entry(found.class).or_default();
-            if own.len() < of_each {
-                own.push(found);
-            }
+            classes.entry(found.class).or_default().push_back(found);
         }
-        if hidden.values().map(Vec::len).sum::<usize>() >= count {
+        let enough = classes.values().filter(|class| class.len() >= of_each).count();
+        if enough * of_each >= count {
             break;
         }
     }
-    hidden.into_values().flatten().take(count).collect()
+    let mut hidden = Vec::new();
+    while hidden.len() < count && classes.values().any(|class| !class.is_empty()) {
+        hidden.extend(classes.values_mut().filter_map(VecDeque::pop_front));
+    }
+    hidden.truncate(count);
+    hidden
 }
 
 /// Draws that end with rope on the whale, in order, on every core.
