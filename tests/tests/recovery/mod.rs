@@ -6,7 +6,7 @@
     reason = "a test fails by panicking, in its helpers too, and each user uses its part"
 )]
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -66,19 +66,23 @@ fn root() -> PathBuf {
 /// Runs draws until there are as many of each class as asked for, or enough were tried; then classes take turns.
 pub fn hide(opened: &Opened, count: usize) -> Vec<Hidden> {
     let of_each = count.div_ceil(CLASSES);
-    let mut classes: BTreeMap<&'static str, VecDeque<Hidden>> = BTreeMap::new();
+    // In the order in which they appear.
+    let mut classes: Vec<VecDeque<Hidden>> = Vec::new();
     for first in (0..MOST_DRAWS).step_by(AT_ONCE as usize) {
         for found in some(opened, first..first + AT_ONCE).into_iter().flatten() {
-            classes.entry(found.class).or_default().push_back(found);
+            match classes.iter_mut().find(|class| class[0].class == found.class) {
+                Some(class) => class.push_back(found),
+                None => classes.push(VecDeque::from([found])),
+            }
         }
-        let enough = classes.values().filter(|class| class.len() >= of_each).count();
+        let enough = classes.iter().filter(|class| class.len() >= of_each).count();
         if enough * of_each >= count {
             break;
         }
     }
     let mut hidden = Vec::new();
-    while hidden.len() < count && classes.values().any(|class| !class.is_empty()) {
-        hidden.extend(classes.values_mut().filter_map(VecDeque::pop_front));
+    while hidden.len() < count && classes.iter().any(|class| !class.is_empty()) {
+        hidden.extend(classes.iter_mut().filter_map(VecDeque::pop_front));
     }
     hidden.truncate(count);
     hidden
