@@ -4,7 +4,7 @@
 #
 #   tests/window/first_hours.sh target/debug/endline [folder for pictures]
 #
-# Places to click are those of the layouts Design and Search at 1280 x 720.
+# Places to click are those of the layout Design at 1280 x 720.
 set -u
 PROGRAM=$(realpath "${1:?the program to drive, such as target/debug/endline}")
 PICTURES=${2:-$(mktemp -d)}
@@ -48,45 +48,6 @@ duration = "2 s"
 uniform = ["0.8 m/s", "1.4 m/s"]
 source = "assumed"
 STUDY
-
-# Encounters over in seconds, and what somebody saw of one: small enough for a search's first minutes.
-sed -e 's/^duration = .*/duration = "6 s"/; s/^rope_nodes = .*/rope_nodes = 80/; s/^near = .*/near = "40 cm"/' \
-    -e 's/^edges = .*/edges = "20 cm"/; s/"-22 m"/"-8 m"/' "$SCENARIOS/hello-endline.toml" >"$SCENARIOS/first-case.toml"
-cat >"$WORK/library/studies/first-case.toml" <<'STUDY'
-format = 1
-kind = "study"
-name = "Meetings with a single's endline"
-scenario = "first-case"
-encounters = 4
-baseline = "single"
-
-[run]
-passed = "6 s"
-held = "1 s"
-
-[[option]]
-id = "single"
-
-[encounter.speed]
-uniform = ["1 m/s", "1.6 m/s"]
-source = "assumed"
-
-[encounter.answer]
-choice = ["none", "roll-away", "bolt"]
-source = "assumed"
-STUDY
-cat >"$WORK/library/observations/first-case.toml" <<'OBSERVATION'
-format = 1
-kind = "observation"
-name = "A first case"
-source = "a drawing"
-confidence = "estimate"
-encounters = "first-case"
-
-[[site]]
-part = "body" # under the belly
-present = 0.9
-OBSERVATION
 
 runs_kept() { ls "$DATA/recordings" 2>/dev/null | grep -c 'endline$'; }
 kept() { [ "$(runs_kept)" -ge "$1" ]; }
@@ -185,37 +146,6 @@ scientist() {
     command "clear the inspector"
 }
 
-# A disentanglement team's task list: tell what was seen on the body map, search, see a story and keep it.
-team() {
-    local observation="$WORK/library/observations/first-case.toml" searches="$DATA/searches"
-    command "layout search"
-    command "open observation first-case"
-    picture team-1-observation 30
-    # The tail stock from above; rope was seen there, up to two wraps.
-    click 60 218
-    click 130 412
-    click 230 466; typed 2; keys Return; still 5
-    picture team-2-told
-    command "run the search"
-    check "the observation is saved with the part that was clicked and its wraps, comments kept" \
-        "grep -A2 'part = \"peduncle\"' '$observation' | grep -q 'wraps = \[2, 2\]' && grep -q '# under the belly' '$observation'"
-    check "the first stories come" "within 300 \"ls $searches/first-case-*/net-00000.0of1 >/dev/null 2>&1\""
-    command "pause the search"
-    picture team-3-paused
-    command "cancel the search"
-    check "what was run is told" "within 60 \"ls $searches/first-case-*/report.html >/dev/null 2>&1\""
-    still 10
-    # The second story, and its button Show in 3-D.
-    click 600 192
-    click 1024 161
-    check "a story is run again" "within 30 '[ \$(performed search.replay) -eq 1 ]'"
-    command "show 3-d view"
-    picture team-4-story 60
-    command "layout search"
-    click 1197 161
-    check "a story is kept as a scenario" "within 60 \"ls '$SCENARIOS'/first-case-story-1.toml >/dev/null 2>&1\""
-}
-
 # Killed amid edits: nothing on disk is touched, and the edits are offered back.
 killed() {
     command "layout design"
@@ -240,7 +170,6 @@ chosen() {
 designer
 regulator
 scientist
-team
 killed
 chosen
 check "the program said nothing bad" "! grep -qi 'panick' '$WORK/log'"
