@@ -29,7 +29,8 @@ impl Opened {
     pub fn play_finer(&self, option: usize, encounter: &Encounter) -> Result<Played, Error> {
         let prepared = self.prepare(option, encounter)?;
         let source = Source { scenario: finer(&prepared)?, ..(*prepared.source).clone() };
-        self.play_prepared(option, encounter, source.prepare_for_study(&self.host)?)
+        let prepared = source.prepare_for_study(&self.host)?;
+        self.play_prepared(option, encounter, prepared, 0.0, |_| {})
     }
 }
 

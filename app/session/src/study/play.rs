@@ -137,10 +137,7 @@ impl Opened {
         look: impl FnMut(&Run),
     ) -> Result<Played, Error> {
         let prepared = self.prepare(option, encounter)?;
-        let mut run = self.begin(option, encounter, prepared, frames_hz)?;
-        self.to_its_end(&mut run, look);
-        let report = Report::from_run(&run);
-        Ok(Played { run, report })
+        self.play_prepared(option, encounter, prepared, frames_hz, look)
     }
 
     /// Plays an encounter as prepared.
@@ -152,9 +149,11 @@ impl Opened {
         option: usize,
         encounter: &Encounter,
         prepared: Prepared,
+        frames_hz: f64,
+        look: impl FnMut(&Run),
     ) -> Result<Played, Error> {
-        let mut run = self.begin(option, encounter, prepared, 0.0)?;
-        self.to_its_end(&mut run, |_| {});
+        let mut run = self.begin(option, encounter, prepared, frames_hz)?;
+        self.to_its_end(&mut run, look);
         let report = Report::from_run(&run);
         Ok(Played { run, report })
     }
