@@ -25,8 +25,6 @@ pub struct Ended {
     pub on_the_way: Vec<Ending>,
     /// The part that rope touched first; empty where it touched none.
     pub first_part: String,
-    /// Outcome, such as `entangled`.
-    pub outcome: String,
     /// Why it does not count; empty where it does.
     pub fault: String,
     /// Time simulated [s].
@@ -63,13 +61,11 @@ impl Ended {
         let report = &played.report;
         let events = played.run.metrics().events();
         let first = events.iter().find(|event| event.kind == EventKind::Contact);
-        let outcome = report.summary.whale.as_ref().map(|whale| whale.outcome.name());
         let fault = || report.stopped.clone().unwrap_or_else(|| report.invalid_because.join("; "));
         Self {
             ending: Ending::of(&played.run),
             on_the_way: Vec::new(),
             first_part: first.map(|event| event.subject.clone()).unwrap_or_default(),
-            outcome: outcome.unwrap_or_default().to_owned(),
             fault: if report.is_valid() { String::new() } else { fault() },
             simulated_s: report.simulated_s,
             state_hash: report.state_hash.clone(),

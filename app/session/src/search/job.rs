@@ -3,7 +3,6 @@
 //! Its rounds lie in a folder named after the observation and the hash of the search. An edited observation therefore begins a
 //! folder of its own, and a search that was cancelled goes on from what its folder holds.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -11,8 +10,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::study::Shard;
 use crate::study::control::{Control, Progress};
-use crate::study::priority;
-use crate::task::Waker;
+use crate::task::{Waker, run_job};
 
 use super::folder::Folder;
 use super::question::Question;
@@ -130,25 +128,13 @@ impl Job {
 
     fn spawn(&self, host: Arc<PluginHost>, waker: Waker) {
         let (shared, request) = (Arc::clone(&self.shared), self.request.clone());
-        let work = move || {
-            if !request.eager {
-                priority::step_back();
-            }
-            let worked = catch_unwind(AssertUnwindSafe(|| run(&shared, &request, &host, &waker)));
-            let state = match worked {
-                Ok(Ok(state)) => state,
-                Ok(Err(error)) => State::Failed(error.to_string()),
-                Err(_) => State::Failed(
-                    "the search ended by a fault inside the program; report what led to it".into(),
-                ),
-            };
-            *lock(&shared.state) = state;
-            waker();
-        };
-        if let Err(error) = std::thread::Builder::new().name("endline-search".into()).spawn(work) {
-            let failed = State::Failed(format!("the system gives no thread: {error}"));
-            *lock(&self.shared.state) = failed;
-        }
+        let (ending, woken) = (Arc::clone(&shared), Arc::clone(&waker));
+        let eager = request.eager;
+        let work = move || run(&shared, &request, &host, &waker);
+        run_job("search", eager, work, move |state| {
+            *lock(&ending.state) = state.unwrap_or_else(State::Failed);
+            woken();
+        });
     }
 
     /// How it stands.

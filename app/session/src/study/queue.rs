@@ -4,13 +4,12 @@
 //! Blocks of encounters lie in a folder named after the study and the hash of what defines its
 //! runs. An edited study therefore begins a folder of its own, and an unfinished one is continued.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::task::Waker;
+use crate::task::{Waker, run_job};
 
 use super::batch;
 use super::control::{Control, Progress};
@@ -183,28 +182,13 @@ impl Job {
     fn begin(&self, host: &Arc<PluginHost>, eager: bool) {
         let (shared, host) = (Arc::clone(&self.shared), Arc::clone(host));
         let (file, library, root) = (self.file.clone(), self.library.clone(), self.root.clone());
-        let waker = Arc::clone(&self.waker);
+        let (ending, waker) = (Arc::clone(&shared), Arc::clone(&self.waker));
         *lock(&shared.state) = State::Opening;
-        let work = move || {
-            if !eager {
-                priority::step_back();
-            }
-            let worked =
-                catch_unwind(AssertUnwindSafe(|| run(&shared, &file, &library, &root, &host)));
-            let state = match worked {
-                Ok(Ok(state)) => state,
-                Ok(Err(error)) => State::Failed(error.to_string()),
-                Err(_) => State::Failed(
-                    "the study ended by a fault inside the program; report what led to it".into(),
-                ),
-            };
-            *lock(&shared.state) = state;
+        let work = move || run(&shared, &file, &library, &root, &host);
+        run_job("study", eager, work, move |state| {
+            *lock(&ending.state) = state.unwrap_or_else(State::Failed);
             waker();
-        };
-        if let Err(error) = std::thread::Builder::new().name("endline-study".into()).spawn(work) {
-            let failed = State::Failed(format!("the system gives no thread: {error}"));
-            *lock(&self.shared.state) = failed;
-        }
+        });
     }
 }
 
