@@ -146,7 +146,7 @@ pub struct Recovered {
 
 /// How hidden encounters are searched for.
 pub struct Way<'a> {
-    /// Runs of a search.
+    /// Runs of a search whose net alone finds nothing like.
     pub trials: usize,
     /// Of these, draws from the priors before the first local search.
     pub net: usize,
@@ -163,19 +163,28 @@ pub fn recover(hidden: &Hidden, number: usize, way: &Way<'_>, host: &PluginHost)
     let question = Question::open(&file.display().to_string(), None, Some(&root()), host).unwrap();
     let own = folder.join(format!("search-{number}"));
     let runs = Folder::open(&own, Some(&folder.join("net")), &question).unwrap();
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let effort = Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net };
     let mut after = None;
-    let stories = search(&question, &runs, &effort, &Control::default(), |progress| {
-        if after.is_none() && progress.best.is_some_and(|best| best <= LIKE) {
-            after = Some(progress.trials);
-        }
-    })
-    .unwrap();
+    let mut search = |trials| {
+        let effort = effort(trials, net);
+        search(&question, &runs, &effort, &Control::default(), |progress| {
+            if after.is_none() && progress.best.is_some_and(|best| best <= LIKE) {
+                after = Some(progress.trials);
+            }
+        })
+        .unwrap()
+    };
+    let drawn = search(net);
+    let found = drawn.stories.first().is_some_and(|story| story.distance <= LIKE);
+    let stories = if found { drawn } else { search(trials) };
     let nearest = stories.stories.first().map_or(f64::INFINITY, |story| story.distance);
     let named = stories
         .stories
         .iter()
         .any(|story| story.is_like() && story.first_part == hidden.first_part);
     Recovered { nearest, named, after }
+}
+
+fn effort(trials: usize, net: usize) -> Effort {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    Effort { trials, threads, shard: Shard::WHOLE, neighbours: 0, net }
 }
