@@ -65,5 +65,5 @@ pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
     Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
     ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent,
-    StudyOption, Target,
+    StudyOption, Target, ThreatLabels, ThreatRow,
 };

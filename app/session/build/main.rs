@@ -16,14 +16,16 @@ const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// Folders among them that only report runs.
-const REPORTING: [&str; 7] = [
+const REPORTING: [&str; 9] = [
     "../../gear-library/src/rules",
     "src/cases",
+    "src/compliance",
     "src/live",
     "src/mill",
     "src/rules",
     "src/study/report",
     "src/study/stats",
+    "src/study/threat",
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

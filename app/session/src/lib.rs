@@ -37,6 +37,7 @@ extern crate self as endline_session;
 pub mod cases;
 pub mod check;
 pub mod command;
+pub mod compliance;
 pub mod edit;
 pub mod error;
 pub mod export;

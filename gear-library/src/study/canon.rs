@@ -6,10 +6,11 @@ use crate::confidence::FORMER_CONFIDENCE;
 use crate::tree::{Content, Node};
 
 /// Top-level tables and keys that decide what a run is.
-const DEFINING: [&str; 5] = ["scenario", "seed", "run", "option", "encounter"];
+const DEFINING: [&str; 6] = ["scenario", "seed", "run", "option", "axis", "encounter"];
 
 /// Keys that only explain.
-const EXPLAINING: [&str; 6] = ["confidence", "curve", "name", "notes", "source", FORMER_CONFIDENCE];
+const EXPLAINING: [&str; 7] =
+    ["confidence", "curve", "name", "notes", "source", "threat", FORMER_CONFIDENCE];
 
 /// The text a study is hashed by.
 pub(super) fn of(study: &Node) -> String {

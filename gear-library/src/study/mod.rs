@@ -3,6 +3,7 @@
 //! A study names a baseline scenario, options as differences from it, and how encounters are drawn. The session draws
 //! and runs them; nothing in a study hangs on the order of its tables. The format is described in `docs/studies.md`.
 
+mod axis;
 mod canon;
 mod claim;
 mod discretisation;
@@ -10,6 +11,7 @@ mod event;
 mod observation;
 mod option;
 mod prior;
+mod threat;
 
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
@@ -25,6 +27,7 @@ pub use observation::ObservedShare;
 pub(crate) use option::texts;
 pub use option::{Setting, StudyOption};
 pub use prior::{Law, Level, Prior, Target};
+pub use threat::{ThreatLabels, ThreatRow};
 
 /// Most encounters: the Sobol sequence used has this many points.
 pub const MOST_ENCOUNTERS: u64 = 65_536;

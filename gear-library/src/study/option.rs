@@ -6,6 +6,9 @@ use crate::fields::{Fields, Problems};
 use crate::nearest::hint;
 use crate::tree::{Content, Node};
 
+use super::axis;
+use super::threat::{self, ThreatLabels};
+
 /// An option of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyOption {
@@ -21,6 +24,8 @@ pub struct StudyOption {
     pub settings: Vec<Setting>,
     /// Fields it takes out of the scenario.
     pub removes: Vec<At<String>>,
+    /// What it says of the row of a threat table that it stands for.
+    pub threat: ThreatLabels,
 }
 
 /// A field set over the baseline.
@@ -46,17 +51,29 @@ pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
     Some((format!("{item}.toml"), field))
 }
 
-/// Reads `[[option]]`, sorted by id.
+/// Reads `[[option]]` and the options that `[[axis]]` make, sorted by id.
 pub(super) fn read_all(fields: &Fields<'_>) -> Vec<StudyOption> {
-    let mut options: Vec<StudyOption> =
-        fields.tables("option").iter().filter_map(|node| read(node, fields.problems())).collect();
-    if fields.tables("option").is_empty() {
+    let mut options = read_each(fields.tables("option"), "option", fields.problems());
+    let by_axes = axis::read_all(fields);
+    if fields.tables("option").is_empty() && fields.tables("axis").is_empty() {
         fields.missing("option", "write each option under [[option]], the baseline too");
     }
+    options.extend(by_axes);
+    sorted(options, "option", fields.problems())
+}
+
+/// Reads options, or values of an axis, sorted by id; `what` they are stands in messages.
+pub(super) fn read_each(nodes: &[Node], what: &str, problems: &Problems) -> Vec<StudyOption> {
+    sorted(nodes.iter().filter_map(|node| read(node, problems)).collect(), what, problems)
+}
+
+/// In order of id; reports an id that stands twice.
+fn sorted(mut options: Vec<StudyOption>, what: &str, problems: &Problems) -> Vec<StudyOption> {
     options.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     for pair in options.windows(2).filter(|pair| pair[0].id.value == pair[1].id.value) {
-        let message = format!("there are two options `{}`", pair[1].id.value);
-        fields.problems().push(pair[1].id.place.error(message, "give one of them another id"));
+        let message = format!("there are two {what}s `{}`", pair[1].id.value);
+        let help = "give one of them another id";
+        problems.push(pair[1].id.place.error(message, help));
     }
     options
 }
@@ -69,6 +86,7 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
         fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);
     let curve = fields.text("curve");
     let removes = texts(&fields, "remove");
+    let threat = threat::read(fields.get("threat"), problems);
     let mut settings = Vec::new();
     if let Some(set) = fields.get("set") {
         Fields::of(set, problems).rest();
@@ -79,7 +97,7 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     let name = name.map_or_else(|| id.value.clone(), |name| name.value);
     let (strength_n, curve) =
         (strength.map(|strength| strength.value), curve.map(|curve| curve.value));
-    Some(StudyOption { id, name, strength_n, curve, settings, removes })
+    Some(StudyOption { id, name, strength_n, curve, settings, removes, threat })
 }
 
 /// Every leaf of a table with its dotted path; quoted and bare keys come to the same.

@@ -11,3 +11,4 @@ mod replay;
 mod rules;
 mod search;
 mod studies;
+mod threat;

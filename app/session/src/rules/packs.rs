@@ -74,6 +74,13 @@ impl Packs {
         self.packs.iter().flat_map(|pack| &pack.areas)
     }
 
+    /// The name of an area, or its id where no pack declares it.
+    #[must_use]
+    pub fn area_name(&self, id: &str) -> String {
+        let named = self.areas().find(|area| area.id.value == id);
+        named.map_or_else(|| id.to_owned(), |area| area.name.clone())
+    }
+
     /// An area and those that contain it, from the inside out.
     ///
     /// # Errors

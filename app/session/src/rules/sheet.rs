@@ -47,6 +47,37 @@ pub struct RuleSheet {
     pub rules: Vec<RuleResult>,
 }
 
+/// What an endline is made of, in short.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndlineMakeUp {
+    /// Diameter of the rope at its top [m].
+    pub diameter_m: f64,
+    /// Strength of its strongest new rope, as its source states it [N].
+    pub rated_n: f64,
+    /// Whether it has weak links between its ends.
+    pub has_sleeves: bool,
+}
+
+impl RuleGear {
+    /// Traps of the gear.
+    #[must_use]
+    pub fn traps(&self) -> usize {
+        self.gear.traps
+    }
+
+    /// Its first endline; none of gear without one.
+    #[must_use]
+    pub fn endline(&self) -> Option<EndlineMakeUp> {
+        let pieces = &self.gear.endlines.first()?.pieces;
+        let ropes = || pieces.iter().filter(|piece| piece.length_m > 0.0);
+        Some(EndlineMakeUp {
+            diameter_m: ropes().next()?.diameter_m,
+            rated_n: ropes().map(|piece| piece.rated_n).fold(0.0, f64::max),
+            has_sleeves: ropes().count() < pieces.len(),
+        })
+    }
+}
+
 impl RuleSheet {
     /// Rules with a verdict.
     pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
@@ -61,16 +92,14 @@ impl RuleSheet {
     }
 }
 
-/// Assembles an assembly of the library, by its id or its file, alone in still water.
+/// An assembly of the library by its id or its file: its id, the library's files with it among them, and these read.
 ///
 /// # Errors
-/// A file that cannot be read, no library, or every located error of assembly and library.
-pub fn assembly(
+/// A file that cannot be read, no library, or every located error of the assembly.
+pub fn library_with(
     named: &str,
-    depth_m: Option<f64>,
     library: Option<&Path>,
-    host: &PluginHost,
-) -> Result<RuleGear, Error> {
+) -> Result<(String, Sources, Library), Error> {
     let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
     let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
     let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
@@ -82,9 +111,20 @@ pub fn assembly(
     let (library, problems) = Library::read(&sources);
     let own: Vec<Diagnostic> =
         problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
-    if !own.is_empty() {
-        return Err(Error::Diagnostics(own));
-    }
+    if own.is_empty() { Ok((id, sources, library)) } else { Err(Error::Diagnostics(own)) }
+}
+
+/// Assembles an assembly of the library, by its id or its file, alone in still water.
+///
+/// # Errors
+/// A file that cannot be read, no library, or every located error of assembly and library.
+pub fn assembly(
+    named: &str,
+    depth_m: Option<f64>,
+    library: Option<&Path>,
+    host: &PluginHost,
+) -> Result<RuleGear, Error> {
+    let (id, _, library) = library_with(named, library)?;
     of_library(&id, depth_m, &library, host)
 }
 

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use endline_gear::{Prior, Target, hint};
+use endline_gear::{At, Prior, Target, hint};
 use endline_sim::{Model, State};
 
 use crate::error::Error;
@@ -48,33 +48,43 @@ impl Opened {
         depth_m: f64,
     ) -> Result<[f64; 2], Error> {
         let gear = self.equilibrium(option, encounter)?;
-        let wanted = &self.study.aim.lines;
-        let line_ids = || gear.model.spec.lines.iter().map(|line| line.id.as_str());
-        let mut lines = Vec::new();
-        for id in wanted {
-            match line_ids().position(|known| known == id.value) {
-                Some(line) => lines.push(line),
-                // Gear of another kind may have no such line: then the whale goes where it would go for the baseline.
-                None if option != self.baseline => {
-                    return self.aim_at(self.baseline, encounter, depth_m);
-                }
-                None => {
-                    let message = format!("the baseline's gear has no line `{}`", id.value);
-                    return Err(Error::Diagnostics(vec![
-                        id.place.error(message, hint(&id.value, line_ids())),
-                    ]));
-                }
+        let lines = match lines_aimed_at(&gear.model, &self.study.aim.lines) {
+            // Gear of another kind may have no such line: then the whale goes where it would go for the baseline.
+            Err(_) if option != self.baseline => {
+                return self.aim_at(self.baseline, encounter, depth_m);
             }
-        }
-        if wanted.is_empty() {
-            lines = (0..gear.model.spec.lines.len()).collect();
-        }
+            found => found?,
+        };
         rope_at(&gear.model, &gear.settled.state, &lines, depth_m).ok_or_else(|| {
             Error::Replay(
                 "the gear has no rope to aim at; name lines in `aim` of [encounter]".into(),
             )
         })
     }
+}
+
+/// The lines of a model that a study aims at, in its order; a line made of pieces is all of them. All lines where it names none.
+///
+/// # Errors
+/// A line that the model lacks, at its place in the study.
+pub(super) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
+    let ids = || model.spec.lines.iter().map(|line| line.id.as_str());
+    if wanted.is_empty() {
+        return Ok((0..ids().count()).collect());
+    }
+    let mut lines = Vec::new();
+    for id in wanted {
+        let is_piece =
+            |known: &str| known.strip_prefix(&id.value).is_some_and(|rest| rest.starts_with('.'));
+        let found = ids().enumerate().filter(|(_, known)| *known == id.value || is_piece(known));
+        let before = lines.len();
+        lines.extend(found.map(|(line, _)| line));
+        if lines.len() == before {
+            let message = format!("the baseline's gear has no line `{}`", id.value);
+            return Err(Error::Diagnostics(vec![id.place.error(message, hint(&id.value, ids()))]));
+        }
+    }
+    Ok(lines)
 }
 
 /// Whether a field of the scenario matters to gear at rest: those of the whale and of its friction do not.

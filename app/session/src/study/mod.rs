@@ -52,6 +52,7 @@ pub mod stats;
 pub mod table;
 #[cfg(test)]
 pub(crate) mod tests;
+pub mod threat;
 
 pub use control::Control;
 pub use open::Opened;

@@ -10,6 +10,7 @@ use endline_session::plugins::{Language, PluginKind};
 use super::mill::MillArgs;
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
+use super::sheet::SheetArgs;
 use super::study::args::StudyCommand;
 
 /// Design fishing gear that entangled whales can escape from.
@@ -61,6 +62,8 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: RulesCommand,
     },
+    /// Write one page on a gear for a hearing: its shape, rules, strength and threat.
+    Sheet(SheetArgs),
     /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.
     Mill(MillArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.

@@ -18,6 +18,7 @@ mod rules;
 mod run;
 mod search;
 mod settle;
+mod sheet;
 mod study;
 mod table;
 mod validate;
@@ -58,6 +59,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Search(args)) => search::search(args, library),
         Some(Command::Rules { what }) => rules::rules(what, library),
         Some(Command::Mill(args)) => mill::mill(args),
+        Some(Command::Sheet(args)) => sheet::sheet(args, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }

@@ -169,11 +169,11 @@ fn listed(packs: &Packs) -> String {
     columns(&rows) + &columns(&areas)
 }
 
-fn day(text: &str) -> Result<Date, String> {
+pub(super) fn day(text: &str) -> Result<Date, String> {
     Date::parse(text).ok_or_else(|| "expected year, month and day, such as 2024-06-01".to_owned())
 }
 
-fn length(text: &str) -> Result<f64, String> {
+pub(super) fn length(text: &str) -> Result<f64, String> {
     let metres = units::parse(text, Quantity::Length).map_err(|error| error.to_string())?;
     if metres >= 0.0 { Ok(metres) } else { Err("expected a length of zero or above".to_owned()) }
 }

@@ -10,7 +10,7 @@ pub mod hindcast;
 mod inputs;
 mod page;
 mod results;
-mod svg;
+pub(crate) mod svg;
 mod words;
 
 pub(crate) use page::STYLE;

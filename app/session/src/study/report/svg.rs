@@ -8,7 +8,7 @@ use crate::scales::{self, SERIES_ON_WHITE};
 const DASHES: [&str; 6] = ["none", "7 3", "2 3", "10 3 2 3", "4 2", "1 2"];
 
 /// A picture being drawn.
-pub(super) struct Svg {
+pub(crate) struct Svg {
     body: String,
     width: f64,
     height: f64,
@@ -17,18 +17,18 @@ pub(super) struct Svg {
 
 /// Where text stands beside its place.
 #[derive(Clone, Copy)]
-pub(super) enum Side {
+pub(crate) enum Side {
     Start,
     Middle,
     End,
 }
 
 impl Svg {
-    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
         Self { body: String::new(), width, height, title: escape(title) }
     }
 
-    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], class: &str) {
+    pub(crate) fn line(&mut self, from: [f64; 2], to: [f64; 2], class: &str) {
         let _ = write!(
             self.body,
             r#"<line class="{class}" x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}"/>"#,
@@ -36,7 +36,7 @@ impl Svg {
         );
     }
 
-    pub(super) fn text(&mut self, at: [f64; 2], side: Side, text: &str) {
+    pub(crate) fn text(&mut self, at: [f64; 2], side: Side, text: &str) {
         let anchor = match side {
             Side::Start => "start",
             Side::Middle => "middle",
@@ -52,7 +52,7 @@ impl Svg {
     }
 
     /// Text that heads what follows.
-    pub(super) fn heading(&mut self, at: [f64; 2], text: &str) {
+    pub(crate) fn heading(&mut self, at: [f64; 2], text: &str) {
         let _ = write!(
             self.body,
             r#"<text x="{:.1}" y="{:.1}" font-weight="600">{}</text>"#,
@@ -63,7 +63,7 @@ impl Svg {
     }
 
     /// A filled box.
-    pub(super) fn bar(&mut self, from: [f64; 2], size: [f64; 2], colour: usize) {
+    pub(crate) fn bar(&mut self, from: [f64; 2], size: [f64; 2], colour: usize) {
         let fill = colour_of(colour);
         let _ = write!(
             self.body,
@@ -73,7 +73,7 @@ impl Svg {
     }
 
     /// A mark whose shape and colour go by a number: disc, square, triangle, diamond.
-    pub(super) fn mark(&mut self, [x, y]: [f64; 2], kind: usize) {
+    pub(crate) fn mark(&mut self, [x, y]: [f64; 2], kind: usize) {
         let fill = colour_of(kind);
         let _ = match kind % 4 {
             0 => write!(self.body, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4.5" fill="{fill}"/>"#),
@@ -93,7 +93,7 @@ impl Svg {
     }
 
     /// An interval with its value.
-    pub(super) fn whisker(&mut self, y: f64, [low, at, high]: [f64; 3], kind: usize) {
+    pub(crate) fn whisker(&mut self, y: f64, [low, at, high]: [f64; 3], kind: usize) {
         let stroke = colour_of(kind);
         let _ = write!(
             self.body,
@@ -105,7 +105,7 @@ impl Svg {
     }
 
     /// An interval that stands upright, with its value.
-    pub(super) fn post(&mut self, x: f64, [low, at, high]: [f64; 3], kind: usize) {
+    pub(crate) fn post(&mut self, x: f64, [low, at, high]: [f64; 3], kind: usize) {
         let stroke = colour_of(kind);
         let _ = write!(
             self.body,
@@ -117,7 +117,7 @@ impl Svg {
     }
 
     /// A line through points, its dashes by a number.
-    pub(super) fn path(&mut self, points: &[[f64; 2]], kind: usize) {
+    pub(crate) fn path(&mut self, points: &[[f64; 2]], kind: usize) {
         let mut data = String::new();
         for (index, [x, y]) in points.iter().enumerate() {
             let _ = write!(data, "{}{x:.1} {y:.1}", if index == 0 { "M" } else { "L" });
@@ -130,7 +130,7 @@ impl Svg {
     }
 
     /// The picture's text.
-    pub(super) fn done(self) -> String {
+    pub(crate) fn done(self) -> String {
         let Self { body, width, height, title } = self;
         format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-label="{title}"><title>{title}</title>{body}</svg>"#
@@ -144,27 +144,27 @@ fn colour_of(series: usize) -> String {
 }
 
 /// Text as HTML and SVG want it.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// An axis: values to places.
 #[derive(Clone, Copy)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     pub values: [f64; 2],
     pub places: [f64; 2],
 }
 
 impl Axis {
     /// The place of a value, kept within the axis.
-    pub(super) fn at(&self, value: f64) -> f64 {
+    pub(crate) fn at(&self, value: f64) -> f64 {
         let [least, most] = self.values;
         let share = ((value - least) / (most - least)).clamp(0.0, 1.0);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
     /// Round values along it, about five.
-    pub(super) fn ticks(&self) -> Vec<f64> {
+    pub(crate) fn ticks(&self) -> Vec<f64> {
         let [least, most] = self.values;
         scales::ticks(least, most, 5)
     }

@@ -144,6 +144,15 @@ impl<'a> Known<'a> {
 }
 
 impl AssumedBand {
+    /// The band of a study's marks by its assumed inputs; none where none varies.
+    pub(in crate::study) fn of_study(
+        opened: &Opened,
+        table: &Table,
+        marks: &Marks,
+    ) -> Option<Self> {
+        Self::of(&divide(&opened.study.priors, table), marks)
+    }
+
     fn of(divided: &[Divided], marks: &Marks) -> Option<Self> {
         let inputs: Vec<Known<'_>> =
             divided.iter().map(|divided| Known::of(divided, marks)).collect();

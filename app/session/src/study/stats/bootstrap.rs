@@ -37,7 +37,7 @@ impl Draws {
 }
 
 /// The interval of a statistic of `count` encounters, given their indices; none where it is mostly undefined.
-pub(super) fn interval(
+pub(in crate::study) fn interval(
     label: &str,
     count: usize,
     statistic: impl Fn(&[usize]) -> Option<f64>,

@@ -7,7 +7,7 @@
 
 mod bands;
 mod better;
-mod bootstrap;
+pub(super) mod bootstrap;
 mod changes;
 mod claims;
 mod findings;

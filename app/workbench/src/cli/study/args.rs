@@ -17,6 +17,8 @@ pub(in crate::cli) enum StudyCommand {
     Report(ReportArgs),
     /// Print simulated shares beside those seen on real whales, as Markdown: of a merged study, or of all.
     Hindcast(HindcastArgs),
+    /// Print the threat table of a merged study, beside the poll of NOAA's decision support tool, and write it in that tool's columns.
+    Threat(ThreatArgs),
     /// Run one row of a study again and compare it with the table.
     Replay(ReplayArgs),
 }
@@ -78,6 +80,24 @@ pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
     /// Print the findings as one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ThreatArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Event whose rate is the risk [default: the study's].
+    #[arg(long, value_name = "EVENT")]
+    pub(super) event: Option<String>,
+    /// Table of the decision support tool with the rows to be written [default: that of the gear library, of 2019].
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) poll: Option<PathBuf>,
+    /// Write the table for the decision support tool; FILE-bands.csv beside it has the bands.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) to: Option<PathBuf>,
+    /// Print the table as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
 }

@@ -1,8 +1,9 @@
-//! `endline study`: plan, run, merge, report, hindcast, replay.
+//! `endline study`: plan, run, merge, report, hindcast, threat, replay.
 
 pub(super) mod args;
 mod hindcast;
 mod progress;
+mod threat;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -26,6 +27,7 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
         StudyCommand::Merge(args) => merged(args, library),
         StudyCommand::Report(args) => reported(args, library),
         StudyCommand::Hindcast(args) => hindcast::hindcast(args, library),
+        StudyCommand::Threat(args) => threat::threat(args, library),
         StudyCommand::Replay(args) => replay(args, library),
     }
 }

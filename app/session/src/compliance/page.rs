@@ -1,0 +1,329 @@
+//! The sheet as HTML: the data of `assets/report/compliance.html`.
+
+use askama::Template;
+use endline_sim::model::BodyRole;
+
+use crate::rules::{RuleResult, Verdict};
+use crate::settled::LineShape;
+use crate::strength::PartStrength;
+use crate::study::report::STYLE;
+use crate::study::report::cell::{Cell, Line, Table};
+use crate::units::N_PER_LBF;
+
+use super::threat::ThreatOfGear;
+use super::{ComplianceSheet, drawing};
+
+/// Parts listed of a gear with many alike; a sentence names the others.
+const MOST_PARTS: usize = 14;
+
+/// Tension below which a line lies slack [N].
+const SLACK_N: f64 = 0.5;
+
+/// Metres in a fathom.
+const FATHOM_M: f64 = 1.8288;
+
+/// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
+#[derive(Template)]
+#[template(path = "compliance.html")]
+struct Page<'a> {
+    style: &'static str,
+    name: &'a str,
+    notes: &'a str,
+    where_and_when: String,
+    verdict: String,
+    shape_figure: String,
+    tensions: Table,
+    slack_lines: String,
+    bodies: String,
+    rules: Table,
+    not_checked: Vec<(String, String)>,
+    not_applicable: String,
+    strength: Table,
+    strength_left_out: String,
+    threat: Option<Threat>,
+    unknown: Vec<String>,
+    command: String,
+    version: &'static str,
+    hash: String,
+}
+
+/// What a threat table says, in words.
+struct Threat {
+    says: String,
+    source: String,
+}
+
+pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
+    let strengths = &sheet.rest[1].shape.strengths;
+    Page {
+        style: STYLE,
+        name: &sheet.name,
+        notes: &sheet.notes,
+        where_and_when: where_and_when(sheet),
+        verdict: verdict(sheet),
+        shape_figure: drawing::side_view(sheet),
+        tensions: tensions(sheet),
+        slack_lines: slack_lines(sheet),
+        bodies: bodies(sheet),
+        rules: rules(sheet),
+        not_checked: not_checked(sheet),
+        not_applicable: not_applicable(sheet),
+        strength: strength(strengths),
+        strength_left_out: left_out(strengths),
+        threat: sheet.threat.as_ref().map(threat),
+        unknown: unknown(sheet),
+        command: command(sheet),
+        version: crate::VERSION,
+        hash: sheet.hash(),
+    }
+    .render()
+}
+
+fn where_and_when(sheet: &ComplianceSheet) -> String {
+    let depth_m = sheet.rules.depth_m;
+    let usual = if sheet.rules.depth_is_usual { ", taken because none was given" } else { "" };
+    format!(
+        "{}, {}, {depth_m:.1} m ({:.0} fathoms) of water{usual}",
+        sheet.area,
+        sheet.fishing.on,
+        depth_m / FATHOM_M
+    )
+}
+
+/// What a reader wants to know first.
+fn verdict(sheet: &ComplianceSheet) -> String {
+    let is_law = |rule: &&RuleResult| rule.standing == "law";
+    let ids = |verdict: Verdict| -> Vec<&str> {
+        sheet.rules.with(verdict).filter(is_law).map(|rule| rule.rule.as_str()).collect()
+    };
+    let (fails, unknown) = (ids(Verdict::Fail), ids(Verdict::CannotBeChecked));
+    let mut text = match fails.as_slice() {
+        [] => "It meets every binding rule that could be checked.".to_owned(),
+        [one] => format!("It fails one binding rule: {one}."),
+        several => format!("It fails {} binding rules: {}.", several.len(), several.join(", ")),
+    };
+    if !unknown.is_empty() {
+        text += &format!(
+            " {} more apply and cannot be checked: {}.",
+            unknown.len(),
+            unknown.join(", ")
+        );
+    }
+    text
+}
+
+fn force(newtons: f64) -> String {
+    format!("{:.0} lbf ({:.2} kN)", newtons / N_PER_LBF, newtons / 1000.0)
+}
+
+/// Lines at slack and at running tide that bear something in one of these seas.
+fn taut(sheet: &ComplianceSheet) -> Vec<[&LineShape; 2]> {
+    let [slack, running] = sheet.rest.each_ref().map(|rest| &rest.shape.lines);
+    let bears = |line: &LineShape| line.end_a_tension_N.max(line.end_b_tension_N) >= SLACK_N;
+    let both = slack.iter().zip(running).map(|(slack, running)| [slack, running]);
+    both.filter(|lines| lines.iter().any(|line| bears(line))).collect()
+}
+
+/// Tensions at both ends of lines, in both seas.
+fn tensions(sheet: &ComplianceSheet) -> Table {
+    let ends =
+        |line: &LineShape| format!("{:.0}, {:.0} N", line.end_a_tension_N, line.end_b_tension_N);
+    let row = |[slack, running]: [&LineShape; 2]| {
+        let length = format!("{:.1} m", slack.length_m);
+        [slack.id.clone(), length, ends(slack), ends(running)].map(Cell::from).into()
+    };
+    let rows = taut(sheet).into_iter().take(MOST_PARTS).map(row).collect();
+    let headings = ["Line", "Length", "Slack", "Running"];
+    Table::new("Tension at the ends of lines at rest", &headings, rows)
+}
+
+fn slack_lines(sheet: &ComplianceSheet) -> String {
+    let (all, shown) = (sheet.rest[0].shape.lines.len(), taut(sheet).len().min(MOST_PARTS));
+    match all - shown {
+        0 => String::new(),
+        1 => "One more line lies slack.".to_owned(),
+        more if shown < MOST_PARTS => format!("{more} more lines lie slack."),
+        more => format!("{more} more lines are not listed."),
+    }
+}
+
+/// What hangs on the lines, in one sentence.
+fn bodies(sheet: &ComplianceSheet) -> String {
+    let bodies = &sheet.rest[0].prepared.model.spec.bodies;
+    let mut counted: Vec<(&str, BodyRole, usize)> = Vec::new();
+    for body in bodies {
+        let item = if body.item.is_empty() { body.id.as_str() } else { body.item.as_str() };
+        match counted.iter_mut().find(|(known, ..)| *known == item) {
+            Some((.., count)) => *count += 1,
+            None => counted.push((item, body.role, 1)),
+        }
+    }
+    let words = counted.iter().map(|(item, _, count)| format!("{count} × {item}"));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Rules with a verdict, failures first.
+fn rules(sheet: &ComplianceSheet) -> Table {
+    let order = [Verdict::Fail, Verdict::Pass];
+    let rows = order.into_iter().flat_map(|verdict| sheet.rules.with(verdict)).map(rule_row);
+    let headings = ["Rule", "Asks", "Verdict", "Measured, and the limit", "Source"];
+    Table::new("Rules that apply and were checked", &headings, rows.collect())
+}
+
+fn rule_row(rule: &RuleResult) -> Vec<Cell> {
+    let standing = if rule.standing == "law" { String::new() } else { rule.standing.to_owned() };
+    let said = rule.measured.iter().map(|measured| {
+        let part = if measured.part.is_empty() { "" } else { &measured.part };
+        [part, &measured.says]
+            .into_iter()
+            .filter(|word| !word.is_empty())
+            .collect::<Vec<_>>()
+            .join(": ")
+    });
+    let mend = (rule.verdict == Verdict::Fail).then(|| format!("Mend: {}", rule.mend));
+    let name = [rule.rule.clone(), standing].into_iter().filter(|line| !line.is_empty());
+    vec![
+        Cell::lines(name),
+        rule.asks.clone().into(),
+        rule.verdict.words().to_uppercase().into(),
+        Cell::lines(said.take(4).chain(mend)),
+        sourced(&rule.cite, rule.confidence),
+    ]
+}
+
+/// A source and how sure it is.
+fn sourced(source: &str, confidence: &str) -> Cell {
+    Cell { lines: vec![Line::Small(format!("{source} ({confidence})"))] }
+}
+
+/// Rules that apply and cannot be checked, with why.
+fn not_checked(sheet: &ComplianceSheet) -> Vec<(String, String)> {
+    let told = |rule: &RuleResult| (rule.rule.clone(), format!("{} ({})", rule.asks, rule.cite));
+    sheet.rules.with(Verdict::CannotBeChecked).map(told).collect()
+}
+
+fn not_applicable(sheet: &ComplianceSheet) -> String {
+    let ids: Vec<&str> =
+        sheet.rules.with(Verdict::NotApplicable).map(|rule| rule.rule.as_str()).collect();
+    format!("{} rules do not apply here, then, or to this gear: {}.", ids.len(), ids.join(", "))
+}
+
+/// Parts alike are told once.
+fn distinct(strengths: &[PartStrength]) -> Vec<(&PartStrength, usize)> {
+    let mut found: Vec<(&PartStrength, usize)> = Vec::new();
+    for part in strengths {
+        let alike = |(known, _): &&mut (&PartStrength, usize)| {
+            known.item == part.item && known.factors == part.factors && known.stated == part.stated
+        };
+        match found.iter_mut().find(alike) {
+            Some((_, count)) => *count += 1,
+            None => found.push((part, 1)),
+        }
+    }
+    found
+}
+
+/// Delivered strength of each kind of part.
+fn strength(strengths: &[PartStrength]) -> Table {
+    let row = |(part, count): (&PartStrength, usize)| {
+        let more = if count > 1 { format!("and {} alike", count - 1) } else { String::new() };
+        let [least, most] = part.nine_of_ten_N;
+        let name = [part.part.clone(), more].into_iter().filter(|line| !line.is_empty());
+        vec![
+            Cell::lines(name),
+            part.item.clone().into(),
+            Cell::lines([force(part.stated.value), part.product()]),
+            force(part.delivered_N).into(),
+            format!("{:.0} to {:.0} lbf", least / N_PER_LBF, most / N_PER_LBF).into(),
+            sourced(&part.stated.source, part.confidence),
+        ]
+    };
+    let rows = distinct(strengths).into_iter().take(MOST_PARTS).map(row).collect();
+    let headings = [
+        "Part",
+        "Rope or link",
+        "Stated, and what is left of it",
+        "Delivers",
+        "Nine of ten",
+        "Source",
+    ];
+    Table::new("Delivered strength along the line", &headings, rows)
+}
+
+fn left_out(strengths: &[PartStrength]) -> String {
+    let kinds = distinct(strengths).len();
+    if kinds <= MOST_PARTS {
+        String::new()
+    } else {
+        format!("{} more kinds of parts are not listed.", kinds - MOST_PARTS)
+    }
+}
+
+fn threat(found: &ThreatOfGear) -> Threat {
+    let row = &found.row;
+    let percent = |share: f64| format!("{:.1}", 100.0 * share);
+    Threat {
+        says: format!(
+            "Of encounters with such an endline {} % end with the whale held fast; {} to {} % by chance, over {} runs; {} to {} % over the levels of what is assumed. The greatest risk in the table is {} %.",
+            percent(row.risk),
+            percent(row.low),
+            percent(row.high),
+            row.runs,
+            percent(row.priors_low),
+            percent(row.priors_high),
+            percent(found.greatest)
+        ),
+        source: format!(
+            "Row {} rope, {} traps, device {} of {} ({}): the nearest to this gear.",
+            row.rope, row.traps, row.device, found.file, row.how
+        ),
+    }
+}
+
+/// What a reader must not take from the page.
+fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
+    let estimates = sheet
+        .rules
+        .rules
+        .iter()
+        .filter(|rule| rule.confidence == "estimate" && rule.verdict != Verdict::NotApplicable);
+    let estimates: Vec<&str> = estimates.map(|rule| rule.rule.as_str()).collect();
+    let mut lines = vec![
+        "How often whales meet this gear, and how often they turn away before they touch it.".to_owned(),
+        "Friction of rope on living whales, and what whales do when they feel rope: neither was measured.".to_owned(),
+        "Marks, colours and how inserts are made up: the assembly does not describe them.".to_owned(),
+    ];
+    if !estimates.is_empty() {
+        lines.push(format!(
+            "The wording of these rules was not verified: {}.",
+            estimates.join(", ")
+        ));
+    }
+    if sheet.threat.is_none() {
+        lines.push(
+            "What an encounter with this gear does to a whale: no threat table was given."
+                .to_owned(),
+        );
+    }
+    lines
+}
+
+/// The command that makes the page again.
+fn command(sheet: &ComplianceSheet) -> String {
+    let fishing = &sheet.fishing;
+    let mut words = format!(
+        "endline sheet {} --area {} --on {} --tide \"{} m/s\"",
+        sheet.id, fishing.area, fishing.on, sheet.tide_m_s
+    );
+    let lengths = [("depth", fishing.depth_m), ("distance", fishing.distance_m)];
+    for (name, metres) in lengths.into_iter().filter_map(|(name, metres)| Some((name, metres?))) {
+        words += &format!(" --{name} \"{metres} m\"");
+    }
+    if let Some(traps) = fishing.traps {
+        words += &format!(" --traps {traps}");
+    }
+    if let Some(threat) = &sheet.threat {
+        words += &format!(" --threat {}", threat.file);
+    }
+    words
+}

@@ -1,0 +1,172 @@
+//! The threat table of a study: how often an event comes by rope, length of trawl and device, in the columns of NOAA's decision
+//! support tool (`Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk`).
+//!
+//! A risk is the rate of the event given an encounter. The tool multiplies endlines by risks and compares sums, so that a
+//! factor common to all rows has no effect. Two bands stand apart: that of chance (how many encounters), and that of the priors
+//! (the rate at the levels of each assumed input). Held against the tool's own table, which asks experts, by Kendall's τ
+//! (`kendall.rs`). Rows of that table that were not simulated lie between those that were (`filled.rs`).
+
+mod filled;
+mod kendall;
+mod poll;
+
+use endline_gear::{StudyEvent, ThreatRow};
+use serde::Serialize;
+
+use super::open::Opened;
+use super::stats::{AssumedBand, Interval, Marks, Rate};
+use super::table::Table;
+
+pub use filled::{Filled, How, as_own, with_bands};
+pub use kendall::Tau;
+pub(crate) use poll::at_line;
+pub use poll::{Poll, Polled};
+
+/// Metres in an inch.
+const INCH_M: f64 = 0.0254;
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Threat {
+    /// Id of the option that was simulated.
+    pub option: String,
+    /// Rope by the tool's name.
+    pub rope: String,
+    /// Its diameter [in].
+    pub diameter_in: f64,
+    /// Traps of the trawl.
+    pub traps: u64,
+    /// Device in the endline.
+    pub device: String,
+    /// How often the event came, with its band of chance.
+    pub rate: Rate,
+    /// Least and greatest rate at the levels of the assumed inputs, where these vary.
+    pub priors: Option<AssumedBand>,
+}
+
+/// What a study says of threats.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Threats {
+    /// Always `endline.threat/1`.
+    pub schema: &'static str,
+    /// Id of the study.
+    pub study: String,
+    /// Hash of what defines its runs.
+    pub hash: String,
+    /// Name of the event.
+    pub event: String,
+    /// By rope, device and traps.
+    pub rows: Vec<Threat>,
+    /// Agreement with a poll, where one is given and shares two rows.
+    pub tau: Option<Tau>,
+}
+
+impl Threats {
+    /// The threats of a merged study by an event, beside a poll.
+    ///
+    /// # Errors
+    /// A study none of whose options says which row it stands for; two that stand for one.
+    pub fn of(
+        opened: &Opened,
+        table: &Table,
+        event: &StudyEvent,
+        poll: Option<&Poll>,
+    ) -> Result<Self, String> {
+        let mut rows: Vec<(Threat, Marks)> = Vec::new();
+        for option in &opened.study.options {
+            let Some(row) = option.threat.row() else { continue };
+            let marks = Marks::of(table, &option.id.value, event);
+            rows.push((threat(opened, table, &option.id.value, row, &marks), marks));
+        }
+        if rows.is_empty() {
+            return Err(format!(
+                "{}: no option says which row of a threat table it stands for; write threat = {{ rope = \"3/8in\", diameter = \"3/8 in\", traps = 12, device = \"NA\" }} in options, or parts of it in values of axes",
+                opened.study.id
+            ));
+        }
+        rows.sort_by(|(one, _), (other, _)| one.place().total_cmp(&other.place()));
+        let same = |pair: &&[(Threat, Marks)]| pair[0].0.key() == pair[1].0.key();
+        if let Some([(one, _), (other, _)]) = rows.windows(2).find(same) {
+            return Err(format!(
+                "{}: options `{}` and `{}` stand for one row of the threat table",
+                opened.study.id, one.option, other.option
+            ));
+        }
+        let tau = poll.and_then(|poll| kendall::against(poll, &rows));
+        Ok(Self {
+            schema: "endline.threat/1",
+            study: opened.study.id.clone(),
+            hash: opened.hash.clone(),
+            event: event.name(),
+            rows: rows.into_iter().map(|(row, _)| row).collect(),
+            tau,
+        })
+    }
+
+    /// One line of JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+fn threat(opened: &Opened, table: &Table, id: &str, row: ThreatRow, marks: &Marks) -> Threat {
+    Threat {
+        option: id.to_owned(),
+        rope: row.rope,
+        diameter_in: row.diameter_m / INCH_M,
+        traps: row.traps,
+        device: row.device,
+        rate: Rate::of(marks),
+        priors: AssumedBand::of_study(opened, table, marks),
+    }
+}
+
+impl Threat {
+    /// What it is a row of: rope, device, traps.
+    fn key(&self) -> (&str, &str, u64) {
+        (&self.rope, &self.device, self.traps)
+    }
+
+    /// Where it stands among others.
+    fn place(&self) -> Place<'_> {
+        Place(&self.device, self.diameter_in, &self.rope, self.traps)
+    }
+
+    /// Least and greatest rate at the levels of the assumed inputs; the rate itself where none varies.
+    #[must_use]
+    pub fn by_priors(&self) -> Interval {
+        let rate = self.rate.rate;
+        self.priors.as_ref().map_or(Interval { low: rate, high: rate }, AssumedBand::rates)
+    }
+}
+
+/// Device, diameter, rope and traps.
+struct Place<'a>(&'a str, f64, &'a str, u64);
+
+impl Place<'_> {
+    fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let by_diameter = self.1.total_cmp(&other.1);
+        let by_rope = self.2.cmp(other.2).then(self.3.cmp(&other.3));
+        self.0.cmp(other.0).then(by_diameter).then(by_rope)
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A row with a rate from counts.
+    pub(crate) fn row(rope: &str, diameter_in: f64, traps: u64, device: &str, hits: u64) -> Threat {
+        Threat {
+            option: format!("{rope}-{traps}-{device}"),
+            rope: rope.to_owned(),
+            diameter_in,
+            traps,
+            device: device.to_owned(),
+            rate: Rate::from_counts(hits, 100),
+            priors: None,
+        }
+    }
+}

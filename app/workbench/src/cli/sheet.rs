@@ -1,0 +1,88 @@
+//! `endline sheet`: one page on a gear for a hearing.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use endline_gear::Date;
+use endline_gear::units::{self, Quantity};
+use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, pdf};
+use endline_session::rules::{Fishing, Packs};
+use endline_session::{Error, save};
+
+use super::rules::{day, length};
+use super::{Failure, host, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct SheetArgs {
+    /// Assembly file, or the id of an assembly in the gear library.
+    #[arg(value_name = "ASSEMBLY")]
+    assembly: String,
+    /// Area in which it is fished; `endline rules list` names them.
+    #[arg(long, value_name = "NAME")]
+    area: String,
+    /// Day on which it is fished.
+    #[arg(long, value_name = "YYYY-MM-DD", value_parser = day)]
+    on: Date,
+    /// Depth of the water, such as "30 fathom" [default: 25 m, and depth counts as not known].
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    depth: Option<f64>,
+    /// Distance from shore, such as "5 nmi".
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    distance: Option<f64>,
+    /// Traps on one set, in place of those of the assembly.
+    #[arg(long, value_name = "N")]
+    traps: Option<u16>,
+    /// Speed of the running tide at the surface, such as "0.5 kn" [default: 0.25 m/s].
+    #[arg(long, value_name = "SPEED", value_parser = speed)]
+    tide: Option<f64>,
+    /// Threat table with bands, as `endline study threat STUDY --to` writes it.
+    #[arg(long, value_name = "FILE-bands.csv")]
+    threat: Option<PathBuf>,
+    /// Rule pack besides those of the library; may be given several times.
+    #[arg(long, value_name = "FILE")]
+    pack: Vec<PathBuf>,
+    /// The page [default: the assembly's id, with -sheet.html].
+    #[arg(long, value_name = "FILE.html")]
+    to: Option<PathBuf>,
+    /// Print it as PDF too, by an installed browser.
+    #[arg(long, value_name = "FILE.pdf")]
+    pdf: Option<PathBuf>,
+}
+
+pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let packs = Packs::open(library, &args.pack)?;
+    packs.around(&args.area).map_err(Failure::usage)?;
+    let request = Request {
+        assembly: &args.assembly,
+        fishing: Fishing {
+            area: args.area.clone(),
+            on: args.on,
+            depth_m: args.depth,
+            distance_m: args.distance,
+            traps: args.traps,
+        },
+        tide_m_s: args.tide.unwrap_or(USUAL_TIDE_M_S),
+        threat: args.threat.clone(),
+    };
+    let sheet = ComplianceSheet::of(&request, &packs, library, &host::load())?;
+    let page = args.to.clone().unwrap_or_else(|| page_of(&args.assembly));
+    save::atomically(&page, sheet.html()?.as_bytes())
+        .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
+    output::note(&format!("the sheet is {}", page.display()));
+    if let Some(file) = &args.pdf {
+        pdf::print(&page, file)?;
+        output::note(&format!("printed as {}", file.display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The page's name by the assembly's.
+fn page_of(assembly: &str) -> PathBuf {
+    let id = Path::new(assembly).file_stem().unwrap_or_default().to_string_lossy();
+    PathBuf::from(format!("{id}-sheet.html"))
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let speed = units::parse(text, Quantity::Speed).map_err(|error| error.to_string())?;
+    if speed > 0.0 { Ok(speed) } else { Err("expected a speed above 0".to_owned()) }
+}
