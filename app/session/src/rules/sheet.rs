@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use endline_gear::{
-    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, assemble_traced,
-};
+use endline_gear::{Assembled, Library, Options, Scenario, Setting, assemble_traced};
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::locate;
 use crate::plugins::PluginHost;
+use crate::source::assembly::{open_assembly, written};
 
 use super::fishing::Fishing;
 use super::gear::Gear;
@@ -71,20 +69,7 @@ pub fn assembly(
     library: Option<&Path>,
     host: &PluginHost,
 ) -> Result<RuleGear, Error> {
-    let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
-    let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
-    let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-    let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let file = format!("assemblies/{id}.toml");
-    sources.set(file.as_str(), text);
-    let (library, problems) = Library::read(&sources);
-    let own: Vec<Diagnostic> =
-        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
-    if !own.is_empty() {
-        return Err(Error::Diagnostics(own));
-    }
+    let (id, library) = open_assembly(named, library)?;
     of_library(&id, depth_m, &library, host)
 }
 
@@ -112,14 +97,7 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
     let site = library.sites.first().map_or("", |site| site.entry.id.as_str());
     let depth = format!("{depth_m} m");
     let settings = [("site.item", site), ("site.depth", &depth), ("gear.0.assembly", id)];
-    let failed =
-        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
-    let mut document = Document::parse(head).map_err(|error| failed(error.to_string()))?;
-    for (field, text) in settings {
-        let put = document.put(field, &Setting::text(text));
-        put.map_err(|error| failed(error.to_string()))?;
-    }
-    Ok(document.text())
+    written(head, &settings.map(|(field, text)| (field, Setting::text(text))))
 }
 
 /// Checks every rule of the packs on gear.

@@ -157,7 +157,8 @@ fn the_work_of_the_hauler_is_potential_energy_drag_and_motion() {
         let up = at.rope.velocity.iter().map(|velocity| velocity.length()).sum::<f64>()
             / at.rope.velocity.len() as f64;
         work += haul.felt().work_j;
-        drag += (0.5 * DENSITY * DRAG_AREA * trap.powi(3) + of_rope * length * up.powi(3)) * 0.005;
+        drag += (0.5 * DENSITY * DRAG_AREA * trap * trap * trap + of_rope * length * up * up * up)
+            * 0.005;
         haul.hauled_m() > 20.0
     });
     let (hauled, w) = (haul.hauled_m(), rope_weight_n_m());

@@ -7,6 +7,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::haul::HaulArgs;
 use super::mill::MillArgs;
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
@@ -61,6 +62,8 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: RulesCommand,
     },
+    /// Haul an assembly from a boat: loads, what comes nearest to parting, and the probability that it parts.
+    Haul(HaulArgs),
     /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.
     Mill(MillArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.
