@@ -1,7 +1,7 @@
 //! Loads of a haul as it goes on: the greatest tension of every part, by stage and in all, and samples along the endline.
 
 use endline_sdk::LineEnd;
-use endline_sim::haul::{Came, Haul};
+use endline_sim::haul::{Came, Haul, LIFTED_M};
 use endline_sim::model::{BodyRole, JointKind, Link};
 use endline_sim::parting::link_segment;
 
@@ -10,8 +10,6 @@ use super::risk;
 
 /// Time between samples along the endline [s].
 const SAMPLE_S: f64 = 1.0;
-/// Height over the seabed from which a body hangs [m].
-const HANGS_M: f64 = 0.5;
 
 /// A piece of rope or a link, and the greatest share used of what it delivers.
 #[derive(Clone, Debug)]
@@ -82,6 +80,8 @@ pub(super) struct Sample {
     pub hauled_m: f64,
     /// Pull at the hauler [N].
     pub load_n: f64,
+    /// Angle of the line at the block from the vertical [rad].
+    pub lead_rad: f64,
     /// Tension of each segment of the endline from the buoy; `None` where it is aboard [N].
     pub tension_n: Vec<Option<f64>>,
 }
@@ -102,6 +102,8 @@ pub(super) struct Loads {
     pub work_j: f64,
     /// Traps aboard.
     pub aboard: usize,
+    /// Whether no trap and no anchor is left.
+    is_empty: bool,
     stage: Greatest,
     tension_n: Vec<f64>,
 }
@@ -120,6 +122,7 @@ impl Loads {
             samples: Vec::new(),
             work_j: 0.0,
             aboard: 0,
+            is_empty: false,
             tension_n: vec![0.0; made.model.segment_count],
             parts,
         }
@@ -129,7 +132,10 @@ impl Loads {
     pub fn take(&mut self, haul: &Haul, made: &Made) {
         self.tension_n.fill(0.0);
         haul.tensions().for_each(|(segment, tension)| self.tension_n[segment] = tension);
-        let hanging = haul.heights().filter(|(_, height)| *height > HANGS_M).count();
+        let is_gear = |body: usize| made.model.spec.bodies[body].role != BodyRole::Buoy;
+        let hangs = |(body, risen_m): &(usize, f64)| *risen_m > LIFTED_M && is_gear(*body);
+        let hanging = haul.risen().filter(hangs).count();
+        self.is_empty = !haul.risen().any(|(body, _)| is_gear(body));
         for greatest in [&mut self.greatest, &mut self.stage] {
             greatest.take(haul, hanging, &self.parts, &self.tension_n);
         }
@@ -139,9 +145,9 @@ impl Loads {
         came.into_iter().for_each(|came| self.came(came, haul, made));
     }
 
-    /// Whether as many traps are aboard as asked.
+    /// Whether as many traps are aboard as asked, or all traps and anchors.
     pub fn is_done(&self, aboard: Option<usize>) -> bool {
-        aboard.is_some_and(|wanted| self.aboard >= wanted)
+        self.is_empty || aboard.is_some_and(|wanted| self.aboard >= wanted)
     }
 
     /// Ends the last stage.
@@ -187,8 +193,9 @@ impl Loads {
         haul.tensions().for_each(|(segment, _)| is_out[segment] = true);
         let at = |(segment, _): &(usize, f64)| is_out[*segment].then_some(self.tension_n[*segment]);
         let tension_n = self.along.iter().map(at).collect();
-        let (hauled_m, load_n) = (haul.hauled_m(), haul.felt().load_n);
-        self.samples.push(Sample { time_s, hauled_m, load_n, tension_n });
+        let (hauled_m, load_n, lead_rad) =
+            (haul.hauled_m(), haul.felt().load_n, haul.felt().lead_rad);
+        self.samples.push(Sample { time_s, hauled_m, load_n, lead_rad, tension_n });
     }
 }
 

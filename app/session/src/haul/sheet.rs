@@ -129,6 +129,8 @@ pub struct Along {
     pub hauled_m: Vec<f64>,
     /// Pull at the hauler at each time [N].
     pub load_N: Vec<f64>,
+    /// Angle of the line at the block from the vertical at each time [deg].
+    pub lead_deg: Vec<f64>,
     /// Tension at each time and place; `null` where it is aboard [N].
     pub tension_N: Vec<Vec<Option<f64>>>,
 }
@@ -224,6 +226,7 @@ fn along(loads: &Loads) -> Along {
         time_s: samples.iter().map(|sample| sample.time_s).collect(),
         hauled_m: samples.iter().map(|sample| sample.hauled_m).collect(),
         load_N: samples.iter().map(|sample| sample.load_n).collect(),
+        lead_deg: samples.iter().map(|sample| sample.lead_rad.to_degrees()).collect(),
         tension_N: samples.iter().map(|sample| sample.tension_n.clone()).collect(),
     }
 }

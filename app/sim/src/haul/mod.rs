@@ -24,13 +24,15 @@ use endline_sdk::LineEnd;
 use glam::DVec3;
 
 use crate::model::Model;
-use crate::solver::LOOSE_M;
 use crate::state::State;
 use crate::step::{Input, Stop, Workspace, step};
 use boat::Boat;
 use layout::Origin;
 
 pub use setup::endlines;
+
+/// Rise at which a body is off the seabed: more than that of a trap that is tipped on its end [m].
+pub const LIFTED_M: f64 = 0.5;
 
 /// How gear is hauled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +57,7 @@ pub struct Hauling {
 pub enum Came {
     /// This line of the gear begins to go over the block.
     Line(usize),
-    /// This body of the gear left the seabed.
+    /// This body of the gear rose by [`LIFTED_M`].
     OffSeabed(usize),
     /// This body of the gear is aboard.
     Aboard(usize),
@@ -92,6 +94,8 @@ pub struct Haul {
     ends: Vec<End>,
     boat: Boat,
     origin: Origin,
+    /// Height of each body of the gear as the haul began [m].
+    began_m: Vec<f64>,
     hauled_m: f64,
     felt: Felt,
 }
@@ -114,9 +118,9 @@ impl Haul {
         if self.ends.is_empty() {
             return Ok(false);
         }
-        let loose = self.loose();
+        let were = self.lifted();
         step(&self.model, &Input::default(), &mut self.state, &mut self.work)?;
-        self.feel(rope_m, &loose);
+        self.feel(rope_m, &were);
         self.hauled_m += rope_m;
         Ok(true)
     }
@@ -162,19 +166,20 @@ impl Haul {
         self.origin.segments.iter().copied().zip(self.work.peak_tension_n.iter().copied())
     }
 
-    /// Bodies that are not aboard: number in the gear, height over the seabed [m].
-    pub fn heights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let depth_m = self.model.spec.water.depth_m;
+    /// Bodies that are not aboard: number in the gear, rise since the haul began [m].
+    pub fn risen(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let bodies = self.origin.bodies.iter().copied().zip(&self.state.bodies);
-        bodies.map(move |(body, at)| (body, at.position.z + depth_m))
+        bodies.map(|(body, at)| (body, at.position.z - self.began_m[body]))
     }
 
-    /// Direction of the first line at the block, away from the boat.
+    /// Direction of the pull of all lines at the block, away from the boat.
     fn way(&self) -> DVec3 {
-        let Some(end) = self.ends.first() else { return DVec3::NEG_Z };
-        let (tip, inner, _) = self.tip(end);
-        let way = self.state.rope.position[inner] - self.state.rope.position[tip];
-        way.normalize_or(DVec3::NEG_Z)
+        let pull = |end: &End| {
+            let (tip, inner, segment) = self.tip(end);
+            let way = self.state.rope.position[inner] - self.state.rope.position[tip];
+            way.normalize_or_zero() * self.state.rope.tension[segment].max(0.0)
+        };
+        self.ends.iter().map(pull).sum::<DVec3>().normalize_or(DVec3::NEG_Z)
     }
 
     /// First node, second node and segment of a line's end.
@@ -187,21 +192,20 @@ impl Haul {
         }
     }
 
-    /// Whether each body stands loose of the seabed.
-    fn loose(&self) -> Vec<bool> {
-        let is_loose = |lifts: &Vec<f64>| lifts.iter().all(|lift| *lift >= LOOSE_M);
-        self.state.bodies.iter().map(|body| is_loose(&body.lift_m)).collect()
+    /// Whether each body is off the seabed.
+    fn lifted(&self) -> Vec<bool> {
+        self.risen().map(|(_, risen_m)| risen_m > LIFTED_M).collect()
     }
 
     /// Reads what a step brought.
-    fn feel(&mut self, rope_m: f64, were_loose: &[bool]) {
+    fn feel(&mut self, rope_m: f64, were_lifted: &[bool]) {
         let pull = |end: &End| self.work.peak_tension_n[self.tip(end).2];
         let load_n: f64 = self.ends.iter().map(pull).sum();
         let at_end = |end: &End| self.state.rope.tension[self.tip(end).2].max(0.0);
         let work_j = rope_m * self.ends.iter().map(at_end).sum::<f64>();
         let lead_rad = self.way().angle_between(DVec3::NEG_Z);
-        let loose = self.loose().into_iter().zip(were_loose).zip(&self.origin.bodies);
-        let off = loose.filter(|((now, before), _)| *now && !**before);
+        let lifted = self.lifted().into_iter().zip(were_lifted).zip(&self.origin.bodies);
+        let off = lifted.filter(|((now, before), _)| *now && !**before);
         let off: Vec<Came> = off.map(|(_, body)| Came::OffSeabed(*body)).collect();
         self.felt.came.extend(off);
         (self.felt.load_n, self.felt.lead_rad, self.felt.work_j) = (load_n, lead_rad, work_j);

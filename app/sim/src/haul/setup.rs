@@ -101,6 +101,7 @@ impl Haul {
             ends: Vec::new(),
             boat: Boat::at(place, &how),
             origin: Origin::of(model),
+            began_m: state.bodies.iter().map(|body| body.position.z).collect(),
             hauled_m: 0.0,
             felt: Felt::default(),
             model: bare,

@@ -64,9 +64,9 @@ pub(super) struct HaulArgs {
     /// Buoy at which to begin [default: the first].
     #[arg(long, value_name = "ID")]
     buoy: Option<String>,
-    /// Stop once so many traps are aboard [default: haul all].
-    #[arg(long, value_name = "N")]
-    aboard: Option<usize>,
+    /// Stop once so many traps are aboard; 0 for all.
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    aboard: usize,
     /// Longest segment of rope [default: a fortieth of the depth, from 0.5 m to 2 m].
     #[arg(long, value_name = "LENGTH", value_parser = segment)]
     segment: Option<f64>,
@@ -114,7 +114,7 @@ impl HaulArgs {
             period_s: self.period,
             traps: self.traps.first().copied(),
             buoy: self.buoy.clone(),
-            aboard: self.aboard,
+            aboard: (self.aboard > 0).then_some(self.aboard),
             break_out: self.break_out,
             seed: self.seed,
             segment_m: self.segment,
