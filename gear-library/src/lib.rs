@@ -38,7 +38,7 @@ pub use assemble::{
 };
 pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
 pub use attributes::Attributes;
-pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
+pub use case::{Case, CaseHaul, Check, Limit, Measure, Rows, Samples, Table};
 pub use confidence::Confidence;
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, Setting, save_text};

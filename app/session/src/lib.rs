@@ -16,6 +16,7 @@
 //! | [`command`] | what a user can ask for, declared once |
 //! | [`workbench`] | what a user has open and does, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`haul`] | gear hauled over a block: loads, what comes nearest to parting, and its probability |
 //! | [`mill`] | breaks of a product: its law of strength, and the probability that it is approved |
 //! | [`rules`] | what laws ask of an assembly: rule packs checked |
 //! | [`search`] | which encounters end like what was seen on a real whale |
@@ -43,6 +44,7 @@ pub mod error;
 pub mod export;
 pub mod figures;
 pub mod hash;
+pub mod haul;
 mod hooks;
 pub mod live;
 pub mod locate;

@@ -84,6 +84,11 @@ impl Model {
         Self::laid_out(alone, None, self.sea.clone())
     }
 
+    /// Another spec without a whale in this sea, with its waves as they were drawn.
+    pub(crate) fn with_spec(&self, spec: ModelSpec) -> Self {
+        Self::laid_out(spec, None, self.sea.clone())
+    }
+
     /// This gear alone in a share of its current.
     pub(crate) fn with_current_times(&self, share: f64) -> Self {
         let mut weaker = self.with_lines(self.spec.lines.clone());

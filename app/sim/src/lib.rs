@@ -13,6 +13,7 @@ pub mod cost;
 pub mod float;
 pub mod frame;
 mod gear_hook;
+pub mod haul;
 mod in_place;
 pub mod metrics;
 pub mod model;

@@ -4,6 +4,7 @@
 //! `endline validate` prints what came of it. The format is described in `docs/gear-format.md`.
 
 mod check;
+mod hauled;
 mod rows;
 mod table;
 
@@ -15,6 +16,7 @@ use crate::tree::{self, Content, Node};
 use crate::units::Quantity;
 
 pub use check::{Check, Limit, Measure};
+pub use hauled::CaseHaul;
 pub use rows::Rows;
 pub use table::Table;
 
@@ -47,6 +49,8 @@ pub struct Case {
     pub quick: bool,
     /// Row of the hindcast that it answers: what was seen on real gear or whales, and nothing was fitted to.
     pub hindcast: Option<String>,
+    /// How the gear is hauled, where it is; the scenario then gives gear, sea and step.
+    pub haul: Option<CaseHaul>,
     /// When readings are taken.
     pub samples: Samples,
     /// Id of the table of expected readings: columns `t` [s] and one by each probe's id, SI.
@@ -100,6 +104,10 @@ impl Case {
         let table = fields.text("table");
         let samples = samples(&fields, table.is_some());
         check_halving(samples.as_ref(), &halve, problems);
+        let haul = fields.table("haul").map(|haul| hauled::read(&haul));
+        if haul.is_some() && !matches!(samples, Some(Samples::Every(_)) | None) {
+            fields.missing("every", "a [haul] is sampled all along: write every = \"0.1 s\"");
+        }
         let checks: Vec<Check> =
             fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
         if fields.tables("check").is_empty() {
@@ -121,6 +129,7 @@ impl Case {
             halve_segment: halves("segment"),
             quick,
             hindcast,
+            haul,
             samples: samples?,
             table,
             checks,

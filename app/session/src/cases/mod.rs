@@ -6,6 +6,7 @@
 //! Reference: Roache 1998, Verification of codes and calculations (doi:10.2514/2.457).
 
 mod curves;
+mod hauled;
 mod judge;
 mod observe;
 mod outcome;
@@ -110,11 +111,11 @@ impl Cases {
         match (&case.samples, &table) {
             (Samples::Rows(rows), Some(table)) => rows::check(self, &case, rows, table, host),
             (Samples::Rows(_), None) => Err(no_table(&case)),
-            _ => judge::check_names(
-                &case,
-                &Setup::new(self, &case, &[], host)?.model,
-                table.as_ref(),
-            ),
+            _ => {
+                let model = Setup::new(self, &case, &[], host)?.model;
+                hauled::check(&case, &model)?;
+                judge::check_names(&case, &model, table.as_ref())
+            }
         }
     }
 
@@ -134,6 +135,7 @@ impl Cases {
             return rows::run(self, case, rows, table, host);
         }
         let setup = Setup::new(self, case, &[], host)?;
+        hauled::check(case, &setup.model)?;
         judge::check_names(case, &setup.model, table.as_ref())?;
         let base = match observe::observe(&setup, case, table.as_ref(), [1, 1])? {
             Ok(base) => base,

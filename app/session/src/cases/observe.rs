@@ -7,6 +7,7 @@ use endline_sim::metrics::reading;
 use crate::error::Error;
 use crate::run::{Run, RunOptions};
 
+use super::hauled;
 use super::setup::Setup;
 
 /// Points of a curve in a plot.
@@ -31,6 +32,9 @@ pub(super) fn observe(
     share: [u32; 2],
 ) -> Result<Result<Observed, String>, Error> {
     let prepared = setup.finer(share)?;
+    if let (Some(haul), Samples::Every(between_s)) = (&case.haul, &case.samples) {
+        return Ok(hauled::observe(&prepared.model, haul, *between_s));
+    }
     let times = times(case, table, &prepared.model)?;
     let mut run = match Run::new(prepared, RunOptions::default()) {
         Ok(run) => run,

@@ -1,7 +1,7 @@
 //! The compliance sheet: one page on a gear for a hearing, readable in black and white.
 //!
 //! It shows the gear at slack and at running tide (`drawing.rs`), what it is made of and what each part delivers, the verdict on every
-//! rule, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of everything the
+//! rule, what hauling it takes, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of everything the
 //! model at running tide is made from, so that the same command makes the same page. The page is HTML (`page.rs`); an
 //! installed browser prints it as PDF (`pdf.rs`).
 
@@ -16,9 +16,11 @@ use endline_gear::Library;
 use endline_sim::settle;
 
 use crate::error::Error;
+use crate::haul::{HaulRequest, HaulSheet, haul_of};
 use crate::plugins::PluginHost;
-use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, library_with, of_library};
+use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
+use crate::source::assembly::open_assembly;
 use crate::source::{Overrides, Prepared, Source};
 use crate::statics::preview::{TrialSea, alone};
 
@@ -56,6 +58,8 @@ pub struct ComplianceSheet {
     rules: RuleSheet,
     /// At slack and at running tide.
     rest: [AtRest; 2],
+    /// What hauling it takes, or why it cannot be hauled.
+    haul: Result<HaulSheet, Error>,
     threat: Option<ThreatOfGear>,
 }
 
@@ -77,7 +81,7 @@ impl ComplianceSheet {
         host: &PluginHost,
     ) -> Result<Self, Error> {
         let Request { assembly, fishing, tide_m_s, threat } = request;
-        let (id, sources, library) = library_with(assembly, library)?;
+        let (id, sources, library) = open_assembly(assembly, library)?;
         let gear = of_library(&id, fishing.depth_m, &library, host)?;
         let at_rest = |current_m_s| -> Result<AtRest, Error> {
             let sea = TrialSea {
@@ -92,10 +96,17 @@ impl ComplianceSheet {
             };
             AtRest::of(source.prepare(host)?)
         };
+        let haul = HaulRequest {
+            depth_m: Some(gear.depth_m),
+            tide_m_s: Some(*tide_m_s),
+            traps: fishing.traps,
+            ..HaulRequest::default()
+        };
         let (name, notes) = named(&id, &library);
         Ok(Self {
             rules: check(&gear, packs, fishing)?,
             rest: [at_rest(0.0)?, at_rest(*tide_m_s)?],
+            haul: haul_of(&id, &haul, &library, host),
             threat: threat_of(threat.as_deref(), &gear)?,
             area: packs.area_name(&fishing.area),
             fishing: fishing.clone(),

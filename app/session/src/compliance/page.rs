@@ -40,6 +40,8 @@ struct Page<'a> {
     not_applicable: String,
     strength: Table,
     strength_left_out: String,
+    haul: String,
+    haul_source: String,
     threat: Option<Threat>,
     unknown: Vec<String>,
     command: String,
@@ -70,6 +72,8 @@ pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
         not_applicable: not_applicable(sheet),
         strength: strength(strengths),
         strength_left_out: left_out(strengths),
+        haul: haul(sheet),
+        haul_source: haul_source(sheet),
         threat: sheet.threat.as_ref().map(threat),
         unknown: unknown(sheet),
         command: command(sheet),
@@ -203,9 +207,10 @@ fn not_checked(sheet: &ComplianceSheet) -> Vec<(String, String)> {
 }
 
 fn not_applicable(sheet: &ComplianceSheet) -> String {
-    let ids: Vec<&str> =
-        sheet.rules.with(Verdict::NotApplicable).map(|rule| rule.rule.as_str()).collect();
-    format!("{} rules do not apply here, then, or to this gear: {}.", ids.len(), ids.join(", "))
+    let count = sheet.rules.with(Verdict::NotApplicable).count();
+    format!(
+        "{count} more rules do not apply here, on that day, or to this gear; endline rules check tells why."
+    )
 }
 
 /// Parts alike are told once.
@@ -257,6 +262,48 @@ fn left_out(strengths: &[PartStrength]) -> String {
     } else {
         format!("{} more kinds of parts are not listed.", kinds - MOST_PARTS)
     }
+}
+
+/// What hauling takes, and what is left to parting.
+fn haul(sheet: &ComplianceSheet) -> String {
+    let haul = match &sheet.haul {
+        Ok(haul) => haul,
+        Err(why) => return format!("Not hauled: {why}."),
+    };
+    let mut text = format!(
+        "At most {} at the hauler, with {} of its traps and anchors off the seabed.",
+        force(haul.peak_N),
+        haul.hanging
+    );
+    if let Some(place) = &haul.nearest {
+        text += &format!(
+            " Nearest to parting comes {}: {}, {:.0} % of the {} that it delivers.",
+            place.part,
+            force(place.tension_N),
+            100.0 * place.used,
+            force(place.delivered_N)
+        );
+    }
+    text + &format!(" Something parts in a haul with probability {}.", probability(haul.parts))
+}
+
+fn probability(share: f64) -> String {
+    if share < 1e-4 { "below 0.0001".to_owned() } else { format!("{share:.4}") }
+}
+
+/// How it was hauled.
+fn haul_source(sheet: &ComplianceSheet) -> String {
+    let Ok(haul) = &sheet.haul else { return String::new() };
+    format!(
+        "Simulated: {:.1} m/s over a block {:.1} m above the water, tide {:.2} m/s, waves of {:.1} m; {} of {} traps aboard in {:.0} s. docs/hauling.md has sources and limits.",
+        haul.speed_m_s,
+        haul.block_m,
+        haul.tide_m_s,
+        haul.sea_m,
+        haul.traps_aboard,
+        haul.traps,
+        haul.time_s
+    )
 }
 
 fn threat(found: &ThreatOfGear) -> Threat {

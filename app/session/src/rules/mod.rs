@@ -30,5 +30,5 @@ mod walk;
 pub use fishing::Fishing;
 pub use makeup::{MadeUp, Places, Stretch};
 pub use packs::Packs;
-pub use sheet::{EndlineMakeUp, RuleGear, RuleSheet, assembly, check, library_with, of_library};
+pub use sheet::{EndlineMakeUp, RuleGear, RuleSheet, assembly, check, of_library};
 pub use verdict::{Measured, RuleResult, Verdict};

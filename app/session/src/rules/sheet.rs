@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use endline_gear::{
-    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, assemble_traced,
-};
+use endline_gear::{Assembled, Library, Options, Scenario, Setting, assemble_traced};
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::locate;
 use crate::plugins::PluginHost;
+use crate::source::assembly::{open_assembly, written};
 
 use super::fishing::Fishing;
 use super::gear::Gear;
@@ -92,28 +90,6 @@ impl RuleSheet {
     }
 }
 
-/// An assembly of the library by its id or its file: its id, the library's files with it among them, and these read.
-///
-/// # Errors
-/// A file that cannot be read, no library, or every located error of the assembly.
-pub fn library_with(
-    named: &str,
-    library: Option<&Path>,
-) -> Result<(String, Sources, Library), Error> {
-    let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
-    let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
-    let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-    let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let file = format!("assemblies/{id}.toml");
-    sources.set(file.as_str(), text);
-    let (library, problems) = Library::read(&sources);
-    let own: Vec<Diagnostic> =
-        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
-    if own.is_empty() { Ok((id, sources, library)) } else { Err(Error::Diagnostics(own)) }
-}
-
 /// Assembles an assembly of the library, by its id or its file, alone in still water.
 ///
 /// # Errors
@@ -124,7 +100,7 @@ pub fn assembly(
     library: Option<&Path>,
     host: &PluginHost,
 ) -> Result<RuleGear, Error> {
-    let (id, _, library) = library_with(named, library)?;
+    let (id, _, library) = open_assembly(named, library)?;
     of_library(&id, depth_m, &library, host)
 }
 
@@ -152,14 +128,7 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
     let site = library.sites.first().map_or("", |site| site.entry.id.as_str());
     let depth = format!("{depth_m} m");
     let settings = [("site.item", site), ("site.depth", &depth), ("gear.0.assembly", id)];
-    let failed =
-        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
-    let mut document = Document::parse(head).map_err(|error| failed(error.to_string()))?;
-    for (field, text) in settings {
-        let put = document.put(field, &Setting::text(text));
-        put.map_err(|error| failed(error.to_string()))?;
-    }
-    Ok(document.text())
+    written(head, &settings.map(|(field, text)| (field, Setting::text(text))))
 }
 
 /// Checks every rule of the packs on gear.

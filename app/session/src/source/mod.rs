@@ -1,5 +1,6 @@
 //! From files to a model: the scenario, the gear library and the options of a run.
 
+pub(crate) mod assembly;
 #[cfg(test)]
 pub(crate) mod sample;
 

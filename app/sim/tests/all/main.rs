@@ -11,6 +11,7 @@ mod dead_whale;
 mod edges;
 mod end_tension;
 mod friction_laws;
+mod haul;
 mod hitches;
 mod kinetic;
 mod kinetic_rope;

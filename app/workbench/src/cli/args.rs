@@ -7,6 +7,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
+use super::haul::HaulArgs;
 use super::mill::MillArgs;
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
@@ -62,6 +63,8 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: RulesCommand,
     },
+    /// Haul an assembly from a boat: loads, what comes nearest to parting, and the probability that it parts.
+    Haul(HaulArgs),
     /// Write one page on a gear for a hearing: its shape, rules, strength and threat.
     Sheet(SheetArgs),
     /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.

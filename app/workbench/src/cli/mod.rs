@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod failure;
+mod haul;
 mod host;
 mod mill;
 mod output;
@@ -59,6 +60,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Search(args)) => search::search(args, library),
         Some(Command::Rules { what }) => rules::rules(what, library),
         Some(Command::Mill(args)) => mill::mill(args),
+        Some(Command::Haul(args)) => haul::haul_gear(args, library),
         Some(Command::Sheet(args)) => sheet::sheet(args, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }

@@ -1,0 +1,291 @@
+//! Loads of a haul as it goes on: the greatest tension of every part, by stage and in all, and samples along the endline.
+
+use endline_sdk::LineEnd;
+use endline_sim::haul::{Came, Haul, LIFTED_M};
+use endline_sim::model::{BodyRole, JointKind, Link};
+use endline_sim::parting::link_segment;
+
+use super::gear::Made;
+use super::risk;
+
+/// Time between samples along the endline [s].
+const SAMPLE_S: f64 = 1.0;
+
+/// A piece of rope or a link, and the greatest share used of what it delivers.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// Its id.
+    pub id: String,
+    /// Segments of it.
+    segments: Vec<usize>,
+    /// Mean strength of each of them [N].
+    holds_n: Vec<f64>,
+    /// Coefficient of variation.
+    pub variation: f64,
+}
+
+/// What was greatest of a part over a time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Most {
+    /// Share used of what the place delivers in the mean.
+    pub used: f64,
+    /// Tension there [N].
+    pub tension_n: f64,
+    /// Mean delivered there [N].
+    pub holds_n: f64,
+    /// Segment of the gear.
+    pub segment: usize,
+    /// When [s].
+    pub time_s: f64,
+    /// Rope hauled then [m].
+    pub hauled_m: f64,
+}
+
+/// Greatest loads over a time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Greatest {
+    /// Pull at the hauler [N].
+    pub load_n: f64,
+    /// When [s].
+    pub time_s: f64,
+    /// Rope hauled then [m].
+    pub hauled_m: f64,
+    /// Angle of the line from the vertical at most [rad].
+    pub lead_rad: f64,
+    /// Bodies that hang, at most.
+    pub hanging: usize,
+    /// Of each part.
+    pub parts: Vec<Most>,
+}
+
+/// A stage: up to something that came up.
+#[derive(Clone, Debug)]
+pub(super) struct StageLoads {
+    /// What ended it.
+    pub until: String,
+    /// When [s].
+    pub time_s: f64,
+    /// Rope hauled then [m].
+    pub hauled_m: f64,
+    /// Greatest loads in it.
+    pub greatest: Greatest,
+}
+
+/// Tensions along the endline at a time.
+#[derive(Clone, Debug)]
+pub(super) struct Sample {
+    /// [s]
+    pub time_s: f64,
+    /// [m]
+    pub hauled_m: f64,
+    /// Pull at the hauler [N].
+    pub load_n: f64,
+    /// Angle of the line at the block from the vertical [rad].
+    pub lead_rad: f64,
+    /// Tension of each segment of the endline from the buoy; `None` where it is aboard [N].
+    pub tension_n: Vec<Option<f64>>,
+}
+
+/// Loads of a haul.
+pub(super) struct Loads {
+    /// Pieces and links that are loaded.
+    pub parts: Vec<Part>,
+    /// Segments of the endline from the buoy, with the place of their middle [m].
+    pub along: Vec<(usize, f64)>,
+    /// Stages that ended.
+    pub stages: Vec<StageLoads>,
+    /// Over the haul.
+    pub greatest: Greatest,
+    /// Samples.
+    pub samples: Vec<Sample>,
+    /// Work of the hauler [J].
+    pub work_j: f64,
+    /// Traps aboard.
+    pub aboard: usize,
+    /// Whether no trap and no anchor is left.
+    is_empty: bool,
+    stage: Greatest,
+    tension_n: Vec<f64>,
+}
+
+impl Loads {
+    /// Nothing yet, for gear hauled from a line's end.
+    pub fn new(made: &Made, from: (usize, usize, LineEnd)) -> Self {
+        let parts = parts(made, from);
+        let greatest =
+            Greatest { parts: vec![Most::default(); parts.len()], ..Greatest::default() };
+        Self {
+            along: along(made, from),
+            stages: Vec::new(),
+            stage: greatest.clone(),
+            greatest,
+            samples: Vec::new(),
+            work_j: 0.0,
+            aboard: 0,
+            is_empty: false,
+            tension_n: vec![0.0; made.model.segment_count],
+            parts,
+        }
+    }
+
+    /// Takes in a step.
+    pub fn take(&mut self, haul: &Haul, made: &Made) {
+        self.tension_n.fill(0.0);
+        haul.tensions().for_each(|(segment, tension)| self.tension_n[segment] = tension);
+        let is_gear = |body: usize| made.model.spec.bodies[body].role != BodyRole::Buoy;
+        let hangs = |(body, risen_m): &(usize, f64)| *risen_m > LIFTED_M && is_gear(*body);
+        let hanging = haul.risen().filter(hangs).count();
+        self.is_empty = !haul.risen().any(|(body, _)| is_gear(body));
+        for greatest in [&mut self.greatest, &mut self.stage] {
+            greatest.take(haul, hanging, &self.parts, &self.tension_n);
+        }
+        self.work_j += haul.felt().work_j;
+        self.sample(haul);
+        let came = haul.felt().came.clone();
+        came.into_iter().for_each(|came| self.came(came, haul, made));
+    }
+
+    /// Whether as many traps are aboard as asked, or all traps and anchors.
+    pub fn is_done(&self, aboard: Option<usize>) -> bool {
+        self.is_empty || aboard.is_some_and(|wanted| self.aboard >= wanted)
+    }
+
+    /// Ends the last stage.
+    pub fn finish(&mut self, haul: &Haul, made: &Made) {
+        for came in haul.felt().came.clone() {
+            if matches!(came, Came::Aboard(_)) && haul.model().spec.lines.is_empty() {
+                self.came(came, haul, made);
+            }
+        }
+        if self.stage.load_n > 0.0 {
+            self.end_stage("the end".to_owned(), haul);
+        }
+    }
+
+    fn came(&mut self, came: Came, haul: &Haul, made: &Made) {
+        let body = |body: usize| &made.model.spec.bodies[body];
+        match came {
+            Came::OffSeabed(index) if self.stages.is_empty() => {
+                self.end_stage(format!("{} off the seabed", body(index).id), haul);
+            }
+            Came::Aboard(index) => {
+                self.aboard += usize::from(body(index).role == BodyRole::Trap);
+                self.end_stage(format!("{} aboard", body(index).id), haul);
+            }
+            Came::OffSeabed(_) | Came::Line(_) => {}
+        }
+    }
+
+    fn end_stage(&mut self, until: String, haul: &Haul) {
+        let fresh =
+            Greatest { parts: vec![Most::default(); self.parts.len()], ..Greatest::default() };
+        let greatest = std::mem::replace(&mut self.stage, fresh);
+        let (time_s, hauled_m) = (haul.state().time_s, haul.hauled_m());
+        self.stages.push(StageLoads { until, time_s, hauled_m, greatest });
+    }
+
+    fn sample(&mut self, haul: &Haul) {
+        let time_s = haul.state().time_s;
+        if self.samples.last().is_some_and(|last| time_s < last.time_s + SAMPLE_S - 1e-9) {
+            return;
+        }
+        let mut is_out = vec![false; self.tension_n.len()];
+        haul.tensions().for_each(|(segment, _)| is_out[segment] = true);
+        let at = |(segment, _): &(usize, f64)| is_out[*segment].then_some(self.tension_n[*segment]);
+        let tension_n = self.along.iter().map(at).collect();
+        let (hauled_m, load_n, lead_rad) =
+            (haul.hauled_m(), haul.felt().load_n, haul.felt().lead_rad);
+        self.samples.push(Sample { time_s, hauled_m, load_n, lead_rad, tension_n });
+    }
+}
+
+impl Greatest {
+    fn take(&mut self, haul: &Haul, hanging: usize, parts: &[Part], tension_n: &[f64]) {
+        let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.felt());
+        if felt.load_n > self.load_n {
+            (self.load_n, self.time_s, self.hauled_m) = (felt.load_n, time_s, hauled_m);
+        }
+        self.lead_rad = self.lead_rad.max(felt.lead_rad);
+        self.hanging = self.hanging.max(hanging);
+        for (part, most) in parts.iter().zip(&mut self.parts) {
+            for (segment, holds_n) in part.segments.iter().zip(&part.holds_n) {
+                let used = tension_n[*segment] / holds_n;
+                if used > most.used {
+                    let tension_n = tension_n[*segment];
+                    *most = Most {
+                        used,
+                        tension_n,
+                        holds_n: *holds_n,
+                        segment: *segment,
+                        time_s,
+                        hauled_m,
+                    };
+                }
+            }
+        }
+    }
+
+    /// The part that came nearest to what it delivers.
+    pub fn nearest(&self) -> Option<(usize, &Most)> {
+        let taut = self.parts.iter().enumerate().filter(|(_, most)| most.used > 0.0);
+        taut.max_by(|one, other| one.1.used.total_cmp(&other.1.used))
+    }
+
+    /// Probability that any part parts.
+    pub fn parts(&self, parts: &[Part]) -> f64 {
+        risk::any(
+            self.parts.iter().zip(parts).map(|(most, part)| risk::parts(most.used, part.variation)),
+        )
+    }
+}
+
+/// Pieces and links of the gear; the link at the buoy hangs above the block.
+fn parts(made: &Made, from: (usize, usize, LineEnd)) -> Vec<Part> {
+    let model = &made.model;
+    let variation = |id: &str| {
+        made.budget(id)
+            .and_then(|budget| budget.variation.as_ref())
+            .map_or(0.0, |figure| figure.value)
+    };
+    let lines = model.spec.lines.iter().zip(&model.line_segments).map(|(line, segments)| Part {
+        id: line.id.clone(),
+        segments: segments.clone().collect(),
+        holds_n: model.segment_strength_n[segments.clone()].to_vec(),
+        variation: variation(&line.id),
+    });
+    let is_below = |link: &&Link| (link.line, link.end) != (from.1, from.2);
+    let links = model.spec.links.iter().filter(is_below).map(|link| Part {
+        id: link.id.clone(),
+        segments: vec![link_segment(model, link)],
+        holds_n: vec![link.rating_n],
+        variation: variation(&link.id),
+    });
+    lines.chain(links).collect()
+}
+
+/// Segments of the endline from the buoy down to a body or a branch, with the place of their middle [m].
+fn along(made: &Made, (_, mut line, mut at): (usize, usize, LineEnd)) -> Vec<(usize, f64)> {
+    let (model, mut along, mut from_buoy_m) = (&made.model, Vec::new(), 0.0);
+    loop {
+        let of = &model.spec.lines[line];
+        let mut segments: Vec<usize> = model.line_segments[line].clone().collect();
+        if at == LineEnd::B {
+            segments.reverse();
+        }
+        for segment in segments {
+            let length_m = of.segments_m[segment - model.line_segments[line].start];
+            along.push((segment, from_buoy_m + 0.5 * length_m));
+            from_buoy_m += length_m;
+        }
+        let far = if at == LineEnd::A { of.to } else { of.from };
+        let meets = model.spec.lines.iter().enumerate();
+        let next: Vec<(usize, LineEnd)> = meets
+            .filter(|(index, other)| *index != line && [other.from, other.to].contains(&far))
+            .map(|(index, other)| (index, if other.from == far { LineEnd::A } else { LineEnd::B }))
+            .collect();
+        match (&model.spec.joints[far].kind, next.as_slice()) {
+            (JointKind::Free, [only]) if along.len() < model.segment_count => (line, at) = *only,
+            _ => return along,
+        }
+    }
+}
