@@ -64,6 +64,8 @@ pub(crate) struct RopeWorkspace {
     ends: Vec<([usize; 2], f64)>,
     /// Unstretched length of each segment, and from its line's start to it [m].
     lengths: Vec<f64>,
+    /// Which lengths of the pieces these are.
+    lengths_number: u64,
     along_m: Vec<f64>,
     widest_m: f64,
     shortest_m: f64,
