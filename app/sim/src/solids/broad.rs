@@ -121,7 +121,6 @@ impl Reach {
         match self {
             Self::Around(around) => around.meets(bounds),
             Self::Plane(plane, search_distance) => {
-                // The gap of an empty box is no number.
                 gap_to_plane(bounds, plane) <= search_distance + ROUNDING_M
             }
         }
@@ -133,4 +132,96 @@ fn gap_to_plane(bounds: &Bounds, plane: &Pose) -> f64 {
     let normal = plane.orientation * glam::DVec3::Z;
     let (middle, half) = (0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low));
     normal.dot(middle - plane.place) - normal.abs().dot(half)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DQuat, DVec3};
+
+    use super::*;
+    use crate::metrics::tests::{model, spec};
+    use crate::model::{Obstacle, ROPE_ON_HARD_N_M2, RopeOnRope};
+    use crate::random::unit;
+    use crate::solids::SolidShape;
+
+    fn vector(seed: u64, index: usize) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|axis| 2.0 * unit(seed, 3 * index as u64 + axis) - 1.0))
+    }
+
+    fn solids() -> Vec<Solid> {
+        let shapes =
+            [SolidShape::Sphere(0.4), SolidShape::Box(DVec3::splat(0.2)), SolidShape::Plane];
+        let obstacle = |shape| Obstacle {
+            id: "solid".into(),
+            shape,
+            position_m: DVec3::NEG_Z,
+            orientation: DQuat::from_rotation_y(0.3),
+            friction: 0.5,
+            stiffness_n_m2: ROPE_ON_HARD_N_M2,
+        };
+        shapes.map(|shape| Solid::of_obstacle(&obstacle(shape))).into()
+    }
+
+    /// Rope and solids wander, now slowly, now fast; every group of every piece is looked at one by one.
+    #[test]
+    fn a_kept_list_finds_all_groups_that_come_near() {
+        let mut spec = spec(vec![0.1; 70]);
+        spec.settings.rope_on_rope = Some(RopeOnRope::default());
+        let model = model(spec);
+        let (mut all, mut kept) = (Pieces::new(&model), Neighbours::default());
+        let (solids, mut found) = (solids(), [0; 3]);
+        let mut places: Vec<DVec3> = (0..71).map(|node| DVec3::X * 0.1 * f64::from(node)).collect();
+        let mut poses: Vec<[Pose; 2]> = vec![
+            [Pose { place: DVec3::new(2.0, 0.5, 0.2), orientation: DQuat::IDENTITY }; 2],
+            [Pose { place: DVec3::new(6.0, -0.5, 0.0), orientation: DQuat::IDENTITY }; 2],
+            [Pose { place: DVec3::NEG_Z, orientation: DQuat::from_rotation_y(-0.15) }; 2],
+        ];
+        for step in 0..400_u64 {
+            let pace_m = [0.001, 0.01, 0.2][(step / 30 % 3) as usize];
+            // What strays is drawn back to where it was.
+            let home = |node: usize| DVec3::X * 0.1 * node as f64;
+            let moves: Vec<DVec3> = (0..71)
+                .map(|node| {
+                    let back = 0.5 * (home(node) - places[node]);
+                    pace_m * (vector(step / 7, 100) + 0.1 * vector(step, node) + back)
+                })
+                .collect();
+            all.measure(&places, |node| places[node] + moves[node], &[0.1; 70]);
+            for (index, poses) in poses.iter_mut().take(2).enumerate() {
+                poses[0] = poses[1];
+                let home = DVec3::X * [2.0, 6.0][index];
+                let back = 0.5 * (home - poses[0].place);
+                poses[1].place += pace_m * (vector(step / 7, 200 + index) + back);
+            }
+            kept.update(&all, &solids, &poses, 0.05);
+            let distance = if step % 2 == 0 { 0.05 } else { 0.01 };
+            let near: Vec<NearGroup> = kept.within(&all, &solids, &poses, distance).collect();
+            let mut expected = Vec::new();
+            for (solid, thing) in solids.iter().enumerate() {
+                let around = way_of(&poses[solid]).grown(thing.radius_m + distance);
+                let normal = poses[solid][0].orientation * DVec3::Z;
+                for (piece, own) in all.pieces.iter().enumerate() {
+                    for (group, bounds) in own.groups.iter().enumerate() {
+                        // The corner of the box that lies deepest below a plane.
+                        let deepest =
+                            DVec3::select(normal.cmpgt(DVec3::ZERO), bounds.low, bounds.high);
+                        let above = normal.dot(deepest - poses[solid][0].place);
+                        let is_near = match thing.shape {
+                            SolidShape::Plane => above <= distance,
+                            _ => around.meets(bounds),
+                        };
+                        if is_near {
+                            expected.push(NearGroup { solid, piece, group });
+                            found[solid] += 1;
+                        }
+                    }
+                }
+            }
+            assert_eq!(near, expected, "step {step}");
+            places.iter_mut().zip(&moves).for_each(|(place, moved)| *place += *moved);
+        }
+        println!("{found:?} found, {} layouts", all.holding);
+        assert!(found.iter().all(|count| *count > 50), "{found:?}");
+        assert!(all.holding > 5 && all.holding < 200, "{} layouts", all.holding);
+    }
 }

@@ -47,7 +47,12 @@ impl Motion<'_> {
             return false;
         }
         let (from, to) = (poses[0].inward(middles[0]), poses[1].inward(middles[1]));
-        let nearest = solid.shape.distance(from).min(solid.shape.distance(to));
+        let nearest = solid.shape.distance(from);
+        // It is nearer at the other end by no more than its way.
+        if nearest - half - 3.0 * travel > reach + ROUNDING_M {
+            return false;
+        }
+        let nearest = nearest.min(solid.shape.distance(to));
         nearest - half - 0.5 * (to - from).length() <= reach
     }
 }

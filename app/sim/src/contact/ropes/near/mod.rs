@@ -3,6 +3,8 @@
 mod gather;
 mod moves;
 mod open;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 
