@@ -64,7 +64,7 @@ pub(crate) struct Rope<'a> {
     pub pieces: &'a Pieces,
     /// Its knots, in rising order of segment.
     pub knots: &'a [Ball],
-    /// What of it may touch at all.
+    /// What of it may touch at all; asked for pieces that do not follow each other.
     pub may_touch: MayTouch<'a>,
 }
 

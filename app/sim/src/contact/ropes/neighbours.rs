@@ -2,7 +2,8 @@
 //! (`contact/pieces/held.rs`).
 //!
 //! It is laid out by pieces sorted along the axis on which rope extends farthest. What never touches, as rope next to the joint that it is
-//! made fast to, is left out of it for good: that depends on lengths of rope alone.
+//! made fast to, is left out of it for good: that depends on lengths of rope alone. Within a piece and of two in a row it is not asked: most of
+//! these run straight, and nothing of them is looked at.
 
 use std::ops::Range;
 
@@ -140,6 +141,7 @@ impl Neighbours {
             Are::Apart
         };
         let is_one = are == Are::One;
+        let may_touch: MayTouch<'_> = if are == Are::Apart { may_touch } else { &|_, _| true };
         self.add_groups(both, is_one, reach, may_touch);
         for side in 0..if is_one { 1 } else { 2 } {
             self.add_knots(both, side, knots, reach, may_touch);

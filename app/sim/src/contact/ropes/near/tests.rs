@@ -115,22 +115,24 @@ fn segments_of<'a>(pieces: &'a Pieces, state: &State) -> Vec<(&'a Piece, Bounds)
     pieces.pieces.iter().flat_map(of).collect()
 }
 
-/// Whether two pieces, or one and itself, are one straight run.
-fn is_straight(one: &Piece, other: &Piece) -> bool {
+/// Whether two segments of two pieces, or of one, are left out: of one straight run, or of pieces apart and never to touch.
+fn is_left_out([one, other]: [&Piece; 2], may_touch: bool) -> bool {
     if one.segments == other.segments {
         one.is_straight
+    } else if one.follows(other) {
+        one.runs_on(other)
     } else {
-        one.follows(other) && one.runs_on(other)
+        !may_touch
     }
 }
 
-/// With segments of one line that are next to each other left out, as what never touches.
+/// With some segments left out, as what never touches.
 #[test]
 fn what_is_found_is_all_that_comes_within_reach() {
     let model = three_lines();
     let knots: Vec<Ball> =
         Ball::all(&model).into_iter().map(|ball| Ball { fraction: 0.4, ..ball }).collect();
-    let may_touch = |[one, other]: [usize; 2], _: Option<usize>| one.abs_diff(other) > 1;
+    let may_touch = |[one, other]: [usize; 2], _: Option<usize>| (one + other) % 5 != 0;
     let farthest = Reach { ropes_m: 0.06, knots_m: 0.1 };
     let (mut state, mut pieces) = (State::start(&model), Pieces::new(&model));
     let (mut broad, mut found, mut counts) = (Broad::default(), Found::default(), [0; 2]);
@@ -145,9 +147,10 @@ fn what_is_found_is_all_that_comes_within_reach() {
         let segments = segments_of(&pieces, &state);
         let (mut expected, half_m) = (Found::default(), 0.5 * reach.ropes_m);
         for (one, (piece, bounds)) in segments.iter().enumerate() {
-            let later = segments.iter().enumerate().skip(one + 2);
-            let near = later.filter(|(_, (other, beside))| {
-                bounds.grown(half_m).meets(&beside.grown(half_m)) && !is_straight(piece, other)
+            let later = segments.iter().enumerate().skip(one + 1);
+            let near = later.filter(|(index, (other, beside))| {
+                bounds.grown(half_m).meets(&beside.grown(half_m))
+                    && !is_left_out([piece, other], may_touch([one, *index], None))
             });
             expected.segments.extend(near.map(|(other, _)| [one, other]));
         }
@@ -155,8 +158,10 @@ fn what_is_found_is_all_that_comes_within_reach() {
             let way = [ball.middle(|node| state.rope.position[node]), ball.middle(to)];
             let around = Bounds::around(&way).grown(reach.knots_m);
             let near = segments.iter().enumerate().filter(|(segment, (piece, bounds))| {
-                let is_clear = is_straight(segments[ball.segment].0, piece);
-                segment.abs_diff(ball.segment) > 1 && around.meets(bounds) && !is_clear
+                let pieces = [segments[ball.segment].0, *piece];
+                *segment != ball.segment
+                    && around.meets(bounds)
+                    && !is_left_out(pieces, may_touch([ball.segment, *segment], Some(knot)))
             });
             expected.knots.extend(near.map(|(segment, _)| [knot, segment]));
         }
