@@ -8,6 +8,9 @@ use super::{Pose, Solid};
 use crate::contact::pieces::{GROUPS, Pieces};
 use crate::whale::Bounds;
 
+/// Groups of rope for each solid that a list has room for from the start, so that it does not grow as rope goes about.
+const USUAL_GROUPS: usize = 32;
+
 /// Slack of a solid's box [m].
 const SLACK_M: f64 = 0.04;
 
@@ -52,6 +55,7 @@ impl Neighbours {
         self.held.clear();
         self.held.extend(poses.iter().map(|poses| way_of(poses).grown(SLACK_M)));
         self.near.clear();
+        self.near.reserve(USUAL_GROUPS * solids.len());
         for (solid, thing) in solids.iter().enumerate() {
             let reach = Reach::of(thing, &self.held[solid], &poses[solid][0], search_distance);
             for (pieces, _) in &all.lines {

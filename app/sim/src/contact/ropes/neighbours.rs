@@ -12,6 +12,9 @@ use super::knots::{Ball, on_segments};
 use crate::contact::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
 use crate::whale::Bounds;
 
+/// Pieces that are usually near a piece, itself included.
+const USUAL_PIECES: usize = 6;
+
 /// What rounding may take the middle of a knot out of the box of its segment [m].
 const ROUNDING_M: f64 = 1e-9;
 
@@ -82,9 +85,7 @@ impl Neighbours {
             return;
         }
         self.of = Some((all.holding, reach));
-        self.pieces.clear();
-        self.groups.clear();
-        self.knots.clear();
+        self.clear(all.pieces.len(), knots.len());
         let pieces = &all.pieces;
         let axis = self.sort(pieces);
         for place in 0..self.order.len() {
@@ -102,6 +103,16 @@ impl Neighbours {
                 }
             }
         }
+    }
+
+    /// Empties the list, with room for what rope usually has near it, so that it does not grow as rope goes about.
+    fn clear(&mut self, pieces: usize, knots: usize) {
+        self.pieces.clear();
+        self.groups.clear();
+        self.knots.clear();
+        self.pieces.reserve(USUAL_PIECES * pieces);
+        self.groups.reserve(USUAL_PIECES * GROUPS * GROUPS * pieces);
+        self.knots.reserve(USUAL_PIECES * GROUPS * knots);
     }
 
     /// Sorts pieces by where their held boxes begin along the longest axis of all; which that is.
