@@ -61,11 +61,11 @@ fn drift(state: &State, node: usize) -> DVec3 {
     state.rope.position[node] + state.rope.velocity[node] * DT_S
 }
 
-fn pairs_of(work: &RopeWorkspace) -> Vec<(usize, usize, [Option<usize>; 2], u64, bool)> {
-    let told = |pair: &Pair| {
-        let [one, other] = pair.segments;
-        (one, other, pair.knots, pair.first.to_bits(), pair.may_touch)
-    };
+/// Segments and knots of a pair, bits of its distance, and whether it may touch.
+type Told = ([usize; 2], [Option<usize>; 2], u64, bool);
+
+fn pairs_of(work: &RopeWorkspace) -> Vec<Told> {
+    let told = |pair: &Pair| (pair.segments, pair.knots, pair.first.to_bits(), pair.may_touch);
     work.pairs.iter().map(told).collect()
 }
 
@@ -94,8 +94,8 @@ fn a_kept_list_gathers_what_a_new_one_gathers() {
         assert_eq!(pairs, pairs_of(&new), "step {step}");
         assert_eq!((kept.touching, kept.count_through()), (new.touching, new.count_through()));
         counts[0] += pairs.len();
-        counts[1] += pairs.iter().filter(|pair| pair.2 != [None; 2]).count();
-        counts[2] += pairs.iter().filter(|pair| pair.2[1].is_some()).count();
+        counts[1] += pairs.iter().filter(|pair| pair.1 != [None; 2]).count();
+        counts[2] += pairs.iter().filter(|pair| pair.1[1].is_some()).count();
     }
     println!("{counts:?} pairs, with a knot, and of knots; {} lists", kept_pieces.holding);
     assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
