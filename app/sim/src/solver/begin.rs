@@ -1,12 +1,14 @@
 //! Begins a solver step: the guess `x + h v`, held off skin and other rope, and whether rope met more on its way than was gathered.
 
+use glam::DVec3;
+
 use super::Solver;
 use super::context::StepContext;
 use super::newton::Skin;
 use crate::cost::CostPart;
 use crate::model::Model;
-use crate::solids::workspace::MARGIN_M;
-use crate::state::State;
+use crate::solids::workspace::{MARGIN_M, UNWATCHED_M};
+use crate::state::{RopeState, State};
 
 impl Solver {
     /// Begins a step: in the lanes of the processor where they know all that touches rope, else line by line.
@@ -48,7 +50,7 @@ impl Solver {
     }
 
     /// Whether rope whose passes moved it by `moved_m` in all met rope, obstacles or bodies that its drift would not have brought it near
-    /// to [m]; they are looked at from now on.
+    /// to [m]; they are looked at from now on. Rope that hardly strayed from its drift has met nothing but what was gathered by it.
     pub(crate) fn met_more(&mut self, context: &StepContext<'_>, moved_m: f64) -> bool {
         let StepContext { model, state, scheme } = *context;
         let beyond_solids = self.solid.touching || moved_m > MARGIN_M;
@@ -59,14 +61,20 @@ impl Solver {
         }
         self.take_places();
         let (rope, to) = (&state.rope, &self.trial.place);
-        self.pieces.measure(&rope.position, |node| to[node], &rope.segment_length);
+        let strayed_m = strayed_m(rope, scheme.dt, to);
+        let beyond_solids = beyond_solids && strayed_m > UNWATCHED_M;
+        let beyond_gathered = beyond_ropes && strayed_m > self.ropes.unwatched_m();
+        if beyond_solids || beyond_gathered {
+            self.pieces.measure(&rope.position, |node| to[node], &rope.segment_length);
+        }
         let on_solid = beyond_solids && self.solid.gather_more(state, &self.pieces, to, scheme.dt);
-        let on_rope = beyond_ropes
-            && if self.ropes.touching {
-                self.ropes.gather_more(model, state, &self.pieces, to)
-            } else {
-                self.ropes.met(model, state, &self.pieces, to)
-            };
+        let on_rope = match (self.ropes.touching, beyond_gathered) {
+            _ if !beyond_ropes => false,
+            (true, true) => self.ropes.gather_more(model, state, &self.pieces, to),
+            (true, false) => false,
+            (false, true) => self.ropes.met(model, state, &self.pieces, to),
+            (false, false) => self.ropes.met_known(&rope.position, to),
+        };
         on_solid || on_rope
     }
 
@@ -80,7 +88,13 @@ impl Solver {
     }
 
     /// Places of the nodes now.
-    pub(crate) fn places(&self) -> &[glam::DVec3] {
+    pub(crate) fn places(&self) -> &[DVec3] {
         &self.trial.place
     }
+}
+
+/// How far rope that goes to these places in a step has strayed from where its velocities would have brought it, at most [m].
+fn strayed_m(rope: &RopeState, dt: f64, to: &[DVec3]) -> f64 {
+    let drift = rope.position.iter().zip(&rope.velocity).map(|(place, speed)| *place + *speed * dt);
+    drift.zip(to).map(|(drift, to)| drift.distance_squared(*to)).fold(0.0, f64::max).sqrt()
 }

@@ -19,7 +19,7 @@ use super::outcome::Outcome;
 use super::{Found, lengths};
 use crate::contact::distance::segment_segment;
 use crate::contact::pieces::Pieces;
-use crate::contact::ropes::broad::{Broad, Found as Near, Moves, Reach};
+use crate::contact::ropes::broad::{Broad, Found as Near, Moves, Reach, Rope as Searched};
 use crate::model::{Body, BodyRole, Model, PlacedShape, Seabed};
 use crate::solids::lies_in_body;
 use crate::state::State;
@@ -89,7 +89,8 @@ impl Search {
         let to = |node: usize| at[node];
         self.pieces.measure(at, to, &state.rope.segment_length);
         let reach = Reach { ropes_m: self.reach_m, knots_m: self.reach_m };
-        self.broad.collect(&self.pieces, &[], &Moves { from: at, to }, reach, &mut self.near);
+        let rope = Searched { pieces: &self.pieces, knots: &[], may_touch: &|_, _| true };
+        self.broad.collect(rope, &Moves { from: at, to }, reach, reach, &mut self.near);
         &self.near.segments
     }
 }

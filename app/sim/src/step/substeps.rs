@@ -58,6 +58,7 @@ pub(super) fn advance(
         if taken_back == 0 {
             workspace.audit.take_lengths(&remeshed);
         }
+        workspace.solver.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
         let longest =
             if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
@@ -96,7 +97,6 @@ fn near_whale(
     workspace.solver.cost.enter(CostPart::Detection);
     let step_s = model.spec.settings.step_s;
     let (pieces, [start, end]) = (&mut workspace.solver.pieces, &work.bones);
-    pieces.forget();
     pieces.measure_drift(state, step_s);
     let near = work.near.any(
         [start, end],
@@ -109,11 +109,9 @@ fn near_whale(
     if near {
         work.near.gather_swept(model, (&state.rope.cut, 0.0));
     }
-    let body_near = workspace
-        .solver
-        .body_skin
-        .as_mut()
-        .is_some_and(|bodies| bodies.gather(model, state, [start, end], 0.0));
+    let skin = ([&start[..], &end[..]], &work.near.whole());
+    let bodies = workspace.solver.body_skin.as_mut();
+    let body_near = bodies.is_some_and(|bodies| bodies.gather(model, state, skin, 0.0));
     workspace.solver.cost.enter(CostPart::Other);
     near || body_near
 }
@@ -131,7 +129,7 @@ fn gather(model: &Model, state: &State, workspace: &mut Workspace, passed: f64) 
         (&state.rope.cut, passed),
     );
     if let Some(bodies) = &mut workspace.solver.body_skin {
-        bodies.gather(model, state, [start, end], passed);
+        bodies.gather(model, state, ([start, end], &work.near.whole()), passed);
     }
 }
 

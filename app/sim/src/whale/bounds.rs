@@ -51,6 +51,18 @@ impl Bounds {
             & (other.low.z <= self.high.z)
     }
 
+    /// Whether another lies in it.
+    #[inline]
+    #[must_use]
+    pub fn holds(&self, other: &Self) -> bool {
+        (self.low.x <= other.low.x)
+            & (self.low.y <= other.low.y)
+            & (self.low.z <= other.low.z)
+            & (other.high.x <= self.high.x)
+            & (other.high.y <= self.high.y)
+            & (other.high.z <= self.high.z)
+    }
+
     /// Distance between the two, zero where they meet [m].
     #[must_use]
     pub fn gap(&self, other: &Self) -> f64 {

@@ -218,3 +218,74 @@ fn a_knot_that_flies_past_within_a_step_pushes() {
         assert!(most_m > 1e-3, "{speed_m_s} m/s: aside by {most_m} m");
     }
 }
+
+/// Two ropes along z, each fast below and drawn up with `ACROSS_N`, with knots of these radii at half height. The second is brought up to the first
+/// from the side until its lower end is this far from that of the first, without friction.
+fn brought_up(knots_m: [f64; 2], from_m: f64, apart_m: f64) -> Model {
+    let until_s = (from_m - apart_m) / SPEED;
+    let hand = JointKind::Driven { velocity_m_s: -DVec3::Y * SPEED, from_s: 0.0, until_s };
+    let mut joints = vec![fixed("first", -DVec3::Z * HALF_M)];
+    joints.push(Joint {
+        id: "second".into(),
+        kind: hand,
+        position_m: DVec3::new(0.0, from_m, -HALF_M),
+    });
+    let mut lines = Vec::new();
+    for (rope, knot_m) in knots_m.into_iter().enumerate() {
+        let (first, place) = (joints.len(), joints[rope].position_m + DVec3::Z * HALF_M);
+        joints.push(Joint { id: format!("knot {rope}"), kind: JointKind::Free, position_m: place });
+        joints.push(pulled(
+            format!("above {rope}"),
+            place + DVec3::Z * HALF_M,
+            DVec3::Z * ACROSS_N,
+        ));
+        let mut halves = ["below", "over"].map(|half| line(&format!("{half} {rope}"), HALF_M, 10));
+        (halves[0].from, halves[0].to, halves[1].from, halves[1].to) =
+            (rope, first, first, first + 1);
+        halves[0].knots_m = [0.0, knot_m];
+        lines.extend(halves);
+    }
+    let mut sea = water(1025.0, 0.0);
+    (sea.gravity_m_s2, sea.depth_m) = (0.0, 1000.0);
+    let law = RopeOnRope { friction: 0.0, ..RopeOnRope::default() };
+    let settings = Settings {
+        step_s: 0.002,
+        contact_step_s: 0.001,
+        as_placed: true,
+        rope_on_rope: Some(law),
+        ..Settings::default()
+    };
+    model(sea, joints, lines, Vec::new(), settings)
+}
+
+/// Two knots keep the sum of their radii apart. What draws each rope up does not hold it aside, so that a knot `u` aside of its lower end, `l` away
+/// from it, is pressed by `T u/l`; the push on both is one. Where one of them is bare rope, that keeps its own radius.
+#[test]
+fn two_knots_lean_on_each_other_by_the_sum_of_their_radii() {
+    for knots_m in [[0.013, 0.013], [0.016, 0.010], [0.013, 0.0]] {
+        let h_m: f64 = knots_m.iter().map(|knot_m| f64::max(*knot_m, ROPE_M)).sum();
+        let mut run = Run::begin(brought_up(knots_m, h_m + 0.002, 0.012));
+        run.until(2.0);
+        let at = |line: usize, node: usize| {
+            run.state.rope.position[run.model.line_nodes[line].start + node]
+        };
+        let [mine, other] = [0, 2].map(|line| at(line, 10));
+        let pushes_n = [0, 2].map(|line| {
+            let below = at(line, 10) - at(line, 0);
+            ACROSS_N * below.y.abs() / below.length()
+        });
+        let touches: Vec<_> =
+            run.workspace.rope_touches.iter().filter(|touch| touch.normal_force_n > 0.0).collect();
+        println!("{knots_m:?}: {pushes_n:?} N, {touches:?}");
+        // Bare rope is touched on both sides of its middle node.
+        let are_knots = knots_m.map(|knot_m| knot_m > 0.0);
+        assert!(touches.len() == 1 || !are_knots[1], "{touches:?}");
+        assert!(touches.iter().all(|touch| touch.knots.map(|knot| knot.is_some()) == are_knots));
+        let push_n: f64 = touches.iter().map(|touch| touch.normal_force_n).sum();
+        assert!(pushes_n.iter().all(|n| (n - push_n).abs() < 0.01 * push_n), "{pushes_n:?}");
+        // The push is linear at first: at this depth it has hardly begun to stiffen.
+        let depth_m = push_n / (RopeOnRope::default().stiffness_n_m2 * h_m);
+        let distance_m = (other - mine).length();
+        assert!((h_m - depth_m - distance_m).abs() < 0.1 * depth_m, "{distance_m} m of {h_m} m");
+    }
+}

@@ -16,12 +16,13 @@ const LOOK_MOVES: f64 = 1.5;
 const LOOK_M: f64 = 1.5e-3;
 
 impl BodySkin {
-    /// Gathers skin near bodies over a step of the model, of which a share has passed; whether there is any.
+    /// Gathers skin near bodies over a step of the model, of which a share has passed, by the poses and a box around all skin in it;
+    /// whether there is any.
     pub fn gather(
         &mut self,
         model: &Model,
         state: &State,
-        bones: [&[DAffine3]; 2],
+        (bones, whole): ([&[DAffine3]; 2], &Bounds),
         passed: f64,
     ) -> bool {
         let left_s = model.spec.settings.step_s * (1.0 - passed);
@@ -29,28 +30,34 @@ impl BodySkin {
         self.near.clear();
         self.pairs.clear();
         self.touching = false;
-        self.surface.begin(bones[0], bones[1]);
+        let mut begun = false;
         for part in 0..self.cores.len() {
             let body = self.cores[part].thing;
             let held_until_s = model.spec.bodies[body].held_until_s;
             let is_held = held_until_s.is_some_and(|until_s| state.time_s < until_s);
-            if !is_held {
-                self.gather_near(part, &state.bodies[body], left_s);
+            let (path, search_m) = self.search_of(part, &state.bodies[body], left_s);
+            if !is_held && whole.meets(&Bounds::around(&[path.a0, path.a1]).grown(search_m)) {
+                if !begun {
+                    self.surface.begin(bones[0], bones[1]);
+                    begun = true;
+                }
+                self.surface.gather(&[path], search_m, &mut self.candidates);
+                self.add_candidates(part, &state.bodies[body], left_s);
             }
         }
         self.is_near()
     }
 
-    /// Gathers skin near a part of a body.
-    fn gather_near(&mut self, part: usize, now: &BodyState, left_s: f64) {
+    /// The path of a part's body, and how far from it skin is looked for [m].
+    fn search_of(&self, part: usize, now: &BodyState, left_s: f64) -> (SweptSegment, f64) {
         let radius = self.cores[part].radius;
         let (from, to) = (now.position, now.position + now.velocity * left_s);
-        let search_m = radius + room_of(now, radius, left_s);
-        if !self.surface.whole().meets(&Bounds::around(&[from, to]).grown(search_m)) {
-            return;
-        }
         let path = SweptSegment { a0: from, b0: from, a1: to, b1: to };
-        self.surface.gather(&[path], search_m, &mut self.candidates);
+        (path, radius + room_of(now, radius, left_s))
+    }
+
+    /// Adds a part of a body with the skin that was found near it, if any.
+    fn add_candidates(&mut self, part: usize, now: &BodyState, left_s: f64) {
         if !self.candidates.is_empty() {
             let candidates = std::mem::take(&mut self.candidates);
             self.add_part(part, now, candidates.iter().map(|near| near.triangle), left_s);

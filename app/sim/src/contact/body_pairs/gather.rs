@@ -18,11 +18,17 @@ impl BodyPairs {
         self.pairs.clear();
         self.touches.clear();
         (self.touching, self.shared, self.dt) = (false, 0, dt);
+        let move_of = |core: &BodyCore| {
+            let body = state.bodies.get(core.thing);
+            body.map_or(0.0, |body| moves_m(body, core.radius, dt))
+        };
+        self.moves_m.clear();
+        self.moves_m.extend(self.cores.iter().map(move_of));
         for first in 0..self.part_count {
             let seconds = if self.mutual { first + 1 } else { self.part_count };
             for second in seconds..self.cores.len() {
                 if self.cores[first].thing != self.cores[second].thing {
-                    self.look_at(state, [first, second], dt);
+                    self.look_at(state, [first, second]);
                 }
             }
         }
@@ -30,15 +36,11 @@ impl BodyPairs {
         self.touching
     }
 
-    fn look_at(&mut self, state: &State, parts: [usize; 2], dt: f64) {
+    fn look_at(&mut self, state: &State, parts: [usize; 2]) {
         let [first, second] = parts.map(|part| &self.cores[part]);
         let bodies = [first.thing, second.thing];
         let [one, two] = bodies.map(|thing| self.began(state, thing));
-        let move_of = |core: &BodyCore| {
-            let body = state.bodies.get(core.thing);
-            body.map_or(0.0, |body| moves_m(body, core.radius, dt))
-        };
-        let moves = move_of(first) + move_of(second);
+        let moves = self.moves_m[parts[0]] + self.moves_m[parts[1]];
         let look = LOOK_M + LOOK_MOVES * moves;
         let within = first.radius + second.radius + look;
         if one.place.distance_squared(two.place) > within * within {

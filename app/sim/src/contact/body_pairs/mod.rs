@@ -91,6 +91,8 @@ pub(crate) struct BodyPairs {
     still: Vec<Pose>,
     /// Friction of bodies on each obstacle.
     friction: Vec<f64>,
+    /// How far the surface of each core moves in the solver step, at most [m].
+    moves_m: Vec<f64>,
     pairs: Vec<Pair>,
     /// Whether two bodies may touch in this solver step.
     pub touching: bool,

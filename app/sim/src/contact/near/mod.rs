@@ -18,7 +18,7 @@ use super::pieces::Pieces;
 use super::placed::Placed;
 use super::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
-use crate::whale::{Candidate, SkinTree, Surface};
+use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
 
 /// Rope within this distance of the path of skin is looked at [m].
@@ -116,6 +116,11 @@ impl Near {
         }
         self.sweep(places, moves);
         self.surface.is_any_near(&self.sweeps, margin)
+    }
+
+    /// The box around all skin over the step that was looked at last.
+    pub fn whole(&mut self) -> Bounds {
+        self.surface.whole()
     }
 
     fn sweep(&mut self, places: &[DVec3], moves: impl Fn(usize) -> DVec3) {

@@ -1,5 +1,5 @@
-//! Which segments of rope may come near each other in a step, and which knots may come near segments: boxes of pieces of lines, then
-//! of segments and knots.
+//! Which segments of rope may come near each other in a step, and which knots may come near segments: boxes of segments and knots that
+//! meet, among the neighbours that a list keeps for several steps (`neighbours.rs`).
 //!
 //! A piece whose segments all run on along one direction cannot come back to itself: where each goes at least `c l` along it,
 //! two of its points lie at least `c` times the rope between them apart. Both ends of a step are looked at; what is between is
@@ -7,15 +7,15 @@
 
 use glam::DVec3;
 
-use super::knots::{Ball, on_segments};
-use crate::contact::pieces::{Piece, Pieces};
+use super::knots::Ball;
+use super::neighbours::{Are, MayTouch, NearGroups, NearKnot, NearPieces, Neighbours};
+use crate::contact::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
 use crate::whale::Bounds;
 
-/// Scratch of the search.
+/// The search, with the list that it keeps from step to step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Broad {
-    order: Vec<usize>,
-    boxes: [Vec<(usize, Bounds)>; 2],
+    neighbours: Neighbours,
 }
 
 /// A step's moves as the search sees them.
@@ -27,12 +27,25 @@ pub(crate) struct Moves<'a, F: Fn(usize) -> DVec3> {
 }
 
 /// How far apart things are looked for [m].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
     /// Segments.
     pub ropes_m: f64,
     /// Knots from segments; not less.
     pub knots_m: f64,
+}
+
+impl Reach {
+    /// A box around a segment or more, grown so that two of them meet within reach.
+    #[inline(always)]
+    pub fn of_segment(&self, bounds: &Bounds) -> Bounds {
+        bounds.grown(0.5 * self.ropes_m)
+    }
+
+    /// The greater of the two, with a little for what rounding may take [m].
+    pub fn farthest_m(&self) -> f64 {
+        self.ropes_m.max(self.knots_m) + 2e-9
+    }
 }
 
 /// What may come near each other.
@@ -44,57 +57,92 @@ pub(crate) struct Found {
     pub knots: Vec<[usize; 2]>,
 }
 
+/// Rope in which to search.
+#[derive(Clone, Copy)]
+pub(crate) struct Rope<'a> {
+    /// Its pieces, measured for the step.
+    pub pieces: &'a Pieces,
+    /// Its knots, in rising order of segment.
+    pub knots: &'a [Ball],
+    /// What of it may touch at all; asked for pieces that do not follow each other.
+    pub may_touch: MayTouch<'a>,
+}
+
 impl Broad {
-    /// Collects what comes within reach in the step by its boxes. Knots stand in rising order of segment.
+    /// Drops what is kept from step to step: what may touch at all has changed.
+    pub fn forget(&mut self) {
+        self.neighbours.forget();
+    }
+
+    /// Collects what comes within reach in the step by its boxes, which is nowhere more than the farthest.
     pub fn collect(
         &mut self,
-        all: &Pieces,
-        knots: &[Ball],
+        rope: Rope<'_>,
         moves: &Moves<'_, impl Fn(usize) -> DVec3>,
         reach: Reach,
+        farthest: Reach,
         found: &mut Found,
     ) {
         found.segments.clear();
         found.knots.clear();
-        let (pieces, whole) = (&all.pieces, all.whole());
-        let extent = whole.high - whole.low;
-        let axis = if extent.x >= extent.y.max(extent.z) {
-            0
-        } else {
-            1 + usize::from(extent.z > extent.y)
-        };
-        if self.order.len() != pieces.len() {
-            self.order.clear();
-            self.order.extend(0..pieces.len());
-        }
-        self.order.sort_unstable_by(|a, b| {
-            pieces[*a].bounds.low[axis].total_cmp(&pieces[*b].bounds.low[axis]).then(a.cmp(b))
-        });
-        for place in 0..self.order.len() {
-            let one = &pieces[self.order[place]];
-            if !one.is_straight {
-                pairs_within(one, moves, reach.ropes_m, &mut self.boxes[0], &mut found.segments);
-                knots_near(knots, one, one, moves, reach.knots_m, &mut found.knots);
+        let Rope { pieces: all, knots, may_touch } = rope;
+        self.neighbours.update(all, knots, farthest, may_touch);
+        let mut boxes = [SegmentBoxes::NONE; 2];
+        for near in &self.neighbours.pieces {
+            let pieces = near.pieces.map(|piece| &all.pieces[piece]);
+            let [one, other] = pieces;
+            let is_straight = match near.are {
+                Are::One => one.is_straight,
+                Are::InARow => one.runs_on(other),
+                Are::Apart => false,
+            };
+            if is_straight || !one.bounds.grown(reach.farthest_m()).meets(&other.bounds) {
+                continue;
             }
-            let near = [reach.ropes_m, reach.knots_m].map(|reach_m| one.bounds.grown(reach_m));
-            for other in &self.order[place + 1..] {
-                let other = &pieces[*other];
-                if other.bounds.low[axis] > near[1].high[axis] {
-                    break;
-                }
-                if !near[1].meets(&other.bounds) || one.runs_on(other) {
-                    continue;
-                }
-                if near[0].meets(&other.bounds) {
-                    let (boxes, found) = (&mut self.boxes, &mut found.segments);
-                    pairs_between(one, other, moves, reach.ropes_m, boxes, found);
-                }
-                knots_near(knots, one, other, moves, reach.knots_m, &mut found.knots);
-                knots_near(knots, other, one, moves, reach.knots_m, &mut found.knots);
-            }
+            let (list, boxes) = (&self.neighbours, &mut boxes);
+            boxes.iter_mut().for_each(SegmentBoxes::clear);
+            let mut step = Step { list, near, pieces, moves, reach, boxes };
+            step.pairs(&mut found.segments);
+            step.knots(knots, &mut found.knots);
         }
         found.segments.sort_unstable();
         found.knots.sort_unstable();
+    }
+}
+
+/// The boxes around the ways of a piece's segments, as far as they have been asked for.
+struct SegmentBoxes {
+    boxes: [[Bounds; IN_A_GROUP]; GROUPS],
+    known: [bool; GROUPS],
+}
+
+impl SegmentBoxes {
+    const NONE: Self =
+        Self { boxes: [[Bounds::EMPTY; IN_A_GROUP]; GROUPS], known: [false; GROUPS] };
+
+    fn clear(&mut self) {
+        self.known = [false; GROUPS];
+    }
+
+    /// Boxes of the segments of a group.
+    fn of(
+        &mut self,
+        piece: &Piece,
+        group: usize,
+        moves: &Moves<'_, impl Fn(usize) -> DVec3>,
+    ) -> &[Bounds; IN_A_GROUP] {
+        let boxes = &mut self.boxes[group];
+        if !self.known[group] {
+            self.known[group] = true;
+            let (segments, node) = piece.group(group);
+            let mut here = way_of(node, moves);
+            for (bounds, node) in boxes[..segments.len()].iter_mut().zip(node + 1..) {
+                let next = way_of(node, moves);
+                *bounds = here.join(next);
+                here = next;
+            }
+        }
+        boxes
     }
 }
 
@@ -105,84 +153,59 @@ fn way_of(node: usize, moves: &Moves<'_, impl Fn(usize) -> DVec3>) -> Bounds {
     Bounds { low: from.min(to), high: from.max(to) }
 }
 
-/// Boxes of a piece's segments that reach into another box.
-fn boxes_of(
-    piece: &Piece,
-    moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    margin: f64,
-    into: &Bounds,
-    boxes: &mut Vec<(usize, Bounds)>,
-) {
-    boxes.clear();
-    let into = into.grown(margin);
-    for (segments, node) in piece.groups(|bounds| bounds.grown(margin).meets(&into)) {
-        let mut here = way_of(node, moves);
-        for (segment, node) in segments.zip(node + 1..) {
-            let next = way_of(node, moves);
-            let bounds = here.join(next).grown(margin);
-            if bounds.meets(&into) {
-                boxes.push((segment, bounds));
+/// Two pieces of which something may be near, in a step.
+struct Step<'a, F: Fn(usize) -> DVec3> {
+    list: &'a Neighbours,
+    near: &'a NearPieces,
+    pieces: [&'a Piece; 2],
+    moves: &'a Moves<'a, F>,
+    reach: Reach,
+    boxes: &'a mut [SegmentBoxes; 2],
+}
+
+impl<F: Fn(usize) -> DVec3> Step<'_, F> {
+    /// Boxes of the segments of a group of one of the two pieces.
+    fn boxes_of(&mut self, side: usize, group: usize) -> [Bounds; IN_A_GROUP] {
+        let side = if self.near.are == Are::One { 0 } else { side };
+        *self.boxes[side].of(self.pieces[side], group, self.moves)
+    }
+
+    /// Adds the pairs of their segments that come within reach.
+    fn pairs(&mut self, found: &mut Vec<[usize; 2]>) {
+        let (list, reach, [one, other]) = (self.list, self.reach, self.pieces);
+        for NearGroups { groups: [first, second], may } in &list.groups[self.near.groups.clone()] {
+            let [a, b] = [&one.groups[*first], &other.groups[*second]];
+            if !reach.of_segment(a).meets(&reach.of_segment(b)) {
+                continue;
             }
-            here = next;
-        }
-    }
-}
-
-fn pairs_within(
-    piece: &Piece,
-    moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    search_distance: f64,
-    boxes: &mut Vec<(usize, Bounds)>,
-    found: &mut Vec<[usize; 2]>,
-) {
-    boxes_of(piece, moves, 0.5 * search_distance, &piece.bounds, boxes);
-    for (place, (segment, bounds)) in boxes.iter().enumerate() {
-        let later = boxes[place + 1..].iter().filter(|(_, other)| bounds.meets(other));
-        found.extend(later.map(|(other, _)| [*segment, *other]));
-    }
-}
-
-fn pairs_between(
-    one: &Piece,
-    other: &Piece,
-    moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    search_distance: f64,
-    boxes: &mut [Vec<(usize, Bounds)>; 2],
-    found: &mut Vec<[usize; 2]>,
-) {
-    let [first, second] = boxes;
-    boxes_of(one, moves, 0.5 * search_distance, &other.bounds, first);
-    boxes_of(other, moves, 0.5 * search_distance, &one.bounds, second);
-    for (segment, bounds) in first.iter() {
-        let near = second.iter().filter(|(_, other)| bounds.meets(other));
-        found.extend(near.map(|(other, _)| [*segment.min(other), *segment.max(other)]));
-    }
-}
-
-/// Knots of a piece near segments of another, or of its own.
-fn knots_near(
-    knots: &[Ball],
-    of: &Piece,
-    piece: &Piece,
-    moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    reach_m: f64,
-    found: &mut Vec<[usize; 2]>,
-) {
-    for index in on_segments(knots, &of.segments) {
-        let ball = &knots[index];
-        let way = [ball.middle(|node| moves.from[node]), ball.middle(&moves.to)];
-        let bounds = Bounds::around(&way).grown(reach_m);
-        if !bounds.meets(&piece.bounds) {
-            continue;
-        }
-        for (segments, node) in piece.groups(|group| bounds.meets(group)) {
-            let mut here = way_of(node, moves);
-            for (segment, node) in segments.zip(node + 1..) {
-                let next = way_of(node, moves);
-                if segment != ball.segment && bounds.meets(&here.join(next)) {
-                    found.push([index, segment]);
+            let boxes = self.boxes_of(0, *first).map(|bounds| reach.of_segment(&bounds));
+            let others = self.boxes_of(1, *second).map(|bounds| reach.of_segment(&bounds));
+            for ((a, bounds), row) in one.group(*first).0.zip(&boxes).zip(may) {
+                for ((b, other), may) in other.group(*second).0.zip(&others).zip(row) {
+                    if *may && bounds.meets(other) {
+                        found.push([a.min(b), a.max(b)]);
+                    }
                 }
-                here = next;
+            }
+        }
+    }
+
+    /// Adds the pairs of a knot and a segment of theirs that come within reach.
+    fn knots(&mut self, knots: &[Ball], found: &mut Vec<[usize; 2]>) {
+        let list = self.list;
+        for NearKnot { knot, side, group, may } in &list.knots[self.near.knots.clone()] {
+            let ball = &knots[*knot];
+            let way = [ball.middle(|node| self.moves.from[node]), ball.middle(&self.moves.to)];
+            let bounds = Bounds::around(&way).grown(self.reach.knots_m);
+            let piece = self.pieces[*side];
+            if !bounds.meets(&piece.groups[*group]) {
+                continue;
+            }
+            let boxes = self.boxes_of(*side, *group);
+            for ((segment, other), may) in piece.group(*group).0.zip(&boxes).zip(may) {
+                if *may && bounds.meets(other) {
+                    found.push([*knot, segment]);
+                }
             }
         }
     }

@@ -11,6 +11,7 @@
 pub(crate) mod broad;
 pub(crate) mod knots;
 pub(crate) mod near;
+mod neighbours;
 pub(crate) mod points;
 pub(crate) mod sweep;
 

@@ -6,7 +6,7 @@ use super::points::SolidContactPoint;
 use super::{MARGIN_M, Pair, SolidWorkspace};
 use crate::contact::pieces::Pieces;
 use crate::model::Knot;
-use crate::solids::broad::{NearSegment, near};
+use crate::solids::broad::NearGroup;
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{Bears, State};
 
@@ -16,15 +16,25 @@ const STATIC_MARGIN_M: f64 = 2.0;
 /// What rounding may take from a distance [m].
 const ROUNDING_M: f64 = 1e-9;
 
+/// A segment that may come near a solid.
+#[derive(Clone, Copy, Debug)]
+struct NearSegment {
+    segment: usize,
+    /// First node of the segment.
+    node: usize,
+    line: usize,
+}
+
 /// How a segment and a solid move over a step.
-struct Motion {
+#[derive(Clone, Copy)]
+struct Motion<'a> {
     /// Places of the segment's ends when the step begins, then when it ends [m].
     places: [DVec3; 4],
     /// Where the solid is when the step begins and when it ends.
-    poses: [Pose; 2],
+    poses: &'a [Pose; 2],
 }
 
-impl Motion {
+impl Motion<'_> {
     /// Whether a segment that goes from two places to two others may come within reach of a solid, which does not turn.
     fn may_reach(&self, solid: &Solid, reach: f64) -> bool {
         let Self { places, poses } = self;
@@ -37,7 +47,12 @@ impl Motion {
             return false;
         }
         let (from, to) = (poses[0].inward(middles[0]), poses[1].inward(middles[1]));
-        let nearest = solid.shape.distance(from).min(solid.shape.distance(to));
+        let nearest = solid.shape.distance(from);
+        // It is nearer at the other end by no more than its way.
+        if nearest - half - 3.0 * travel > reach + ROUNDING_M {
+            return false;
+        }
+        let nearest = nearest.min(solid.shape.distance(to));
         nearest - half - 0.5 * (to - from).length() <= reach
     }
 }
@@ -76,7 +91,7 @@ impl SolidWorkspace {
         self.bodies.clear();
         self.bodies.extend(state.bodies.iter().map(Pose::of));
         if !self.solids.is_empty() {
-            self.measure_lengths(&state.rope.segment_length);
+            self.take_lengths(pieces, &state.rope.segment_length);
             self.take_within(state);
         }
         let from = &state.rope.position;
@@ -98,10 +113,10 @@ impl SolidWorkspace {
         self.bodies.clear();
         self.bodies.extend(bodies);
         self.within.clear();
-        if !self.solids.is_empty() {
-            self.measure_lengths(&state.rope.segment_length);
-        }
         pieces.measure(from, |node| from[node], &state.rope.segment_length);
+        if !self.solids.is_empty() {
+            self.take_lengths(pieces, &state.rope.segment_length);
+        }
         let margin = STATIC_MARGIN_M;
         self.gather_anew(state, &Search { pieces, from, dt: 0.0, margin, again: false });
     }
@@ -130,27 +145,49 @@ impl SolidWorkspace {
     }
 
     fn add_pairs(&mut self, state: &State, search: &Search<'_>, to: impl Fn(usize) -> DVec3) {
-        let Search { pieces, from, dt, margin, again } = *search;
-        let solids = std::mem::take(&mut self.solids);
+        let Search { pieces, from, dt, margin, .. } = *search;
+        let (solids, mut poses) =
+            (std::mem::take(&mut self.solids), std::mem::take(&mut self.poses));
+        let mut neighbours = std::mem::take(&mut self.neighbours);
+        poses.clear();
+        poses.extend(solids.iter().map(|solid| poses_of(solid, state, &self.bodies, dt)));
+        let farthest_m = self.widest_m + margin.max(MARGIN_M);
+        neighbours.update(pieces, &solids, &poses, farthest_m);
         let spares_bodies = dt <= 0.0 && self.at_rest_n_m2.is_none();
         let pushes = |solid: &Solid| !spares_bodies || matches!(solid.carrier, Carrier::World(_));
-        for (index, solid) in solids.iter().enumerate().filter(|(_, solid)| pushes(solid)) {
-            let poses = poses_of(solid, state, &self.bodies, dt);
-            for near in near(pieces, solid, &poses, self.widest_m + margin) {
-                let NearSegment { segment, node, line } = near;
+        let near = neighbours.within(pieces, &solids, &poses, self.widest_m + margin);
+        for NearGroup { solid, piece, group } in near.filter(|near| pushes(&solids[near.solid])) {
+            let piece = &pieces.pieces[piece];
+            let (segments, node) = piece.group(group);
+            for (segment, node) in segments.zip(node..) {
+                let near = NearSegment { segment, node, line: piece.line };
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
-                let knots =
-                    Knot::on_segment(&self.all_knots, segment).iter().map(|knot| knot.radius_m);
-                let reach = knots.fold(self.radius_m[line], f64::max) + margin;
-                let known = again
-                    && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
-                let motion = Motion { places, poses };
-                if !known && motion.may_reach(solid, reach) {
-                    self.add_pair(state, index, solid, near, &motion, again);
-                }
+                let motion = Motion { places, poses: &poses[solid] };
+                self.look_at(state, solid, &solids[solid], near, &motion, search);
             }
         }
-        self.solids = solids;
+        (self.solids, self.poses, self.neighbours) = (solids, poses, neighbours);
+    }
+
+    /// Adds a segment and a solid where they are not yet known and may come near each other.
+    fn look_at(
+        &mut self,
+        state: &State,
+        solid: usize,
+        thing: &Solid,
+        near: NearSegment,
+        motion: &Motion<'_>,
+        search: &Search<'_>,
+    ) {
+        let Search { margin, again, .. } = *search;
+        let NearSegment { segment, line, .. } = near;
+        let knots = Knot::on_segment(&self.all_knots, segment).iter().map(|knot| knot.radius_m);
+        let reach = knots.fold(self.radius_m[line], f64::max) + margin;
+        let is_it = |pair: &Pair| pair.solid == solid && pair.segment == segment;
+        let known = again && self.pairs.iter().any(is_it);
+        if !known && motion.may_reach(thing, reach) {
+            self.add_pair(state, solid, thing, near, motion, again);
+        }
     }
 
     fn add_pair(
@@ -159,7 +196,7 @@ impl SolidWorkspace {
         solid: usize,
         thing: &Solid,
         NearSegment { segment, node, line }: NearSegment,
-        Motion { places, poses }: &Motion,
+        Motion { places, poses }: &Motion<'_>,
         again: bool,
     ) {
         let reach_m = [self.along_m[node], self.along_m[node + 1]];
@@ -209,7 +246,7 @@ impl SolidWorkspace {
                 self.begin_point(state, thing, *point, [at(&places[..2]), at(&places[2..])], poses);
         }
         self.pairs.push(pair);
-        self.add_knots(state, thing, &pair, &Motion { places: *places, poses: *poses });
+        self.add_knots(state, thing, &pair, &Motion { places: *places, poses });
     }
 
     /// Knots of a segment, each a contact point that stays where it is on the rope.
@@ -234,7 +271,7 @@ impl SolidWorkspace {
             };
             let [a, b, c, d] = motion.places;
             let places = [a.lerp(b, fraction), c.lerp(d, fraction)];
-            let point = self.begin_point(state, thing, point, places, &motion.poses);
+            let point = self.begin_point(state, thing, point, places, motion.poses);
             self.knots.push(point);
         }
         self.all_knots = knots;

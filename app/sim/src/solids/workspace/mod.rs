@@ -15,15 +15,20 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::along::least;
+use super::broad::Neighbours;
 use super::{Pose, Solid, of_model};
+use crate::contact::pieces::Pieces;
 use crate::model::{Knot, Line, Model};
-use crate::same_bits::same_bits;
 use crate::state::RopeWithin;
 pub(crate) use points::SolidContactPoint;
 use spared::{Spared, spared};
 
 /// How far beyond its radius rope is gathered [m].
 pub(crate) const MARGIN_M: f64 = 0.05;
+
+/// Rope that strayed no farther than this from its drift has come to no solid that it was not gathered for [m]: in the bound by which rope is
+/// gathered, distance and half length change by no more than that, and half the way by half of it, together by less than the margin.
+pub(crate) const UNWATCHED_M: f64 = 0.35 * MARGIN_M;
 
 /// A segment near a solid.
 #[derive(Clone, Copy, Debug)]
@@ -52,8 +57,9 @@ pub(crate) struct SolidWorkspace {
     spared: Vec<Spared>,
     /// Nodes and segments of each line.
     lines: Vec<(Range<usize>, Range<usize>)>,
-    /// Unstretched length of each segment [m].
+    /// Unstretched length of each segment [m], and which lengths of the pieces these are.
     lengths: Vec<f64>,
+    lengths_number: u64,
     /// Unstretched length from the line's start to each node [m].
     along_m: Vec<f64>,
     /// Half the diameter of the rope of each line [m].
@@ -72,6 +78,9 @@ pub(crate) struct SolidWorkspace {
     predicted: Vec<((usize, usize), f64)>,
     /// Length of the step [s].
     dt: f64,
+    /// Where solids are when the step begins, and by their drift.
+    poses: Vec<[Pose; 2]>,
+    neighbours: Neighbours,
 }
 
 impl SolidWorkspace {
@@ -92,11 +101,16 @@ impl SolidWorkspace {
         Self { solids, body_of, spared, all_knots, ..sizes }
     }
 
-    /// Takes over the lengths of segments, where they are not those there are.
-    fn measure_lengths(&mut self, segment_length: &[f64]) {
-        if same_bits(&self.lengths, segment_length) {
-            return;
+    /// Takes over the lengths of segments that pieces were measured with, where they are not those there are.
+    fn take_lengths(&mut self, pieces: &Pieces, segment_length: &[f64]) {
+        if self.lengths_number != pieces.lengths_number {
+            self.lengths_number = pieces.lengths_number;
+            self.measure_lengths(segment_length);
         }
+    }
+
+    /// Takes over the lengths of segments.
+    fn measure_lengths(&mut self, segment_length: &[f64]) {
         self.lengths.clear();
         self.lengths.extend_from_slice(segment_length);
         for (nodes, segments) in &self.lines {

@@ -4,11 +4,10 @@ use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, TOUCH_M};
 use crate::contact::pieces::Pieces;
-use crate::contact::ropes::broad::{Moves, Reach};
+use crate::contact::ropes::broad::{Moves, Reach, Rope};
 use crate::contact::ropes::knots::on_segments;
 use crate::contact::ropes::sweep::{greatest_approach, nearest};
 use crate::model::Model;
-use crate::same_bits::same_bits;
 use crate::state::State;
 
 /// Ropes that come this near in a step, beyond touching, are gathered [m].
@@ -29,10 +28,12 @@ const MIN_SEPARATION_SHARE: f64 = 0.08;
 
 impl RopeWorkspace {
     /// Takes over the lengths of segments, where they are not those there are.
-    fn measure_lengths(&mut self, model: &Model, lengths: &[f64]) {
-        if same_bits(&self.lengths, lengths) {
+    fn measure_lengths(&mut self, model: &Model, lengths: &[f64], pieces: &Pieces) {
+        if self.lengths_number == pieces.lengths_number {
             return;
         }
+        self.lengths_number = pieces.lengths_number;
+        self.broad.forget();
         self.lengths.clear();
         self.lengths.extend_from_slice(lengths);
         self.shortest_m = lengths.iter().copied().fold(f64::INFINITY, f64::min);
@@ -89,15 +90,18 @@ impl RopeWorkspace {
         if self.law.is_none() {
             return;
         }
-        self.measure_lengths(model, &state.rope.segment_length);
-        let (from, mut found, known) =
-            (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
-        let moves = Moves { from, to: &to };
-        let reach = Reach {
-            ropes_m: 2.0 * self.widest_m + margin,
-            knots_m: 2.0 * self.widest_knot_m + margin,
+        self.measure_lengths(model, &state.rope.segment_length, pieces);
+        let (from, known) = (&state.rope.position, self.pairs.len());
+        let (mut broad, mut found) =
+            (std::mem::take(&mut self.broad), std::mem::take(&mut self.found));
+        let rope = Rope {
+            pieces,
+            knots: &self.knots,
+            may_touch: &|segments, knot| self.may_touch(segments, knot),
         };
-        self.broad.collect(pieces, &self.knots, &moves, reach, &mut found);
+        let moves = Moves { from, to: &to };
+        let [reach, farthest] = [margin, MARGIN_M].map(|margin| self.reach(margin));
+        broad.collect(rope, &moves, reach, farthest, &mut found);
         let cut = &state.rope.cut;
         let is_whole = |segments: [usize; 2]| segments.iter().all(|segment| !cut[*segment]);
         for segments in found.segments.iter().filter(|segments| is_whole(**segments)) {
@@ -121,7 +125,20 @@ impl RopeWorkspace {
             }
         }
         self.pairs.sort_unstable_by_key(Pair::key);
-        self.found = found;
+        (self.broad, self.found) = (broad, found);
+    }
+
+    /// How far apart the widest of what may touch is looked for, by what it is more than touching [m].
+    fn reach(&self, margin: f64) -> Reach {
+        Reach { ropes_m: 2.0 * self.widest_m + margin, knots_m: 2.0 * self.widest_knot_m + margin }
+    }
+
+    /// Whether two segments, or a knot on the first and what it meets on the second, are far enough from each other along rope to touch.
+    fn may_touch(&self, segments: [usize; 2], knot: Option<usize>) -> bool {
+        let may = |knots| !self.is_spared(segments, self.contact_distance(segments, knots));
+        let own = segments[1]..segments[1] + 1;
+        let others = knot.map_or(0..0, |_| on_segments(&self.knots, &own));
+        may([knot, None]) || others.into_iter().any(|other| may([knot, Some(other)]))
     }
 
     /// Sum of the radii of two things [m].

@@ -3,6 +3,8 @@
 mod gather;
 mod moves;
 mod open;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 
@@ -64,6 +66,8 @@ pub(crate) struct RopeWorkspace {
     ends: Vec<([usize; 2], f64)>,
     /// Unstretched length of each segment, and from its line's start to it [m].
     lengths: Vec<f64>,
+    /// Which lengths of the pieces these are.
+    lengths_number: u64,
     along_m: Vec<f64>,
     widest_m: f64,
     shortest_m: f64,

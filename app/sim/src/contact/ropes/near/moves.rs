@@ -72,8 +72,14 @@ impl RopeWorkspace {
 
     /// Whether free rope that was moved by this much from its drift may have met rope on its way to these places.
     pub fn met(&mut self, model: &Model, state: &State, pieces: &Pieces, to: &[DVec3]) -> bool {
-        self.touching = self.met_gathered(&state.rope.position, to);
+        self.met_known(&state.rope.position, to);
         self.gather_to(model, state, pieces, |node| to[node], TOUCH_M);
+        self.touching
+    }
+
+    /// The same among what was gathered, where rope strayed too little to have met anything else.
+    pub fn met_known(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
+        self.touching = self.met_gathered(from, to);
         self.touching
     }
 

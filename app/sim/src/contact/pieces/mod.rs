@@ -1,22 +1,25 @@
 //! Rope in pieces of sixteen segments, in groups of four: a box around the move of each over a step, and whether a piece runs straight.
 //!
 //! They are measured once for all that looks for rope near something: skin (`contact/near/mod.rs`), obstacles and bodies
-//! (`solids/broad.rs`), other rope (`contact/ropes/broad.rs`).
+//! (`solids/broad.rs`), other rope (`contact/ropes/broad.rs`). Wider boxes that hold for several steps bound what these look at (`held.rs`).
+
+mod held;
 
 use std::ops::Range;
 
 use glam::DVec3;
 
 use crate::model::Model;
+use crate::same_bits::same_bits;
 use crate::state::State;
 use crate::whale::Bounds;
 
 /// Segments in one piece.
 const IN_A_PIECE: usize = 16;
 /// Segments in one group of a piece.
-const IN_A_GROUP: usize = 4;
+pub(crate) const IN_A_GROUP: usize = 4;
 /// Groups of a piece.
-const GROUPS: usize = IN_A_PIECE / IN_A_GROUP;
+pub(crate) const GROUPS: usize = IN_A_PIECE / IN_A_GROUP;
 /// Cosine of 40°: how far a straight piece's segments, and two pieces in a row, may turn from each other. Together they then
 /// stay within 60° of one direction.
 const STRAIGHT: f64 = 0.766;
@@ -32,7 +35,10 @@ pub(crate) struct Piece {
     pub nodes: Range<usize>,
     pub bounds: Bounds,
     /// Boxes around its groups, empty beyond its end.
-    groups: [Bounds; GROUPS],
+    pub groups: [Bounds; GROUPS],
+    /// Wider boxes that those lie in for some steps, and a box around all of these.
+    pub held: [Bounds; GROUPS],
+    pub held_whole: Bounds,
     /// Whether each of its segments goes on along one direction.
     pub is_straight: bool,
     /// Direction from its first node to its last, at the start and at the end of the step.
@@ -47,6 +53,12 @@ pub(crate) struct Pieces {
     pub lines: Vec<(Range<usize>, Bounds)>,
     /// Whether anybody asks for them.
     wanted: bool,
+    /// Whether anybody asks for the boxes that hold for several steps, and how often these have been laid out anew.
+    holds: bool,
+    pub holding: u64,
+    /// Unstretched lengths of the segments, and how often these have changed [m].
+    lengths: Vec<f64>,
+    pub lengths_number: u64,
     /// Time and length of the step that they were measured over last, where rope went on as it moved [s].
     measured: Option<[f64; 2]>,
 }
@@ -57,8 +69,9 @@ impl Pieces {
         let settings = &model.spec.settings;
         let on_bodies = settings.rope_on_bodies && !model.spec.bodies.is_empty();
         let on_solids = on_bodies || !model.spec.obstacles.is_empty();
-        let wanted = on_solids || settings.rope_on_rope.is_some() || model.spec.whale.is_some();
-        let mut all = Self { wanted, ..Self::default() };
+        let holds = on_solids || settings.rope_on_rope.is_some();
+        let wanted = holds || model.spec.whale.is_some();
+        let mut all = Self { wanted, holds, ..Self::default() };
         for (line, (nodes, segments)) in
             model.line_nodes.iter().zip(&model.line_segments).enumerate()
         {
@@ -72,6 +85,8 @@ impl Pieces {
                     nodes: node..node + end - start + 1,
                     bounds: Bounds::EMPTY,
                     groups: [Bounds::EMPTY; GROUPS],
+                    held: [Bounds::EMPTY; GROUPS],
+                    held_whole: Bounds::EMPTY,
                     directions: [DVec3::ZERO; 2],
                     is_straight: false,
                 });
@@ -87,12 +102,27 @@ impl Pieces {
         if !self.wanted {
             return;
         }
+        self.take_lengths(lengths);
+        let mut is_held = true;
         for (pieces, whole) in &mut self.lines {
             *whole = Bounds::EMPTY;
             for piece in &mut self.pieces[pieces.clone()] {
                 piece.measure(from, &to, lengths);
                 *whole = whole.join(piece.bounds);
+                is_held &= !self.holds || piece.is_held();
             }
+        }
+        if !is_held {
+            self.hold(from, to);
+        }
+    }
+
+    /// Takes over the lengths of segments, where they are not those there are.
+    fn take_lengths(&mut self, lengths: &[f64]) {
+        if self.holds && !same_bits(&self.lengths, lengths) {
+            self.lengths.clear();
+            self.lengths.extend_from_slice(lengths);
+            self.lengths_number += 1;
         }
     }
 
@@ -114,11 +144,6 @@ impl Pieces {
     /// Forgets which step was measured: rope is another.
     pub fn forget(&mut self) {
         self.measured = None;
-    }
-
-    /// The box around all rope.
-    pub fn whole(&self) -> Bounds {
-        self.lines.iter().fold(Bounds::EMPTY, |whole, (_, line)| whole.join(*line))
     }
 }
 
@@ -150,27 +175,26 @@ impl Piece {
         (self.directions, self.is_straight) = (directions.two(), is_straight);
     }
 
-    /// Groups whose box passes a test: their segments, and the first node of these.
+    /// Segments of a group, and the first node of these.
     #[inline(always)]
-    pub fn groups(
-        &self,
-        passes: impl Fn(&Bounds) -> bool,
-    ) -> impl Iterator<Item = (Range<usize>, usize)> {
-        let (segments, node) = (self.segments.clone(), self.nodes.start);
-        let near = self.groups.iter().enumerate().filter(move |(_, bounds)| passes(bounds));
-        near.map(move |(group, _)| {
-            let start = segments.start + group * IN_A_GROUP;
-            let end = (start + IN_A_GROUP).min(segments.end);
-            (start..end, node + group * IN_A_GROUP)
-        })
+    pub fn group(&self, group: usize) -> (Range<usize>, usize) {
+        let start = self.segments.start + group * IN_A_GROUP;
+        let end = (start + IN_A_GROUP).min(self.segments.end);
+        (start..end, self.nodes.start + group * IN_A_GROUP)
     }
 
-    /// Whether the two are one straight run of one line.
-    pub fn runs_on(&self, other: &Self) -> bool {
+    /// Whether one of the two begins where the other ends, on one line.
+    pub fn follows(&self, other: &Self) -> bool {
         let in_a_row =
             self.segments.end == other.segments.start || other.segments.end == self.segments.start;
-        let agree = || (0..2).all(|k| self.directions[k].dot(other.directions[k]) >= STRAIGHT);
-        self.line == other.line && in_a_row && self.is_straight && other.is_straight && agree()
+        self.line == other.line && in_a_row
+    }
+
+    /// Whether two in a row are one straight run.
+    #[inline(always)]
+    pub fn runs_on(&self, next: &Self) -> bool {
+        let agree = || (0..2).all(|k| self.directions[k].dot(next.directions[k]) >= STRAIGHT);
+        self.is_straight && next.is_straight && agree()
     }
 }
 
