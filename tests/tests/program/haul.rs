@@ -40,10 +40,11 @@ fn a_single_is_hauled_within_its_strength_and_the_sheet_holds_together() {
 #[test]
 fn a_trap_that_is_stuck_parts_the_line_and_more_depth_and_traps_pull_more() {
     let place = Place::new("haul-table");
-    let stuck = haul(&place, &["single", "--sea", "0 m", "--break-out", "100", "--json"]);
-    let stuck = stuck.done().json();
-    // 9.1 kN hold the trap; its line delivers 8.0 kN in the mean.
-    assert!(stuck["parts"].as_f64().unwrap() > 0.5, "{}", stuck["parts"]);
+    let weak = ["massachusetts-single", "--sea", "0 m", "--break-out", "100", "--json"];
+    let stuck = haul(&place, &weak).done().json();
+    // Feet that hold 9.1 kN together break out one after the other; an insert delivers 5.6 kN in the mean.
+    assert!(stuck["parts"].as_f64().unwrap() > 1e-3, "{}", stuck["parts"]);
+    assert!(stuck["nearest"]["part"].as_str().unwrap().contains("insert"), "{}", stuck["nearest"]);
     let arguments =
         ["trawl-10", "--table", "--depth", "30 m,60 m", "--traps", "2,4", "--aboard", "1"];
     let rows = haul(&place, &[&arguments[..], &["--sea", "0 m", "--json"]].concat()).done();
