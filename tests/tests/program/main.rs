@@ -6,6 +6,7 @@ mod common;
 mod cost;
 mod crossing;
 mod determinism;
+mod haul;
 mod mill;
 mod replay;
 mod rules;

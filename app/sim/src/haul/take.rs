@@ -8,6 +8,8 @@ use crate::model::{JointKind, Line};
 
 /// A segment of less than this goes aboard in advance: as much of the next rope is put on in its place [m].
 const LEAST_M: f64 = 5e-3;
+/// A body is taken aboard with so much of its line left: nobody draws the knot into the sheave. An estimate [m].
+const ALONGSIDE_M: f64 = 0.3;
 
 impl Haul {
     /// Takes in so much rope of every line at the block, which ends the step at `block`.
@@ -18,7 +20,7 @@ impl Haul {
             let rope = &self.state.rope;
             let reach_m =
                 rope.position[inner].distance(rope.position[tip]).max(rope.segment_length[segment]);
-            if left_m + LEAST_M < reach_m {
+            if left_m + self.least_m(&end) < reach_m {
                 self.shift(&end, left_m / reach_m, block);
                 self.ends.push(end);
             } else {
@@ -26,6 +28,14 @@ impl Haul {
             }
         }
         self.ends.sort_by_key(|end| self.origin.lines[end.line]);
+    }
+
+    /// How much of the segment at a line's end goes aboard in advance [m].
+    fn least_m(&self, end: &End) -> f64 {
+        let line = &self.model.spec.lines[end.line];
+        let far = if end.at == LineEnd::A { line.to } else { line.from };
+        let on_body = matches!(self.model.spec.joints[far].kind, JointKind::Body { .. });
+        if on_body && line.segments_m.len() == 1 { ALONGSIDE_M } else { LEAST_M }
     }
 
     /// Moves a line's end along its segment by a share of it, outwards by one below zero, and lets it be driven to the block.
