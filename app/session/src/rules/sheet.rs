@@ -1,6 +1,6 @@
 //! An assembly with the verdict on every rule.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use endline_gear::{
     Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, assemble_traced,
@@ -30,9 +30,14 @@ pub struct RuleGear {
     pub(super) gear: Gear,
 }
 
+/// Name and version of the JSON of a sheet.
+const SCHEMA: &str = "endline.rules.check/1";
+
 /// The verdict on every rule.
 #[derive(Clone, Debug, Serialize)]
 pub struct RuleSheet {
+    /// Name and version of its JSON.
+    pub schema: &'static str,
     /// Id of the assembly.
     pub assembly: String,
     /// Id of the area.
@@ -43,11 +48,56 @@ pub struct RuleSheet {
     pub depth_m: f64,
     /// Whether that depth was taken because none was given.
     pub depth_is_usual: bool,
+    /// Distance from shore, where it was given [m].
+    pub distance_m: Option<f64>,
+    /// Traps on one set: those given, else those counted.
+    pub traps: usize,
+    /// How many rules came to each verdict.
+    pub counts: Counts,
     /// Every rule with its verdict, by pack.
     pub rules: Vec<RuleResult>,
 }
 
+/// How many rules came to each verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Rules that the gear meets.
+    pub pass: usize,
+    /// Rules that it does not meet.
+    pub fail: usize,
+    /// Those of them that bind.
+    pub fail_binding: usize,
+    /// Rules that do not apply.
+    pub not_applicable: usize,
+    /// Rules that cannot be checked.
+    pub cannot_be_checked: usize,
+}
+
+impl Counts {
+    fn of(rules: &[RuleResult]) -> Self {
+        let mut counts = Self::default();
+        for rule in rules {
+            match rule.verdict {
+                Verdict::Pass => counts.pass += 1,
+                Verdict::Fail => {
+                    counts.fail += 1;
+                    counts.fail_binding += usize::from(rule.binding);
+                }
+                Verdict::NotApplicable => counts.not_applicable += 1,
+                Verdict::CannotBeChecked => counts.cannot_be_checked += 1,
+            }
+        }
+        counts
+    }
+}
+
 impl RuleSheet {
+    /// Whether the gear fails a rule that binds; one that it is only advised to follow does not count.
+    #[must_use]
+    pub fn fails_binding(&self) -> bool {
+        self.counts.fail_binding > 0
+    }
+
     /// Rules with a verdict.
     pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
         self.rules.iter().filter(move |rule| rule.verdict == verdict)
@@ -61,6 +111,36 @@ impl RuleSheet {
     }
 }
 
+/// The file of an assembly, with the library around it.
+pub struct AssemblyFile {
+    /// Id of the assembly.
+    pub id: String,
+    /// Text of its file.
+    pub text: String,
+    /// The library, this text in it.
+    pub sources: Sources,
+    /// The library's folder.
+    pub root: PathBuf,
+}
+
+impl AssemblyFile {
+    /// Opens an assembly by its id in the library, or by its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or no library.
+    pub fn open(named: &str, library: Option<&Path>) -> Result<Self, Error> {
+        let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
+        let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
+        let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let text = std::fs::read_to_string(&path)
+            .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+        let id =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        sources.set(format!("assemblies/{id}.toml"), text.clone());
+        Ok(Self { id, text, sources, root })
+    }
+}
+
 /// Assembles an assembly of the library, by its id or its file, alone in still water.
 ///
 /// # Errors
@@ -71,14 +151,8 @@ pub fn assembly(
     library: Option<&Path>,
     host: &PluginHost,
 ) -> Result<RuleGear, Error> {
-    let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
-    let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
-    let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-    let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let AssemblyFile { id, sources, .. } = AssemblyFile::open(named, library)?;
     let file = format!("assemblies/{id}.toml");
-    sources.set(file.as_str(), text);
     let (library, problems) = Library::read(&sources);
     let own: Vec<Diagnostic> =
         problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
@@ -129,12 +203,17 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
 pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
     let around = packs.around(&fishing.area).map_err(Error::Replay)?;
     let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
+    let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?;
     Ok(RuleSheet {
+        schema: SCHEMA,
         assembly: gear.assembly.clone(),
         area: fishing.area.clone(),
         on: fishing.on.to_string(),
         depth_m: gear.depth_m,
         depth_is_usual: fishing.depth_m.is_none(),
-        rules: rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?,
+        distance_m: fishing.distance_m,
+        traps: fishing.traps.map_or(gear.gear.traps, usize::from),
+        counts: Counts::of(&rules),
+        rules,
     })
 }
