@@ -230,6 +230,6 @@ fn a_study_of_two_rules_has_an_option_for_each_and_opens() {
     assert!(!written.contains("trawl-45"), "{written}");
     study(&[one, two], "second-insert").fails(1, &["is there already"]);
     study(&[one], "x").fails(1, &["two rules or more"]);
-    study(&[one, "me.insert"], "x").fails(1, &["no rule `me.insert`", "did you mean"]);
+    study(&[one, "me.markz"], "x").fails(1, &["no rule `me.markz`", "did you mean `me.marks`"]);
     study(&[one, "me.marks"], "x").fails(1, &["`me.marks` gives no option", "does not say"]);
 }

@@ -198,7 +198,7 @@ impl Workbench {
         };
         let (host, waker) = self.helpers();
         let checks = &mut self.rules;
-        // An area that nobody chose is the first that the packs declare.
+        // An area that nobody chose is taken over as if it was.
         if checks.question.area.is_empty() {
             checks.question.area.clone_from(&answer.question.area);
             checks.asked = Some((answer.version, checks.question.clone()));
@@ -286,10 +286,24 @@ fn fault(what: &str) -> String {
     format!("{what} ended by a fault inside the program")
 }
 
-/// With the first area of the packs where none was chosen.
+/// With the area where most rules apply where none was chosen.
 fn with_area(question: RuleQuestion, packs: &Packs) -> RuleQuestion {
-    let first = || packs.areas().next().map(|area| area.id.value.clone()).unwrap_or_default();
-    if question.area.is_empty() { RuleQuestion { area: first(), ..question } } else { question }
+    if !question.area.is_empty() {
+        return question;
+    }
+    let rules_in = |id: &str| {
+        let around = packs.around(id).unwrap_or_default();
+        let holds = |area: &endline_gear::At<String>| around.contains(&area.value.as_str());
+        packs
+            .rules()
+            .filter(|(_, rule)| rule.areas.is_empty() || rule.areas.iter().any(holds))
+            .count()
+    };
+    let mut ids: Vec<&str> = packs.areas().map(|area| area.id.value.as_str()).collect();
+    // The first of those with as many.
+    ids.reverse();
+    let most = ids.into_iter().max_by_key(|id| rules_in(id)).unwrap_or_default();
+    RuleQuestion { area: most.to_owned(), ..question }
 }
 
 /// Where, when and how, read from what was typed.

@@ -37,7 +37,7 @@ fn checking(folder: &Folder) -> Harness<'static, App> {
     harness
 }
 
-fn answer(harness: &Harness<'static, App>) -> Option<&RuleAnswer> {
+fn answer<'a>(harness: &'a Harness<'static, App>) -> Option<&'a RuleAnswer> {
     harness.state().shared.workbench.rules.answer.as_ref()
 }
 

@@ -64,26 +64,18 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// How much of the gear an edit changes: share of its rope that becomes another rope, and how many traps and buoys come or go.
+/// How much of the gear an edit changes: share of its rope that is replaced or taken off, and how many traps, endlines, floats
+/// and reflectors come or go.
 pub(super) fn size(before: &Gear, after: &Gear) -> (f64, usize) {
-    let mut left: Vec<(&str, f64)> = lengths(before);
-    let total: f64 = left.iter().map(|(_, length_m)| length_m).sum();
-    let mut fresh_m = 0.0;
-    for (item, length_m) in lengths(after) {
-        let kept = left.iter_mut().find(|(known, _)| *known == item);
-        let kept_m = kept.map_or(0.0, |(_, left_m)| {
-            let kept_m = left_m.min(length_m);
-            *left_m -= kept_m;
-            kept_m
-        });
-        fresh_m += length_m - kept_m;
-    }
-    let gone_m: f64 = left.iter().map(|(_, length_m)| length_m).sum();
+    let (old, new) = (lengths(before), lengths(after));
+    let left = |item: &str| new.iter().find(|(known, _)| *known == item).map_or(0.0, |one| one.1);
+    let gone_m: f64 = old.iter().map(|(item, length_m)| (length_m - left(item)).max(0.0)).sum();
+    let total_m: f64 = old.iter().map(|(_, length_m)| length_m).sum();
     let bodies =
         |gear: &Gear| [gear.traps, gear.endlines.len(), gear.floats.len(), gear.reflectors];
     let parts =
         bodies(before).into_iter().zip(bodies(after)).map(|(one, other)| one.abs_diff(other));
-    (if total > 0.0 { f64::max(fresh_m, gone_m) / total } else { 0.0 }, parts.sum())
+    (if total_m > 0.0 { gone_m / total_m } else { 0.0 }, parts.sum())
 }
 
 /// Length of each rope in the gear [m].

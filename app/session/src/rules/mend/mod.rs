@@ -89,7 +89,7 @@ pub struct Proposal {
     pub breaks: Vec<String>,
     /// Rules that fail before and with it.
     pub still_fails: Vec<String>,
-    /// Share of the rope that becomes another rope [1].
+    /// Share of the rope that is replaced or taken off [1].
     pub rope_share: f64,
     /// Traps, endlines, floats and reflectors that come or go.
     pub parts: usize,
@@ -315,6 +315,16 @@ struct Made {
     changes: Vec<Change>,
 }
 
+impl Made {
+    /// A field changed twice is one change from what stood there first.
+    fn change(&mut self, change: Change) {
+        match self.changes.iter_mut().find(|known| known.field == change.field) {
+            Some(known) => known.after = change.after,
+            None => self.changes.push(change),
+        }
+    }
+}
+
 /// The least edit for each rule that binds and fails, one after another, up to where the fewest of them fail.
 ///
 /// An edit may break a rule that a later one mends: more traps ask for a radar reflector.
@@ -339,7 +349,7 @@ fn all(bench: &Bench<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, 
         asked.push(result.rule.clone());
         if let Some(edit) = mend.proposals.into_iter().next() {
             now.says.push(edit.says);
-            now.changes.extend(edit.changes);
+            edit.changes.into_iter().for_each(|change| now.change(change));
             now.text = edit.text;
         }
     }

@@ -104,7 +104,7 @@ fn of_edit(lead: &str, edit: &Proposal) -> String {
         if rules.is_empty() { "nothing".to_owned() } else { rules.join(" ") }
     };
     text + &format!(
-        "       passes {}; breaks {}; {} still fails; {:.0} % of the rope is another\n",
+        "       passes {}; breaks {}; still fails {}; {:.0} % of the rope is replaced\n",
         list(&edit.passes),
         list(&edit.breaks),
         list(&edit.still_fails),

@@ -33,12 +33,13 @@ impl Product {
         if self.is_sleeve { 0.0 } else { INSERT.0 }
     }
 
-    /// In words, several of it.
-    fn words(&self) -> String {
+    /// In words, one of it or several.
+    fn words(&self, count: usize) -> String {
+        let s = if count == 1 { "" } else { "s" };
         if self.is_sleeve {
-            format!("sleeves `{}`", self.item)
+            format!("sleeve{s} `{}`", self.item)
         } else {
-            format!("{} inserts of `{}`", INSERT.1, self.item)
+            format!("{} insert{s} of `{}`", INSERT.1, self.item)
         }
     }
 }
@@ -67,7 +68,7 @@ fn at_shares(scene: &Scene<'_>, shares: &[f64], strength_n: f64) -> Vec<Candidat
     let in_words: Vec<String> =
         shares.iter().map(|share| format!("{} %", written(100.0 * share))).collect();
     let at = |product: &Product| {
-        let says = format!("Put {} at {} of", product.words(), in_words.join(" and "));
+        let says = format!("Put {} at {} of", product.words(shares.len()), in_words.join(" and "));
         let place = |whole_m: f64| {
             shares.iter().map(|share| share * whole_m - 0.5 * product.length_m()).collect()
         };
@@ -82,7 +83,7 @@ pub(super) fn every(scene: &Scene<'_>, spacing: &Limit, top: f64, strength_n: f6
     let one = |product: &Product| {
         let says = format!(
             "Put {} every {} into the top {} % of",
-            product.words(),
+            product.words(2),
             spacing.text,
             written(100.0 * top)
         );
@@ -222,7 +223,7 @@ pub(super) fn of_other_strength(scene: &Scene<'_>) -> Lever {
     products.dedup_by(|one, other| one.item == other.item);
     let other = |product: &Product| {
         let (given, gone) = if product.is_sleeve { ("sleeve", "rope") } else { ("rope", "sleeve") };
-        let mut edit = Candidate::new(format!("Make the inserts {}.", product.words()));
+        let mut edit = Candidate::new(format!("Make the inserts {}.", product.words(2)));
         for (_, inserts) in with_inserts(scene) {
             edit = edit.remove(format!("{inserts}.{gone}"));
             edit = edit.put(format!("{inserts}.{given}"), product.item.as_str());

@@ -14,6 +14,9 @@ pub(super) struct Typed {
     now: Option<(&'static str, String)>,
 }
 
+/// Width from which on all stands on one line.
+const ONE_LINE: f32 = 900.0;
+
 /// A field of the question.
 struct Field {
     name: &'static str,
@@ -56,13 +59,20 @@ const FIELDS: [Field; 4] = [
 
 /// Draws the question on one line, or two in a narrow panel.
 pub(super) fn show(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared) {
-    ui.horizontal_wrapped(|ui| {
+    let whole = ui.available_width() >= ONE_LINE;
+    let mut fields = |ui: &mut Ui, shared: &mut Shared| {
+        FIELDS.iter().for_each(|field| one(ui, typed, shared, field));
+    };
+    ui.horizontal(|ui| {
         assembly(ui, shared);
         area(ui, shared);
-        for field in &FIELDS {
-            one(ui, typed, shared, field);
+        if whole {
+            fields(ui, shared);
         }
     });
+    if !whole {
+        ui.horizontal_wrapped(|ui| fields(ui, shared));
+    }
 }
 
 fn name(ui: &mut Ui, text: &str) {

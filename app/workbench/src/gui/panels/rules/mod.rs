@@ -20,6 +20,10 @@ use crate::gui::widgets::command::command;
 /// Least width at which the chosen rule stands beside the table.
 const WIDE: f32 = 820.0;
 
+/// Height of the table's head, and of a row with its spacing.
+const HEAD_HEIGHT: f32 = 30.0;
+const ROW_HEIGHT: f32 = 24.5;
+
 /// What laws ask of an assembly.
 #[derive(Debug, Default)]
 pub struct RulesPanel {
@@ -114,7 +118,10 @@ impl RulesPanel {
         let own = rules.iter().position(|rule| Some(&rule.rule) == chosen).unwrap_or(0);
         let whole = ui.available_rect_before_wrap();
         let (table, detail) = if whole.width() < WIDE {
-            let (above, below) = whole.split_top_bottom_at_y(whole.top() + 0.5 * whole.height());
+            #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
+            let rows = HEAD_HEIGHT + ROW_HEIGHT * rules.len() as f32;
+            let high = rows.min(0.45 * whole.height());
+            let (above, below) = whole.split_top_bottom_at_y(whole.top() + high);
             (above, below.with_min_y(below.top() + 6.0))
         } else {
             let (left, right) = whole.split_left_right_at_x(whole.left() + 0.6 * whole.width());

@@ -135,5 +135,5 @@ fn outcome(ui: &mut Ui, edit: &Proposal) {
         0 => String::new(),
         parts => format!(", {parts} parts come or go"),
     };
-    say(format!("{share:.0} % of the rope becomes another{parts}"), palette.faint);
+    say(format!("{share:.0} % of the rope is replaced{parts}"), palette.faint);
 }
