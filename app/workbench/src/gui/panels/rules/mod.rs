@@ -149,6 +149,11 @@ fn listed(answer: &RuleAnswer, all: bool) -> Vec<&RuleResult> {
     binding
 }
 
+/// A reason as it is told where there are fields above in place of options of a command.
+fn on_screen(why: &str) -> String {
+    why.replace("needs --", "needs the ")
+}
+
 /// The colour of a verdict; what fails and does not bind is worth a look.
 fn colour(rule: &RuleResult, palette: Palette) -> egui::Color32 {
     match (rule.verdict, rule.binding) {

@@ -6,8 +6,8 @@ use endline_session::rules::mend::{Mends, Proposal};
 use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
-use super::colour;
 use super::table::compared;
+use super::{colour, on_screen};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: 
     let cited = RichText::new(&rule.cite).color(palette.faint);
     ui.add(Label::new(cited).wrap()).on_hover_text(format!("{}\n{}", rule.rule, rule.source));
     if !rule.why.is_empty() {
-        ui.add(Label::new(&rule.why).wrap());
+        ui.add(Label::new(on_screen(&rule.why)).wrap());
     }
     measured(ui, rule);
     if rule.verdict != Verdict::Pass && rule.verdict != Verdict::NotApplicable {
@@ -73,8 +73,11 @@ fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResul
         return;
     };
     let Some(mend) = mends.rules.iter().find(|one| one.rule == rule.rule) else { return };
-    if !mend.why_none.is_empty() {
-        let text = format!("No edit mends it: {}.", mend.why_none);
+    if rule.verdict == Verdict::CannotBeChecked {
+        let text = "No edit of the assembly answers what is not known.";
+        ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
+    } else if !mend.why_none.is_empty() {
+        let text = format!("No edit mends it: {}.", on_screen(&mend.why_none));
         ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
     }
     for proposal in &mend.proposals {

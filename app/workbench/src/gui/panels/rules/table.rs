@@ -4,7 +4,7 @@ use egui::{Align, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use endline_session::rules::{RuleResult, Verdict};
 
-use super::{RulesPanel, colour};
+use super::{RulesPanel, colour, on_screen};
 use crate::gui::theme::Theme;
 
 const HEADS: [(&str, &str); 4] = [
@@ -17,7 +17,7 @@ const HEADS: [(&str, &str); 4] = [
 impl RulesPanel {
     /// Draws the rules; a click chooses one.
     pub(super) fn table(&mut self, ui: &mut Ui, rules: &[&RuleResult], chosen: usize) {
-        let measured = (0.34 * ui.available_width()).clamp(130.0, 300.0);
+        let measured = (0.27 * ui.available_width()).clamp(130.0, 300.0);
         let table = TableBuilder::new(ui)
             .id_salt("rules")
             .striped(true)
@@ -92,7 +92,7 @@ fn cells(line: &mut TableRow<'_, '_>, rule: &RuleResult) {
 fn told(rule: &RuleResult) -> String {
     let wanted = rule.verdict == Verdict::Pass;
     let decides = rule.measured.iter().find(|one| one.holds == wanted).or(rule.measured.first());
-    decides.map_or_else(|| rule.why.clone(), |one| compared(&one.says))
+    decides.map_or_else(|| on_screen(&rule.why), |one| compared(&one.says))
 }
 
 /// A comparison with its signs as they are printed.
