@@ -6,7 +6,7 @@ use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
-use crate::line::LineMake;
+use crate::line::{LineMake, line_choices};
 use crate::schema::Kind;
 use crate::tree::Node;
 use crate::units::Quantity;
@@ -29,6 +29,8 @@ pub enum Make {
         id: At<String>,
         /// Its attributes.
         attributes: Attributes,
+        /// How its lines are made up, by id.
+        lines: Vec<(At<String>, LineMake)>,
     },
     /// Its parts, one by one.
     Parts(Parts),
@@ -117,7 +119,11 @@ impl Assembly {
         let head = entry::header(&fields, Kind::Assembly.word(), problems);
         let entry = entry::body(&fields, Kind::Assembly, head, id);
         let make = match fields.text("gear_type") {
-            Some(id) => Make::GearType { id, attributes: Attributes::read(&fields, "attributes") },
+            Some(id) => Make::GearType {
+                id,
+                attributes: Attributes::read(&fields, "attributes"),
+                lines: line_choices(&fields),
+            },
             None => Make::Parts(Parts::read(&fields)),
         };
         if matches!(&make, Make::Parts(parts) if parts.lines.is_empty() && parts.bodies.is_empty())

@@ -1,13 +1,14 @@
 //! How a line is made up: the condition of its rope, what holds its ends, weak inserts or sleeves along it.
 //!
-//! These keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in
-//! `[gear.lines.<line>]` of a scenario, where they go over those of the assembly.
+//! These keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in `[lines.<line>]` of
+//! its assembly. In `[gear.lines.<line>]` of a scenario they go over those of the assembly.
 
 use endline_sdk::LineEnd;
 
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Range};
 use crate::items::Condition;
+use crate::tree::Node;
 use crate::units::Quantity;
 
 /// How a line is made up; what is not named is usual.
@@ -93,6 +94,18 @@ impl LineMake {
             inserts: self.inserts.clone().or_else(|| usual.inserts.clone()),
         }
     }
+}
+
+/// Reads `[lines.<line>]`: how a line is made up, by id.
+pub(crate) fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
+    let Some(table) = fields.table("lines") else { return Vec::new() };
+    let choice = |(line, key, node): &(String, Place, Node)| {
+        let inner = Fields::of(node, fields.problems());
+        let make = LineMake::read(&inner);
+        inner.finish();
+        (At { value: line.clone(), place: key.clone() }, make)
+    };
+    table.rest().into_iter().map(choice).collect()
 }
 
 /// Reads `[line.inserts]`.

@@ -73,6 +73,17 @@ pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf
     Err(format!("there is no file `{name}` and no `{name}.toml` in {}; {help}", items.display()))
 }
 
+/// Writes a text to a new file; never over one that is there.
+///
+/// # Errors
+/// Where the file is there already, or cannot be written.
+pub fn write_new(path: &Path, text: &str) -> std::io::Result<()> {
+    use std::io::Write;
+    let mut file = std::fs::File::create_new(path)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
+}
+
 /// Files of the scenarios of a library, by name.
 #[must_use]
 pub fn scenarios(root: &Path) -> Vec<PathBuf> {

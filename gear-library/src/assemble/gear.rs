@@ -47,7 +47,10 @@ impl Builder<'_> {
             places: Vec::new(),
         };
         match &assembly.make {
-            Make::GearType { id, attributes } => self.add_built(gear, &setting, id, attributes),
+            Make::GearType { id, attributes, lines } => {
+                setting.makes = over(lines.clone(), &gear.lines);
+                self.add_built(gear, &setting, id, attributes);
+            }
             Make::Parts(parts) => {
                 if let Some((_, key, _)) = gear.attributes.0.first() {
                     let message = format!(
@@ -60,7 +63,7 @@ impl Builder<'_> {
                     ));
                 }
                 setting.places = places(parts);
-                setting.makes = makes(parts, &gear.lines);
+                setting.makes = over(own_makes(parts), &gear.lines);
                 self.add_rig(&rig(parts, self.spec.water.depth_m), &setting);
             }
         }
@@ -153,10 +156,16 @@ fn rig(parts: &Parts, depth_m: f64) -> Rig {
     }
 }
 
-/// How each line of the parts is made up, the scenario's choices over the assembly's.
-fn makes(parts: &Parts, chosen: &[(At<String>, LineMake)]) -> Vec<(At<String>, LineMake)> {
-    let own = |line: &PartLine| (line.id.clone(), line.make.clone());
-    let mut makes: Vec<_> = parts.lines.iter().map(own).collect();
+/// How each line of the parts is made up.
+fn own_makes(parts: &Parts) -> Vec<(At<String>, LineMake)> {
+    parts.lines.iter().map(|line| (line.id.clone(), line.make.clone())).collect()
+}
+
+/// How each line is made up, the scenario's choices over the assembly's.
+fn over(
+    mut makes: Vec<(At<String>, LineMake)>,
+    chosen: &[(At<String>, LineMake)],
+) -> Vec<(At<String>, LineMake)> {
     for (id, make) in chosen {
         match makes.iter_mut().find(|(known, _)| known.value == id.value) {
             Some((_, usual)) => *usual = make.over(usual),

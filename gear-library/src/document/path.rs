@@ -38,7 +38,10 @@ pub(super) fn way<'a>(item: &'a mut Item, part: &str, to_list: bool) -> Option<&
         let fresh = if to_list {
             Item::ArrayOfTables(ArrayOfTables::new())
         } else {
-            Item::Table(Table::new())
+            // Its head is written where it holds more than tables.
+            let mut table = Table::new();
+            table.set_implicit(true);
+            Item::Table(table)
         };
         table.insert(part, fresh);
     }

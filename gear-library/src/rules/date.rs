@@ -32,6 +32,35 @@ impl Date {
         (1..=days_of(year, month)).contains(&day).then_some(Self { year, month, day })
     }
 
+    /// A day for rules of which nobody looked up when they began.
+    pub(super) const USUAL: Self = Self { year: 2024, month: 1, day: 1 };
+
+    /// The day so many days after 1 January 1970.
+    #[must_use]
+    pub fn after_1970(days: u64) -> Self {
+        (0..days).fold(Self { year: 1970, month: 1, day: 1 }, |day, _| day.next())
+    }
+
+    /// The day after.
+    pub(super) fn next(self) -> Self {
+        let Self { year, month, day } = self;
+        if day < days_of(year, month) {
+            Self { day: day + 1, ..self }
+        } else if month < 12 {
+            Self { month: month + 1, day: 1, ..self }
+        } else {
+            Self { year: year + 1, month: 1, day: 1 }
+        }
+    }
+
+    /// Whether it lies in a season, from its first to its last day of the year; over the turn of the year where the first
+    /// is the later.
+    #[must_use]
+    pub fn is_in(self, [first, last]: [u16; 2]) -> bool {
+        let day = self.day_of_year();
+        if first <= last { (first..=last).contains(&day) } else { day >= first || day <= last }
+    }
+
     /// Its number in the year: 1 is 1 January.
     #[must_use]
     pub fn day_of_year(self) -> u16 {
@@ -91,5 +120,19 @@ mod tests {
         }
         assert!(Date::parse("2022-04-30") < Date::parse("2022-05-01"));
         assert_eq!(Date::parse("2022-05-01").unwrap().to_string(), "2022-05-01");
+        for (day, after) in [
+            ("2024-02-28", "2024-02-29"),
+            ("2023-02-28", "2023-03-01"),
+            ("2023-12-31", "2024-01-01"),
+        ] {
+            assert_eq!(Date::parse(day).map(Date::next), Date::parse(after));
+        }
+        // 20,000 days of 86,400 s: `date -u -d @1728000000`.
+        assert_eq!(Date::after_1970(20_000).to_string(), "2024-10-04");
+        let in_winter = |text: &str| Date::parse(text).unwrap().is_in([305, 90]);
+        assert_eq!(
+            ["2023-11-01", "2023-03-31", "2023-10-31", "2023-04-01"].map(in_winter),
+            [true, true, false, false]
+        );
     }
 }

@@ -95,6 +95,12 @@ impl Standing {
     /// The words a file uses.
     pub const WORDS: [&'static str; 3] = ["law", "voluntary", "proposed"];
 
+    /// Whether people are bound to follow it; a rule that does not bind is advice.
+    #[must_use]
+    pub fn binds(self) -> bool {
+        self == Self::Law
+    }
+
     /// Its word.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -111,6 +117,12 @@ impl Subject {
     pub const WORDS: [&'static str; 4] =
         ["gear", "every endline", "any endline", "every groundline"];
 
+    /// Its words.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
+    }
+
     fn named(word: &str) -> Self {
         match word {
             "every endline" => Self::EveryEndline,
@@ -118,6 +130,19 @@ impl Subject {
             "every groundline" => Self::EveryGroundline,
             _ => Self::Gear,
         }
+    }
+}
+
+impl Rule {
+    /// A day on which it applies: its first, or a later one in its season; `None` where there is none.
+    #[must_use]
+    pub fn day_in_force(&self) -> Option<Date> {
+        let first = self.from.or(self.until).unwrap_or(Date::USUAL);
+        let in_season = |day: &Date| self.season.is_none_or(|season| day.is_in(season));
+        let in_force = |day: &Date| self.until.is_none_or(|until| *day <= until);
+        std::iter::successors(Some(first), |day| Some(day.next()))
+            .take(366)
+            .find(|day| in_season(day) && in_force(day))
     }
 }
 

@@ -1,9 +1,9 @@
 //! Gear of the library, placed in a scenario.
 
 use crate::attributes::Attributes;
-use crate::diagnostic::{At, Place};
+use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
-use crate::line::LineMake;
+use crate::line::{LineMake, line_choices};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
@@ -65,16 +65,4 @@ fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
         }
     }
     choices
-}
-
-/// `[gear.lines.<line>]`: how a line is made up, by id.
-fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
-    let Some(table) = fields.table("lines") else { return Vec::new() };
-    let choice = |(line, key, node): &(String, Place, Node)| {
-        let inner = Fields::of(node, fields.problems());
-        let make = LineMake::read(&inner);
-        inner.finish();
-        (At { value: line.clone(), place: key.clone() }, make)
-    };
-    table.rest().into_iter().map(choice).collect()
 }

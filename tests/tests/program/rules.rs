@@ -48,7 +48,14 @@ fn an_assembly_passes_fails_or_leaves_a_rule_open_and_the_exit_code_says_whether
     let assembly = fs::read_to_string(library().join("assemblies/single-bridle.toml")).unwrap();
     place.write("assemblies/floating.toml", &assembly.replace("\"sink-3-8\"", "\"pp-3-8\""));
     let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
-    fails.fails(1, &["fail", "bay.sinking", "mend: Use sinking rope.", "0 >= 0.5", "(proposed)"]);
+    // What is proposed or voluntary is advice: it fails, and the call does not.
+    let told = ["fail", "bay.sinking", "mend: Use sinking rope.", "0 >= 0.5", "(proposed)"];
+    fails.fails(0, &[&told[..], &["1 fail (1 of them advice that does not bind)"]].concat());
+    for (standing, code) in [("law", 1), ("voluntary", 0)] {
+        place.write("bay.toml", &PACK.replace("\"proposed\"", &format!("\"{standing}\"")));
+        let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
+        fails.fails(code, &["mend: Use sinking rope.", "1 fail"]);
+    }
 
     let maine = check(&place, &["single", "--area", "me-b", "--on", "2024-06-01"]);
     maine.fails(1, &["needs --distance", "us.weak", "86 FR 51970", "assembled for 25 m"]);
@@ -83,4 +90,146 @@ fn mistakes_in_a_pack_stand_at_their_lines_and_the_packs_that_ship_have_none() {
     for word in ["us.weak", "2022-05-01", "voluntary", "estimate", "Maine lobster zone G"] {
         assert!(listed.stdout.contains(word), "{listed}");
     }
+}
+
+#[test]
+fn a_rule_with_a_season_does_not_apply_out_of_it_and_has_a_verdict_in_it() {
+    let place = Place::new("rule-season");
+    // From 1 November over the turn of the year to 30 April.
+    let season = PACK.replace("subject =", "season = [305, 120]\nsubject =");
+    place.write("bay.toml", &season);
+    let on = |day: &str| {
+        let arguments =
+            ["single-bridle", "--area", "my-bay", "--on", day, "--pack", "bay.toml", "--json"];
+        let json = check(&place, &arguments).done().json();
+        json["rules"].as_array().unwrap().iter().find(|one| one["rule"] == "bay.sinking").cloned()
+    };
+    // 2025 has no leap day: its day 120 is 30 April, its day 305 is 1 November.
+    for (day, verdict) in [
+        ("2025-04-30", "pass"),
+        ("2025-05-01", "not-applicable"),
+        ("2025-10-31", "not-applicable"),
+        ("2025-11-01", "pass"),
+        ("2026-01-01", "pass"),
+    ] {
+        let rule = on(day).unwrap();
+        assert_eq!(rule["verdict"], verdict, "{day}: {rule}");
+        let why = rule["why"].as_str().unwrap();
+        assert_eq!(why.contains("from day 305 to day 120"), verdict != "pass", "{day}: {rule}");
+    }
+}
+
+#[test]
+fn the_json_of_check_and_list_tells_all_that_a_script_needs() {
+    let place = Place::new("rule-json");
+    let call = ["single", "--area", "me-b", "--on", "2024-06-01", "--distance", "5 nmi", "--json"];
+    let called = check(&place, &call);
+    called.fails(1, &[]);
+    let sheet = called.json();
+    assert_eq!(sheet["schema"], "endline.rules.check/1");
+    assert_eq!((&sheet["traps"], &sheet["distance_m"]), (&1.into(), &9260.0.into()));
+    let rules = sheet["rules"].as_array().unwrap();
+    let with = |verdict: &str| rules.iter().filter(|one| one["verdict"] == verdict).count();
+    for (count, verdict) in [
+        ("pass", "pass"),
+        ("fail", "fail"),
+        ("not_applicable", "not-applicable"),
+        ("cannot_be_checked", "cannot-be-checked"),
+    ] {
+        assert_eq!(sheet["counts"][count], with(verdict), "{verdict}");
+    }
+    let weak = rules.iter().find(|one| one["rule"] == "us.weak").unwrap();
+    assert_eq!((&weak["binding"], &weak["from"]), (&true.into(), &"2022-05-01".into()));
+    assert!(weak["until"].is_null() && !weak["source"].as_str().unwrap().is_empty(), "{weak}");
+
+    let library = text(&library());
+    let listed = place.endline(&["--library", &library, "rules", "list", "--json"]).done().json();
+    assert_eq!(listed["schema"], "endline.rules.list/1");
+    let packs = listed["packs"].as_array().unwrap();
+    let all: Vec<_> = packs.iter().flat_map(|pack| pack["rules"].as_array().unwrap()).collect();
+    assert_eq!(all.len(), rules.len(), "the check tells every rule of the list");
+    let weak = all.iter().find(|one| one["rule"] == "us.weak").unwrap();
+    assert_eq!(weak["check"], "least_rated <= strength");
+    assert_eq!(weak["parameters"][0]["text"], "1,700 lbf");
+    assert!(
+        (weak["parameters"][0]["value"].as_f64().unwrap() - 7_561.976_8).abs() < 1e-3,
+        "{weak}"
+    );
+    let zones = packs.iter().flat_map(|pack| pack["areas"].as_array().unwrap());
+    assert!(zones.into_iter().any(|area| area["area"] == "me-g" && area["within"] == "maine"));
+}
+
+#[test]
+fn edits_that_mend_are_proposed_and_written_to_a_new_assembly_that_complies() {
+    let place = Place::new("rule-mend");
+    let library = text(&place.library());
+    let at = ["--area", "me-b", "--on", "2024-06-01", "--distance", "5 nmi"];
+    let mend = |more: &[&str]| {
+        place
+            .endline(&[&["--library", &library, "rules", "mend", "single"], &at[..], more].concat())
+    };
+    let json = mend(&["--json"]).done().json();
+    assert_eq!(json["schema"], "endline.rules.mend/1");
+    let rules = json["rules"].as_array().unwrap();
+    let of = |id: &str| rules.iter().find(|one| one["rule"] == id).unwrap();
+    let two = of("me.inserts.3-12.two")["proposals"].as_array().unwrap();
+    assert!(two.len() > 1, "{two:?}");
+    for edit in two {
+        let passes = edit["passes"].as_array().unwrap();
+        assert!(passes.contains(&"me.inserts.3-12.two".into()), "{edit}");
+        assert!(!edit["changes"].as_array().unwrap().is_empty(), "{edit}");
+    }
+    assert!(of("us.soak")["why_none"].as_str().unwrap().contains("does not say"));
+    let told =
+        ["single in me-b", "25 % and 50 % of endline-top", "still fails", "no edit mends it"];
+    mend(&[]).fails(0, &told);
+
+    // All edits together: the assembly written complies with every rule that binds.
+    mend(&["--write", "single-mended"]).done();
+    let check = |assembly: &str| {
+        place.endline(&[&["--library", &library, "rules", "check", assembly], &at[..]].concat())
+    };
+    check("single").fails(1, &["us.weak"]);
+    check("single-mended").fails(0, &["0 fail"]);
+    let file = place.path("gear-library/assemblies/single-mended.toml");
+    let written = fs::read_to_string(&file).unwrap();
+    assert!(
+        written.contains("(mended)") && written.contains("[lines.endline-top.inserts]"),
+        "{written}"
+    );
+    // Never over a file that is there; a number that no proposal has is wrong use.
+    mend(&["--write", "single-mended"]).fails(1, &["is there already"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), written);
+    mend(&["--write", "one.toml", "--take", "99"]).fails(2, &["--take 99", "numbers 1 to"]);
+    mend(&["--write", "one.toml", "--take", "1"]).done();
+    assert!(place.path("one.toml").is_file());
+}
+
+#[test]
+fn a_study_of_two_rules_has_an_option_for_each_and_opens() {
+    let place = Place::new("rule-study");
+    let library = text(&place.library());
+    let study = |options: &[&str], out: &str| {
+        let options: Vec<&str> = options.iter().flat_map(|id| ["--option", id]).collect();
+        let call = ["--library", &library, "rules", "study", "single", "--out", out];
+        place.endline(&[&call[..], &options].concat())
+    };
+    let [one, two] = ["me.inserts.3-12.one", "me.inserts.3-12.two"];
+    study(&[one, two], "second-insert").fails(0, &["at 33 % of", "at 25 % and 50 % of"]);
+    let plan = ["--library", &library, "study", "plan", "second-insert", "--json"];
+    let plan = place.endline(&plan).done().json();
+    let options = plan["options"].as_array().unwrap();
+    let ids: Vec<&str> = options.iter().map(|one| one.as_str().unwrap()).collect();
+    assert_eq!(ids, [one, two]);
+    let file = place.path("gear-library/studies/second-insert.toml");
+    let written = fs::read_to_string(&file).unwrap();
+    // The encounters are those of the study taken, and neither its options nor its claims.
+    assert!(
+        written.contains("[encounter.speed]") && written.contains(&format!("baseline = \"{one}\""))
+    );
+    assert!(!written.contains("trawl-45"), "{written}");
+    study(&[one, two], "second-insert").fails(1, &["is there already"]);
+    study(&[one], "x").fails(1, &["two rules or more"]);
+    study(&[one, "me.markz"], "x").fails(1, &["no rule `me.markz`", "did you mean `me.marks`"]);
+    study(&[one, "me.marks"], "x").fails(1, &["`me.marks` gives no option", "does not say"]);
 }

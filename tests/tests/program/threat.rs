@@ -86,7 +86,9 @@ fn a_gear_becomes_a_page() {
         ["sheet", "trawl-5", "--area", "maine", "--on", "2024-06-01", "--depth", "30 m"];
     place.endline(&arguments).done();
     let page = fs::read_to_string(place.path("trawl-5-sheet.html")).unwrap();
-    assert!(page.contains("endline sheet trawl-5 --area maine") && page.contains("Wire lobster trap"));
+    assert!(
+        page.contains("endline sheet trawl-5 --area maine") && page.contains("Wire lobster trap")
+    );
     place
         .endline(&["sheet", "trawl-5", "--area", "mane", "--on", "2024-06-01"])
         .fails(2, &["maine"]);

@@ -76,6 +76,28 @@ pub(super) fn faster(workbench: &Workbench) -> Condition {
     require(next.is_some(), "this is the fastest speed")
 }
 
+/// An assembly was checked under rules.
+pub(super) fn has_verdicts(workbench: &Workbench) -> Condition {
+    require(workbench.rules.answer.is_some(), "check an assembly in Rules first")?;
+    require(!workbench.rules.comparing(), "a study is being made already")
+}
+
+/// Edits were proposed by which the assembly checked would comply.
+pub(super) fn has_edits(workbench: &Workbench) -> Condition {
+    has_verdicts(workbench)?;
+    let mends = workbench.rules.answer.as_ref().and_then(|answer| answer.mends.as_ref());
+    let any = mends.is_some_and(|mends| mends.numbered().next().is_some());
+    require(any, "no edit is proposed")
+}
+
+/// Edits mend rules that bind.
+pub(super) fn has_edit_of_all(workbench: &Workbench) -> Condition {
+    has_verdicts(workbench)?;
+    let mends = workbench.rules.answer.as_ref().and_then(|answer| answer.mends.as_ref());
+    let any = mends.is_some_and(|mends| mends.all.is_some());
+    require(any, "no edit is proposed for a rule that binds")
+}
+
 /// Two runs are compared.
 pub(super) fn compares(workbench: &Workbench) -> Condition {
     require(workbench.comparison().is_some(), "no run is compared with the one shown")

@@ -13,6 +13,7 @@ pub mod edit;
 pub mod export;
 pub mod info;
 pub mod plugin;
+pub mod rules;
 pub mod run;
 pub mod search;
 pub mod study;
@@ -25,6 +26,7 @@ pub use edit::EditAction;
 pub use export::ExportAction;
 pub use info::{Choice, CommandInfo, FileQuestion, FileUse, Make, Shortcut, When};
 pub use plugin::PluginAction;
+pub use rules::RuleAction;
 pub use run::RunAction;
 pub use search::SearchAction;
 pub use study::StudyAction;
@@ -43,6 +45,8 @@ pub enum Command {
     Study(StudyAction),
     /// Search for encounters that end like an observation.
     Search(SearchAction),
+    /// Bring an assembly to comply with rules.
+    Rules(RuleAction),
     /// Write files that others read.
     Export(ExportAction),
     /// Load and use plugins.
@@ -65,6 +69,7 @@ into_command!(
     EditAction => Edit,
     StudyAction => Study,
     SearchAction => Search,
+    RuleAction => Rules,
     ExportAction => Export,
     PluginAction => Plugin
 );
@@ -81,12 +86,13 @@ pub struct Group {
 }
 
 /// Every command, by group.
-pub static COMMANDS: [Group; 7] = [
+pub static COMMANDS: [Group; 8] = [
     Group { title: "Run", commands: run::COMMANDS },
     Group { title: "Time", commands: time::COMMANDS },
     Group { title: "Edit", commands: edit::COMMANDS },
     Group { title: "Study", commands: study::COMMANDS },
     Group { title: "Search", commands: search::COMMANDS },
+    Group { title: "Rules", commands: rules::COMMANDS },
     Group { title: "Export", commands: export::COMMANDS },
     Group { title: "Plugins", commands: plugin::COMMANDS },
 ];
@@ -112,6 +118,7 @@ impl Command {
             Self::Edit(action) => action.id(),
             Self::Study(action) => action.id(),
             Self::Search(action) => action.id(),
+            Self::Rules(action) => action.id(),
             Self::Export(action) => action.id(),
             Self::Plugin(action) => action.id(),
         }
@@ -134,6 +141,7 @@ impl Workbench {
             Command::Edit(action) => edit::perform(self, action),
             Command::Study(action) => study::perform(self, action),
             Command::Search(action) => search::perform(self, action),
+            Command::Rules(action) => rules::perform(self, action),
             Command::Export(action) => export::perform(self, action),
             Command::Plugin(action) => plugin::perform(self, action),
         };

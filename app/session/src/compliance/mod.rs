@@ -20,7 +20,7 @@ use crate::haul::{HaulRequest, HaulSheet, haul_of};
 use crate::plugins::PluginHost;
 use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
-use crate::source::assembly::open_assembly;
+use crate::source::AssemblyFile;
 use crate::source::{Overrides, Prepared, Source};
 use crate::statics::preview::{TrialSea, alone};
 
@@ -81,7 +81,9 @@ impl ComplianceSheet {
         host: &PluginHost,
     ) -> Result<Self, Error> {
         let Request { assembly, fishing, tide_m_s, threat } = request;
-        let (id, sources, library) = open_assembly(assembly, library)?;
+        let file = AssemblyFile::open(assembly, library)?;
+        let library = file.library()?;
+        let AssemblyFile { id, sources, .. } = file;
         let gear = of_library(&id, fishing.depth_m, &library, host)?;
         let at_rest = |current_m_s| -> Result<AtRest, Error> {
             let sea = TrialSea {

@@ -406,6 +406,16 @@ impl Documents {
         Ok(fresh)
     }
 
+    /// Writes a new study to a fresh file in the library; returns its path.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn new_study(&self, stem: &str, text: &str) -> Result<PathBuf, String> {
+        let fresh = self.fresh_file("studies", stem)?;
+        save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
+        Ok(fresh)
+    }
+
     /// Writes a copy of a text to a fresh file in a folder of the library.
     fn copy_beside(&self, key: &str, path: &Path, folder: &str) -> Result<PathBuf, String> {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -25,7 +25,7 @@ use endline_sim::settle;
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::assembly::open_assembly;
+use crate::source::AssemblyFile;
 
 use gear::Made;
 use loads::Loads;
@@ -105,8 +105,9 @@ pub fn haul(
     library: Option<&Path>,
     host: &PluginHost,
 ) -> Result<HaulSheet, Error> {
-    let (id, _, library) = open_assembly(named, library)?;
-    haul_of(&id, request, &library, host)
+    let file = AssemblyFile::open(named, library)?;
+    let library = file.library()?;
+    haul_of(&file.id, request, &library, host)
 }
 
 /// Hauls an assembly of a library that was read.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::assembly::open_assembly;
+use crate::source::AssemblyFile;
 
 use super::{HaulRequest, haul_of};
 
@@ -56,11 +56,12 @@ pub fn sweep(
     (library, host): (Option<&Path>, &PluginHost),
     mut each: impl FnMut(usize, usize),
 ) -> Result<Vec<SweepRow>, Error> {
-    let (id, _, library) = open_assembly(named, library)?;
+    let file = AssemblyFile::open(named, library)?;
+    let library = file.library()?;
     let requests = requests(request, sweep);
     let mut rows = Vec::with_capacity(requests.len());
     for request in &requests {
-        let sheet = haul_of(&id, request, &library, host)?;
+        let sheet = haul_of(&file.id, request, &library, host)?;
         rows.push(SweepRow {
             depth_m: sheet.depth_m,
             traps: sheet.traps,

@@ -7,8 +7,8 @@ pub(super) struct Gear {
     pub traps: usize,
     /// Buoys with a piece named radar reflector.
     pub reflectors: usize,
-    /// Floats: buoys with neither endline nor surface line.
-    pub floats: usize,
+    /// Ids of floats: buoys with neither endline nor surface line.
+    pub floats: Vec<String>,
     /// Whether a release holds a buoy down.
     pub stowed: bool,
     /// Endlines.
@@ -24,6 +24,8 @@ pub(super) struct Gear {
 pub(super) struct Endline {
     /// Id of its line at the buoy.
     pub id: String,
+    /// Id of its buoy.
+    pub buoy: String,
     /// Its pieces from the buoy down; sleeves and links have no length.
     pub pieces: Vec<Piece>,
     /// Rating of the weak link at the buoy [N].
@@ -35,6 +37,12 @@ pub(super) struct Endline {
 pub(super) struct Piece {
     /// Its id.
     pub id: String,
+    /// Id of the line that it is a piece of.
+    pub line: String,
+    /// Whether its line's end `to` is the one nearer to the buoy.
+    pub from_to: bool,
+    /// Id of its rope, or of its link.
+    pub item: String,
     /// Unstretched length; zero for a sleeve or link [m].
     pub length_m: f64,
     /// Diameter of its rope [m].

@@ -64,7 +64,7 @@ fn of_gear(name: &str, gear: &Gear, fishing: &Fishing) -> Option<Value> {
         "groundline_longest" => length(lines().map(|line| line.length_m).fold(0.0, f64::max)),
         "groundline_least_density" => density(least(lines().map(|line| line.density_kg_m3))),
         "trawl_length" => length(lines().map(|line| line.length_m).sum()),
-        "groundline_floats" => Value::count(gear.floats as f64),
+        "groundline_floats" => Value::count(gear.floats.len() as f64),
         "surface_line" => length(gear.surface_m.iter().copied().fold(0.0, f64::max)),
         "radar_reflectors" => Value::count(gear.reflectors as f64),
         _ => return None,

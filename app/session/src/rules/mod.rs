@@ -7,7 +7,10 @@
 //! | `fishing` | where, when and how gear is fished |
 //! | `expression`, `operators`, [`value`], `makeup` | expressions over values with units, on the library `exmex` |
 //! | [`packs`] | packs read, with every mistake at its place |
+//! | `listing` | rules and areas as JSON |
+//! | [`mend`] | edits by which gear comes to comply, each tried |
 //! | `verdict` | one rule on one assembly |
+//! | [`study`] | an assembly mended for each of several rules, as a study |
 //! | [`sheet`] | an assembly with the verdict on every rule |
 //!
 //! The format is described in `docs/rules.md`.
@@ -16,11 +19,14 @@ mod expression;
 pub mod facts;
 mod fishing;
 mod gear;
+mod listing;
 mod makeup;
 mod measure;
+pub mod mend;
 mod operators;
 pub mod packs;
 pub mod sheet;
+pub mod study;
 #[cfg(test)]
 mod tests;
 pub mod value;
@@ -30,5 +36,5 @@ mod walk;
 pub use fishing::Fishing;
 pub use makeup::{MadeUp, Places, Stretch};
 pub use packs::Packs;
-pub use sheet::{EndlineMakeUp, RuleGear, RuleSheet, assembly, check, of_library};
+pub use sheet::{Counts, EndlineMakeUp, RuleGear, RuleSheet, assembly, check, of_library};
 pub use verdict::{Measured, RuleResult, Verdict};

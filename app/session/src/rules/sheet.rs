@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::assembly::{open_assembly, written};
+use crate::source::AssemblyFile;
+use crate::source::assembly::written;
 
 use super::fishing::Fishing;
 use super::gear::Gear;
@@ -28,9 +29,14 @@ pub struct RuleGear {
     pub(super) gear: Gear,
 }
 
+/// Name and version of the JSON of a sheet.
+const SCHEMA: &str = "endline.rules.check/1";
+
 /// The verdict on every rule.
 #[derive(Clone, Debug, Serialize)]
 pub struct RuleSheet {
+    /// Name and version of its JSON.
+    pub schema: &'static str,
     /// Id of the assembly.
     pub assembly: String,
     /// Id of the area.
@@ -41,6 +47,12 @@ pub struct RuleSheet {
     pub depth_m: f64,
     /// Whether that depth was taken because none was given.
     pub depth_is_usual: bool,
+    /// Distance from shore, where it was given [m].
+    pub distance_m: Option<f64>,
+    /// Traps on one set: those given, else those counted.
+    pub traps: usize,
+    /// How many rules came to each verdict.
+    pub counts: Counts,
     /// Every rule with its verdict, by pack.
     pub rules: Vec<RuleResult>,
 }
@@ -76,7 +88,46 @@ impl RuleGear {
     }
 }
 
+/// How many rules came to each verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Rules that the gear meets.
+    pub pass: usize,
+    /// Rules that it does not meet.
+    pub fail: usize,
+    /// Those of them that bind.
+    pub fail_binding: usize,
+    /// Rules that do not apply.
+    pub not_applicable: usize,
+    /// Rules that cannot be checked.
+    pub cannot_be_checked: usize,
+}
+
+impl Counts {
+    fn of(rules: &[RuleResult]) -> Self {
+        let mut counts = Self::default();
+        for rule in rules {
+            match rule.verdict {
+                Verdict::Pass => counts.pass += 1,
+                Verdict::Fail => {
+                    counts.fail += 1;
+                    counts.fail_binding += usize::from(rule.binding);
+                }
+                Verdict::NotApplicable => counts.not_applicable += 1,
+                Verdict::CannotBeChecked => counts.cannot_be_checked += 1,
+            }
+        }
+        counts
+    }
+}
+
 impl RuleSheet {
+    /// Whether the gear fails a rule that binds; one that it is only advised to follow does not count.
+    #[must_use]
+    pub fn fails_binding(&self) -> bool {
+        self.counts.fail_binding > 0
+    }
+
     /// Rules with a verdict.
     pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
         self.rules.iter().filter(move |rule| rule.verdict == verdict)
@@ -100,8 +151,9 @@ pub fn assembly(
     library: Option<&Path>,
     host: &PluginHost,
 ) -> Result<RuleGear, Error> {
-    let (id, _, library) = open_assembly(named, library)?;
-    of_library(&id, depth_m, &library, host)
+    let file = AssemblyFile::open(named, library)?;
+    let library = file.library()?;
+    of_library(&file.id, depth_m, &library, host)
 }
 
 /// Assembles an assembly of a library that was read.
@@ -138,12 +190,17 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
 pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
     let around = packs.around(&fishing.area).map_err(Error::Replay)?;
     let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
+    let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?;
     Ok(RuleSheet {
+        schema: SCHEMA,
         assembly: gear.assembly.clone(),
         area: fishing.area.clone(),
         on: fishing.on.to_string(),
         depth_m: gear.depth_m,
         depth_is_usual: fishing.depth_m.is_none(),
-        rules: rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?,
+        distance_m: fishing.distance_m,
+        traps: fishing.traps.map_or(gear.gear.traps, usize::from),
+        counts: Counts::of(&rules),
+        rules,
     })
 }

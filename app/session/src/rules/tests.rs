@@ -1,7 +1,7 @@
 //! Every rule of the shipped packs with gear that passes and gear that fails, and mistakes in packs.
 
 mod cases;
-mod gear;
+pub mod gear;
 mod mistakes;
 
 use endline_gear::Date;
@@ -14,12 +14,12 @@ use super::{Fishing, Packs, RuleResult, Verdict, check};
 use cases::{TRAPS, UNSAID, federal, others};
 use gear::{STOWED, TWO_INSERTS, assembled, inserts, library, line, rig};
 
-fn packs() -> Packs {
+pub fn packs() -> Packs {
     Packs::open(Some(&library()), &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Fishing as `area, day, distance, traps`; what is empty is not given.
-fn fishing(text: &str) -> Fishing {
+pub fn fishing(text: &str) -> Fishing {
     let words: Vec<&str> = text.split(',').map(str::trim).collect();
     let word = |at: usize| words.get(at).filter(|word| !word.is_empty());
     Fishing {

@@ -42,6 +42,14 @@ pub struct RuleResult {
     pub standing: &'static str,
     /// How sure its wording is.
     pub confidence: &'static str,
+    /// Whether people are bound to it: it is law. A rule that does not bind is advice.
+    pub binding: bool,
+    /// Where its wording was read.
+    pub source: String,
+    /// First day in force; none where nobody looked it up.
+    pub from: Option<String>,
+    /// Last day in force, where it has one.
+    pub until: Option<String>,
     /// The verdict.
     pub verdict: Verdict,
     /// Why it does not apply or cannot be checked; empty otherwise.
@@ -127,6 +135,10 @@ pub(super) fn of(
         cite: rule.cite.clone(),
         standing: rule.standing.word(),
         confidence: rule.confidence.word(),
+        binding: rule.standing.binds(),
+        source: rule.source.clone(),
+        from: rule.from.map(|day| day.to_string()),
+        until: rule.until.map(|day| day.to_string()),
         verdict: found.verdict,
         why: found.why,
         measured: found.measured,
@@ -146,7 +158,7 @@ fn applies(rule: &Rule, gear: &Gear, fishing: &Fishing, around: &[&str]) -> Opti
     if !rule.areas.is_empty() && !rule.areas.iter().any(|area| around.contains(&&*area.value)) {
         return not(format!("applies in {}", list(&rule.areas)));
     }
-    if let Some([first, last]) = rule.season.filter(|season| !in_season(*season, fishing)) {
+    if let Some([first, last]) = rule.season.filter(|season| !fishing.on.is_in(*season)) {
         return not(format!("applies from day {first} to day {last} of the year"));
     }
     #[expect(clippy::cast_precision_loss, reason = "a count of traps")]
@@ -161,11 +173,6 @@ fn applies(rule: &Rule, gear: &Gear, fishing: &Fishing, around: &[&str]) -> Opti
 
 fn list(areas: &[At<String>]) -> String {
     areas.iter().map(|area| area.value.as_str()).collect::<Vec<_>>().join(", ")
-}
-
-fn in_season([first, last]: [u16; 2], fishing: &Fishing) -> bool {
-    let day = fishing.on.day_of_year();
-    if first <= last { (first..=last).contains(&day) } else { day >= first || day <= last }
 }
 
 /// Why a range keeps a rule from applying, or leaves it in doubt.

@@ -32,18 +32,18 @@ pub(super) fn gear_of(made: &Assembled, library: &Library) -> Gear {
     let reader = Reader { made, holds: holds(made) };
     let mut gear = Gear { stowed: reader.holds.contains(&true), ..Gear::default() };
     let mut taken = reader.holds.clone();
-    let mut bare_buoys = 0;
     for (index, body) in made.spec.bodies.iter().enumerate() {
         match body.role {
             BodyRole::Trap => gear.traps += 1,
             BodyRole::Buoy => {
                 gear.reflectors += usize::from(has_reflector(library, &body.item));
-                bare_buoys += usize::from(!reader.take_buoy(index, &mut gear, &mut taken));
+                if !reader.take_buoy(index, &mut gear, &mut taken) {
+                    gear.floats.push(body.id.clone());
+                }
             }
             BodyRole::Anchor | BodyRole::Weight => {}
         }
     }
-    gear.floats = bare_buoys;
     let on_seabed = |line: &Line| !line.id.contains("gangion") && !line.id.contains("bridle");
     let lines = made.spec.lines.iter().enumerate();
     let left = lines.filter(|(index, line)| !taken[*index] && on_seabed(line));
@@ -77,7 +77,8 @@ impl Reader<'_> {
                     gear.surface_m.push(path.iter().map(|(line, _)| self.length_m(*line)).sum());
                 }
             } else if ends_at.is_some() || self.steps(last).len() > 1 {
-                gear.endlines.push(self.endline(&path));
+                let buoy = spec.bodies[buoy].id.clone();
+                gear.endlines.push(Endline { buoy, ..self.endline(&path) });
             } else {
                 continue;
             }
@@ -140,11 +141,12 @@ impl Reader<'_> {
                     endline.pieces.push(self.link(link));
                 }
             }
-            endline.pieces.push(self.piece(*line));
+            let from_to = *entered == LineEnd::B;
+            endline.pieces.push(Piece { from_to, ..self.piece(*line) });
             endline.pieces.extend(self.links(*line, left).map(|link| self.link(link)));
         }
         let top = endline.pieces.first().map(|piece| piece.id.as_str()).unwrap_or_default();
-        endline.id = top.split('.').next().unwrap_or(top).to_owned();
+        endline.id = whole(top);
         endline
     }
 
@@ -157,7 +159,8 @@ impl Reader<'_> {
     }
 
     fn link(&self, link: &Link) -> Piece {
-        let piece = Piece { id: link.id.clone(), ..Piece::default() };
+        let line = whole(&self.made.spec.lines[link.line].id);
+        let piece = Piece { id: link.id.clone(), line, ..Piece::default() };
         self.with_strength(piece, link.rating_n)
     }
 
@@ -166,6 +169,7 @@ impl Reader<'_> {
         let rope = &spec.ropes[spec.lines[line].rope];
         let piece = Piece {
             id: spec.lines[line].id.clone(),
+            line: whole(&spec.lines[line].id),
             length_m: self.length_m(line),
             diameter_m: rope.diameter_m,
             density_kg_m3: density_kg_m3(rope),
@@ -179,12 +183,18 @@ impl Reader<'_> {
         let budget = self.budget(&piece.id);
         let or_usual = |of: fn(&StrengthBudget) -> f64| budget.map_or(usual_n, of);
         Piece {
+            item: budget.map(|budget| budget.item.clone()).unwrap_or_default(),
             rated_n: or_usual(rated_n),
             new_n: or_usual(new_n),
             delivered_n: or_usual(StrengthBudget::delivered_n),
             ..piece
         }
     }
+}
+
+/// The line that a piece is of: a line with inserts is cut into `line.1`, `line.insert-1`, `line.2`.
+fn whole(piece: &str) -> String {
+    piece.split('.').next().unwrap_or(piece).to_owned()
 }
 
 /// Which lines hold stowed gear down.

@@ -1,35 +1,54 @@
 //! One assembly of the library, and scenarios written around it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use endline_gear::{Diagnostic, Document, Library, Setting, Sources};
 
 use crate::error::Error;
 use crate::locate;
 
-/// The id of an assembly, named by its id or its file, the library's files with it among them, and these read.
-///
-/// # Errors
-/// A file that cannot be read, no library, or every located error of the assembly.
-pub(crate) fn open_assembly(
-    named: &str,
-    library: Option<&Path>,
-) -> Result<(String, Sources, Library), Error> {
-    let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
-    let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
-    let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-    let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let file = format!("assemblies/{id}.toml");
-    sources.set(file.as_str(), text);
-    let (library, problems) = Library::read(&sources);
-    let own: Vec<Diagnostic> =
-        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
-    if !own.is_empty() {
-        return Err(Error::Diagnostics(own));
+/// The file of an assembly, with the library around it.
+pub struct AssemblyFile {
+    /// Id of the assembly.
+    pub id: String,
+    /// Text of its file.
+    pub text: String,
+    /// The library, this text in it.
+    pub sources: Sources,
+    /// The library's folder.
+    pub root: PathBuf,
+}
+
+impl AssemblyFile {
+    /// Opens an assembly by its id in the library, or by its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or no library.
+    pub fn open(named: &str, library: Option<&Path>) -> Result<Self, Error> {
+        let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
+        let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
+        let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let text = std::fs::read_to_string(&path)
+            .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+        let id =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        sources.set(format!("assemblies/{id}.toml"), text.clone());
+        Ok(Self { id, text, sources, root })
     }
-    Ok((id, sources, library))
+
+    /// The library read.
+    ///
+    /// # Errors
+    /// Every located error of the assembly.
+    pub fn library(&self) -> Result<Library, Error> {
+        let file = format!("assemblies/{}.toml", self.id);
+        let (library, problems) = Library::read(&self.sources);
+        let own: Vec<Diagnostic> = problems
+            .into_iter()
+            .filter(|problem| problem.is_error() && problem.file == file)
+            .collect();
+        if own.is_empty() { Ok(library) } else { Err(Error::Diagnostics(own)) }
+    }
 }
 
 /// The text of a scenario: a head, with settings put into it by field.

@@ -19,6 +19,8 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::{PluginHost, PluginUsed};
 
+pub use assembly::AssemblyFile;
+
 /// What a user may set for a run over what the scenario says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overrides {

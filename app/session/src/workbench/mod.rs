@@ -10,6 +10,7 @@
 //! | [`comparison`] | a second run beside it |
 //! | [`studies`] | studies at work and their results |
 //! | [`searches`] | the search at work and the stories found |
+//! | [`rules`] | an assembly checked under rules, and edits by which it would comply |
 //! | [`plugins`] | plugins loaded, allowed, checked and used |
 //! | [`preferences`] | what is kept between sessions |
 
@@ -23,6 +24,7 @@ mod program;
 pub mod project;
 mod recordings;
 mod replay;
+pub mod rules;
 pub mod run;
 pub mod searches;
 pub mod studies;
@@ -41,6 +43,7 @@ pub use notice::{Event, Notice, NoticeKind};
 pub use plugins::Plugins;
 pub use preferences::Preferences;
 pub use project::Project;
+pub use rules::{RuleAnswer, RuleChecks, RuleQuestion};
 pub use run::{CurrentRun, Direction, SPEEDS, Speed};
 pub use searches::Searches;
 pub use studies::Studies;
@@ -55,6 +58,8 @@ pub struct Workbench {
     pub studies: Studies,
     /// The search at work and the stories found.
     pub searches: Searches,
+    /// An assembly checked under rules.
+    pub rules: RuleChecks,
     /// Plugins in use, and those that are not.
     pub plugins: Plugins,
     /// What the user prefers.
@@ -78,6 +83,7 @@ impl Workbench {
             run: CurrentRun::new(launch),
             studies: Studies::default(),
             searches: Searches::default(),
+            rules: RuleChecks::default(),
             plugins: Plugins::new(host),
             preferences: Preferences::default(),
             recordings: None,
@@ -97,6 +103,7 @@ impl Workbench {
         self.take_plugins();
         self.refresh_studies();
         self.refresh_searches();
+        self.refresh_rules();
         self.run.refresh();
         self.keep_finished_run();
         self.take_program();

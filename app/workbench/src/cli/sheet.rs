@@ -3,44 +3,23 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use endline_gear::Date;
 use endline_gear::units::{self, Quantity};
 use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, pdf};
-use endline_session::rules::{Fishing, Packs};
 use endline_session::{Error, save};
 
-use super::rules::{day, length};
+use super::rules::FishedArgs;
 use super::{Failure, host, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct SheetArgs {
-    /// Assembly file, or the id of an assembly in the gear library.
-    #[arg(value_name = "ASSEMBLY")]
-    assembly: String,
-    /// Area in which it is fished; `endline rules list` names them.
-    #[arg(long, value_name = "NAME")]
-    area: String,
-    /// Day on which it is fished.
-    #[arg(long, value_name = "YYYY-MM-DD", value_parser = day)]
-    on: Date,
-    /// Depth of the water, such as "30 fathom" [default: 25 m, and depth counts as not known].
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    depth: Option<f64>,
-    /// Distance from shore, such as "5 nmi".
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    distance: Option<f64>,
-    /// Traps on one set, in place of those of the assembly.
-    #[arg(long, value_name = "N")]
-    traps: Option<u16>,
+    #[command(flatten)]
+    fished: FishedArgs,
     /// Speed of the running tide at the surface, such as "0.5 kn" [default: 0.25 m/s].
     #[arg(long, value_name = "SPEED", value_parser = speed)]
     tide: Option<f64>,
     /// Threat table with bands, as `endline study threat STUDY --to` writes it.
     #[arg(long, value_name = "FILE-bands.csv")]
     threat: Option<PathBuf>,
-    /// Rule pack besides those of the library; may be given several times.
-    #[arg(long, value_name = "FILE")]
-    pack: Vec<PathBuf>,
     /// The page [default: the assembly's id, with -sheet.html].
     #[arg(long, value_name = "FILE.html")]
     to: Option<PathBuf>,
@@ -50,22 +29,16 @@ pub(super) struct SheetArgs {
 }
 
 pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
-    let packs = Packs::open(library, &args.pack)?;
-    packs.around(&args.area).map_err(Failure::usage)?;
+    let (packs, fishing) = args.fished.open(library)?;
+    let assembly = &args.fished.assembly;
     let request = Request {
-        assembly: &args.assembly,
-        fishing: Fishing {
-            area: args.area.clone(),
-            on: args.on,
-            depth_m: args.depth,
-            distance_m: args.distance,
-            traps: args.traps,
-        },
+        assembly,
+        fishing,
         tide_m_s: args.tide.unwrap_or(USUAL_TIDE_M_S),
         threat: args.threat.clone(),
     };
     let sheet = ComplianceSheet::of(&request, &packs, library, &host::load())?;
-    let page = args.to.clone().unwrap_or_else(|| page_of(&args.assembly));
+    let page = args.to.clone().unwrap_or_else(|| page_of(assembly));
     save::atomically(&page, sheet.html()?.as_bytes())
         .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
     output::note(&format!("the sheet is {}", page.display()));

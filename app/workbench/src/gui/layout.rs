@@ -49,7 +49,7 @@ impl Layout {
 }
 
 fn design() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::VIEW, PanelId::ASSEMBLY]));
+    let mut dock = DockState::new(ids(&[PanelId::VIEW, PanelId::ASSEMBLY, PanelId::RULES]));
     let tree = dock.main_surface_mut();
     let [upper, _] =
         tree.split_below(NodeIndex::root(), 0.66, ids(&[PanelId::LIBRARY, PanelId::PROBLEMS]));

@@ -48,13 +48,15 @@ impl PanelId {
     pub const SEARCH: Self = Self::new("search", "Search");
     /// What a search found.
     pub const STORIES: Self = Self::new("stories", "Stories");
+    /// What laws ask of an assembly, and edits by which it would comply.
+    pub const RULES: Self = Self::new("rules", "Rules");
     /// The pilot program on a timeline.
     pub const PROGRAM: Self = Self::new("pilot", "Pilot program");
     /// Two runs beside one another.
     pub const COMPARE: Self = Self::new("compare", "Compare");
 
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::LIBRARY,
         Self::ASSEMBLY,
         Self::SCENARIO,
@@ -75,6 +77,7 @@ impl PanelId {
         Self::RESULTS,
         Self::SEARCH,
         Self::STORIES,
+        Self::RULES,
         Self::PROGRAM,
         Self::COMPARE,
     ];

@@ -9,6 +9,7 @@ mod gear;
 mod house;
 mod killed;
 mod plugins;
+mod rules;
 mod runs;
 mod scenario;
 mod search;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use egui::{Context, ViewportCommand};
 use endline_session::command::{
-    Command, EditAction, FileQuestion, RunAction, SearchAction, StudyAction,
+    Command, EditAction, FileQuestion, RuleAction, RunAction, SearchAction, StudyAction,
 };
 use endline_session::edit::Documents;
 use endline_session::workbench::{Event, Notice};
@@ -87,6 +87,9 @@ impl App {
         }
         if matches!(command, Command::Search(SearchAction::Open(_) | SearchAction::New)) {
             return Some(PanelId::SEARCH);
+        }
+        if matches!(command, Command::Rules(RuleAction::Compare(_))) {
+            return Some(PanelId::STUDY);
         }
         let replays = matches!(
             command,

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::Kind;
 use endline_session::command::{
-    Command, EditAction, ExportAction, PluginAction, RunAction, SearchAction, StudyAction,
-    TimeAction,
+    Command, EditAction, ExportAction, PluginAction, RuleAction, RunAction, SearchAction,
+    StudyAction, TimeAction,
 };
 use endline_session::units::Units;
 
@@ -242,6 +242,7 @@ into_workbench_command!(
     EditAction => Edit,
     StudyAction => Study,
     SearchAction => Search,
+    RuleAction => Rules,
     ExportAction => Export,
     PluginAction => Plugin
 );

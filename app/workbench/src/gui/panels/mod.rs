@@ -13,6 +13,7 @@ pub mod plugins;
 pub mod problems;
 pub mod recordings;
 pub mod results;
+pub mod rules;
 pub mod run;
 pub mod scenario;
 pub mod search;
@@ -69,6 +70,8 @@ pub struct Panels {
     pub search: search::SearchPanel,
     /// What a search found.
     pub stories: stories::StoriesPanel,
+    /// What laws ask of an assembly.
+    pub rules: rules::RulesPanel,
     /// The pilot program on a timeline.
     pub program: pilot::PilotPanel,
     /// Two runs beside one another.
@@ -99,6 +102,7 @@ impl Panels {
             &mut self.results,
             &mut self.search,
             &mut self.stories,
+            &mut self.rules,
             &mut self.program,
             &mut self.compare,
         ]

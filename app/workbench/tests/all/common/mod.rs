@@ -101,6 +101,7 @@ impl Folder {
             "acts",
             "assemblies",
             "scenarios",
+            "rules",
         ] {
             std::fs::create_dir_all(root.join(kind)).unwrap();
             for entry in std::fs::read_dir(shipped.join(kind)).unwrap() {

@@ -34,16 +34,8 @@ pub(super) fn show(
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
         scope_slider(ui, shared, file, scope);
     }
-    if shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly").as_deref()
-        == Some(id)
-    {
-        inserts::of_placed(ui, panel, shared);
-    } else {
-        let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
-        ui.add(
-            egui::Label::new(RichText::new(text).small().color(Theme::palette_of(ui).faint)).wrap(),
-        );
-    }
+    let placed = shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+    inserts::of_built(ui, panel, shared, (file, placed.as_deref() == Some(id)));
     widgets::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {

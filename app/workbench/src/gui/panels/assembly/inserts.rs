@@ -12,11 +12,25 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// Inserts of the lines of gear that a gear type builds: they stand in the scenario, over the assembly.
-pub(super) fn of_placed(ui: &mut Ui, panel: &AssemblyPanel, shared: &mut Shared) {
+/// Inserts of the lines of gear that a gear type builds: they stand in the scenario where it places the gear, unless the
+/// assembly's file has its own.
+pub(super) fn of_built(
+    ui: &mut Ui,
+    panel: &AssemblyPanel,
+    shared: &mut Shared,
+    (file, is_placed): (&str, bool),
+) {
     widgets::caption(ui, "Weak inserts");
     for line in built_lines(panel) {
-        one(ui, shared, Documents::SCENARIO, &format!("gear.0.lines.{line}"), &line);
+        let (own, placed) = (format!("lines.{line}"), format!("gear.0.lines.{line}"));
+        let documents = &shared.workbench.project.documents;
+        let has_own = documents.has(file, &format!("{own}.inserts"))
+            && !documents.has(Documents::SCENARIO, &format!("{placed}.inserts"));
+        if is_placed && !has_own {
+            one(ui, shared, Documents::SCENARIO, &placed, &line);
+        } else {
+            one(ui, shared, file, &own, &line);
+        }
     }
 }
 

@@ -1,0 +1,65 @@
+//! Commands that bring an assembly to comply with rules.
+
+#![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
+
+use super::condition::{has_edit_of_all, has_edits, has_verdicts};
+use super::info::Make;
+use super::{Command, Info};
+use crate::workbench::Workbench;
+
+/// An action on rules.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RuleAction {
+    /// Make a proposed edit of the assembly checked, by its place among all proposals, from 0.
+    Take(usize),
+    /// Make all edits that mend the rules that bind.
+    TakeAll,
+    /// Make a study of the assembly mended for each of these rules.
+    Compare(Vec<String>),
+}
+
+impl RuleAction {
+    /// The identity it is declared by.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Take(_) => "rules.take",
+            Self::TakeAll => "rules.take-all",
+            Self::Compare(_) => "rules.compare",
+        }
+    }
+}
+
+/// The actions on rules, declared.
+pub static COMMANDS: &[Info] = &[
+    Info::new(
+        "rules.take-all",
+        "Take all edits that rules ask for",
+        "Edits the assembly checked so that it complies with the rules that bind; one undo takes it back.",
+        Make::Plain(|| Command::Rules(RuleAction::TakeAll)),
+    )
+    .only_if(has_edit_of_all),
+    Info::new(
+        "rules.take",
+        "Take an edit that a rule asks for",
+        "Edits the assembly checked so that it complies with the rule; one undo takes it back.",
+        Make::Values("its place among the proposals"),
+    )
+    .only_if(has_edits),
+    Info::new(
+        "rules.compare",
+        "Compare options of rules",
+        "Saves all, and writes and opens a study of the assembly checked, mended for each of the chosen rules, in the same encounters.",
+        Make::Values("rules"),
+    )
+    .only_if(has_verdicts),
+];
+
+/// Dispatches an action.
+pub(super) fn perform(workbench: &mut Workbench, action: RuleAction) -> Result<(), String> {
+    match action {
+        RuleAction::Take(number) => workbench.take_rule_edit(Some(number)),
+        RuleAction::TakeAll => workbench.take_rule_edit(None),
+        RuleAction::Compare(rules) => workbench.compare_rules(rules),
+    }
+}

@@ -1,0 +1,182 @@
+//! What proposals look at: the file, the gear as assembled, the rule and where it fails.
+
+use std::sync::Arc;
+
+use endline_gear::units::{Quantity, parse};
+use endline_gear::{Document, Library, Rule, Subject};
+use endline_sdk::{Attribute, AttributeKind, GearType};
+
+use crate::edit::assembly::ids;
+
+use super::super::super::fishing::Fishing;
+use super::super::super::gear::{Endline, Gear, Piece};
+use super::super::super::verdict::RuleResult;
+use super::super::bench::{Bench, Tried};
+use super::super::demand::{self, Demand};
+
+/// Gear type of a row of traps, to which gear with fewer goes over.
+const TRAWL: &str = "org.endline.gear.trawl";
+
+/// What proposals look at.
+pub(in super::super) struct Scene<'a> {
+    /// The assembly's file.
+    pub document: &'a Document,
+    /// The gear as assembled.
+    pub gear: &'a Gear,
+    /// What gear is made of.
+    pub library: &'a Library,
+    /// Where, when and how it is fished.
+    pub fishing: &'a Fishing,
+    /// What the rule's check demands.
+    pub demands: Vec<Demand>,
+    /// The gear type that builds it, where one does.
+    pub gear_type: Option<Arc<dyn GearType>>,
+    /// The gear type of trawls, where it is among the plugins.
+    pub trawl: Option<Arc<dyn GearType>>,
+    rule: &'a Rule,
+    failing: Vec<&'a str>,
+}
+
+/// A line of an endline: where it lies along the endline, and how its file is reached.
+#[derive(Clone, Debug)]
+pub(in super::super) struct OfEndline {
+    /// Id of the line.
+    pub line: String,
+    /// From the buoy to its upper end [m].
+    pub start_m: f64,
+    /// Its length [m].
+    pub length_m: f64,
+    /// Whether its end `to` is the upper one.
+    pub from_to: bool,
+    /// Id of its own rope.
+    pub rope: String,
+}
+
+impl<'a> Scene<'a> {
+    pub fn new(
+        document: &'a Document,
+        tried: &'a Tried,
+        bench: &Bench<'a>,
+        rule: &'a Rule,
+        result: &'a RuleResult,
+    ) -> Self {
+        let gear_type = document.get("gear_type").and_then(|id| bench.host.gear(&id));
+        Self {
+            document,
+            gear: &tried.gear,
+            library: &tried.library,
+            fishing: bench.fishing,
+            demands: demand::of(rule),
+            gear_type,
+            trawl: bench.host.gear(TRAWL),
+            rule,
+            failing: result.measured.iter().map(|one| one.part.as_str()).collect(),
+        }
+    }
+
+    /// Why there is nothing to try.
+    pub fn why_none(&self) -> String {
+        let counts_traps = |demand: &Demand| matches!(demand, Demand::Fact { name: "traps", .. });
+        if self.fishing.traps.is_some() && self.demands.iter().any(counts_traps) {
+            return "the number of traps is given by the call and not by the assembly".to_owned();
+        }
+        format!(
+            "no edit of an assembly is known that changes what `{}` measures",
+            self.rule.check.value
+        )
+    }
+
+    /// Endlines on which the rule fails; one of them where one is enough.
+    pub fn endlines(&self) -> Vec<&'a Endline> {
+        let fails = |endline: &&Endline| {
+            self.failing.contains(&endline.id.as_str()) || self.rule.subject == Subject::Gear
+        };
+        let most = if self.rule.subject == Subject::AnyEndline { 1 } else { usize::MAX };
+        self.gear.endlines.iter().filter(fails).take(most).collect()
+    }
+
+    /// The lines of an endline from the buoy down, pieces of one line taken together.
+    pub fn lines(endline: &Endline) -> Vec<OfEndline> {
+        let (mut lines, mut at_m) = (Vec::<OfEndline>::new(), 0.0);
+        for piece in endline.pieces.iter().filter(|piece| piece.length_m > 0.0) {
+            match lines.last_mut().filter(|last| last.line == piece.line) {
+                Some(last) => last.length_m += piece.length_m,
+                None => lines.push(OfEndline {
+                    line: piece.line.clone(),
+                    start_m: at_m,
+                    length_m: piece.length_m,
+                    from_to: piece.from_to,
+                    rope: piece.item.clone(),
+                }),
+            }
+            let own = lines.last_mut().filter(|_| !piece.id.contains(".insert-"));
+            own.into_iter().for_each(|last| last.rope.clone_from(&piece.item));
+            at_m += piece.length_m;
+        }
+        lines
+    }
+
+    /// Lines in which the rule is looked at: those of its endlines, or groundlines.
+    pub fn lines_of_rule(&self) -> Vec<String> {
+        let of_endlines = self.endlines().into_iter().flat_map(|endline| &endline.pieces);
+        let own = |piece: &&Piece| {
+            self.rule.subject == Subject::Gear || self.failing.contains(&piece.id.as_str())
+        };
+        let of_ground = self.gear.groundlines.iter().filter(own);
+        let mut lines: Vec<String> =
+            of_endlines.chain(of_ground).map(|piece| piece.line.clone()).collect();
+        lines.sort();
+        lines.dedup();
+        lines
+    }
+
+    /// Where the file says how a line is made up: `line.2`, or `lines.endline-top` of gear that a gear type builds.
+    pub fn make_of(&self, line: &str) -> Option<String> {
+        match &self.gear_type {
+            Some(_) => Some(format!("lines.{line}")),
+            None => self.place_in("line", line),
+        }
+    }
+
+    /// Path of a part by its id, such as `line.2`.
+    pub fn place_in(&self, list: &str, id: &str) -> Option<String> {
+        let index = ids(self.document, list).iter().position(|known| known == id)?;
+        Some(format!("{list}.{index}"))
+    }
+
+    /// A declared attribute of the gear type.
+    pub fn attribute(&self, key: &str) -> Option<&Attribute> {
+        self.gear_type.as_ref()?.descriptor().attributes.iter().find(|one| one.key == key)
+    }
+
+    /// Attributes of the gear type that name an item of a folder, with the item in use.
+    pub fn items_of(&self, folder: &str) -> Vec<(String, String)> {
+        let attributes = self.gear_type.iter().flat_map(|gear| &gear.descriptor().attributes);
+        let item = |attribute: &Attribute| match &attribute.kind {
+            AttributeKind::Item { library, default } if library == folder => {
+                let given = self.document.get(&format!("attributes.{}", attribute.key));
+                Some((attribute.key.to_string(), given.unwrap_or_else(|| default.to_string())))
+            }
+            _ => None,
+        };
+        attributes.filter_map(item).collect()
+    }
+
+    /// A number of an attribute in SI units, as given or as the gear type has it.
+    pub fn number(&self, key: &str, quantity: Quantity) -> Option<f64> {
+        let AttributeKind::Number { default, .. } = self.attribute(key)?.kind else { return None };
+        let given = self.document.get(&format!("attributes.{key}"));
+        Some(given.and_then(|text| parse(&text, quantity).ok()).unwrap_or(default))
+    }
+}
+
+/// A length as a file has it, to the centimetre.
+pub(super) fn metres(length_m: f64) -> String {
+    format!("{} m", written(length_m))
+}
+
+/// A number to two decimals, without zeros at its end.
+pub(super) fn written(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,362 @@
+//! The rules of a user: an assembly checked where and when it is fished, the edits by which it would comply, and the study
+//! made of options for rules.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use endline_gear::units::{self, Quantity};
+use endline_gear::{Date, Sources};
+
+use super::Workbench;
+use super::notice::Notice;
+use crate::plugins::PluginHost;
+use crate::rules::mend::{self, Asked, Mends, Proposal};
+use crate::rules::study::{self, USUAL_LIKE};
+use crate::rules::{Fishing, Packs, RuleSheet};
+use crate::task::{Fault, Task};
+
+/// Seconds in a day.
+const DAY_S: u64 = 86_400;
+
+/// What is asked, as it is typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuleQuestion {
+    /// Id of the assembly.
+    pub assembly: String,
+    /// Id of the area.
+    pub area: String,
+    /// The day.
+    pub on: String,
+    /// Depth of the water; empty where it is not known.
+    pub depth: String,
+    /// Distance from shore; empty where it is not known.
+    pub distance: String,
+    /// Traps on one set; empty for those of the assembly.
+    pub traps: String,
+}
+
+impl Default for RuleQuestion {
+    fn default() -> Self {
+        let empty = String::new;
+        let on = today();
+        Self {
+            assembly: empty(),
+            area: empty(),
+            on,
+            depth: empty(),
+            distance: empty(),
+            traps: empty(),
+        }
+    }
+}
+
+/// What the rules say of an assembly.
+#[derive(Clone, Debug)]
+pub struct RuleAnswer {
+    /// What was asked.
+    pub question: RuleQuestion,
+    /// Version of the texts.
+    pub version: u64,
+    /// Verdicts on every rule.
+    pub sheet: RuleSheet,
+    /// Edits by which the assembly would comply; none while they are tried.
+    pub mends: Option<Mends>,
+    given: Given,
+}
+
+/// The assembly as it was checked.
+#[derive(Clone, Debug)]
+struct Given {
+    text: String,
+    sources: Arc<Sources>,
+    fishing: Fishing,
+}
+
+type Checked = Result<(Arc<Packs>, RuleAnswer), String>;
+
+/// Rules checked on an assembly.
+#[derive(Default)]
+pub struct RuleChecks {
+    /// What is asked.
+    pub question: RuleQuestion,
+    /// The library's packs, once they were read.
+    pub packs: Option<Arc<Packs>>,
+    /// What came of it last.
+    pub answer: Option<RuleAnswer>,
+    /// Why nothing came of it; empty where something did.
+    pub why: String,
+    asked: Option<(u64, RuleQuestion)>,
+    checking: Task<Checked>,
+    mending: Task<Result<Mends, String>>,
+    comparing: Task<Result<String, String>>,
+}
+
+impl RuleChecks {
+    /// Whether verdicts or edits are being found.
+    #[must_use]
+    pub fn busy(&self) -> bool {
+        self.checking.busy() || self.mending.busy()
+    }
+
+    /// Whether a study is being made.
+    #[must_use]
+    pub fn comparing(&self) -> bool {
+        self.comparing.busy()
+    }
+
+    /// A proposal by its place among all, or all edits together.
+    fn proposal(&self, number: Option<usize>) -> Option<&Proposal> {
+        let mends = self.answer.as_ref()?.mends.as_ref()?;
+        match number {
+            Some(number) => mends.numbered().nth(number).map(|(_, edit)| edit),
+            None => mends.all.as_ref(),
+        }
+    }
+}
+
+impl Workbench {
+    /// Asks for the verdicts where the texts or the question have changed since; a window calls it while it shows them.
+    pub fn ask_for_rules(&mut self) {
+        let version = self.project.documents.version();
+        let checks = &mut self.rules;
+        if checks.question.assembly.is_empty() {
+            let scenario = crate::edit::Documents::SCENARIO;
+            let own = self.project.documents.field(scenario, "gear.0.assembly");
+            checks.question.assembly = own.unwrap_or_default();
+        }
+        let wanted = (version, checks.question.clone());
+        if checks.asked.as_ref() == Some(&wanted) || checks.busy() {
+            return;
+        }
+        checks.asked = Some(wanted);
+        if let Err(why) = self.begin_check() {
+            self.rules.why = why;
+        }
+    }
+
+    fn begin_check(&mut self) -> Result<(), String> {
+        let (host, waker) = self.helpers();
+        let documents = &self.project.documents;
+        let question = self.rules.question.clone();
+        let path = path(&question.assembly);
+        let text = documents.text(&path).ok_or("choose an assembly")?.to_owned();
+        let (sources, root) = (Arc::new(documents.sources()), documents.root().to_owned());
+        let version = documents.version();
+        let known = self.rules.packs.clone();
+        let work = move || {
+            let packs = match known {
+                Some(packs) => packs,
+                None => Packs::open(Some(&root), &[])
+                    .map(Arc::new)
+                    .map_err(|error| error.to_string())?,
+            };
+            let question = with_area(question, &packs);
+            let fishing = fishing(&question)?;
+            let given = Given { text, sources, fishing };
+            let sheet = mend::checked(given.asked(&question), &packs, &given.fishing, &host);
+            let sheet = sheet.map_err(|error| error.to_string())?;
+            Ok((packs, RuleAnswer { question, version, sheet, mends: None, given }))
+        };
+        let started = self.rules.checking.start("endline-rules", work, waker);
+        started.map_err(|error| error.to_string())
+    }
+
+    /// Takes in verdicts, edits and studies that are ready.
+    pub(super) fn refresh_rules(&mut self) {
+        if let Some(checked) = self.rules.checking.poll() {
+            self.take_verdicts(checked.unwrap_or_else(|Fault| Err(fault("the check"))));
+        }
+        if let Some(mends) = self.rules.mending.poll() {
+            match mends.unwrap_or_else(|Fault| Err(fault("looking for edits"))) {
+                Ok(mends) => {
+                    self.rules
+                        .answer
+                        .iter_mut()
+                        .for_each(|answer| answer.mends = Some(mends.clone()));
+                }
+                Err(why) => self.rules.why = why,
+            }
+        }
+        if let Some(text) = self.rules.comparing.poll() {
+            let text = text.unwrap_or_else(|Fault| Err(fault("making the study")));
+            let done = text.and_then(|text| self.open_rule_study(&text));
+            self.notice = Some(match done {
+                Ok(path) => Notice::done(format!("a study of the options: {}", path.display())),
+                Err(why) => Notice::fault(why),
+            });
+        }
+    }
+
+    fn take_verdicts(&mut self, checked: Checked) {
+        let (packs, answer) = match checked {
+            Ok(both) => both,
+            Err(why) => {
+                self.rules.why = why;
+                return;
+            }
+        };
+        let (host, waker) = self.helpers();
+        let checks = &mut self.rules;
+        // An area that nobody chose is taken over as if it was.
+        if checks.question.area.is_empty() {
+            checks.question.area.clone_from(&answer.question.area);
+            checks.asked = Some((answer.version, checks.question.clone()));
+        }
+        checks.why.clear();
+        checks.packs = Some(Arc::clone(&packs));
+        let (given, question) = (answer.given.clone(), answer.question.clone());
+        checks.answer = Some(answer);
+        let work = move || {
+            let mends = mend::mends(given.asked(&question), &packs, &given.fishing, &host);
+            mends.map_err(|error| error.to_string())
+        };
+        if let Err(error) = checks.mending.start("endline-mends", work, waker) {
+            checks.why = error.to_string();
+        }
+    }
+
+    /// Makes an edit of the assembly that was proposed, by its place among all proposals, or all that bind together.
+    pub(crate) fn take_rule_edit(&mut self, number: Option<usize>) -> Result<(), String> {
+        let answer = self.rules.answer.as_ref().ok_or("no assembly was checked")?;
+        let edit = self.rules.proposal(number).ok_or("there is no such edit")?;
+        let path = path(&answer.question.assembly);
+        if self.project.documents.text(&path) != Some(answer.given.text.as_str()) {
+            return Err(
+                "the assembly was edited since it was checked; wait for its new edits".to_owned()
+            );
+        }
+        let (says, text) = (edit.says.clone(), edit.text.clone());
+        self.project.documents.put_all(vec![(path, text)]);
+        self.notice = Some(Notice::done(format!("{says} Undo takes it back.")));
+        Ok(())
+    }
+
+    /// Makes a study of the assembly mended for each of several rules; its texts are saved first, for a study reads files.
+    pub(crate) fn compare_rules(&mut self, rules: Vec<String>) -> Result<(), String> {
+        let answer = self.rules.answer.as_ref().ok_or("no assembly was checked")?;
+        let (question, given) = (answer.question.clone(), answer.given.clone());
+        let packs = self.rules.packs.clone().ok_or("no rules were read")?;
+        let documents = &mut self.project.documents;
+        let like = documents.root().join("studies").join(USUAL_LIKE).with_extension("toml");
+        let like = std::fs::read_to_string(&like)
+            .map_err(|error| format!("{}: {error}; its encounters are taken", like.display()))?;
+        if !documents.unsaved().is_empty() {
+            documents.save().map_err(|error| format!("not saved, so not compared: {error}"))?;
+        }
+        let (host, waker) = self.helpers();
+        let work = move || rule_study(&question, &given, &rules, &packs, &like, &host);
+        let started = self.rules.comparing.start("endline-rule-study", work, waker);
+        started.map_err(|error| error.to_string())
+    }
+
+    fn open_rule_study(&mut self, text: &str) -> Result<PathBuf, String> {
+        let stem = format!("{}-rules", self.rules.question.assembly);
+        let path = self.project.documents.new_study(&stem, text)?;
+        self.open_study(&path)?;
+        Ok(path)
+    }
+}
+
+fn rule_study(
+    question: &RuleQuestion,
+    given: &Given,
+    rules: &[String],
+    packs: &Packs,
+    like: &str,
+    host: &PluginHost,
+) -> Result<String, String> {
+    let depth_m = given.fishing.depth_m;
+    let made = study::options(given.asked(question), rules, depth_m, packs, host)
+        .and_then(|options| study::text(&question.assembly, &options, like, depth_m));
+    made.map_err(|error| error.to_string())
+}
+
+impl Given {
+    fn asked<'a>(&'a self, question: &'a RuleQuestion) -> Asked<'a> {
+        Asked { id: &question.assembly, text: &self.text, sources: &self.sources }
+    }
+}
+
+fn path(assembly: &str) -> String {
+    format!("assemblies/{assembly}.toml")
+}
+
+fn fault(what: &str) -> String {
+    format!("{what} ended by a fault inside the program")
+}
+
+/// With the area where most rules apply where none was chosen.
+fn with_area(question: RuleQuestion, packs: &Packs) -> RuleQuestion {
+    if !question.area.is_empty() {
+        return question;
+    }
+    let rules_in = |id: &str| {
+        let around = packs.around(id).unwrap_or_default();
+        let holds = |area: &endline_gear::At<String>| around.contains(&area.value.as_str());
+        packs
+            .rules()
+            .filter(|(_, rule)| rule.areas.is_empty() || rule.areas.iter().any(holds))
+            .count()
+    };
+    let mut ids: Vec<&str> = packs.areas().map(|area| area.id.value.as_str()).collect();
+    // The first of those with as many.
+    ids.reverse();
+    let most = ids.into_iter().max_by_key(|id| rules_in(id)).unwrap_or_default();
+    RuleQuestion { area: most.to_owned(), ..question }
+}
+
+/// Where, when and how, read from what was typed.
+fn fishing(question: &RuleQuestion) -> Result<Fishing, String> {
+    let length = |name: &str, text: &str| match text.trim() {
+        "" => Ok(None),
+        text => units::parse(text, Quantity::Length)
+            .map(Some)
+            .map_err(|error| format!("{name} `{text}`: {error}")),
+    };
+    let on = question.on.trim();
+    let traps = match question.traps.trim() {
+        "" => None,
+        text => Some(text.parse().map_err(|_| format!("traps `{text}`: write a whole number"))?),
+    };
+    Ok(Fishing {
+        area: question.area.clone(),
+        on: Date::parse(on)
+            .ok_or_else(|| format!("day `{on}`: write year, month and day, such as 2024-06-01"))?,
+        depth_m: length("depth", &question.depth)?,
+        distance_m: length("distance", &question.distance)?,
+        traps,
+    })
+}
+
+/// The day that it is, in universal time.
+fn today() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    Date::after_1970(since.as_secs() / DAY_S).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_typed_is_read_with_its_units_or_refused_by_name() {
+        let typed = RuleQuestion {
+            area: "me-b".to_owned(),
+            on: " 2024-06-01".to_owned(),
+            distance: "5 nmi".to_owned(),
+            traps: "8".to_owned(),
+            ..RuleQuestion::default()
+        };
+        let read = fishing(&typed).unwrap();
+        assert_eq!((read.distance_m, read.depth_m, read.traps), (Some(9260.0), None, Some(8)));
+        for (wrong, told) in [
+            (RuleQuestion { on: "June".to_owned(), ..typed.clone() }, "day `June`"),
+            (RuleQuestion { depth: "5 lbf".to_owned(), ..typed.clone() }, "depth `5 lbf`"),
+            (RuleQuestion { traps: "few".to_owned(), ..typed.clone() }, "traps `few`"),
+        ] {
+            assert!(fishing(&wrong).unwrap_err().starts_with(told), "{told}");
+        }
+        assert!(Date::parse(&today()) > Date::parse("2025-01-01"));
+    }
+}

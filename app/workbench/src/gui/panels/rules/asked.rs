@@ -1,0 +1,138 @@
+//! What is asked: the assembly, and where, when and how it is fished.
+
+use egui::{ComboBox, RichText, TextEdit, Ui};
+use endline_session::edit::library_table::id_of;
+use endline_session::workbench::RuleQuestion;
+
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+
+/// Texts being typed, before they are taken over.
+#[derive(Debug, Default)]
+pub(super) struct Typed {
+    /// The field being typed in, and what stands there.
+    now: Option<(&'static str, String)>,
+}
+
+/// Width from which on all stands on one line.
+const ONE_LINE: f32 = 900.0;
+
+/// A field of the question.
+struct Field {
+    name: &'static str,
+    width: f32,
+    hint: &'static str,
+    help: &'static str,
+    of: fn(&mut RuleQuestion) -> &mut String,
+}
+
+const FIELDS: [Field; 4] = [
+    Field {
+        name: "Day",
+        width: 82.0,
+        hint: "2024-06-01",
+        help: "Day on which it is fished: year, month and day. Rules have days in force and seasons",
+        of: |question| &mut question.on,
+    },
+    Field {
+        name: "Distance",
+        width: 58.0,
+        hint: "5 nmi",
+        help: "Distance from shore. Rules that ask for it cannot be checked without",
+        of: |question| &mut question.distance,
+    },
+    Field {
+        name: "Depth",
+        width: 66.0,
+        hint: "25 m",
+        help: "Depth of the water. A gear type builds for it; without, for 25 m",
+        of: |question| &mut question.depth,
+    },
+    Field {
+        name: "Traps",
+        width: 42.0,
+        hint: "count",
+        help: "Traps on one set, in place of those of the assembly",
+        of: |question| &mut question.traps,
+    },
+];
+
+/// Draws the question on one line, or two in a narrow panel.
+pub(super) fn show(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared) {
+    let whole = ui.available_width() >= ONE_LINE;
+    let mut fields = |ui: &mut Ui, shared: &mut Shared| {
+        FIELDS.iter().for_each(|field| one(ui, typed, shared, field));
+    };
+    ui.horizontal(|ui| {
+        assembly(ui, shared);
+        area(ui, shared);
+        if whole {
+            fields(ui, shared);
+        }
+    });
+    if !whole {
+        ui.horizontal_wrapped(|ui| fields(ui, shared));
+    }
+}
+
+fn name(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).color(Theme::palette_of(ui).faint));
+}
+
+fn assembly(ui: &mut Ui, shared: &mut Shared) {
+    let documents = &shared.workbench.project.documents;
+    let named = |id: &str| documents.field(&format!("assemblies/{id}.toml"), "name");
+    let question = &mut shared.workbench.rules.question;
+    let shown = named(&question.assembly).unwrap_or_else(|| question.assembly.clone());
+    let combo = ComboBox::from_id_salt("rules assembly").width(190.0).truncate();
+    let response = combo.selected_text(&shown).show_ui(ui, |ui| {
+        for path in documents.files("assemblies") {
+            let id = id_of(path);
+            let name = named(id).unwrap_or_else(|| id.to_owned());
+            if ui.selectable_label(question.assembly == id, name).on_hover_text(id).clicked() {
+                id.clone_into(&mut question.assembly);
+            }
+        }
+    });
+    response.response.on_hover_text(format!("The assembly that is checked: {shown}"));
+}
+
+fn area(ui: &mut Ui, shared: &mut Shared) {
+    let checks = &mut shared.workbench.rules;
+    let Some(packs) = checks.packs.clone() else { return };
+    let named = |id: &str| {
+        let area = packs.areas().find(|area| area.id.value == id);
+        area.map_or_else(|| id.to_owned(), |area| area.name.clone())
+    };
+    let shown = named(&checks.question.area);
+    let combo = ComboBox::from_id_salt("rules area").width(220.0).truncate();
+    let response = combo.selected_text(&shown).show_ui(ui, |ui| {
+        for area in packs.areas() {
+            let id = &area.id.value;
+            let own = checks.question.area == *id;
+            if ui.selectable_label(own, &area.name).on_hover_text(id).clicked() {
+                checks.question.area.clone_from(id);
+            }
+        }
+    });
+    response.response.on_hover_text(format!("The area in which it is fished: {shown}"));
+}
+
+/// A field for typing, taken over on Enter or when it is left.
+fn one(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared, field: &Field) {
+    name(ui, field.name);
+    let stored = (field.of)(&mut shared.workbench.rules.question);
+    let own = typed.now.as_ref().filter(|(name, _)| *name == field.name);
+    let mut text = own.map_or_else(|| stored.clone(), |(_, text)| text.clone());
+    let editor = TextEdit::singleline(&mut text).desired_width(field.width).hint_text(field.hint);
+    let response = ui.add(editor).on_hover_text(field.help);
+    if response.has_focus() {
+        typed.now = Some((field.name, text));
+    } else if response.lost_focus() {
+        typed.now = None;
+        let escaped = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        if !escaped {
+            text.trim().clone_into(stored);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What laws ask of an assembly: every rule with its verdict, the edits by which the assembly would comply, and a study of
+//! options for rules.
+
+mod asked;
+mod rule;
+mod table;
+
+use egui::{Label, RichText, ScrollArea, Ui};
+use endline_session::command::RuleAction;
+use endline_session::rules::{RuleResult, Verdict};
+use endline_session::workbench::RuleAnswer;
+
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
+use crate::gui::theme::{Palette, Theme};
+use crate::gui::widgets;
+use crate::gui::widgets::command::command;
+
+/// Least width at which the chosen rule stands beside the table.
+const WIDE: f32 = 820.0;
+
+/// Height of the table's head, and of a row with its spacing.
+const HEAD_HEIGHT: f32 = 30.0;
+const ROW_HEIGHT: f32 = 24.5;
+
+/// What laws ask of an assembly.
+#[derive(Debug, Default)]
+pub struct RulesPanel {
+    /// Id of the chosen rule; the first of the table where it is not there.
+    pub chosen: Option<String>,
+    /// Rules that are compared as options, in the order in which they were chosen.
+    pub compared: Vec<String>,
+    /// Whether rules that do not apply are listed too.
+    pub all: bool,
+    typed: asked::Typed,
+}
+
+impl Panel for RulesPanel {
+    fn id(&self) -> PanelId {
+        PanelId::RULES
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        asked::show(ui, &mut self.typed, shared);
+        shared.workbench.ask_for_rules();
+        ui.separator();
+        let why = &shared.workbench.rules.why;
+        if !why.is_empty() {
+            let colour = Theme::palette_of(ui).error;
+            ui.add(Label::new(RichText::new(why).color(colour)).wrap());
+            return;
+        }
+        let Some(answer) = shared.workbench.rules.answer.clone() else {
+            return widgets::nothing(ui, "Reading the rules …");
+        };
+        self.head(ui, shared, &answer);
+        let rules = listed(&answer, self.all);
+        if rules.is_empty() {
+            return widgets::nothing(ui, "No rule applies here and then.");
+        }
+        self.body(ui, shared, &answer, &rules);
+    }
+}
+
+impl RulesPanel {
+    /// What came of it in numbers, and what can be done with all of it.
+    fn head(&mut self, ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer) {
+        let palette = Theme::palette_of(ui);
+        let counts = answer.sheet.counts;
+        ui.horizontal_wrapped(|ui| {
+            let fails = match counts.fail - counts.fail_binding {
+                0 => format!("{} fail", counts.fail),
+                advice => format!("{} fail, {advice} of them advice", counts.fail),
+            };
+            let fine = if counts.fail_binding > 0 { palette.error } else { palette.good };
+            ui.label(RichText::new(fails).strong().color(fine));
+            ui.label(format!(
+                "{} pass, {} cannot be checked, {} do not apply",
+                counts.pass, counts.cannot_be_checked, counts.not_applicable
+            ));
+            ui.checkbox(&mut self.all, "All").on_hover_text("List rules that do not apply too");
+            ui.separator();
+            command(ui, shared, "Take all edits", RuleAction::TakeAll);
+            self.compare(ui, shared, palette);
+            if shared.workbench.rules.busy() {
+                ui.spinner();
+            }
+        });
+    }
+
+    /// The button that makes a study of the rules ticked.
+    fn compare(&mut self, ui: &mut Ui, shared: &mut Shared, palette: Palette) {
+        let ticked = self.compared.len();
+        if ticked < 2 {
+            let hint = "Tick two rules or more at the left of the table, such as one insert and two: a study then meets the gear mended for each with the same whales";
+            ui.add_enabled(false, egui::Button::new("Compare options …"))
+                .on_disabled_hover_text(hint);
+            return;
+        }
+        if shared.workbench.rules.comparing() {
+            ui.label(RichText::new("making the study …").color(palette.faint));
+            return;
+        }
+        let text = format!("Compare {ticked} options …");
+        command(ui, shared, &text, RuleAction::Compare(self.compared.clone()));
+    }
+
+    /// The table, and the chosen rule beside or below it.
+    fn body(
+        &mut self,
+        ui: &mut Ui,
+        shared: &mut Shared,
+        answer: &RuleAnswer,
+        rules: &[&RuleResult],
+    ) {
+        let chosen = self.chosen.as_ref();
+        let own = rules.iter().position(|rule| Some(&rule.rule) == chosen).unwrap_or(0);
+        let whole = ui.available_rect_before_wrap();
+        let (table, detail) = if whole.width() < WIDE {
+            #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
+            let rows = HEAD_HEIGHT + ROW_HEIGHT * rules.len() as f32;
+            let high = rows.min(0.45 * whole.height());
+            let (above, below) = whole.split_top_bottom_at_y(whole.top() + high);
+            (above, below.with_min_y(below.top() + 6.0))
+        } else {
+            let (left, right) = whole.split_left_right_at_x(whole.left() + 0.6 * whole.width());
+            (left, right.with_min_x(right.left() + 12.0))
+        };
+        widgets::within(ui, table, |ui| self.table(ui, rules, own));
+        widgets::within(ui, detail, |ui| {
+            ScrollArea::vertical().id_salt("rule").auto_shrink(false).show(ui, |ui| {
+                rule::show(ui, shared, answer, rules[own]);
+            });
+        });
+    }
+}
+
+/// Rules in the order of the table: what fails first, what does not apply last or not at all.
+fn listed(answer: &RuleAnswer, all: bool) -> Vec<&RuleResult> {
+    let mut order = vec![Verdict::Fail, Verdict::CannotBeChecked, Verdict::Pass];
+    order.extend(all.then_some(Verdict::NotApplicable));
+    let rules = order.into_iter().flat_map(|verdict| answer.sheet.with(verdict));
+    // Advice stands behind what binds.
+    let (mut binding, advice): (Vec<_>, Vec<_>) =
+        rules.partition(|rule| rule.binding || rule.verdict != Verdict::Fail);
+    let fails = binding.iter().take_while(|rule| rule.verdict == Verdict::Fail).count();
+    binding.splice(fails..fails, advice);
+    binding
+}
+
+/// A reason as it is told where there are fields above in place of options of a command.
+fn on_screen(why: &str) -> String {
+    why.replace("needs --", "needs the ")
+}
+
+/// The colour of a verdict; what fails and does not bind is worth a look.
+fn colour(rule: &RuleResult, palette: Palette) -> egui::Color32 {
+    match (rule.verdict, rule.binding) {
+        (Verdict::Pass, _) => palette.good,
+        (Verdict::Fail, true) => palette.error,
+        (Verdict::Fail, false) | (Verdict::CannotBeChecked, _) => palette.warning,
+        (Verdict::NotApplicable, _) => palette.faint,
+    }
+}

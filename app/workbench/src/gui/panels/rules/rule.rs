@@ -1,0 +1,142 @@
+//! The chosen rule: what it asks and who says so, what was measured, and the edits by which the gear would comply.
+
+use egui::{Frame, Label, RichText, Stroke, Ui};
+use endline_session::command::RuleAction;
+use endline_session::rules::mend::{Mends, Proposal};
+use endline_session::rules::{RuleResult, Verdict};
+use endline_session::workbench::RuleAnswer;
+
+use super::table::compared;
+use super::{colour, on_screen};
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+use crate::gui::widgets::command::command;
+
+/// Fields shown of an edit.
+const MOST_FIELDS: usize = 6;
+
+/// Draws a rule.
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResult) {
+    let palette = Theme::palette_of(ui);
+    ui.add(Label::new(RichText::new(&rule.asks).strong()).wrap());
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(rule.verdict.words()).color(colour(rule, palette)));
+        ui.label(RichText::new(standing(rule)).color(palette.faint));
+    });
+    let cited = RichText::new(&rule.cite).color(palette.faint);
+    ui.add(Label::new(cited).wrap()).on_hover_text(format!("{}\n{}", rule.rule, rule.source));
+    if !rule.why.is_empty() {
+        ui.add(Label::new(on_screen(&rule.why)).wrap());
+    }
+    measured(ui, rule);
+    if rule.verdict != Verdict::Pass && rule.verdict != Verdict::NotApplicable {
+        edits(ui, shared, answer, rule);
+    }
+}
+
+/// The rule's id, whether it binds, since when, and how sure its wording is.
+fn standing(rule: &RuleResult) -> String {
+    let binds = if rule.binding { "law" } else { "advice, does not bind" };
+    let from = rule.from.as_ref().map_or(String::new(), |from| format!(", from {from}"));
+    let until = rule.until.as_ref().map_or(String::new(), |until| format!(" to {until}"));
+    let sure = match rule.confidence {
+        "measured" => "its source was read",
+        "derived" => "read in a summary",
+        _ => "from memory, not verified",
+    };
+    format!("{}: {binds}{from}{until}; {sure}", rule.rule)
+}
+
+fn measured(ui: &mut Ui, rule: &RuleResult) {
+    let palette = Theme::palette_of(ui);
+    for one in &rule.measured {
+        let part = if one.part.is_empty() { String::new() } else { format!("{}: ", one.part) };
+        let colour = if one.holds { palette.text } else { colour(rule, palette) };
+        let text = format!("{part}{}", compared(&one.says));
+        ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+    }
+}
+
+/// The edits that were tried and serve, or why there is none.
+fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResult) {
+    let palette = Theme::palette_of(ui);
+    widgets::caption(ui, "To comply");
+    if !rule.mend.is_empty() {
+        ui.add(Label::new(&rule.mend).wrap());
+    }
+    let Some(mends) = &answer.mends else {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label(RichText::new("trying edits …").color(palette.faint));
+        });
+        return;
+    };
+    let Some(mend) = mends.rules.iter().find(|one| one.rule == rule.rule) else { return };
+    if rule.verdict == Verdict::CannotBeChecked {
+        let text = "No edit of the assembly answers what is not known.";
+        ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
+    } else if !mend.why_none.is_empty() {
+        let text = format!("No edit mends it: {}.", on_screen(&mend.why_none));
+        ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
+    }
+    for proposal in &mend.proposals {
+        if let Some(number) = number(mends, &mend.rule, proposal) {
+            card(ui, shared, number, proposal);
+        }
+    }
+}
+
+/// The place of a proposal among all.
+fn number(mends: &Mends, rule: &str, proposal: &Proposal) -> Option<usize> {
+    mends.numbered().position(|(mend, one)| mend.rule == rule && one == proposal)
+}
+
+/// An edit with what it changes, passes and breaks, and the button that takes it.
+fn card(ui: &mut Ui, shared: &mut Shared, number: usize, edit: &Proposal) {
+    let palette = Theme::palette_of(ui);
+    ui.add_space(4.0);
+    let frame =
+        Frame::new().stroke(Stroke::new(1.0, palette.line)).corner_radius(4.0).inner_margin(6.0);
+    frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.add(Label::new(&edit.says).wrap());
+        for change in edit.changes.iter().take(MOST_FIELDS) {
+            let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "–".to_owned());
+            let text = format!(
+                "{}: {} → {}",
+                change.field,
+                or_none(&change.before),
+                or_none(&change.after)
+            );
+            ui.add(Label::new(RichText::new(text).monospace().small().color(palette.faint)).wrap());
+        }
+        if edit.changes.len() > MOST_FIELDS {
+            let more = format!("and {} more fields", edit.changes.len() - MOST_FIELDS);
+            ui.label(RichText::new(more).small().color(palette.faint));
+        }
+        outcome(ui, edit);
+        command(ui, shared, "Take this edit", RuleAction::Take(number));
+    });
+}
+
+/// What the check says of the edited copy.
+fn outcome(ui: &mut Ui, edit: &Proposal) {
+    let palette = Theme::palette_of(ui);
+    let mut say = |text: String, colour| {
+        ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
+    };
+    say(format!("then passes {}", edit.passes.join(", ")), palette.good);
+    if !edit.breaks.is_empty() {
+        say(format!("but breaks {}", edit.breaks.join(", ")), palette.error);
+    }
+    if !edit.still_fails.is_empty() {
+        say(format!("still fails {}", edit.still_fails.join(", ")), palette.faint);
+    }
+    let share = 100.0 * edit.rope_share;
+    let parts = match edit.parts {
+        0 => String::new(),
+        parts => format!(", {parts} parts come or go"),
+    };
+    say(format!("{share:.0} % of the rope is replaced{parts}"), palette.faint);
+}

@@ -1,0 +1,141 @@
+//! The panel Rules: an assembly checked where it is fished, an edit taken and taken back, options compared as a study.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::time::{Duration, Instant};
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::command::{EditAction, RuleAction};
+use endline_session::edit::Documents;
+use endline_session::live::engine;
+use endline_session::rules::Verdict;
+use endline_session::workbench::RuleAnswer;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::input::Pilot;
+
+use crate::common::{Folder, give, linked, on_disk, opened_with, retype};
+
+const ASSEMBLY: &str = "assemblies/single.toml";
+const TWO: &str = "me.inserts.3-12.two";
+const ONE: &str = "me.inserts.3-12.one";
+
+/// The workbench with the panel Rules alone, the single asked about in Maine's zone B.
+fn checking(folder: &Folder) -> Harness<'static, App> {
+    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+    std::fs::create_dir_all(folder.0.join("studies")).unwrap();
+    let study = "studies/gear-types.toml";
+    std::fs::copy(shipped.join(study), folder.0.join(study)).unwrap();
+    let documents = folder.book_with("hello-endline");
+    let mut harness = opened_with(documents, linked(), engine::live(), Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RULES.id().to_owned()]);
+    let question = &mut harness.state_mut().shared.workbench.rules.question;
+    "single".clone_into(&mut question.assembly);
+    "me-b".clone_into(&mut question.area);
+    harness.run_steps(3);
+    harness
+}
+
+fn answer<'a>(harness: &'a Harness<'static, App>) -> Option<&'a RuleAnswer> {
+    harness.state().shared.workbench.rules.answer.as_ref()
+}
+
+/// Draws until edits for the question as it stands have been tried.
+fn wait_for_edits(harness: &mut Harness<'static, App>) {
+    wait(harness, |app| {
+        let (rules, documents) =
+            (&app.shared.workbench.rules, &app.shared.workbench.project.documents);
+        let so = |one: &RuleAnswer| {
+            one.mends.is_some()
+                && one.question == rules.question
+                && one.version == documents.version()
+        };
+        rules.answer.as_ref().is_some_and(so) && !rules.busy()
+    });
+}
+
+fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
+    let patience = Instant::now() + Duration::from_secs(120);
+    while !so(harness.state()) {
+        let workbench = &harness.state().shared.workbench;
+        let (why, notice) = (&workbench.rules.why, &workbench.notice);
+        assert!(Instant::now() < patience, "waited in vain: {why} {notice:?}");
+        std::thread::sleep(Duration::from_millis(20));
+        harness.step();
+    }
+    harness.run_steps(3);
+}
+
+fn verdict(harness: &Harness<'static, App>, rule: &str) -> Verdict {
+    let sheet = &answer(harness).unwrap().sheet;
+    sheet.rules.iter().find(|one| one.rule == rule).unwrap().verdict
+}
+
+#[test]
+fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
+    let folder = Folder::new("rules");
+    let mut harness = checking(&folder);
+    wait_for_edits(&mut harness);
+    let today = harness.state().shared.workbench.rules.question.on.clone();
+    retype(&mut harness, &today, "June");
+    wait(&mut harness, |app| !app.shared.workbench.rules.why.is_empty());
+    assert!(harness.query_all_by_label_contains("day `June`").next().is_some());
+    retype(&mut harness, "June", "2024-06-01");
+    wait_for_edits(&mut harness);
+    assert_eq!(verdict(&harness, TWO), Verdict::CannotBeChecked, "the distance is not known");
+    let question = &mut harness.state_mut().shared.workbench.rules.question;
+    "5 nmi".clone_into(&mut question.distance);
+    wait_for_edits(&mut harness);
+    assert_eq!(verdict(&harness, TWO), Verdict::Fail);
+
+    harness.state_mut().panels.rules.chosen = Some(TWO.to_owned());
+    harness.run_steps(3);
+    let mends = answer(&harness).unwrap().mends.clone().unwrap();
+    let edits = &mends.rules.iter().find(|one| one.rule == TWO).unwrap().proposals;
+    let says = &edits[0].says;
+    assert!(harness.query_all_by_label_contains(says).next().is_some(), "{says}");
+    let before = on_disk(&folder, ASSEMBLY);
+    let text = |harness: &Harness<'static, App>| {
+        let documents = &harness.state().shared.workbench.project.documents;
+        documents.text(ASSEMBLY).unwrap().to_owned()
+    };
+    harness.get_all_by_label("Take this edit").next().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(text(&harness), edits[0].text);
+    wait_for_edits(&mut harness);
+    assert_eq!(verdict(&harness, TWO), Verdict::Pass);
+    give(&mut harness, EditAction::Undo);
+    assert_eq!(text(&harness), before, "one step");
+    // The file was never written.
+    assert_eq!(on_disk(&folder, ASSEMBLY), before);
+
+    wait_for_edits(&mut harness);
+    give(&mut harness, RuleAction::TakeAll);
+    wait_for_edits(&mut harness);
+    assert_eq!(answer(&harness).unwrap().sheet.counts.fail_binding, 0);
+}
+
+#[test]
+fn two_rules_that_are_ticked_become_a_study_with_an_option_for_each() {
+    let folder = Folder::new("rules-study");
+    let mut harness = checking(&folder);
+    wait_for_edits(&mut harness);
+    harness.state_mut().shared.workbench.rules.question.distance = "5 nmi".to_owned();
+    wait_for_edits(&mut harness);
+    harness.get_by_label(&format!("compare {TWO}")).click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().panels.rules.compared, [TWO]);
+    // The rule of another zone stands below, among those that do not apply.
+    harness.state_mut().panels.rules.compared.push(ONE.to_owned());
+    harness.run_steps(2);
+    harness.get_by_label("Compare 2 options …").click();
+    wait(&mut harness, |app| app.shared.workbench.project.documents.study_path().is_some());
+    let workbench = &harness.state().shared.workbench;
+    let documents = &workbench.project.documents;
+    assert!(workbench.study_is_sound(), "{:?}", documents.problems());
+    assert!(documents.study_path().unwrap().ends_with("studies/single-rules.toml"));
+    let option = |index: usize| documents.field(Documents::STUDY, &format!("option.{index}.id"));
+    assert_eq!([option(0), option(1), option(2)], [Some(TWO.into()), Some(ONE.into()), None]);
+    assert!(harness.state().shared.selection.open.contains(&PanelId::STUDY));
+}
