@@ -51,8 +51,8 @@ fn a_trap_that_is_stuck_parts_the_line_and_more_depth_and_traps_pull_more() {
     let rows: Vec<serde_json::Value> = serde_json::from_str(&rows.stdout).unwrap();
     assert_eq!(rows.len(), 4);
     let peak = |row: usize| rows[row]["peak_N"].as_f64().unwrap();
-    // Rows go 30 m with 2 and 4 traps, 60 m with 2 and 4.
-    assert!(peak(2) > peak(0) && peak(3) > peak(1) && peak(3) > peak(2), "{rows:?}");
+    // Rows go 30 m with 2 and 4 traps, 60 m with 2 and 4. Of two traps both hang in either depth: there depth adds nothing.
+    assert!(peak(1) > peak(0) && peak(3) > peak(2) && peak(3) > peak(1), "{rows:?}");
 }
 
 #[test]
