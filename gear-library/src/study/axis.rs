@@ -16,11 +16,9 @@ struct Axis {
     values: Vec<StudyOption>,
 }
 
-/// Reads `[[axis]]` and combines their values, axes in the order of their ids.
-pub(super) fn read_all(fields: &Fields<'_>) -> Vec<StudyOption> {
-    let problems = fields.problems();
-    let mut axes: Vec<Axis> =
-        fields.tables("axis").iter().filter_map(|node| read(node, problems)).collect();
+/// Reads axes and combines their values, axes in the order of their ids.
+pub(super) fn read_all(nodes: &[Node], problems: &Problems) -> Vec<StudyOption> {
+    let mut axes: Vec<Axis> = nodes.iter().filter_map(|node| read(node, problems)).collect();
     axes.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     let Some(first) = axes.first() else { return Vec::new() };
     let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.values.len()));

@@ -10,6 +10,7 @@ mod discretisation;
 mod event;
 mod observation;
 mod option;
+mod options;
 mod prior;
 mod threat;
 
@@ -152,7 +153,7 @@ impl Study {
         let split = fields.text("split");
         let run = run_rule(&fields);
         let enough = fields.table("enough").and_then(|fields| enough(&fields));
-        let options = option::read_all(&fields);
+        let options = options::read_all(&fields);
         let (aim, priors, from_priors) = encounter(&fields);
         let claims = claim::read_all(&fields, &options);
         let observations = observation::read_all(&fields, &options);

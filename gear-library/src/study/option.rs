@@ -6,7 +6,6 @@ use crate::fields::{Fields, Problems};
 use crate::nearest::hint;
 use crate::tree::{Content, Node};
 
-use super::axis;
 use super::threat::{self, ThreatLabels};
 
 /// An option of a study.
@@ -51,24 +50,17 @@ pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
     Some((format!("{item}.toml"), field))
 }
 
-/// Reads `[[option]]` and the options that `[[axis]]` make, sorted by id.
-pub(super) fn read_all(fields: &Fields<'_>) -> Vec<StudyOption> {
-    let mut options = read_each(fields.tables("option"), "option", fields.problems());
-    let by_axes = axis::read_all(fields);
-    if fields.tables("option").is_empty() && fields.tables("axis").is_empty() {
-        fields.missing("option", "write each option under [[option]], the baseline too");
-    }
-    options.extend(by_axes);
-    sorted(options, "option", fields.problems())
-}
-
 /// Reads options, or values of an axis, sorted by id; `what` they are stands in messages.
 pub(super) fn read_each(nodes: &[Node], what: &str, problems: &Problems) -> Vec<StudyOption> {
     sorted(nodes.iter().filter_map(|node| read(node, problems)).collect(), what, problems)
 }
 
 /// In order of id; reports an id that stands twice.
-fn sorted(mut options: Vec<StudyOption>, what: &str, problems: &Problems) -> Vec<StudyOption> {
+pub(super) fn sorted(
+    mut options: Vec<StudyOption>,
+    what: &str,
+    problems: &Problems,
+) -> Vec<StudyOption> {
     options.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     for pair in options.windows(2).filter(|pair| pair[0].id.value == pair[1].id.value) {
         let message = format!("there are two {what}s `{}`", pair[1].id.value);

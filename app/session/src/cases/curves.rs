@@ -4,7 +4,7 @@ use endline_gear::{Case, Check, Measure};
 
 use crate::error::Error;
 
-use super::observe::Observed;
+use super::observed::Observed;
 use super::outcome::Curve;
 use super::reference::{Reference, begin, of_table, probes};
 

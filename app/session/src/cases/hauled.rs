@@ -8,7 +8,7 @@ use endline_sim::{Model, settle};
 use crate::error::Error;
 use crate::haul::HaulRequest;
 
-use super::observe::Observed;
+use super::observed::Observed;
 
 /// Refuses a case whose scenario has no endline to haul, or more to read than the pull at the hauler.
 pub(super) fn check(case: &Case, model: &Model) -> Result<(), Error> {

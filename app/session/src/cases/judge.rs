@@ -7,7 +7,7 @@ use crate::error::Error;
 
 use super::Finer;
 use super::curves;
-use super::observe::Observed;
+use super::observed::Observed;
 use super::outcome::{Convergence, Outcome, Verdict, error};
 use super::reference::{Reference, begin, of_table, probes};
 use super::setup::Setup;

@@ -9,6 +9,7 @@ mod curves;
 mod hauled;
 mod judge;
 mod observe;
+mod observed;
 mod outcome;
 mod reference;
 mod rows;
@@ -25,7 +26,7 @@ use crate::plugins::PluginHost;
 
 pub use outcome::{Convergence, Curve, Outcome, Point, Verdict};
 
-use observe::Observed;
+use observed::Observed;
 use outcome::failed;
 use setup::Setup;
 

@@ -8,21 +8,11 @@ use crate::error::Error;
 use crate::run::{Run, RunOptions};
 
 use super::hauled;
+use super::observed::Observed;
 use super::setup::Setup;
 
 /// Points of a curve in a plot.
 const TRACE_POINTS: f64 = 400.0;
-
-/// Readings of every probe.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Observed {
-    /// Times of the samples [s].
-    pub times_s: Vec<f64>,
-    /// By probe of the model: its reading at each time.
-    pub samples: Vec<Vec<f64>>,
-    /// The same at closer times, for a plot: times and readings.
-    pub trace: (Vec<f64>, Vec<Vec<f64>>),
-}
 
 /// Runs a case at a share of its step and segments; the reason where it does not get to its end.
 pub(super) fn observe(

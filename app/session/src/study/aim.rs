@@ -5,12 +5,13 @@
 
 use std::sync::Arc;
 
-use endline_gear::{At, Prior, Target, hint};
+use endline_gear::{Prior, Target};
 use endline_sim::{Model, State};
 
 use crate::error::Error;
 use crate::source::{Overrides, Source};
 
+use super::aimed_lines::lines_aimed_at;
 use super::encounter::Encounter;
 use super::equilibria::Equilibrium;
 use super::open::Opened;
@@ -61,30 +62,6 @@ impl Opened {
             )
         })
     }
-}
-
-/// The lines of a model that a study aims at, in its order; a line made of pieces is all of them. All lines where it names none.
-///
-/// # Errors
-/// A line that the model lacks, at its place in the study.
-pub(super) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
-    let ids = || model.spec.lines.iter().map(|line| line.id.as_str());
-    if wanted.is_empty() {
-        return Ok((0..ids().count()).collect());
-    }
-    let mut lines = Vec::new();
-    for id in wanted {
-        let is_piece =
-            |known: &str| known.strip_prefix(&id.value).is_some_and(|rest| rest.starts_with('.'));
-        let found = ids().enumerate().filter(|(_, known)| *known == id.value || is_piece(known));
-        let before = lines.len();
-        lines.extend(found.map(|(line, _)| line));
-        if lines.len() == before {
-            let message = format!("the baseline's gear has no line `{}`", id.value);
-            return Err(Error::Diagnostics(vec![id.place.error(message, hint(&id.value, ids()))]));
-        }
-    }
-    Ok(lines)
 }
 
 /// Whether a field of the scenario matters to gear at rest: those of the whale and of its friction do not.

@@ -10,7 +10,7 @@
 //! | `open` | the study read, each option planned and checked |
 //! | `plan` | an option as an edited scenario and library |
 //! | `draw`, `priors` | what is drawn for an encounter, and the fields that it sets |
-//! | `aim`, `equilibria` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
+//! | `aim`, `aimed_lines`, `equilibria` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
 //! | `prepare` | plan, draws and aim together, assembled |
 //! | `play`, `equivalence`, `branch` | the run, or the run that another option has already |
 //! | `finer` | the run on a finer resolution |
@@ -21,6 +21,7 @@
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
 mod aim;
+mod aimed_lines;
 pub mod batch;
 mod branch;
 pub mod control;

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 
-use super::aim;
+use super::aimed_lines::lines_aimed_at;
 use super::equilibria::Equilibria;
 use super::equivalence;
 use super::plan::{Base, OptionPlan};
@@ -88,7 +88,7 @@ impl Opened {
         let families = families(&study, &options);
         let baseline =
             options.iter().position(|option| option.id == study.baseline.value).unwrap_or_default();
-        aim::lines_aimed_at(&options[baseline].prepared.model, &study.aim.lines)?;
+        lines_aimed_at(&options[baseline].prepared.model, &study.aim.lines)?;
         Ok(Self {
             text,
             options,

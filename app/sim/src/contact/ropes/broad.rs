@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::knots::Ball;
 use super::neighbours::{Are, MayTouch, NearGroups, NearKnot, NearPieces, Neighbours};
+use super::reach::Reach;
 use crate::contact::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
 use crate::whale::Bounds;
 
@@ -24,28 +25,6 @@ pub(crate) struct Moves<'a, F: Fn(usize) -> DVec3> {
     pub from: &'a [DVec3],
     /// Place of each node at its end.
     pub to: F,
-}
-
-/// How far apart things are looked for [m].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Reach {
-    /// Segments.
-    pub ropes_m: f64,
-    /// Knots from segments; not less.
-    pub knots_m: f64,
-}
-
-impl Reach {
-    /// A box around a segment or more, grown so that two of them meet within reach.
-    #[inline(always)]
-    pub fn of_segment(&self, bounds: &Bounds) -> Bounds {
-        bounds.grown(0.5 * self.ropes_m)
-    }
-
-    /// The greater of the two, with a little for what rounding may take [m].
-    pub fn farthest_m(&self) -> f64 {
-        self.ropes_m.max(self.knots_m) + 2e-9
-    }
 }
 
 /// What may come near each other.

@@ -13,6 +13,7 @@ pub(crate) mod knots;
 pub(crate) mod near;
 mod neighbours;
 pub(crate) mod points;
+pub(crate) mod reach;
 pub(crate) mod sweep;
 
 use glam::DVec3;

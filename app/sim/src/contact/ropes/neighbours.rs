@@ -7,8 +7,8 @@
 
 use std::ops::Range;
 
-use super::broad::Reach;
 use super::knots::{Ball, on_segments};
+use super::reach::Reach;
 use crate::contact::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
 use crate::whale::Bounds;
 

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, TOUCH_M};
 use crate::contact::pieces::Pieces;
-use crate::contact::ropes::broad::{Moves, Reach, Rope};
+use crate::contact::ropes::broad::{Moves, Rope};
 use crate::contact::ropes::knots::on_segments;
+use crate::contact::ropes::reach::Reach;
 use crate::contact::ropes::sweep::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::state::State;

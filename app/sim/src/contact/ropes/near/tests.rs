@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::*;
 use crate::contact::pieces::{Piece, Pieces};
-use crate::contact::ropes::broad::{Moves, Reach, Rope};
+use crate::contact::ropes::broad::{Moves, Rope};
+use crate::contact::ropes::reach::Reach;
 use crate::metrics::tests::{model, spec};
 use crate::model::Joint;
 use crate::random::unit;
