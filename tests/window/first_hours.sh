@@ -88,6 +88,13 @@ designer() {
 }
 
 regulator() {
+    command "open study-gear"
+    still 20
+    command "show rules"
+    still 20
+    picture regulator-0-rules
+    command "write the compliance sheet"
+    check "the gear's sheet is written" "within 120 \"ls '$DATA'/studies/sheets/single-*.html >/dev/null 2>&1\""
     command "layout study"
     command "open study first-hour"
     picture regulator-1-study

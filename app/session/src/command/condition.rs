@@ -79,7 +79,8 @@ pub(super) fn faster(workbench: &Workbench) -> Condition {
 /// An assembly was checked under rules.
 pub(super) fn has_verdicts(workbench: &Workbench) -> Condition {
     require(workbench.rules.answer.is_some(), "check an assembly in Rules first")?;
-    require(!workbench.rules.comparing(), "a study is being made already")
+    require(!workbench.rules.comparing(), "a study is being made already")?;
+    require(!workbench.rules.writing(), "a sheet is being written already")
 }
 
 /// Edits were proposed by which the assembly checked would comply.

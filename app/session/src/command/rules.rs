@@ -1,4 +1,4 @@
-//! Commands that bring an assembly to comply with rules.
+//! Commands on what rules say of an assembly: edits by which it would comply, a study of options, its compliance sheet.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
@@ -16,6 +16,8 @@ pub enum RuleAction {
     TakeAll,
     /// Make a study of the assembly mended for each of these rules.
     Compare(Vec<String>),
+    /// Write the compliance sheet of the assembly checked.
+    Sheet,
 }
 
 impl RuleAction {
@@ -26,6 +28,7 @@ impl RuleAction {
             Self::Take(_) => "rules.take",
             Self::TakeAll => "rules.take-all",
             Self::Compare(_) => "rules.compare",
+            Self::Sheet => "rules.sheet",
         }
     }
 }
@@ -53,6 +56,13 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("rules"),
     )
     .only_if(has_verdicts),
+    Info::new(
+        "rules.sheet",
+        "Write the compliance sheet",
+        "Writes one page on the assembly checked for a hearing: its shape, rules, strength, hauling and what is not known.",
+        Make::Plain(|| Command::Rules(RuleAction::Sheet)),
+    )
+    .only_if(has_verdicts),
 ];
 
 /// Dispatches an action.
@@ -61,5 +71,6 @@ pub(super) fn perform(workbench: &mut Workbench, action: RuleAction) -> Result<(
         RuleAction::Take(number) => workbench.take_rule_edit(Some(number)),
         RuleAction::TakeAll => workbench.take_rule_edit(None),
         RuleAction::Compare(rules) => workbench.compare_rules(rules),
+        RuleAction::Sheet => workbench.write_sheet(),
     }
 }

@@ -12,7 +12,7 @@ mod threat;
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::Library;
+use endline_gear::{Library, Sources};
 use endline_sim::settle;
 
 use crate::error::Error;
@@ -20,7 +20,7 @@ use crate::haul::{HaulRequest, HaulSheet, haul_of};
 use crate::plugins::PluginHost;
 use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
-use crate::source::AssemblyFile;
+use crate::source::assembly::library_of;
 use crate::source::{Overrides, Prepared, Source};
 use crate::statics::preview::{TrialSea, alone};
 
@@ -36,8 +36,10 @@ pub const USUAL_TIDE_M_S: f64 = 0.25;
 /// What a sheet is asked for.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Assembly file, or id of an assembly of the library.
+    /// Id of the assembly.
     pub assembly: &'a str,
+    /// Files of the library, the assembly's among them.
+    pub sources: &'a Sources,
     /// Where, when and how it is fished.
     pub fishing: Fishing,
     /// Speed of the running tide at the surface [m/s].
@@ -74,26 +76,19 @@ impl ComplianceSheet {
     ///
     /// # Errors
     /// Every located error of assembly, library, packs and threat table; gear that finds no rest.
-    pub fn of(
-        request: &Request<'_>,
-        packs: &Packs,
-        library: Option<&Path>,
-        host: &PluginHost,
-    ) -> Result<Self, Error> {
-        let Request { assembly, fishing, tide_m_s, threat } = request;
-        let file = AssemblyFile::open(assembly, library)?;
-        let library = file.library()?;
-        let AssemblyFile { id, sources, .. } = file;
-        let gear = of_library(&id, fishing.depth_m, &library, host)?;
+    pub fn of(request: &Request<'_>, packs: &Packs, host: &PluginHost) -> Result<Self, Error> {
+        let Request { assembly: id, sources, fishing, tide_m_s, threat } = request;
+        let library = library_of(id, sources)?;
+        let gear = of_library(id, fishing.depth_m, &library, host)?;
         let at_rest = |current_m_s| -> Result<AtRest, Error> {
             let sea = TrialSea {
                 depth: Some(format!("{} m", gear.depth_m)),
                 current_m_s: Some(current_m_s),
             };
             let source = Source {
-                scenario_name: id.clone(),
-                scenario: alone(SEA, &id, &sea, &library)?,
-                library: sources.clone(),
+                scenario_name: (*id).to_owned(),
+                scenario: alone(SEA, id, &sea, &library)?,
+                library: (*sources).clone(),
                 overrides: Overrides::default(),
             };
             AtRest::of(source.prepare(host)?)
@@ -104,16 +99,16 @@ impl ComplianceSheet {
             traps: fishing.traps,
             ..HaulRequest::default()
         };
-        let (name, notes) = named(&id, &library);
+        let (name, notes) = named(id, &library);
         Ok(Self {
             rules: check(&gear, packs, fishing)?,
             rest: [at_rest(0.0)?, at_rest(*tide_m_s)?],
-            haul: haul_of(&id, &haul, &library, host),
+            haul: haul_of(id, &haul, &library, host),
             threat: threat_of(threat.as_deref(), &gear)?,
             area: packs.area_name(&fishing.area),
             fishing: fishing.clone(),
             tide_m_s: *tide_m_s,
-            id,
+            id: (*id).to_owned(),
             name,
             notes,
         })

@@ -20,8 +20,9 @@ fn sheet(assembly: &str, threat: Option<PathBuf>) -> Result<ComplianceSheet, Err
         traps: None,
     };
     let packs = Packs::open(Some(&root()), &[]).unwrap();
-    let request = Request { assembly, fishing, tide_m_s: 0.25, threat };
-    ComplianceSheet::of(&request, &packs, Some(&root()), &PluginHost::empty())
+    let sources = Sources::from_folder(&root()).unwrap();
+    let request = Request { assembly, sources: &sources, fishing, tide_m_s: 0.25, threat };
+    ComplianceSheet::of(&request, &packs, &PluginHost::empty())
 }
 
 #[test]

@@ -41,14 +41,20 @@ impl AssemblyFile {
     /// # Errors
     /// Every located error of the assembly.
     pub fn library(&self) -> Result<Library, Error> {
-        let file = format!("assemblies/{}.toml", self.id);
-        let (library, problems) = Library::read(&self.sources);
-        let own: Vec<Diagnostic> = problems
-            .into_iter()
-            .filter(|problem| problem.is_error() && problem.file == file)
-            .collect();
-        if own.is_empty() { Ok(library) } else { Err(Error::Diagnostics(own)) }
+        library_of(&self.id, &self.sources)
     }
+}
+
+/// A library read whose assembly of this id is without error.
+///
+/// # Errors
+/// Every located error of the assembly.
+pub(crate) fn library_of(id: &str, sources: &Sources) -> Result<Library, Error> {
+    let file = format!("assemblies/{id}.toml");
+    let (library, problems) = Library::read(sources);
+    let own: Vec<Diagnostic> =
+        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
+    if own.is_empty() { Ok(library) } else { Err(Error::Diagnostics(own)) }
 }
 
 /// The text of a scenario: a head, with settings put into it by field.

@@ -1,7 +1,7 @@
-//! The rules of a user: an assembly checked where and when it is fished, the edits by which it would comply, and the study
-//! made of options for rules.
+//! The rules of a user: an assembly checked where and when it is fished, the edits by which it would comply, the study
+//! made of options for rules, and its compliance sheet.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -10,10 +10,12 @@ use endline_gear::{Date, Sources};
 
 use super::Workbench;
 use super::notice::Notice;
+use crate::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S};
 use crate::plugins::PluginHost;
 use crate::rules::mend::{self, Asked, Mends, Proposal};
 use crate::rules::study::{self, USUAL_LIKE};
 use crate::rules::{Fishing, Packs, RuleSheet};
+use crate::save;
 use crate::task::{Fault, Task};
 
 /// Seconds in a day.
@@ -90,6 +92,9 @@ pub struct RuleChecks {
     checking: Task<Checked>,
     mending: Task<Result<Mends, String>>,
     comparing: Task<Result<String, String>>,
+    /// The compliance sheet written last.
+    pub page: Option<PathBuf>,
+    writing: Task<Result<PathBuf, String>>,
 }
 
 impl RuleChecks {
@@ -103,6 +108,12 @@ impl RuleChecks {
     #[must_use]
     pub fn comparing(&self) -> bool {
         self.comparing.busy()
+    }
+
+    /// Whether a compliance sheet is being written.
+    #[must_use]
+    pub fn writing(&self) -> bool {
+        self.writing.busy()
     }
 
     /// A proposal by its place among all, or all edits together.
@@ -178,6 +189,10 @@ impl Workbench {
                 Err(why) => self.rules.why = why,
             }
         }
+        if let Some(page) = self.rules.writing.poll() {
+            let page = page.unwrap_or_else(|Fault| Err(fault("writing the sheet")));
+            self.take_sheet(page);
+        }
         if let Some(text) = self.rules.comparing.poll() {
             let text = text.unwrap_or_else(|Fault| Err(fault("making the study")));
             let done = text.and_then(|text| self.open_rule_study(&text));
@@ -186,6 +201,14 @@ impl Workbench {
                 Err(why) => Notice::fault(why),
             });
         }
+    }
+
+    fn take_sheet(&mut self, written: Result<PathBuf, String>) {
+        self.notice = Some(match &written {
+            Ok(page) => Notice::done(format!("the compliance sheet is {}", page.display())),
+            Err(why) => Notice::fault(why.clone()),
+        });
+        self.rules.page = written.ok();
     }
 
     fn take_verdicts(&mut self, checked: Checked) {
@@ -250,12 +273,49 @@ impl Workbench {
         started.map_err(|error| error.to_string())
     }
 
+    /// Writes the compliance sheet of the assembly checked into the folder of results.
+    pub(crate) fn write_sheet(&mut self) -> Result<(), String> {
+        let answer = self.rules.answer.as_ref().ok_or("no assembly was checked")?;
+        let (question, given) = (answer.question.clone(), answer.given.clone());
+        let packs = self.rules.packs.clone().ok_or("no rules were read")?;
+        let folder = self.studies.root().join("sheets");
+        let (host, waker) = self.helpers();
+        let work = move || sheet(&question, &given, &packs, &folder, &host);
+        let started = self.rules.writing.start("endline-sheet", work, waker);
+        started.map_err(|error| error.to_string())
+    }
+
     fn open_rule_study(&mut self, text: &str) -> Result<PathBuf, String> {
         let stem = format!("{}-rules", self.rules.question.assembly);
         let path = self.project.documents.new_study(&stem, text)?;
         self.open_study(&path)?;
         Ok(path)
     }
+}
+
+/// Writes a sheet, named by its gear, area and day; answers where it is.
+fn sheet(
+    question: &RuleQuestion,
+    given: &Given,
+    packs: &Packs,
+    folder: &Path,
+    host: &PluginHost,
+) -> Result<PathBuf, String> {
+    let request = Request {
+        assembly: &question.assembly,
+        sources: &given.sources,
+        fishing: given.fishing.clone(),
+        tide_m_s: USUAL_TIDE_M_S,
+        threat: None,
+    };
+    let sheet = ComplianceSheet::of(&request, packs, host).map_err(|error| error.to_string())?;
+    let RuleQuestion { assembly, area, on, .. } = question;
+    let page = folder.join(format!("{assembly}-{area}-{on}.html"));
+    let html = sheet.html().map_err(|error| error.to_string())?;
+    std::fs::create_dir_all(folder)
+        .and_then(|()| save::atomically(&page, html.as_bytes()))
+        .map_err(|error| format!("{}: cannot be written: {error}", page.display()))?;
+    Ok(page)
 }
 
 fn rule_study(

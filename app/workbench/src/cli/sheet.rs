@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use endline_gear::units::{self, Quantity};
 use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, pdf};
+use endline_session::source::AssemblyFile;
 use endline_session::{Error, save};
 
 use super::rules::FishedArgs;
@@ -30,15 +31,16 @@ pub(super) struct SheetArgs {
 
 pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let (packs, fishing) = args.fished.open(library)?;
-    let assembly = &args.fished.assembly;
+    let file = AssemblyFile::open(&args.fished.assembly, library)?;
     let request = Request {
-        assembly,
+        assembly: &file.id,
+        sources: &file.sources,
         fishing,
         tide_m_s: args.tide.unwrap_or(USUAL_TIDE_M_S),
         threat: args.threat.clone(),
     };
-    let sheet = ComplianceSheet::of(&request, &packs, library, &host::load())?;
-    let page = args.to.clone().unwrap_or_else(|| page_of(assembly));
+    let sheet = ComplianceSheet::of(&request, &packs, &host::load())?;
+    let page = args.to.clone().unwrap_or_else(|| PathBuf::from(format!("{}-sheet.html", file.id)));
     save::atomically(&page, sheet.html()?.as_bytes())
         .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
     output::note(&format!("the sheet is {}", page.display()));
@@ -47,12 +49,6 @@ pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode
         output::note(&format!("printed as {}", file.display()));
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// The page's name by the assembly's.
-fn page_of(assembly: &str) -> PathBuf {
-    let id = Path::new(assembly).file_stem().unwrap_or_default().to_string_lossy();
-    PathBuf::from(format!("{id}-sheet.html"))
 }
 
 fn speed(text: &str) -> Result<f64, String> {

@@ -117,6 +117,25 @@ fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
 }
 
 #[test]
+fn the_compliance_sheet_is_written_by_a_button_with_what_stands_in_the_window() {
+    let folder = Folder::new("rules-sheet");
+    let mut harness = checking(&folder);
+    harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
+    harness.state_mut().shared.workbench.rules.question.on = "2024-06-01".to_owned();
+    wait_for_edits(&mut harness);
+    harness.get_by_label("Compliance sheet").click();
+    wait(&mut harness, |app| app.shared.workbench.rules.page.is_some());
+    let page = harness.state().shared.workbench.rules.page.clone().unwrap();
+    assert!(page.ends_with("results/sheets/single-me-b-2024-06-01.html"), "{}", page.display());
+    let text = std::fs::read_to_string(&page).unwrap();
+    let hauled = "at the hauler, with 1 of its traps and anchors off the seabed";
+    for told in ["endline sheet single --area me-b --on 2024-06-01", hauled] {
+        assert!(text.contains(told), "{told}: {text}");
+    }
+    assert!(harness.query_by_label("Open it").is_some());
+}
+
+#[test]
 fn two_rules_that_are_ticked_become_a_study_with_an_option_for_each() {
     let folder = Folder::new("rules-study");
     let mut harness = checking(&folder);

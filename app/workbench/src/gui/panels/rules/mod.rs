@@ -1,5 +1,5 @@
-//! What laws ask of an assembly: every rule with its verdict, the edits by which the assembly would comply, and a study of
-//! options for rules.
+//! What laws ask of an assembly: every rule with its verdict, the edits by which the assembly would comply, a study of
+//! options for rules, and the compliance sheet.
 
 mod asked;
 mod rule;
@@ -10,6 +10,7 @@ use endline_session::command::RuleAction;
 use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
+use crate::gui::command::action::WindowAction;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
@@ -83,6 +84,7 @@ impl RulesPanel {
             ui.separator();
             command(ui, shared, "Take all edits", RuleAction::TakeAll);
             self.compare(ui, shared, palette);
+            sheet(ui, shared, palette);
             if shared.workbench.rules.busy() {
                 ui.spinner();
             }
@@ -133,6 +135,20 @@ impl RulesPanel {
                 rule::show(ui, shared, answer, rules[own]);
             });
         });
+    }
+}
+
+/// The button that writes the compliance sheet, and the one that opens it.
+fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
+    if shared.workbench.rules.writing() {
+        ui.label(RichText::new("hauling the gear for its sheet …").color(palette.faint));
+        return;
+    }
+    command(ui, shared, "Compliance sheet", RuleAction::Sheet);
+    if let Some(page) = shared.workbench.rules.page.clone()
+        && ui.button("Open it").on_hover_text(page.display().to_string()).clicked()
+    {
+        shared.give(WindowAction::OpenFolder(page));
     }
 }
 
