@@ -211,7 +211,7 @@ fn run(
     *lock(&shared.state) = State::Reporting;
     let table = merge::merge(&opened, &folder)?;
     merge::save(&opened, &folder, &table)?;
-    report::write(&opened, &folder, &Findings::of(&opened, &table, &folder.registration))?;
+    report::write(&opened, &folder, &Findings::of(&opened, &table, &folder.registration), &[])?;
     Ok(State::Done)
 }
 

@@ -3,6 +3,7 @@
 use crate::study::stats::{Findings, OptionFinding};
 
 use super::figures::WIDE;
+use super::hauled::HauledLoad;
 use super::svg::{Axis, Side, Svg};
 use super::words::N_PER_LBF;
 
@@ -100,8 +101,8 @@ pub(super) fn alike<'a, T: PartialEq + 'a>(
 }
 
 /// Rate of parting against the strength an option stands for, a mark for each of its curves; the line is the share of the
-/// baseline's runs that pull harder.
-pub(super) fn break_away(findings: &Findings) -> Option<String> {
+/// baseline's runs that pull harder. Beside it, the probability of parting in each haul.
+pub(super) fn break_away(findings: &Findings, hauls: &[HauledLoad]) -> Option<String> {
     let rated: Vec<(f64, &OptionFinding)> =
         findings.options.iter().filter_map(|option| Some((option.strength_n?, option))).collect();
     if rated.len() < 2 {
@@ -109,7 +110,8 @@ pub(super) fn break_away(findings: &Findings) -> Option<String> {
     }
     let mut curves: Vec<&str> = rated.iter().map(|(_, option)| curve(option)).collect();
     curves.dedup();
-    let (height, top, bottom) = (382.0, 44.0, 310.0);
+    let legends = 20.0 * hauls.len() as f64;
+    let (height, top, bottom) = (382.0 + legends, 44.0 + legends, 310.0 + legends);
     let most_n = 1.15 * rated.iter().map(|(strength, _)| *strength).fold(0.0, f64::max);
     let highest = rated
         .iter()
@@ -126,6 +128,18 @@ pub(super) fn break_away(findings: &Findings) -> Option<String> {
     let line = places
         .map(|strength| [across.at(strength / N_PER_LBF), up.at(baseline.share_above(strength))]);
     svg.path(&line.collect::<Vec<_>>(), curves.len());
+    for (place, haul) in hauls.iter().enumerate() {
+        let kind = curves.len() + 1 + place;
+        let strengths = (1..=400).map(|index| most_n * f64::from(index) / 400.0);
+        let line = strengths
+            .map(|strength| (strength, haul.parts(strength)))
+            .filter(|(_, share)| *share <= highest)
+            .map(|(strength, share)| [across.at(strength / N_PER_LBF), up.at(share)]);
+        svg.path(&line.collect::<Vec<_>>(), kind);
+        let y = 36.0 + 20.0 * place as f64;
+        svg.path(&[[70.0, y], [106.0, y]], kind);
+        svg.text([112.0, y + 4.0], Side::Start, &haul.name);
+    }
     for (kind, name) in curves.iter().enumerate() {
         let x = 70.0 + 220.0 * kind as f64;
         svg.mark([x, 16.0], kind);

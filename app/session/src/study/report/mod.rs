@@ -5,6 +5,7 @@ pub(crate) mod cell;
 mod changed;
 mod curves;
 mod figures;
+pub mod hauled;
 mod held;
 pub mod hindcast;
 mod inputs;
@@ -19,18 +20,26 @@ use std::path::PathBuf;
 use crate::error::Error;
 use crate::save::atomically;
 
+use hauled::HauledLoad;
+
 use super::folder::Folder;
 use super::open::Opened;
 use super::stats::Findings;
 use super::table::{Cell, Row, Table};
 
-/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; answers where the page is.
+/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; answers where the page is. Hauls stand beside what
+/// parts on whales.
 ///
 /// # Errors
 /// Where the folder cannot be written.
-pub fn write(opened: &Opened, folder: &Folder, findings: &Findings) -> Result<PathBuf, Error> {
+pub fn write(
+    opened: &Opened,
+    folder: &Folder,
+    findings: &Findings,
+    hauls: &[HauledLoad],
+) -> Result<PathBuf, Error> {
     let page = folder.path.join("report.html");
-    let html = page::html(opened, findings)
+    let html = page::html(opened, findings, hauls)
         .map_err(|error| Error::at(&page, format!("cannot be made: {error}")))?;
     let files = [
         (page.clone(), html),

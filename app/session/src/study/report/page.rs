@@ -6,6 +6,7 @@ use crate::study::open::Opened;
 use crate::study::stats::Findings;
 
 use super::cell::{Line, Table};
+use super::hauled::HauledLoad;
 use super::words::event_words;
 use super::{bundle, changed, curves, figures, held, inputs, results};
 
@@ -36,6 +37,7 @@ struct Page<'a> {
     tensions: Table,
     tensions_figure: String,
     break_away_figure: Option<String>,
+    hauled: bool,
     regions: Table,
     claims: Option<Table>,
     observations: Option<Table>,
@@ -75,12 +77,16 @@ struct Again<'a> {
 ///
 /// # Errors
 /// Where the template cannot be filled in.
-pub(super) fn html(opened: &Opened, findings: &Findings) -> Result<String, askama::Error> {
-    Page::of(opened, findings).render()
+pub(super) fn html(
+    opened: &Opened,
+    findings: &Findings,
+    hauls: &[HauledLoad],
+) -> Result<String, askama::Error> {
+    Page::of(opened, findings, hauls).render()
 }
 
 impl<'a> Page<'a> {
-    fn of(opened: &'a Opened, findings: &'a Findings) -> Self {
+    fn of(opened: &'a Opened, findings: &'a Findings, hauls: &[HauledLoad]) -> Self {
         let study = &opened.study;
         Self {
             style: STYLE,
@@ -101,7 +107,8 @@ impl<'a> Page<'a> {
             survival_figure: held::figure(findings),
             tensions: results::tensions(findings),
             tensions_figure: curves::tensions(findings),
-            break_away_figure: curves::break_away(findings),
+            break_away_figure: curves::break_away(findings, hauls),
+            hauled: !hauls.is_empty(),
             regions: results::regions(findings),
             claims: inputs::claims(findings),
             observations: inputs::observations(findings),

@@ -79,6 +79,10 @@ pub(in crate::cli) struct RunArgs {
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
+    /// Draw what parts in a haul beside what parts on whales: a file that `endline haul ASSEMBLY --json` printed; may be given several
+    /// times.
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) haul: Vec<PathBuf>,
     /// Print the findings as one JSON object.
     #[arg(long)]
     pub(super) json: bool,

@@ -11,6 +11,7 @@ use std::process::ExitCode;
 
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::Folder;
+use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
 use endline_session::study::{Control, Opened, REPLAY_HZ, batch, merge, priority, report};
 use endline_session::{locate, save};
@@ -68,11 +69,13 @@ fn merged(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure>
 }
 
 fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let hauls: Vec<HauledLoad> =
+        args.haul.iter().map(|file| HauledLoad::read(file)).collect::<Result<_, _>>()?;
     let opened = open(&args.at, library)?;
     let folder = Folder::open(&folder_of(&args.at, &opened), &opened)?;
     let table = merge::load(&opened, &folder)?;
     let findings = Findings::of(&opened, &table, &folder.registration);
-    let page = report::write(&opened, &folder, &findings)?;
+    let page = report::write(&opened, &folder, &findings, &hauls)?;
     output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json {
         findings.json() + "\n"
