@@ -16,10 +16,11 @@ const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// Folders among them that only report runs.
-const REPORTING: [&str; 9] = [
+const REPORTING: [&str; 10] = [
     "../../gear-library/src/rules",
     "src/cases",
     "src/compliance",
+    "src/haul",
     "src/live",
     "src/mill",
     "src/rules",

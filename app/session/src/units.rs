@@ -53,8 +53,10 @@ impl ForceUnit {
 }
 
 const METRES_PER_FOOT: f64 = 0.3048;
-const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
-const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
+/// Metres in a fathom.
+pub(crate) const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
+/// Metres in an inch.
+pub(crate) const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
 /// Pascals in a pound-force on a square inch.
 const PASCALS_PER_PSI: f64 = 6_894.757;
 /// A nautical mile an hour [m/s].

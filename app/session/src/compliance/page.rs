@@ -8,7 +8,7 @@ use crate::settled::LineShape;
 use crate::strength::PartStrength;
 use crate::study::report::STYLE;
 use crate::study::report::cell::{Cell, Line, Table};
-use crate::units::N_PER_LBF;
+use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 
 use super::threat::ThreatOfGear;
 use super::{ComplianceSheet, drawing};
@@ -18,9 +18,6 @@ const MOST_PARTS: usize = 14;
 
 /// Tension below which a line lies slack [N].
 const SLACK_N: f64 = 0.5;
-
-/// Metres in a fathom.
-const FATHOM_M: f64 = 1.8288;
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
 #[derive(Template)]
@@ -90,15 +87,15 @@ fn where_and_when(sheet: &ComplianceSheet) -> String {
         "{}, {}, {depth_m:.1} m ({:.0} fathoms) of water{usual}",
         sheet.area,
         sheet.fishing.on,
-        depth_m / FATHOM_M
+        depth_m / METRES_PER_FATHOM
     )
 }
 
 /// What a reader wants to know first.
 fn verdict(sheet: &ComplianceSheet) -> String {
-    let is_law = |rule: &&RuleResult| rule.standing == "law";
+    let binds = |rule: &&RuleResult| rule.binding;
     let ids = |verdict: Verdict| -> Vec<&str> {
-        sheet.rules.with(verdict).filter(is_law).map(|rule| rule.rule.as_str()).collect()
+        sheet.rules.with(verdict).filter(binds).map(|rule| rule.rule.as_str()).collect()
     };
     let (fails, unknown) = (ids(Verdict::Fail), ids(Verdict::CannotBeChecked));
     let mut text = match fails.as_slice() {
@@ -175,7 +172,7 @@ fn rules(sheet: &ComplianceSheet) -> Table {
 }
 
 fn rule_row(rule: &RuleResult) -> Vec<Cell> {
-    let standing = if rule.standing == "law" { String::new() } else { rule.standing.to_owned() };
+    let standing = if rule.binding { String::new() } else { rule.standing.to_owned() };
     let said = rule.measured.iter().map(|measured| {
         let part = if measured.part.is_empty() { "" } else { &measured.part };
         [part, &measured.says]

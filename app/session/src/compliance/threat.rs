@@ -5,15 +5,16 @@ use serde::Deserialize;
 use crate::error::Error;
 use crate::rules::RuleGear;
 use crate::study::threat::at_line;
-
-/// Metres in an inch.
-const INCH_M: f64 = 0.0254;
+use crate::units::{METRES_PER_INCH, N_PER_LBF};
 
 /// Device in an endline with weak links between its ends, and without, as the table names them.
 const DEVICES: [&str; 2] = ["SSS_Regular", "NA"];
 
 /// The name of rope of at most 1,700 lbf in the table, and that strength [N].
-const WEAK: (&str, f64) = ("1,700", 7562.0);
+const WEAK: (&str, f64) = ("1,700", 1700.0 * N_PER_LBF);
+
+/// What rounding may add to a strength [N].
+const ROUNDING_N: f64 = 1e-6;
 
 /// A row of a threat table with bands.
 #[derive(Clone, Debug, Deserialize)]
@@ -67,8 +68,8 @@ impl ThreatOfGear {
             .endline()
             .ok_or_else(|| failed(format!("{} has no endline to look up", gear.assembly)))?;
         let device = DEVICES[usize::from(!endline.has_sleeves)];
-        let is_weak = endline.rated_n <= WEAK.1 && !endline.has_sleeves;
-        let diameter_in = endline.diameter_m / INCH_M;
+        let is_weak = endline.rated_n <= WEAK.1 + ROUNDING_N && !endline.has_sleeves;
+        let diameter_in = endline.diameter_m / METRES_PER_INCH;
         let apart = |row: &Row| {
             let rope = if (row.rope == WEAK.0) == is_weak { 0.0 } else { 1.0 };
             let traps = (row.traps as f64 - gear.traps() as f64).abs();

@@ -77,11 +77,15 @@ impl HauledLoad {
             .ok_or_else(|| Error::at(file, "bore no tension; haul gear with an endline"))?;
         let own = sheet.strengths.iter().find(|strength| strength.part == nearest.part);
         let variation = own.and_then(|strength| Some(strength.variation.as_ref()?.value));
+        let sea = match sheet.sea_m > 0.0 {
+            true => format!("waves of {:.1} m", sheet.sea_m),
+            false => "a calm".to_owned(),
+        };
         let traps = if sheet.traps == 1 { "trap" } else { "traps" };
         Ok(Self {
             name: format!(
-                "at the hauler: {}, {} {traps}, {:.0} m, waves of {:.1} m",
-                sheet.assembly, sheet.traps, sheet.depth_m, sheet.sea_m
+                "at the hauler: {}, {} {traps}, {:.0} m, {sea}",
+                sheet.assembly, sheet.traps, sheet.depth_m
             ),
             tension_n: nearest.tension_N,
             variation: variation.unwrap_or(USUAL_VARIATION),

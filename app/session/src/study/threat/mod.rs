@@ -16,14 +16,12 @@ use serde::Serialize;
 use super::open::Opened;
 use super::stats::{AssumedBand, Interval, Marks, Rate};
 use super::table::Table;
+use crate::units::METRES_PER_INCH;
 
 pub use filled::{Filled, How, as_own, with_bands};
 pub use kendall::Tau;
 pub(crate) use poll::at_line;
 pub use poll::{Poll, Polled};
-
-/// Metres in an inch.
-const INCH_M: f64 = 0.0254;
 
 /// A row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -115,7 +113,7 @@ fn threat(opened: &Opened, table: &Table, id: &str, row: ThreatRow, marks: &Mark
     Threat {
         option: id.to_owned(),
         rope: row.rope,
-        diameter_in: row.diameter_m / INCH_M,
+        diameter_in: row.diameter_m / METRES_PER_INCH,
         traps: row.traps,
         device: row.device,
         rate: Rate::of(marks),
