@@ -60,6 +60,7 @@ pub use job::Job;
 pub use question::Question;
 pub use stories::{Stories, Story};
 
+use batch::Part;
 use ended::Ended;
 use rounds::Rounds;
 
@@ -125,21 +126,66 @@ fn rounds_of<'a>(
 ) -> Result<Rounds<'a>, Error> {
     let mut rounds = Rounds::new(question, effort.net);
     control.begin(Count::of(effort.trials), Count::default());
-    while rounds.trials() < effort.trials {
-        let round = rounds.next();
-        let count = u32::try_from(round.local.len()).unwrap_or(u32::MAX);
-        let one = |number: u32| run(&round.local[number as usize]);
-        let local = batch::run(&folder.rounds, &round.name, 0..count, effort, control, one)?;
-        let one = |number: u32| run(&rounds.net_point(number));
-        let net = batch::run(&folder.net, "net", round.net.clone(), effort, control, one)?;
-        let (Some(local), Some(net)) = (local, net) else { break };
-        rounds.take(round, &local, &net);
+    let mut told = |rounds: &Rounds<'_>| {
         progress(Progress {
             trials: rounds.trials(),
             of: effort.trials,
             best: rounds.best(),
-            stories: stories::so_far(&rounds),
+            stories: stories::so_far(rounds),
         });
+    };
+    let mut goes_on = net_of(&mut rounds, folder, effort, &run, control, &mut told)?;
+    while goes_on && rounds.trials() < effort.trials {
+        goes_on = round_of(&mut rounds, folder, effort, &run, control)?;
+        if goes_on {
+            told(&rounds);
+        }
     }
     Ok(rounds)
+}
+
+/// The net before the first local search, told of in parts; false where the control cancelled it.
+fn net_of(
+    rounds: &mut Rounds<'_>,
+    folder: &Folder,
+    effort: &Effort,
+    run: &(impl Fn(&[f64]) -> Ended + Sync),
+    control: &Control,
+    told: &mut impl FnMut(&Rounds<'_>),
+) -> Result<bool, Error> {
+    let part = |numbers| Part { store: &folder.net, name: "net", numbers };
+    let parts: Vec<Part<'_>> = rounds.parts_of_net(effort.trials).map(part).collect();
+    let points = rounds.net_points();
+    let one = |_, number| run(&points.at(number));
+    batch::run(&parts, effort, control, one, |_, net| {
+        rounds.take_net(&net);
+        told(rounds);
+    })
+}
+
+/// A round of local searches, variations and a few more points of the net; false where the control cancelled it.
+fn round_of(
+    rounds: &mut Rounds<'_>,
+    folder: &Folder,
+    effort: &Effort,
+    run: &(impl Fn(&[f64]) -> Ended + Sync),
+    control: &Control,
+) -> Result<bool, Error> {
+    let round = rounds.next();
+    let count = u32::try_from(round.local.len()).unwrap_or(u32::MAX);
+    let parts = [
+        Part { store: &folder.rounds, name: &round.name, numbers: 0..count },
+        Part { store: &folder.net, name: "net", numbers: round.net.clone() },
+    ];
+    let points = rounds.net_points();
+    let one = |place, number: u32| match place {
+        0 => run(&round.local[number as usize]),
+        _ => run(&points.at(number)),
+    };
+    let mut runs = Vec::new();
+    let all = batch::run(&parts, effort, control, one, |_, part| runs.push(part))?;
+    if let [local, net] = &runs[..] {
+        rounds.take(&round, local, net);
+    }
+    Ok(all)
 }

@@ -8,7 +8,7 @@ use crate::study::Control;
 use crate::study::encounter::Encounter;
 
 use super::Effort;
-use super::batch;
+use super::batch::{self, Part};
 use super::distance::LIKE;
 use super::elites::Elite;
 use super::ended::Ended;
@@ -119,7 +119,8 @@ impl Runs<'_> {
         one: impl Fn(u32) -> Ended + Sync,
     ) -> Result<Option<Vec<f64>>, Error> {
         let Self { question, folder, effort, control } = self;
-        let ended = batch::run(&folder.rounds, name, 0..count, effort, control, one)?;
+        let part = Part { store: &folder.rounds, name, numbers: 0..count };
+        let ended = batch::run_one(part, effort, control, one)?;
         let distance = |ended: &Ended| Trial::of(&question.observation, ended).distance;
         Ok(ended.map(|ended| ended.iter().map(distance).collect()))
     }

@@ -14,7 +14,7 @@ use super::question::Question;
 use super::trial::Trial;
 use super::variation::variation;
 
-/// Points of a round of the net alone, at most.
+/// Points of the first net that are taken in together, at most.
 const NET: u32 = 32;
 
 /// Points of the net in every later round.
@@ -34,6 +34,20 @@ pub(super) struct Round {
     pub(super) local: Vec<Vec<f64>>,
     /// Points of the net, by their place in its sequence.
     pub(super) net: Range<u32>,
+}
+
+/// The points of a net, by their place in its sequence.
+#[derive(Clone, Copy)]
+pub(super) struct NetPoints {
+    seed: u64,
+    dimensions: usize,
+}
+
+impl NetPoints {
+    /// The point at a place.
+    pub(super) fn at(&self, number: u32) -> Vec<f64> {
+        draw::sobol_point(self.seed, number, self.dimensions)
+    }
 }
 
 /// Which points come next, from what came of those before.
@@ -81,20 +95,23 @@ impl<'a> Rounds<'a> {
         self.done
     }
 
-    /// The point of the net at a place in its sequence.
-    pub(super) fn net_point(&self, number: u32) -> Vec<f64> {
-        draw::sobol_point(self.question.seed, number, self.dimensions)
+    /// The points of the net.
+    pub(super) fn net_points(&self) -> NetPoints {
+        NetPoints { seed: self.question.seed, dimensions: self.dimensions }
     }
 
-    /// The next round.
+    /// The net before the first local search, in parts; those that reach so many trials are the last.
+    pub(super) fn parts_of_net(&self, trials: usize) -> impl Iterator<Item = Range<u32>> + use<> {
+        let first = self.first;
+        let until = first.min(u32::try_from(trials).unwrap_or(u32::MAX));
+        (0..until).step_by(NET as usize).map(move |from| from..from.saturating_add(NET).min(first))
+    }
+
+    /// The next round, after the first net.
     pub(super) fn next(&mut self) -> Round {
         let from = u32::try_from(self.net.len()).unwrap_or(u32::MAX);
         let name = format!("round-{:05}", self.round);
         self.shares.clear();
-        if from < self.first {
-            let net = from..from.saturating_add(NET).min(self.first);
-            return Round { name, local: Vec::new(), net };
-        }
         self.climbs.retain(|climb| !climb.is_over());
         while self.climbs.len() < CLIMBS && self.begin() {}
         let mut local = Vec::new();
@@ -129,7 +146,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Takes in what the runs of a round came to.
-    pub(super) fn take(&mut self, round: Round, local: &[Ended], net: &[Ended]) {
+    pub(super) fn take(&mut self, round: &Round, local: &[Ended], net: &[Ended]) {
         let observation = &self.question.observation;
         let held: Vec<Trial> = local.iter().map(|ended| Trial::of(observation, ended)).collect();
         for (point, trial) in round.local.iter().zip(&held) {
@@ -141,12 +158,21 @@ impl<'a> Rounds<'a> {
             climb.take(own);
             rest = others;
         }
-        for (number, ended) in round.net.zip(net) {
-            let (point, trial) = (self.net_point(number), Trial::of(observation, ended));
+        self.done += local.len();
+        self.take_net(net);
+    }
+
+    /// Takes in what the next points of the net came to.
+    pub(super) fn take_net(&mut self, net: &[Ended]) {
+        let points = self.net_points();
+        for ended in net {
+            let number = u32::try_from(self.net.len()).unwrap_or(u32::MAX);
+            let point = points.at(number);
+            let trial = Trial::of(&self.question.observation, ended);
             self.elites.take(self.question, &point, &trial);
             self.net.push((point, trial));
         }
-        self.done += local.len() + net.len();
+        self.done += net.len();
         self.round += 1;
     }
 

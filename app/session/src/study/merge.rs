@@ -10,6 +10,9 @@ use super::shard::Shard;
 use super::stats::is_narrow;
 use super::table::Table;
 
+/// Encounters between two looks at whether a study has seen enough.
+const LOOK: u32 = 4;
+
 /// The rows of all blocks in order; where the study has seen enough sooner, of those up to there.
 ///
 /// # Errors
@@ -81,7 +84,8 @@ pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
 
 fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
     let Some(enough) = &opened.study.enough else { return false };
-    u64::from(encounters) >= enough.least
+    encounters.is_multiple_of(LOOK)
+        && u64::from(encounters) >= enough.least
         && is_narrow(table, &opened.options, &enough.event, enough.width)
 }
 
