@@ -41,7 +41,7 @@ pub use attributes::Attributes;
 pub use case::{Case, CaseHaul, Check, Limit, Measure, Rows, Samples, Table};
 pub use confidence::Confidence;
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
-pub use document::{Document, EditError, Setting, save_text};
+pub use document::{Document, EditError, Setting, UNSOURCED, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range};
 pub use items::{

@@ -1,5 +1,6 @@
 //! A file being edited: fields change, comments and order stay.
 
+mod figure;
 mod lists;
 mod path;
 mod save;
@@ -14,6 +15,7 @@ use toml_edit::{DocumentMut, Item};
 use path::{child, key_in, parts, way, way_to};
 use setting::{replace, set_in};
 
+pub use figure::UNSOURCED;
 pub use save::save_text;
 pub use setting::Setting;
 

@@ -6,6 +6,7 @@ use super::range::Range;
 use super::value::read_value;
 use crate::confidence::{Confidence, FORMER_CONFIDENCE};
 use crate::diagnostic::Place;
+use crate::document::UNSOURCED;
 use crate::tree::{Content, Node};
 use crate::units::{Quantity, format_si};
 
@@ -22,6 +23,14 @@ pub struct Figure {
     pub confidence: Confidence,
     /// Where the value stands.
     pub place: Place,
+}
+
+impl Figure {
+    /// Whether it was typed, and nobody has said since where it comes from.
+    #[must_use]
+    pub fn is_unsourced(&self) -> bool {
+        self.source == UNSOURCED
+    }
 }
 
 /// Source and confidence of figures that name none of their own.

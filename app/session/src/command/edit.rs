@@ -11,7 +11,7 @@ use super::info::{Choice, FileQuestion, Make, Shortcut, When};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::locate;
-use crate::workbench::Workbench;
+use crate::workbench::{Notice, Workbench};
 
 /// An action on texts.
 #[derive(Clone, Debug, PartialEq)]
@@ -208,7 +208,9 @@ pub(super) fn stem(path: &std::path::Path) -> String {
 pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(), String> {
     match action {
         EditAction::Set { path, field, value } => {
-            workbench.project.documents.set(&path, &field, &value)
+            let said = workbench.project.documents.set(&path, &field, &value)?;
+            workbench.notice = said.map(Notice::done).or(workbench.notice.take());
+            Ok(())
         }
         EditAction::Undo => workbench.undo(),
         EditAction::Redo => workbench.redo(),

@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use endline_gear::{Diagnostic, Document, Library, Sources, save_text};
 
+use super::figures;
 use super::history::{Change, History};
+use super::library_table::slug;
 use super::problems::{Named, Problems};
 use super::texts::Texts;
 
@@ -294,15 +296,21 @@ impl Documents {
         numbered.find(|candidate| !taken(candidate)).unwrap_or(first)
     }
 
-    /// Sets a field; comments and order stay. Setting a value that is already there changes nothing.
+    /// Sets a field; comments and order stay. Setting a value that is already there changes nothing. A figure of a library entry
+    /// loses the source of its old value. Answers what else changed, in a sentence.
     ///
     /// # Errors
     /// Where the file is not TOML or has no such place.
-    pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+    pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<Option<String>, String> {
         if self.field(path, field).as_deref() == Some(value) {
-            return Ok(());
+            return Ok(None);
         }
-        self.alter(path, |document| document.set(field, value).map_err(|error| error.to_string()))
+        let mut said = None;
+        self.alter(path, |document| {
+            said = figures::set(document, path, field, value).map_err(|error| error.to_string())?;
+            Ok(())
+        })?;
+        Ok(said)
     }
 
     /// Sets a field from a control that is still moving: successive values are one edit.
@@ -341,6 +349,22 @@ impl Documents {
         change(&mut document)?;
         self.change(vec![(path.to_owned(), Some(document.text()))]);
         Ok(())
+    }
+
+    /// Puts another scenario in the place of the open one, to be saved as a file of its own: named after the scenario and `what`,
+    /// beside the open one, and none that is there. One undo brings the text of the open one back.
+    pub(crate) fn put_scenario_as_new(&mut self, text: String, what: &str) -> &Path {
+        let name = Document::parse(&text).ok().and_then(|document| document.get("name"));
+        let stem = slug(&format!("{} {what}", name.unwrap_or_default()));
+        let folder = self.scenario_path.parent().unwrap_or(&self.root).to_owned();
+        let named = |number: u32| match number {
+            1 => folder.join(format!("{stem}.toml")),
+            number => folder.join(format!("{stem}-{number}.toml")),
+        };
+        let free = (1..1000).map(named).find(|path| !path.exists());
+        self.scenario_path = free.unwrap_or_else(|| named(1000));
+        self.put_all(vec![(Self::SCENARIO.to_owned(), text)]);
+        &self.scenario_path
     }
 
     /// Sets several texts at once, new files among them; one undo takes all of it back.

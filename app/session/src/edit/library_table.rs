@@ -5,12 +5,16 @@
 //! listed in [`Taken::left_out`].
 
 use super::documents::Documents;
-use endline_gear::{Document, Kind, Setting};
+use super::figures;
+use endline_gear::{Confidence, Document, Kind, Setting};
 
 /// Columns before the kind's own.
 const FIRST: [&str; 2] = ["id", "name"];
 /// Text columns after them.
 const LAST: [&str; 3] = ["notes", "source", "confidence"];
+
+/// Source of figures that a table changes, until a better one is given.
+const FROM_A_TABLE: &str = "taken from a table";
 
 /// The result of reading a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -191,26 +195,44 @@ fn of_row(
         None => Document::parse(&fresh(kind, name.or(id).unwrap_or_default())),
     }
     .map_err(|error| error.to_string())?;
+    let (source, sure) = provenance(&document, cell("source"), cell("confidence"));
     for (key, cell) in cells.iter().filter(|(key, _)| *key != "id") {
         let same = document.get(key).as_deref() == Some(*cell);
         let figure = kind.fields().iter().any(|field| field.key == *key);
-        let written = match document.has(key) {
+        let written = match (document.has(key), figure) {
             _ if same => Ok(()),
-            true => document.set(key, cell),
-            false => {
-                document.put(key, &if figure { Setting::plain(cell) } else { Setting::text(cell) })
-            }
+            (true, true) => document.set_figure(key, cell, &source, sure),
+            (true, false) => document.set(key, cell),
+            (false, true) => document.put(key, &Setting::plain(cell)),
+            (false, false) => document.put(key, &Setting::text(cell)),
         };
         written.map_err(|error| format!("{key}: {error}"))?;
     }
     Ok((path.clone(), document.text(), known.is_some()))
 }
 
+/// Where figures that a row changes come from: what the row says, unless it only repeats what the entry said of the old ones.
+fn provenance(
+    document: &Document,
+    source: Option<&str>,
+    confidence: Option<&str>,
+) -> (String, Confidence) {
+    match source.filter(|source| document.get("source").as_deref() != Some(source)) {
+        Some(source) => {
+            let sure = confidence.and_then(Confidence::from_word);
+            let sure =
+                sure.filter(|sure| *sure != Confidence::Assumed).unwrap_or(Confidence::Estimate);
+            (source.to_owned(), sure)
+        }
+        None => (FROM_A_TABLE.to_owned(), Confidence::Estimate),
+    }
+}
+
 /// The text of a new entry without its figures. Its source is the table, until a better one is given.
 fn fresh(kind: Kind, name: &str) -> String {
     let name = name.replace(['"', '\\'], "'");
     format!(
-        "format = 1\nkind = \"{}\"\nname = \"{name}\"\nnotes = \"\"\nsource = \"taken from a table\"\nconfidence = \"estimate\"\n",
+        "format = 1\nkind = \"{}\"\nname = \"{name}\"\nnotes = \"\"\nsource = \"{FROM_A_TABLE}\"\nconfidence = \"estimate\"\n",
         kind.word()
     )
 }
@@ -243,7 +265,8 @@ pub fn spread(
     for (path, row) in paths.iter().zip(cells) {
         let mut document = documents.document(path)?;
         for (key, cell) in keys.iter().zip(row).filter(|(_, cell)| !cell.is_empty()) {
-            document.set(key, cell).map_err(|error| format!("{path}: {key}: {error}"))?;
+            figures::set(&mut document, path, key, cell)
+                .map_err(|error| format!("{path}: {key}: {error}"))?;
         }
         taken.changed += usize::from(documents.text(path) != Some(document.text().as_str()));
         texts.push((path.clone(), document.text()));

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`documents`] | every open text: library files, the scenario, the study, the observation |
 //! | `texts` | texts as they stand and as their files have them |
+//! | `figures` | figures typed: their sources, and what follows from them |
 //! | `history` | undo and redo |
 //! | [`problems`] | located problems of the texts |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
@@ -16,6 +17,7 @@
 
 pub mod assembly;
 pub mod documents;
+mod figures;
 mod history;
 pub mod library_table;
 pub mod observation;

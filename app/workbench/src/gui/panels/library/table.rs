@@ -192,13 +192,19 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
     committed.map(|value| (path.to_owned(), key, value))
 }
 
-/// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
+/// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate; a question mark where it was typed
+/// and nobody said where it comes from.
 fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
     let entry =
         shared.workbench.project.documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
-    let letter = figure.confidence.word().get(..1).unwrap_or_default();
-    let colour = words::confidence_colour(figure.confidence, Theme::palette_of(ui));
+    let palette = Theme::palette_of(ui);
+    let (letter, colour) = if figure.is_unsourced() {
+        ("?", palette.warning)
+    } else {
+        let letter = figure.confidence.word().get(..1).unwrap_or_default();
+        (letter, words::confidence_colour(figure.confidence, palette))
+    };
     let corner = ui.max_rect().right_top() + egui::vec2(-13.0, 4.0);
     ui.painter().text(
         corner,
@@ -220,6 +226,7 @@ fn provenance(shared: &Shared, kind: Kind, path: &str, field: &Field) -> String 
         .and_then(|entry| entry.figure(field.key));
     figure.map_or_else(String::new, |figure| {
         let si = units::format_si(figure.value, field.quantity);
-        format!("\n\n= {si}\n{}: {}", figure.confidence.word(), figure.source)
+        let ask = if figure.is_unsourced() { "; choose the entry and give one" } else { "" };
+        format!("\n\n= {si}\n{}: {}{ask}", figure.confidence.word(), figure.source)
     })
 }
