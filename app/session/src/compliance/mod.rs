@@ -3,8 +3,9 @@
 //! It shows the gear at slack and at running tide (`drawing.rs`), what it is made of and what each part delivers, the verdict on every
 //! rule, what hauling it takes, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of everything the
 //! model at running tide is made from, so that the same command makes the same page. The page is HTML (`page.rs`); an
-//! installed browser prints it as PDF (`pdf.rs`).
+//! installed browser prints it as PDF (`pdf.rs`). Several gears stand beside each other on a page of their own (`comparison.rs`).
 
+mod comparison;
 mod drawing;
 mod page;
 pub mod pdf;
@@ -24,6 +25,7 @@ use crate::source::assembly::library_of;
 use crate::source::{Overrides, Prepared, Source};
 use crate::statics::preview::{TrialSea, alone};
 
+pub use comparison::comparison;
 use threat::ThreatOfGear;
 
 /// The sea that a preview is laid into: whatever the site, depth and current are the request's.
@@ -112,6 +114,12 @@ impl ComplianceSheet {
             name,
             notes,
         })
+    }
+
+    /// Id of the assembly.
+    #[must_use]
+    pub fn id(&self) -> &str {
+        &self.id
     }
 
     /// The page.

@@ -47,9 +47,9 @@ struct Page<'a> {
 }
 
 /// What a threat table says, in words.
-struct Threat {
+pub(super) struct Threat {
     says: String,
-    source: String,
+    pub(super) source: String,
 }
 
 pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
@@ -80,7 +80,7 @@ pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
     .render()
 }
 
-fn where_and_when(sheet: &ComplianceSheet) -> String {
+pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {
     let depth_m = sheet.rules.depth_m;
     let usual = if sheet.rules.depth_is_usual { ", taken because none was given" } else { "" };
     format!(
@@ -113,7 +113,7 @@ fn verdict(sheet: &ComplianceSheet) -> String {
     text
 }
 
-fn force(newtons: f64) -> String {
+pub(super) fn force(newtons: f64) -> String {
     format!("{:.0} lbf ({:.2} kN)", newtons / N_PER_LBF, newtons / 1000.0)
 }
 
@@ -149,7 +149,7 @@ fn slack_lines(sheet: &ComplianceSheet) -> String {
 }
 
 /// What hangs on the lines, in one sentence.
-fn bodies(sheet: &ComplianceSheet) -> String {
+pub(super) fn bodies(sheet: &ComplianceSheet) -> String {
     let bodies = &sheet.rest[0].prepared.model.spec.bodies;
     let mut counted: Vec<(&str, BodyRole, usize)> = Vec::new();
     for body in bodies {
@@ -284,7 +284,7 @@ fn haul(sheet: &ComplianceSheet) -> String {
     text + &format!(" Something parts in a haul with probability {}.", probability(haul.parts))
 }
 
-fn probability(share: f64) -> String {
+pub(super) fn probability(share: f64) -> String {
     if share < 1e-4 { "below 0.0001".to_owned() } else { format!("{share:.4}") }
 }
 
@@ -303,7 +303,7 @@ fn haul_source(sheet: &ComplianceSheet) -> String {
     )
 }
 
-fn threat(found: &ThreatOfGear) -> Threat {
+pub(super) fn threat(found: &ThreatOfGear) -> Threat {
     let row = &found.row;
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     Threat {
@@ -325,7 +325,7 @@ fn threat(found: &ThreatOfGear) -> Threat {
 }
 
 /// What a reader must not take from the page.
-fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
+pub(super) fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
     let estimates = sheet
         .rules
         .rules
@@ -353,7 +353,7 @@ fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
 }
 
 /// The command that makes the page again.
-fn command(sheet: &ComplianceSheet) -> String {
+pub(super) fn command(sheet: &ComplianceSheet) -> String {
     let fishing = &sheet.fishing;
     let mut words = format!(
         "endline sheet {} --area {} --on {} --tide \"{} m/s\"",

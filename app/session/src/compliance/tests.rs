@@ -47,6 +47,32 @@ fn a_sheet_tells_rules_strength_and_what_makes_it_again() {
 }
 
 #[test]
+fn a_comparison_says_of_each_gear_what_its_own_sheet_says() {
+    let sheets = ["single-bridle", "massachusetts-single"].map(|gear| sheet(gear, None).unwrap());
+    let page = comparison(&sheets).unwrap();
+    for sheet in &sheets {
+        let own = sheet.html().unwrap();
+        for told in [sheet.hash(), page::command(sheet), page::bodies(sheet)] {
+            let told = told.replace('"', "&#34;");
+            assert!(page.contains(&told) && own.contains(&told), "{told}");
+        }
+    }
+    // The sleeves deliver less than the rope between them, and the bare endline fails the rule that they meet.
+    assert!(page.contains("FAILS") && page.contains("ma.strength"), "{page}");
+    assert!(comparison(&sheets[..1]).is_err());
+}
+
+#[test]
+fn rope_above_the_seabed_of_a_taut_endline_is_its_height() {
+    let sheet = sheet("single-bridle", None).unwrap();
+    let [slack, _] = &sheet.rest;
+    let whole: f64 = slack.shape.lines.iter().map(|line| line.length_m).sum();
+    let above = comparison::above_the_seabed_m(&slack.shape, sheet.rules.depth_m);
+    // The endline reaches from the seabed to the surface, and no more rope than there is stands in the water.
+    assert!(above > sheet.rules.depth_m - 2.0 && above <= whole, "{above} of {whole}");
+}
+
+#[test]
 fn the_threat_is_that_of_the_nearest_row_and_mistakes_of_the_table_stand_at_their_lines() {
     let head = "Rope,RopeDiam,TrawlLen,BuoylineDevice,Risk,Risk_lo,Risk_hi,Risk_priors_lo,Risk_priors_hi,Risk_n,how\n";
     let row = |rope: &str, traps: u64, device: &str, risk: f64| {

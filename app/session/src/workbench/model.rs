@@ -53,6 +53,11 @@ pub(super) struct Made {
 }
 
 impl Made {
+    /// Whether it was made of something else than the texts, such as a recording.
+    pub(super) fn is_guest(&self) -> bool {
+        self.guest.is_some()
+    }
+
     /// Forgets the texts: whatever they are, the next model is another one.
     pub(super) fn forget(&mut self) {
         self.texts = None;

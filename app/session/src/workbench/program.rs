@@ -40,15 +40,27 @@ impl Workbench {
         request.taken = Some(Arc::clone(&made));
         self.notice = Some(match made.as_ref() {
             Ok(program) => {
-                let text = self.as_long_as_before(&program.scenario);
-                let texts = vec![(Documents::SCENARIO.to_owned(), text)];
-                self.project.documents.put_all(texts);
+                let place = self.put_program(&program.scenario);
                 self.events.push(Event::ProgramWritten);
                 let count = counted(program.entries);
-                Notice::done(format!("the run's inputs are the pilot program now: {count} in all"))
+                Notice::done(format!(
+                    "the run's inputs are the pilot program {place}: {count} in all"
+                ))
             }
             Err(error) => Notice::fault(error),
         });
+    }
+
+    /// Puts a run's scenario with its inputs in the place of the open one, or under a name of its own where the run is of something
+    /// else, such as a recording. Answers where.
+    fn put_program(&mut self, scenario: &str) -> String {
+        if self.run.made.is_guest() {
+            let path = self.project.documents.put_scenario_as_new(scenario.to_owned(), "inputs");
+            return format!("of a new scenario, {} (not saved yet)", path.display());
+        }
+        let text = self.as_long_as_before(scenario);
+        self.project.documents.put_all(vec![(Documents::SCENARIO.to_owned(), text)]);
+        "now".to_owned()
     }
 
     /// The scenario of a run with its duration as it was, where the run was stopped short of that.

@@ -69,10 +69,12 @@ impl Project {
 }
 
 impl Workbench {
-    /// Sets a field of a text; the notice says so where that fails.
+    /// Sets a field of a text; the notice says what else changed, or why it failed.
     pub fn set(&mut self, path: &str, field: &str, value: &str) {
-        if let Err(reason) = self.project.documents.set(path, field, value) {
-            self.notice = Some(Notice::fault(reason));
+        match self.project.documents.set(path, field, value) {
+            Ok(None) => {}
+            Ok(Some(said)) => self.notice = Some(Notice::done(said)),
+            Err(reason) => self.notice = Some(Notice::fault(reason)),
         }
     }
 

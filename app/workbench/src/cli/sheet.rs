@@ -1,10 +1,11 @@
-//! `endline sheet`: one page on a gear for a hearing.
+//! `endline sheet`: one page on a gear, or on several beside each other, for a hearing.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use endline_gear::units::{self, Quantity};
-use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, pdf};
+use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, comparison, pdf};
+use endline_session::plugins::PluginHost;
 use endline_session::source::AssemblyFile;
 use endline_session::{Error, save};
 
@@ -24,14 +25,44 @@ pub(super) struct SheetArgs {
     /// The page [default: the assembly's id, with -sheet.html].
     #[arg(long, value_name = "FILE.html")]
     to: Option<PathBuf>,
+    /// Another assembly, to be compared on one page; may be repeated.
+    #[arg(long = "with", value_name = "ASSEMBLY")]
+    others: Vec<String>,
     /// Print it as PDF too, by an installed browser.
     #[arg(long, value_name = "FILE.pdf")]
     pdf: Option<PathBuf>,
 }
 
 pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let host = host::load();
+    let assemblies = std::iter::once(&args.fished.assembly).chain(&args.others);
+    let sheets: Vec<ComplianceSheet> = assemblies
+        .map(|assembly| sheet_of(assembly, args, library, &host))
+        .collect::<Result<_, _>>()?;
+    let (html, name) = match sheets.as_slice() {
+        [one] => (one.html()?, "sheet"),
+        several => (comparison(several)?, "comparison"),
+    };
+    let usual = || PathBuf::from(format!("{}-{name}.html", sheets[0].id()));
+    let page = args.to.clone().unwrap_or_else(usual);
+    save::atomically(&page, html.as_bytes())
+        .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
+    output::note(&format!("the {name} is {}", page.display()));
+    if let Some(file) = &args.pdf {
+        pdf::print(&page, file)?;
+        output::note(&format!("printed as {}", file.display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn sheet_of(
+    assembly: &str,
+    args: &SheetArgs,
+    library: Option<&Path>,
+    host: &PluginHost,
+) -> Result<ComplianceSheet, Failure> {
     let (packs, fishing) = args.fished.open(library)?;
-    let file = AssemblyFile::open(&args.fished.assembly, library)?;
+    let file = AssemblyFile::open(assembly, library)?;
     let request = Request {
         assembly: &file.id,
         sources: &file.sources,
@@ -39,16 +70,7 @@ pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode
         tide_m_s: args.tide.unwrap_or(USUAL_TIDE_M_S),
         threat: args.threat.clone(),
     };
-    let sheet = ComplianceSheet::of(&request, &packs, &host::load())?;
-    let page = args.to.clone().unwrap_or_else(|| PathBuf::from(format!("{}-sheet.html", file.id)));
-    save::atomically(&page, sheet.html()?.as_bytes())
-        .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
-    output::note(&format!("the sheet is {}", page.display()));
-    if let Some(file) = &args.pdf {
-        pdf::print(&page, file)?;
-        output::note(&format!("printed as {}", file.display()));
-    }
-    Ok(ExitCode::SUCCESS)
+    Ok(ComplianceSheet::of(&request, &packs, host)?)
 }
 
 fn speed(text: &str) -> Result<f64, String> {

@@ -106,6 +106,43 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
 }
 
 #[test]
+fn the_inputs_of_a_recording_become_a_scenario_of_their_own() {
+    let folder = Folder::new("edit-recording");
+    let mut harness = flown(&folder);
+    let end = view(&harness);
+    give(&mut harness, RunAction::Reset);
+    let kept = folder.0.join("recordings/hello-endline 0001.endline");
+    wait(&mut harness, |_| kept.exists());
+    let documents = |harness: &Harness<'static, App>| {
+        let documents = &harness.state().shared.workbench.project.documents;
+        (
+            documents.scenario_path().to_owned(),
+            documents.text(Documents::SCENARIO).unwrap().to_owned(),
+        )
+    };
+    give(&mut harness, EditAction::Save);
+    let (open, text) = documents(&harness);
+    let on_disk = std::fs::read_to_string(&open).unwrap();
+
+    harness.state_mut().shared.perform(RunAction::OpenRecording(kept));
+    wait(&mut harness, |app| {
+        let view = app.shared.workbench.view().unwrap();
+        !Arc::ptr_eq(&view.model, &end.model)
+            && view.frame.step == end.frame.step
+            && view.status != Status::Running
+    });
+    give(&mut harness, EditAction::EditInputs);
+    wait(&mut harness, |app| app.shared.workbench.project.documents.scenario_path() != open);
+    let (copy, program) = documents(&harness);
+    assert!(program.contains("# Flown") && !copy.exists(), "{}", copy.display());
+    give(&mut harness, EditAction::Save);
+    assert_eq!(std::fs::read_to_string(&copy).unwrap(), program);
+    assert_eq!(std::fs::read_to_string(&open).unwrap(), on_disk, "the open scenario's file stays");
+    give(&mut harness, EditAction::Undo);
+    assert_eq!(documents(&harness).1, text, "its text is one undo away");
+}
+
+#[test]
 fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let folder = Folder::new("timeline");
     let mut harness = flown(&folder);
