@@ -65,7 +65,9 @@ impl Document {
         if plain.is_some() || !table.contains_key(last) {
             let mut own = InlineTable::new();
             if let Some(value) = plain {
-                own.insert("value", value.clone().decorated("", ""));
+                let mut value = value.clone();
+                value.decor_mut().clear();
+                own.insert("value", value);
             }
             table.insert(last, Item::Value(Value::InlineTable(own)));
         }

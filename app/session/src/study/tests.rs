@@ -189,8 +189,8 @@ fn a_cancelled_study_keeps_whole_blocks_and_a_second_call_continues_from_them() 
 
     let second = Control::default();
     let progress = batch::run(&opened, &folder, Shard::WHOLE, 1, &second).unwrap();
-    assert_eq!(progress.blocks, Count { done: 6, found: written, total: 6 });
-    assert_eq!(progress.encounters, Count { done: 24, found: 4 * written, total: 24 });
+    assert_eq!(progress.blocks, Count { done: 24, found: written, total: 24 });
+    assert_eq!(progress.encounters, Count { done: 24, found: written, total: 24 });
     assert_eq!(merge::merge(&opened, &folder).unwrap().rows(), 48);
 }
 
@@ -202,10 +202,10 @@ fn progress_counts_each_encounter_and_block_once_and_tells_the_time_left() {
     let seen: Arc<Mutex<Vec<Progress>>> = Arc::default();
     let watched = Arc::clone(&seen);
     let control = Control::new(move |progress| watched.lock().unwrap().push(*progress));
-    // The second of three parts: blocks 1 and 4.
+    // The second of three parts: encounters 1, 4, 7 and so on, each a block.
     batch::run(&opened, &folder, Shard { part: 1, of: 3 }, 2, &control).unwrap();
     let seen = seen.lock().unwrap();
-    assert_eq!(seen.len(), 1 + 8 + 2);
+    assert_eq!(seen.len(), 1 + 8 + 8);
     assert_eq!(seen[0].encounters, Count { done: 0, found: 0, total: 8 });
     assert_eq!(seen[0].left(), None, "there is no pace yet");
     for pair in seen.windows(2) {
@@ -219,7 +219,7 @@ fn progress_counts_each_encounter_and_block_once_and_tells_the_time_left() {
     let half = seen.iter().find(|progress| progress.encounters.done == 4).unwrap();
     assert!(half.left().unwrap() > Duration::ZERO && (half.share() - 0.5).abs() < 1e-6);
     let last = control.progress();
-    assert_eq!((last.blocks.done, last.left()), (2, Some(Duration::ZERO)));
+    assert_eq!((last.blocks.done, last.left()), (8, Some(Duration::ZERO)));
 }
 
 #[test]

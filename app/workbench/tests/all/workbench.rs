@@ -54,7 +54,12 @@ fn an_edit_is_saved_with_comments_and_everything_else_as_it_was() {
     assert_eq!(on_disk(&folder, "ropes/nylon-1-2.toml"), before, "nothing is written before Save");
     harness.get_by_label("Save").click();
     harness.run_steps(3);
-    assert_eq!(on_disk(&folder, "ropes/nylon-1-2.toml"), before.replace("5,750 lbf", "25 kN"));
+    let typed = format!(
+        "strength = {{ value = \"25 kN\", source = \"{}\", confidence = \"estimate\" }}",
+        endline_gear::UNSOURCED
+    );
+    let after = before.replace("strength = \"5,750 lbf\"", &typed);
+    assert_eq!(on_disk(&folder, "ropes/nylon-1-2.toml"), after, "the old figure's source is gone");
     assert_eq!(harness.state().shared.workbench.notice, Some(Notice::done("saved 1 file")));
 }
 
