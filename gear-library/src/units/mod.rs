@@ -1,7 +1,7 @@
 //! Units: text such as `"3/8 in"` in, SI numbers out, and back.
 //!
 //! This is the one place where a unit other than SI exists, besides labels. A value is a number
-//! followed by its unit: `3/8 in`, `1 1/2 in`, `1,700 lbf`, `40 fathom`, `4.5 lb/100ft`, `58 deg`.
+//! followed by its unit: `3/8 in`, `1 1/2 in`, `1,700 lbf`, `40 fathom`, `4.5 lb/100ft`, `58 deg`, `75 %`.
 
 mod parse;
 mod table;
@@ -15,7 +15,7 @@ pub use table::Unit;
 /// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
-    /// A pure number: a ratio or a coefficient.
+    /// A pure number: a ratio or a coefficient; may be written in percent.
     Ratio,
     /// Length [m].
     Length,
@@ -130,7 +130,7 @@ impl Quantity {
 
     fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Ratio => ("a plain number", "0.3 or 1.2"),
+            Self::Ratio => ("a plain number", "0.3, 1.2 or 75 %"),
             Self::Length => ("a length", "3/8 in, 9.5 mm, 25 m or 40 fathom"),
             Self::Area => ("an area", "0.19 m2 or 2 ft2"),
             Self::Volume => ("a volume", "5 L or 0.005 m3"),

@@ -115,7 +115,11 @@ fn read_unit(text: &str, unit: &str, quantity: Quantity) -> Result<f64, UnitErro
     let expected = format!("expected {} such as {}", quantity.noun(), quantity.examples());
     if quantity == Quantity::Ratio {
         let message = format!("`{text}` has the unit `{unit}`, but this is a pure number");
-        return if unit.is_empty() { Ok(1.0) } else { Err(UnitError { message, help: expected }) };
+        return match unit {
+            "" => Ok(1.0),
+            "%" => Ok(0.01),
+            _ => Err(UnitError { message, help: expected }),
+        };
     }
     if unit.is_empty() {
         return Err(UnitError { message: format!("`{text}` has no unit"), help: expected });

@@ -11,7 +11,7 @@ use super::info::{Choice, FileQuestion, Make, Shortcut, When};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::locate;
-use crate::workbench::{Notice, Workbench};
+use crate::workbench::Workbench;
 
 /// An action on texts.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +39,8 @@ pub enum EditAction {
     Recover(UnsavedEdits),
     /// Weak links on or off, in the scenario.
     ToggleWeakLinks,
+    /// Put the usual weak inserts along the endlines of an assembly, by its id.
+    AddInserts(String),
     /// Copy an entry of the library, by its path, to a file of its own.
     Duplicate(String),
     /// Take a table of a kind into the library.
@@ -69,6 +71,7 @@ impl EditAction {
             Self::OpenScenario(_) => "edit.open",
             Self::Recover(_) => "edit.recover",
             Self::ToggleWeakLinks => "edit.weak-links",
+            Self::AddInserts(_) => "edit.add-inserts",
             Self::Duplicate(_) => "edit.duplicate",
             Self::ImportTable { .. } => "edit.import-table",
             Self::AddEntry => "edit.add-entry",
@@ -175,6 +178,12 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("the edits kept"),
     ),
     Info::new(
+        "edit.add-inserts",
+        "Put in weak inserts",
+        "Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly.",
+        Make::Values("assembly"),
+    ),
+    Info::new(
         "edit.duplicate",
         "Duplicate an entry",
         "Copies an entry of the library to a file of its own.",
@@ -207,11 +216,7 @@ pub(super) fn stem(path: &std::path::Path) -> String {
 /// Dispatches an action.
 pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(), String> {
     match action {
-        EditAction::Set { path, field, value } => {
-            let said = workbench.project.documents.set(&path, &field, &value)?;
-            workbench.notice = said.map(Notice::done).or(workbench.notice.take());
-            Ok(())
-        }
+        EditAction::Set { path, field, value } => workbench.set_field(&path, &field, &value),
         EditAction::Undo => workbench.undo(),
         EditAction::Redo => workbench.redo(),
         EditAction::Save => workbench.save(),
@@ -219,6 +224,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(
         EditAction::OpenScenario(path) => workbench.open_scenario(&path),
         EditAction::Recover(edits) => workbench.recover(&edits),
         EditAction::ToggleWeakLinks => workbench.toggle_weak_links(),
+        EditAction::AddInserts(assembly) => workbench.add_inserts(&assembly),
         EditAction::Duplicate(path) => workbench.duplicate(path),
         EditAction::ImportTable { kind, file } => workbench.import_table(kind, &file),
         EditAction::AddEntry => workbench.add_entry(),

@@ -55,8 +55,8 @@ pub struct StaticsWorker {
     number: u64,
     trials: Vec<Trial>,
     answers: Vec<Option<Answer>>,
-    /// Answers of the request before for the same gear, shown until the new ones are there.
-    before: Vec<Option<Answer>>,
+    /// The last rest of the same gear, shown until there is a newer one.
+    last: Vec<Option<Arc<RigAtRest>>>,
 }
 
 impl StaticsWorker {
@@ -73,8 +73,8 @@ impl StaticsWorker {
         let same = |index: usize| {
             self.trials.get(index).is_some_and(|before| before.assembly == trials[index].assembly)
         };
-        self.before = (0..trials.len())
-            .map(|index| self.answer(index).filter(|_| same(index)).cloned())
+        self.last = (0..trials.len())
+            .map(|index| self.rest(index).filter(|_| same(index)).cloned())
             .collect();
         (self.answers, self.trials) = (vec![None; trials.len()], trials.clone());
         let request = Request {
@@ -121,11 +121,11 @@ impl StaticsWorker {
         }
     }
 
-    /// Answer of a trial: of the newest request, or of the request before while that is under way.
+    /// Rest of a trial: of the newest request, or the last one of the same gear while that is under way or comes to no rest.
     #[must_use]
-    pub fn answer(&self, index: usize) -> Option<&Answer> {
-        let now = self.answers.get(index).and_then(Option::as_ref);
-        now.or_else(|| self.before.get(index).and_then(Option::as_ref))
+    pub fn rest(&self, index: usize) -> Option<&Arc<RigAtRest>> {
+        let now = self.newest(index).and_then(|answer| answer.as_ref().ok());
+        now.or_else(|| self.last.get(index).and_then(Option::as_ref))
     }
 
     /// Answer of a trial of the newest request alone.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use endline_gear::units::{self, Quantity};
 use endline_gear::{Diagnostic, Kind};
 
 use super::Workbench;
@@ -9,6 +10,7 @@ use super::model::Texts;
 use super::notice::{Event, Notice};
 use crate::edit::recovery::{Autosave, UnsavedEdits};
 use crate::edit::{Documents, library_table, pilot_program};
+use crate::rules::mend::{Asked, usual_inserts};
 
 /// The texts, and what is wrong with them.
 pub struct Project {
@@ -71,11 +73,31 @@ impl Project {
 impl Workbench {
     /// Sets a field of a text; the notice says what else changed, or why it failed.
     pub fn set(&mut self, path: &str, field: &str, value: &str) {
-        match self.project.documents.set(path, field, value) {
-            Ok(None) => {}
-            Ok(Some(said)) => self.notice = Some(Notice::done(said)),
-            Err(reason) => self.notice = Some(Notice::fault(reason)),
+        if let Err(reason) = self.set_field(path, field, value) {
+            self.notice = Some(Notice::fault(reason));
         }
+    }
+
+    pub(crate) fn set_field(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+        if let Some(said) = self.project.documents.set(path, field, value)? {
+            self.notice = Some(Notice::done(said));
+        }
+        Ok(())
+    }
+
+    /// Puts the usual weak inserts along the endlines of an assembly, in the scenario's depth.
+    pub(crate) fn add_inserts(&mut self, assembly: &str) -> Result<(), String> {
+        let documents = &self.project.documents;
+        let path = format!("assemblies/{assembly}.toml");
+        let text = documents.text(&path).ok_or_else(|| format!("there is no `{path}`"))?;
+        let depth = documents.field(Documents::SCENARIO, "site.depth");
+        let depth_m = depth.and_then(|text| units::parse(&text, Quantity::Length).ok());
+        let asked = Asked { id: assembly, text, sources: &documents.sources() };
+        let (host, _) = self.helpers();
+        let made = usual_inserts(asked, depth_m, &host).map_err(|error| error.to_string())?;
+        self.project.documents.put_all(vec![(path, made.text)]);
+        self.notice = Some(Notice::done(format!("{} Undo takes it back.", made.says)));
+        Ok(())
     }
 
     pub(crate) fn undo(&mut self) -> Result<(), String> {

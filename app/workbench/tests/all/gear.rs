@@ -185,6 +185,39 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
 }
 
 #[test]
+fn inserts_are_counted_along_the_whole_endline_and_a_bad_share_leaves_form_and_drawing() {
+    let folder = Folder::new("whole-endline");
+    let mut harness = assembly(&folder);
+    harness.get_by_label("Put in every 60 ft").click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.panels.assembly.settled());
+    let inserts = |harness: &Harness<'static, App>| {
+        let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        rest.shape.lines.iter().filter(|line| line.id.contains(".insert-")).count()
+    };
+    // 32.5 m of rope in two lines, 24.4 m of it in the top three quarters: at 12 ft and 72 ft.
+    assert_eq!(inserts(&harness), 2);
+
+    let (file, within) = ("assemblies/single.toml", "lines.endline-top.inserts.within");
+    let set = |harness: &mut Harness<'static, App>, text: &str| {
+        harness.state_mut().shared.workbench.set(file, within, text);
+        harness.run_steps(2);
+        wait(harness, |app| app.panels.assembly.settled());
+        harness.run_steps(2);
+    };
+    set(&mut harness, "75 %");
+    assert_eq!(inserts(&harness), 2, "percent is as good as a share");
+    set(&mut harness, "75 furlong");
+    let answer = harness.state().panels.assembly.answers()[0].unwrap().clone();
+    assert!(answer.is_err(), "furlongs are no share");
+    assert!(harness.query_all_by_label("Within top").next().is_some(), "the form stays");
+    assert!(
+        harness.query_all_by_label_contains("as it was last").next().is_some(),
+        "what is drawn is told to be of before"
+    );
+}
+
+#[test]
 fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     let folder = Folder::new("split");
     let mut harness = assembly(&folder);
@@ -305,14 +338,17 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     let entry = library
         .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
         .unwrap();
-    for (_, figure) in entry.figures.iter().take(3) {
-        assert!(harness.query_all_by_label(&figure.source).next().is_some(), "{}", figure.source);
-        assert!(
-            harness.query_all_by_label(figure.confidence.word()).next().is_some(),
-            "{:?}",
-            figure.confidence
-        );
+    let documents = &harness.state().shared.workbench.project.documents;
+    let own = |key: &str| documents.field(&whale, &format!("{key}.source"));
+    let sourced = entry.figures.iter().filter(|(field, _)| own(field.key).is_some()).take(3);
+    let mut seen = 0;
+    for (_, figure) in sourced {
+        for told in [figure.source.as_str(), figure.confidence.word()] {
+            assert!(harness.query_all_by_value(told).next().is_some(), "{told}");
+        }
+        seen += 1;
     }
+    assert_eq!(seen, 3);
 }
 
 #[test]

@@ -49,19 +49,24 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// Every located error of the text as assembled.
     pub fn tried(&self, text: &str) -> Result<Tried, Error> {
-        let file = format!("assemblies/{}.toml", self.id);
-        let mut sources = self.sources.clone();
-        sources.set(file.as_str(), text);
-        let (library, problems) = Library::read(&sources);
-        let own = problems.into_iter().filter(|problem| problem.is_error() && problem.file == file);
-        let own: Vec<_> = own.collect();
-        if !own.is_empty() {
-            return Err(Error::Diagnostics(own));
-        }
+        let library = library_with(self.id, text, self.sources.clone())?;
         let gear: RuleGear = of_library(self.id, self.fishing.depth_m, &library, self.host)?;
         let sheet = check(&gear, self.packs, self.fishing)?;
         Ok(Tried { gear: gear.gear, sheet, library })
     }
+}
+
+/// The library with a text of an assembly.
+///
+/// # Errors
+/// Every located error of the text.
+pub(super) fn library_with(id: &str, text: &str, mut sources: Sources) -> Result<Library, Error> {
+    let file = format!("assemblies/{id}.toml");
+    sources.set(file.as_str(), text);
+    let (library, problems) = Library::read(&sources);
+    let own = problems.into_iter().filter(|problem| problem.is_error() && problem.file == file);
+    let own: Vec<_> = own.collect();
+    if own.is_empty() { Ok(library) } else { Err(Error::Diagnostics(own)) }
 }
 
 /// How much of the gear an edit changes: share of its rope that is replaced or taken off, and how many traps, endlines, floats

@@ -12,6 +12,7 @@
 //! | `propose` | edits that may meet a demand |
 //! | `candidate` | an edit as steps on the file |
 //! | `bench` | copies assembled, checked and measured |
+//! | `usual` | the usual weak inserts, asked by no rule |
 
 mod bench;
 mod candidate;
@@ -19,6 +20,7 @@ mod demand;
 mod propose;
 #[cfg(test)]
 mod tests;
+mod usual;
 
 use endline_gear::{Document, Rule, Sources};
 use serde::Serialize;
@@ -35,6 +37,7 @@ use candidate::Candidate;
 use propose::Scene;
 
 pub use candidate::Change;
+pub use usual::{Edited, usual_inserts};
 
 /// Name and version of the JSON.
 const SCHEMA: &str = "endline.rules.mend/1";

@@ -193,6 +193,36 @@ fn proposals_stand_by_how_little_they_change_and_tell_what_they_break() {
 }
 
 #[test]
+fn the_usual_inserts_lie_every_sixty_feet_through_all_lines_of_an_endline() {
+    // 30 m of one rope over 70 m of another: seen from the buoy, the first line ends between two inserts.
+    let lower = line("pp-3-8", "70 m");
+    let top = "[[joint]]\nid = \"splice\"\nposition = [\"20 m\", \"0 m\"]\nheight = 0.7\n\
+               [[line]]\nid = \"top\"\nfrom = \"splice\"\nto = \"buoy-1\"\nrope = \"sink-3-8\"\nlength = \"30 m\"\n";
+    let text =
+        rig(1, "sink-3-8", "20 m", &[lower]).replace("\"buoy-1\"\nrope", "\"splice\"\nrope") + top;
+    let asked = Asked { id: "test", text: &text, sources: &sources() };
+    let made = usual_inserts(asked, None, &PluginHost::empty()).unwrap();
+    let gear = super::super::tests::gear::assembled(&made.text).gear;
+    let mut at_m = 0.0;
+    let mut starts = Vec::new();
+    for piece in &gear.endlines[0].pieces {
+        starts.extend(piece.id.contains(".insert-").then_some(at_m));
+        at_m += piece.length_m;
+    }
+    assert!((at_m - 100.0).abs() < 1e-9);
+    // 12 ft, then every 60 ft while an insert of 3 ft ends within 75 m.
+    let feet = [12.0, 72.0, 132.0, 192.0];
+    assert_eq!(starts.len(), feet.len(), "{starts:?}");
+    for (start_m, feet) in starts.iter().zip(feet) {
+        assert!((start_m - 0.3048 * feet).abs() < 0.006, "{starts:?}: {}", made.text);
+    }
+    let bare = rig(2, "sink-3-8", "20 m", &[]);
+    let asked = Asked { id: "test", text: &bare, sources: &sources() };
+    let none = usual_inserts(asked, None, &PluginHost::empty()).unwrap_err().to_string();
+    assert!(none.contains("no endline"), "{none}");
+}
+
+#[test]
 fn a_rule_that_no_edit_mends_says_why() {
     let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS]);
     let by_call = mended(&single, "me-b, 2024-06-01, 5 nmi, 1");

@@ -1,17 +1,24 @@
 //! Weak inserts of rope, and sleeves, put into endlines, moved, or made of something else.
 
-use endline_gear::Library;
+use endline_gear::{Document, Library};
 
+use super::super::super::gear::{Endline, Gear};
 use super::super::candidate::Candidate;
 use super::super::demand::{Demand, Limit};
 use super::Lever;
-use super::scene::{OfEndline, Scene, metres, written};
+use super::scene::{OfEndline, Scene, make_of, metres, written};
 
 /// Length of an insert of rope: the least that is approved [m], as it is written.
 const INSERT: (f64, &str) = (0.9144, "3 ft");
 
 /// From the buoy to the first of inserts at even distances, kept out of the surface system [m], as it is written.
 const FIRST: (f64, &str) = (3.6576, "12 ft");
+
+/// Rope of which the usual inserts are.
+const USUAL: &str = "weak-1700-3-8";
+
+/// From one of the usual inserts to the next: 60 ft [m].
+const USUAL_EVERY_M: f64 = 18.288;
 
 /// Room between an insert and the end of its line [m].
 const ROOM_M: f64 = 0.05;
@@ -72,7 +79,7 @@ fn at_shares(scene: &Scene<'_>, shares: &[f64], strength_n: f64) -> Vec<Candidat
         let place = |whole_m: f64| {
             shares.iter().map(|share| share * whole_m - 0.5 * product.length_m()).collect()
         };
-        in_endlines(scene, product, &says, &place)
+        in_endlines(scene.document, &scene.endlines(), product, &says, &place)
     };
     products(scene, strength_n).iter().filter_map(at).collect()
 }
@@ -87,35 +94,46 @@ pub(super) fn every(scene: &Scene<'_>, spacing: &Limit, top: f64, strength_n: f6
             spacing.text,
             written(100.0 * top)
         );
-        let place = |whole_m: f64| {
-            let last_m = top * whole_m - product.length_m();
-            let mut places = vec![first_m];
-            while places[places.len() - 1] + spacing.si <= last_m {
-                places.push(places[places.len() - 1] + spacing.si);
-            }
-            places
-        };
-        in_endlines(scene, product, &says, &place)
+        let place = |whole_m: f64| evenly(first_m, spacing.si, top * whole_m - product.length_m());
+        in_endlines(scene.document, &scene.endlines(), product, &says, &place)
     };
     vec![products(scene, strength_n).iter().filter_map(one).collect()]
 }
 
-/// One edit that puts a product into every endline of the rule, at places counted from the buoy [m].
+/// The usual inserts of rope along every endline: every 60 ft over the top three quarters, whatever lines it is made of.
+pub(in super::super) fn usual(document: &Document, gear: &Gear) -> Option<Candidate> {
+    let product = Product { item: USUAL.to_owned(), is_sleeve: false };
+    let says = format!("Put {} every 60 ft into the top 75 % of", product.words(2));
+    let place = |whole_m: f64| evenly(FIRST.0, USUAL_EVERY_M, 0.75 * whole_m - product.length_m());
+    in_endlines(document, &gear.endlines.iter().collect::<Vec<_>>(), &product, &says, &place)
+}
+
+/// Places at even distances, from the first to the last that is allowed [m]; the first always.
+fn evenly(first_m: f64, every_m: f64, last_m: f64) -> Vec<f64> {
+    let mut places = vec![first_m];
+    while places[places.len() - 1] + every_m <= last_m {
+        places.push(places[places.len() - 1] + every_m);
+    }
+    places
+}
+
+/// One edit that puts a product into endlines, at places counted from the buoy [m].
 fn in_endlines(
-    scene: &Scene<'_>,
+    document: &Document,
+    endlines: &[&Endline],
     product: &Product,
     says: &str,
     places: &dyn Fn(f64) -> Vec<f64>,
 ) -> Option<Candidate> {
     let (mut edit, mut told) = (Candidate::new(String::new()), Vec::new());
-    for endline in scene.endlines() {
+    for endline in endlines {
         let lines = Scene::lines(endline);
         let whole_m: f64 = lines.iter().map(|line| line.length_m).sum();
         let wanted = places(whole_m);
         for line in &lines {
             let own = within(line, &wanted, product.length_m());
             if !own.is_empty() {
-                edit = into_line(scene, edit, line, product, &own)?;
+                edit = into_line(document, edit, line, product, &own)?;
             }
         }
         let at: Vec<String> = wanted.iter().map(|place_m| written(*place_m)).collect();
@@ -136,7 +154,7 @@ fn within(line: &OfEndline, places_m: &[f64], length_m: f64) -> Vec<f64> {
 
 /// Puts a product into a line at places at even distances; `None` where they are not even.
 fn into_line(
-    scene: &Scene<'_>,
+    document: &Document,
     edit: Candidate,
     line: &OfEndline,
     product: &Product,
@@ -148,7 +166,7 @@ fn into_line(
     if !at_m.windows(2).all(is_even) || every_m < product.length_m() + ROOM_M {
         return None;
     }
-    let inserts = format!("{}.inserts", scene.make_of(&line.line)?);
+    let inserts = format!("{}.inserts", make_of(document, &line.line)?);
     let end_m = at_m[at_m.len() - 1] + product.length_m();
     // One more would lie within the line: its share of the line ends behind the last.
     let is_open = end_m + every_m + ROOM_M > line.length_m;

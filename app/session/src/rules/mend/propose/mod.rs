@@ -21,6 +21,7 @@ mod traps;
 use super::candidate::Candidate;
 use super::demand::Demand;
 
+pub(super) use inserts::usual as usual_inserts;
 pub(super) use scene::Scene;
 
 /// Edits of one kind, tier by tier: a later tier is tried where no edit of an earlier one serves.

@@ -132,16 +132,12 @@ impl<'a> Scene<'a> {
 
     /// Where the file says how a line is made up: `line.2`, or `lines.endline-top` of gear that a gear type builds.
     pub fn make_of(&self, line: &str) -> Option<String> {
-        match &self.gear_type {
-            Some(_) => Some(format!("lines.{line}")),
-            None => self.place_in("line", line),
-        }
+        make_of(self.document, line)
     }
 
     /// Path of a part by its id, such as `line.2`.
     pub fn place_in(&self, list: &str, id: &str) -> Option<String> {
-        let index = ids(self.document, list).iter().position(|known| known == id)?;
-        Some(format!("{list}.{index}"))
+        place_in(self.document, list, id)
     }
 
     /// A declared attribute of the gear type.
@@ -168,6 +164,19 @@ impl<'a> Scene<'a> {
         let given = self.document.get(&format!("attributes.{key}"));
         Some(given.and_then(|text| parse(&text, quantity).ok()).unwrap_or(default))
     }
+}
+
+/// Where an assembly's file says how a line is made up.
+pub(super) fn make_of(document: &Document, line: &str) -> Option<String> {
+    if document.has("gear_type") {
+        return Some(format!("lines.{line}"));
+    }
+    place_in(document, "line", line)
+}
+
+fn place_in(document: &Document, list: &str, id: &str) -> Option<String> {
+    let index = ids(document, list).iter().position(|known| known == id)?;
+    Some(format!("{list}.{index}"))
 }
 
 /// A length as a file has it, to the centimetre.

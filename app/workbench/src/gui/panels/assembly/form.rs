@@ -35,7 +35,7 @@ pub(super) fn show(
         scope_slider(ui, shared, file, scope);
     }
     let placed = shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
-    inserts::of_built(ui, panel, shared, (file, placed.as_deref() == Some(id)));
+    inserts::of_built(ui, panel, shared, (id, placed.as_deref() == Some(id)));
     widgets::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {

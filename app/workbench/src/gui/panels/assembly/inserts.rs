@@ -2,6 +2,7 @@
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::Kind;
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::assembly;
 
@@ -18,9 +19,10 @@ pub(super) fn of_built(
     ui: &mut Ui,
     panel: &AssemblyPanel,
     shared: &mut Shared,
-    (file, is_placed): (&str, bool),
+    (id, is_placed): (&str, bool),
 ) {
-    widgets::caption(ui, "Weak inserts");
+    let file = &super::path(id);
+    whole(ui, shared, id);
     for line in built_lines(panel) {
         let (own, placed) = (format!("lines.{line}"), format!("gear.0.lines.{line}"));
         let documents = &shared.workbench.project.documents;
@@ -34,9 +36,22 @@ pub(super) fn of_built(
     }
 }
 
+/// Head of the inserts, and those of whole endlines, whatever lines they are made of.
+pub(super) fn whole(ui: &mut Ui, shared: &mut Shared, id: &str) {
+    widgets::caption(ui, "Weak inserts");
+    ui.horizontal(|ui| {
+        ui.label("whole endline");
+        let button = ui.small_button("Put in every 60 ft");
+        let help = "3 ft of weak rope every 60 ft over the top three quarters, from the buoy through every line of each endline";
+        if button.on_hover_text(help).clicked() {
+            shared.perform(EditAction::AddInserts(id.to_owned()));
+        }
+    });
+}
+
 /// Lines of the gear shown, pieces of one line taken together.
 fn built_lines(panel: &AssemblyPanel) -> Vec<String> {
-    let rest = panel.answers()[0].and_then(|answer| answer.as_ref().ok());
+    let rest = panel.drawn().a[0].rest;
     let ids = rest
         .iter()
         .flat_map(|rest| &rest.shape.lines)
@@ -101,7 +116,7 @@ fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
         (
             "Within top",
             "within",
-            "Share of the line, from the buoy's end, they lie in: 0.75 for the top 75 %",
+            "Share of the line, from the buoy's end, they lie in: 75 % or 0.75",
         ),
     ];
     ui.indent(inserts, |ui| {

@@ -12,6 +12,7 @@ mod table;
 mod toolbar;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use egui::{ScrollArea, Ui};
 use endline_gear::Kind;
@@ -20,7 +21,7 @@ use endline_session::edit::library_table::id_of;
 use endline_session::export;
 use endline_session::scene::{Scene, Show};
 use endline_session::statics::worker::Answer;
-use endline_session::statics::{StaticsWorker, Trial, TrialSea};
+use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialSea};
 
 use crate::gui::fields;
 use crate::gui::panel::Panel;
@@ -51,14 +52,30 @@ pub struct AssemblyPanel {
 
 /// The four rigs drawn: A and B, each at slack and at running tide.
 struct Drawn<'a> {
-    a: [Option<&'a Answer>; 2],
-    b: [Option<&'a Answer>; 2],
+    a: [Rig<'a>; 2],
+    b: [Rig<'a>; 2],
+}
+
+/// A rig at one tide.
+#[derive(Clone, Copy, Default)]
+struct Rig<'a> {
+    /// At rest; as it was last while an edit keeps it from rest.
+    rest: Option<&'a RigAtRest>,
+    /// What keeps it from rest.
+    wrong: Option<&'a str>,
 }
 
 impl AssemblyPanel {
     fn drawn(&self) -> Drawn<'_> {
-        let pair = |first: usize| [self.statics.answer(first), self.statics.answer(first + 1)];
-        Drawn { a: pair(0), b: if self.other.is_some() { pair(2) } else { [None, None] } }
+        let rig = |index: usize| {
+            let wrong = self.statics.newest(index).and_then(|answer| answer.as_ref().err());
+            Rig {
+                rest: self.statics.rest(index).map(Arc::as_ref),
+                wrong: wrong.map(String::as_str),
+            }
+        };
+        let pair = |first: usize| [rig(first), rig(first + 1)];
+        Drawn { a: pair(0), b: if self.other.is_some() { pair(2) } else { Default::default() } }
     }
 
     /// Whether every rig asked for is there.
@@ -236,7 +253,7 @@ fn path(id: &str) -> String {
 }
 
 /// Surface speed of the current of a model at the start [m/s].
-fn surface_m_s(rest: &endline_session::statics::RigAtRest) -> f64 {
+fn surface_m_s(rest: &RigAtRest) -> f64 {
     rest.model.spec.water.current.at(1.0, 0.0).length()
 }
 

@@ -4,6 +4,7 @@ use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
 use endline_session::edit::assembly;
+use endline_session::edit::library_table::id_of;
 
 use super::{inserts, item, said};
 use crate::gui::fields;
@@ -21,6 +22,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, file: &str) {
     for index in (0..count(shared, file, "body")).rev() {
         body(ui, shared, file, index);
     }
+    inserts::whole(ui, shared, id_of(file));
     widgets::caption(ui, "Lines, from the buoy down");
     for index in (0..count(shared, file, "line")).rev() {
         line(ui, shared, file, index);

@@ -7,12 +7,11 @@ use egui_plot::{
 };
 use endline_sdk::LineEnd;
 use endline_session::statics::RigAtRest;
-use endline_session::statics::worker::Answer;
 use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole, Rope};
 use glam::{DVec2, DVec3};
 
-use super::{AssemblyPanel, Drawn, strength, surface_m_s};
+use super::{AssemblyPanel, Drawn, Rig, strength, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
@@ -64,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, shared: &Shared) {
 
 /// The horizontal direction drawn: towards the node of A at running tide that lies farthest from its first.
 fn axis(drawn: &Drawn<'_>) -> DVec2 {
-    let rest = drawn.a[1].or(drawn.a[0]).and_then(|answer| answer.as_ref().ok());
+    let rest = drawn.a[1].rest.or(drawn.a[0].rest);
     let places =
         || rest.iter().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m));
     let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
@@ -78,13 +77,7 @@ fn axis(drawn: &Drawn<'_>) -> DVec2 {
 /// One box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
 /// the picture.
 fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
-    let rests = || {
-        drawn
-            .a
-            .iter()
-            .chain(&drawn.b)
-            .filter_map(|answer| answer.and_then(|answer| answer.as_ref().ok()))
-    };
+    let rests = || drawn.a.iter().chain(&drawn.b).filter_map(|rig| rig.rest);
     let points = rests()
         .flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m))
         .map(|place| flat.point(*place));
@@ -136,10 +129,8 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
         .allow_scroll(false);
     plot.show(ui, |plot| {
         plot.set_plot_bounds(bounds);
-        let depth_m = gears
-            .iter()
-            .find_map(|(_, answer)| answer.and_then(|answer| answer.as_ref().ok()))
-            .map(|rest| rest.model.spec.water.depth_m);
+        let depth_m =
+            gears.iter().find_map(|(_, rig)| rig.rest).map(|rest| rest.model.spec.water.depth_m);
         if let Some(depth_m) = depth_m {
             plot.hline(
                 HLine::new("sea surface", 0.0).color(palette.accent.gamma_multiply(0.8)).width(1.0),
@@ -148,8 +139,8 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
                 HLine::new("seabed", -units.of_metres(depth_m)).color(palette.faint).width(2.0),
             );
         }
-        for ((gear, answer), color) in gears.into_iter().zip(colors) {
-            if let Some(Ok(rest)) = answer {
+        for ((gear, shown), color) in gears.into_iter().zip(colors) {
+            if let Some(rest) = shown.rest {
                 rig(plot, rest, gear, color, palette.text, flat);
             }
         }
@@ -157,25 +148,25 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
 }
 
 /// What tide it is, and what keeps a rig from rest.
-fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Option<&Answer>); 2], units: Units) {
+fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Rig<'_>); 2], units: Units) {
     let palette = Theme::palette_of(ui);
-    let rest = gears[0].1.and_then(|answer| answer.as_ref().ok());
-    let title = match (tide, rest) {
+    let title = match (tide, gears[0].1.rest) {
         (0, _) => "Slack tide".to_owned(),
         (_, Some(rest)) => format!("Running tide, {}", units.speed(surface_m_s(rest))),
         (_, None) => "Running tide".to_owned(),
     };
     ui.horizontal(|ui| {
         ui.label(RichText::new(title).strong());
-        for (gear, answer) in gears {
-            let wrong = match answer {
-                Some(Err(why)) => Some(why.clone()),
-                Some(Ok(rest)) if !rest.shape.converged => Some(rest.shape.outcome.clone()),
-                _ => None,
+        for (gear, rig) in gears {
+            let unsettled = rig.rest.filter(|rest| !rest.shape.converged);
+            let says = match (rig.wrong, rig.rest) {
+                (Some(why), Some(_)) => Some(format!("{}, as it was last: {why}", gear.name)),
+                (Some(why), None) => Some(format!("{}: {why}", gear.name)),
+                (None, _) => unsettled.map(|rest| format!("{}: {}", gear.name, rest.shape.outcome)),
             };
-            if let Some(why) = wrong {
-                let text = RichText::new(format!("{}: {why}", gear.name)).color(palette.warning);
-                ui.add(egui::Label::new(text).truncate()).on_hover_text(why);
+            if let Some(says) = says {
+                let text = RichText::new(&says).color(palette.warning);
+                ui.add(egui::Label::new(text).truncate()).on_hover_text(says);
             }
         }
     });

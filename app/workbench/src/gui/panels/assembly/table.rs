@@ -7,7 +7,7 @@ use endline_sim::model::BodyRole;
 
 use super::side::{A, B, top_m};
 use super::strength;
-use super::{Answer, AssemblyPanel, surface_m_s};
+use super::{AssemblyPanel, Rig, surface_m_s};
 use crate::gui::theme::Theme;
 
 /// What is compared comes first, and is seen in a narrow panel.
@@ -36,9 +36,9 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {
                 ui.label(RichText::new(head).small().color(faint));
             }
             ui.end_row();
-            for (gear, answers) in [(A, drawn.a), (B, drawn.b)] {
+            for (gear, rigs) in [(A, drawn.a), (B, drawn.b)] {
                 let color = gear.color(ui);
-                gear_rows(ui, if gear == A { "A" } else { "B" }, color, answers, units);
+                gear_rows(ui, if gear == A { "A" } else { "B" }, color, rigs, units);
             }
         });
 }
@@ -46,8 +46,8 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {
 /// Height that all rows need.
 pub(super) fn height(panel: &AssemblyPanel) -> f32 {
     let drawn = panel.drawn();
-    let rows = |answers: [Option<&Answer>; 2]| {
-        let spec = answers.into_iter().find_map(good).map(|rest| &rest.model.spec);
+    let rows = |rigs: [Rig<'_>; 2]| {
+        let spec = rigs.into_iter().find_map(|rig| rig.rest).map(|rest| &rest.model.spec);
         spec.map_or(0, |spec| {
             spec.lines.len()
                 + spec.links.iter().filter(|link| link.enabled).count()
@@ -58,12 +58,8 @@ pub(super) fn height(panel: &AssemblyPanel) -> f32 {
     40.0 + 25.0 * (rows(drawn.a) + rows(drawn.b)) as f32
 }
 
-fn good(answer: Option<&Answer>) -> Option<&RigAtRest> {
-    answer.and_then(|answer| answer.as_deref().ok())
-}
-
-fn gear_rows(ui: &mut Ui, name: &str, color: Color32, answers: [Option<&Answer>; 2], units: Units) {
-    let [slack, running] = answers.map(good);
+fn gear_rows(ui: &mut Ui, name: &str, color: Color32, rigs: [Rig<'_>; 2], units: Units) {
+    let [slack, running] = rigs.map(|rig| rig.rest);
     let Some(model) = slack.or(running).map(|rest| &rest.model) else { return };
     for (index, line) in model.spec.lines.iter().enumerate() {
         let rope = &model.spec.ropes[line.rope];
