@@ -52,7 +52,7 @@ pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
     let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
     Page {
         style: STYLE,
-        title: names.join(", "),
+        title: names.join("; "),
         where_and_when: where_and_when(first),
         gears: sheets.iter().map(gear).collect(),
         table: table(sheets),

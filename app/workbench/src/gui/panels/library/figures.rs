@@ -29,7 +29,8 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, kind: Kind, path: &str) {
         for (field, figure) in &entry.figures {
             ui.label(RichText::new(words::title(field.key)).color(palette.faint))
                 .on_hover_text(field.help);
-            ui.label(units::format_si(figure.value, field.quantity)).on_hover_text(&figure.text);
+            ui.label(units::format_si(words::rounded(figure.value), field.quantity))
+                .on_hover_text(&figure.text);
             ui.horizontal(|ui| {
                 edits.extend(confidence(ui, field, figure, palette));
                 edits.extend(source(ui, shared, path, field, figure));
