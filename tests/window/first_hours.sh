@@ -59,7 +59,7 @@ flown() {
 # A cell of the first rope of the table, typed anew.
 strength() { click 890 "$1"; keys ctrl+a; typed "$2"; keys Return; still 5; }
 
-# The designer's task list: edit a rope, add inserts every 60 ft in the top 75 %, compare slack and running tide, fly, find the peak tension.
+# The designer's task list: edit a rope, put inserts every 60 ft into the top 75 % of the endline, compare slack and running tide, fly, find the peak tension.
 designer() {
     opened
     picture designer-1-start
@@ -70,13 +70,15 @@ designer() {
     command "show assembly"
     still 20
     picture designer-3-slack-and-running-tide
-    click 366 286
+    click 411 260
     picture designer-4-inserts-put-in
     command "save all"
     check "the strength is in its file, comments kept" \
         "grep -rq '2,300 lbf' '$WORK/library/ropes' && [ \$(grep -rl '# Hydrodynamic' '$WORK/library/ropes' | wc -l) -ge 20 ]"
-    check "inserts every 60 ft in the top 75 % are in the scenario, comments kept" \
-        "grep -A9 'lines.endline-top.inserts' '$SCENARIOS/hello-endline.toml' | grep -q '60 ft' && grep -q 'within = 0.75' '$SCENARIOS/hello-endline.toml' && grep -q '# The tide runs' '$SCENARIOS/hello-endline.toml'"
+    check "the strength has lost the source of the old one" \
+        "grep -rq '2,300 lbf.*typed by hand, without a source' '$WORK/library/ropes'"
+    check "inserts are in both lines of the endline, all else as it was" \
+        "[ \$(grep -c 'weak-1700-3-8' '$WORK/library/assemblies/single.toml') -eq 2 ] && grep -q 'lower_share = 0.3333333333333333' '$WORK/library/assemblies/single.toml'"
     command "show 3-d view"
     command "speed as fast"
     check "the run ends and is kept by itself" "flown 1"
@@ -87,14 +89,29 @@ designer() {
     picture designer-7-wraps
 }
 
-regulator() {
-    command "open study-gear"
-    still 20
-    command "show rules"
-    still 20
+# A click that is counted.
+CLICKS=0
+press() { click "$1" "$2"; CLICKS=$((CLICKS + 1)); }
+
+# From a shipped trawl to its compliance sheet, by mouse alone but for what is typed.
+hearing() {
+    press 948 15                                            # the layout Design
+    press 466 44; still 20                                  # the panel Rules
+    press 360 76                                            # gear; the list is wheeled to its end
+    xdotool mousemove 420 200; for _ in $(seq 20); do xdotool click 5; sleep 0.05; done; still 5
+    press 353 175; still 20                                 # Ten-trap trawl, nearshore
+    press 573 76                                            # area
+    press 540 240; still 20                                 # Maine lobster zone B
+    press 468 104; typed "5 nmi"; keys Return; still 10     # distance from shore
+    press 580 104; typed "30 fathom"; keys Return; still 20 # depth
     picture regulator-0-rules
-    command "write the compliance sheet"
-    check "the gear's sheet is written" "within 120 \"ls '$DATA'/studies/sheets/single-*.html >/dev/null 2>&1\""
+    press 325 168                                           # Compliance sheet
+    check "the trawl's sheet is written" "within 120 \"ls '$DATA'/studies/sheets/trawl-10-me-b-*.html >/dev/null 2>&1\""
+    check "from the trawl to its sheet in at most 15 clicks: $CLICKS" "[ $CLICKS -le 15 ]"
+}
+
+regulator() {
+    hearing
     command "layout study"
     command "open study first-hour"
     picture regulator-1-study
