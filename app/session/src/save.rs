@@ -3,6 +3,9 @@
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crate::error::Error;
 
 /// Writes beside the file, syncs, then renames over it.
 ///
@@ -18,16 +21,31 @@ pub fn atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
+/// The text of a file; none where there is no such file.
+///
+/// # Errors
+/// A file that is there and cannot be read: whoever took it for missing would write over it.
+pub fn text_if_there(path: &Path) -> Result<Option<String>, Error> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Error::at(path, format!("cannot be read: {error}"))),
+    }
+}
+
 fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }
 
-/// A name in the same folder, so that the rename stays on one disk; the process id keeps two programs apart.
+/// A name in the same folder, so that the rename stays on one disk. The process id keeps two programs apart, and the number two
+/// saves of one program.
 fn beside(path: &Path) -> PathBuf {
+    static SAVES: AtomicU32 = AtomicU32::new(0);
+    let number = SAVES.fetch_add(1, Ordering::Relaxed);
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+    path.with_file_name(format!(".{name}.{}-{number}.part", std::process::id()))
 }
 
 #[cfg(test)]

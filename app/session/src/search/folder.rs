@@ -75,9 +75,9 @@ impl Folder {
             hash: question.hash.clone(),
             version: crate::VERSION.into(),
         };
-        match fs::read_to_string(&file) {
-            Ok(text) => same(&file, &text, &label)?,
-            Err(_) => {
+        match save::text_if_there(&file)? {
+            Some(text) => same(&file, &text, &label)?,
+            None => {
                 let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
                 save::atomically(&file, text.as_bytes())
                     .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;

@@ -22,7 +22,7 @@ pub(super) struct Store {
     hash: String,
 }
 
-/// Runs by their number, with what they belong to.
+/// Runs by their number, with what they belong to; the file ends with the hash of what stands before it.
 #[derive(Serialize, Deserialize)]
 struct Part {
     hash: String,
@@ -64,9 +64,13 @@ impl Store {
     fn part(&self, file: &Path) -> Result<BTreeMap<u32, Ended>, Error> {
         let bytes =
             fs::read(file).map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
-        let part: Part = postcard::from_bytes(&bytes).map_err(|error| {
-            Error::at(file, format!("is damaged: {error}; delete it and search again"))
-        })?;
+        let damaged =
+            |why: &str| Error::at(file, format!("is damaged: {why}; delete it and search again"));
+        let (runs, hash) = bytes.split_last_chunk().ok_or_else(|| damaged("it is cut off"))?;
+        if blake3::hash(runs) != blake3::Hash::from_bytes(*hash) {
+            return Err(damaged("its bytes are not those that were written"));
+        }
+        let part: Part = postcard::from_bytes(runs).map_err(|error| damaged(&error.to_string()))?;
         if part.hash != self.hash {
             return Err(Error::at(file, "belongs to another search; delete it and search again"));
         }
@@ -87,8 +91,10 @@ impl Store {
         let Range { start, end } = numbers;
         let file = self.path.join(format!("{name}.{start}-{end}.{}of{}", shard.part, shard.of));
         let part = Part { hash: self.hash.clone(), runs };
-        let bytes = postcard::to_allocvec(&part)
+        let mut bytes = postcard::to_allocvec(&part)
             .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+        let hash = blake3::hash(&bytes);
+        bytes.extend(hash.as_bytes());
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,

@@ -89,14 +89,15 @@ impl Folder {
             .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
         let file = path.join("study.json");
         let label = Label::of(opened);
-        let registration = match fs::read_to_string(&file) {
-            Err(_) => {
+        let registration = match save::text_if_there(&file)? {
+            None => {
+                without_blocks(path)?;
                 let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
                 save::atomically(&file, text.as_bytes())
                     .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
                 label.registration
             }
-            Ok(text) => same(&file, &text, &label)?,
+            Some(text) => same(&file, &text, &label)?,
         };
         let encounters = u32::try_from(opened.study.encounters).unwrap_or(u32::MAX);
         Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
@@ -167,8 +168,29 @@ impl Folder {
                 "holds rows of another study or block; delete it and run the study again",
             ));
         }
+        let own = self.encounters_of(block);
+        let is_own = |encounter: &Option<f64>| {
+            encounter
+                .is_some_and(|encounter| own.clone().any(|known| f64::from(known) == encounter))
+        };
+        if !table.reals("encounter").iter().all(is_own) {
+            let message =
+                "has rows of encounters of another block; delete it and run the study again";
+            return Err(Error::at(&file, message));
+        }
         Ok(table)
     }
+}
+
+/// A folder without a label is new: one that has blocks all the same belongs to a study that nobody knows.
+fn without_blocks(path: &Path) -> Result<(), Error> {
+    let files = fs::read_dir(path).into_iter().flatten().flatten();
+    let is_block = |name: &str| name.starts_with("block-") && name.ends_with(".parquet");
+    if files.into_iter().any(|file| is_block(&file.file_name().to_string_lossy())) {
+        let message = "has blocks of encounters but no study.json, which says of which study they are; put it back, or choose another folder with --out";
+        return Err(Error::at(path, message));
+    }
+    Ok(())
 }
 
 /// What a folder's label registered, if the label is that of the study; more or fewer encounters are the same study.

@@ -25,6 +25,8 @@ mod aimed_lines;
 pub mod batch;
 mod branch;
 pub mod control;
+#[cfg(test)]
+mod damaged;
 mod density;
 pub mod draw;
 mod drawn;
@@ -48,6 +50,7 @@ pub mod registration;
 pub mod report;
 pub mod results;
 mod row;
+mod seal;
 mod shard;
 pub mod stats;
 pub mod table;

@@ -1,4 +1,4 @@
-//! Tables as Parquet files, zstd inside: the same table gives the same bytes.
+//! Tables as Parquet files, zstd inside, under a seal (`seal.rs`): the same table gives the same bytes.
 
 use std::sync::Arc;
 
@@ -12,6 +12,7 @@ use ::parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::Type;
 
+use super::seal;
 use super::table::{Column, Table};
 
 /// A table with texts about it.
@@ -25,7 +26,9 @@ pub(super) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>>
         .map(|(name, column)| field(name, column).map(Arc::new))
         .collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("runs").with_fields(fields).build()?);
-    let tags = tags.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone())).collect();
+    let own = KeyValue::new(seal::KEY.to_owned(), seal::blank());
+    let tags = tags.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
+    let tags = tags.chain([own]).collect();
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
         .set_created_by(format!("endline {}", crate::VERSION))
@@ -37,7 +40,9 @@ pub(super) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>>
         write_column(&mut group, column)?;
     }
     group.close()?;
-    file.into_inner()
+    let mut bytes = file.into_inner()?;
+    seal::seal(&mut bytes);
+    Ok(bytes)
 }
 
 fn field(name: &str, column: &Column) -> Result<Type> {
@@ -82,8 +87,9 @@ fn write_values<T: DataType>(
     writer.close()
 }
 
-/// Reads the bytes of a file.
+/// Reads the bytes of a file, once they are known to be those that were written.
 pub(super) fn read(bytes: Vec<u8>) -> Result<Tagged> {
+    seal::checked(&bytes).map_err(|broken| ParquetError::General(broken.to_string()))?;
     let file = SerializedFileReader::new(bytes::Bytes::from(bytes))?;
     let metadata = file.metadata().file_metadata();
     let tags = metadata.key_value_metadata().into_iter().flatten();

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use endline_gear::names;
+
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
@@ -101,8 +103,8 @@ impl StudyResults {
 /// The merged table, else the rows of the blocks before the first missing one; and whether they are
 /// all rows of the study.
 fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool), Error> {
-    if let (Ok(table), false) = (merge::load(opened, folder), at_work) {
-        return Ok((table, true));
+    if !at_work && folder.path.join("table.parquet").is_file() {
+        return Ok((merge::load(opened, folder)?, true));
     }
     let mut table = Table::default();
     let there = (0..folder.blocks()).take_while(|block| folder.file_of(*block).is_file()).count();
@@ -122,6 +124,10 @@ fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<Opened, 
     let bundle = folder.join("bundle/study.toml");
     if bundle.is_file() {
         return Opened::open(&bundle, Some(&folder.join("bundle/gear-library")), host);
+    }
+    if !names::is_id(&label.study) {
+        let message = format!("names the study {:?}, which is no id", label.study);
+        return Err(Error::at(&file, message));
     }
     let file = library.join("studies").join(format!("{}.toml", label.study));
     Opened::open(&file, Some(library), host)

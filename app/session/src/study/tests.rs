@@ -113,11 +113,11 @@ impl Place {
         self.0.join("gear-library")
     }
 
-    fn study(&self) -> PathBuf {
+    pub(super) fn study(&self) -> PathBuf {
         self.library().join("studies/study.toml")
     }
 
-    fn open(&self) -> Opened {
+    pub(super) fn open(&self) -> Opened {
         Opened::open(&self.study(), Some(&self.library()), &PluginHost::empty()).unwrap()
     }
 }

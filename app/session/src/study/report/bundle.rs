@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use endline_gear::names;
+
 use crate::error::Error;
 use crate::save::atomically;
 use crate::study::open::Opened;
@@ -26,6 +28,10 @@ pub(super) fn write(opened: &Opened, folder: &Path) -> Result<(), Error> {
             .map_err(|error| Error::at(&path, format!("cannot be made: {error}")))?;
     }
     put(&folder.join("study.toml"), opened.text.as_bytes())?;
+    // Reading a study makes sure of it; nothing is ever written elsewhere than here.
+    if named.ends_with(".toml") && !names::stays_below(named) {
+        return Err(Error::at(folder, format!("the scenario {named:?} leads out of the bundle")));
+    }
     put(&scenario, opened.options[opened.baseline].scenario.text().as_bytes())?;
     for (path, text) in opened.sources.iter() {
         put(&library.join(path), text.as_bytes())?;

@@ -1,0 +1,119 @@
+//! Damaged results: a block or table whose bytes are not those that were written is refused, and nothing unread is written over.
+
+use std::fs;
+
+use super::batch;
+use super::control::Control;
+use super::folder::Folder;
+use super::merge;
+use super::parquet;
+use super::results::{ResultsRequest, StudyResults};
+use super::shard::Shard;
+use super::tests::Place;
+use crate::plugins::PluginHost;
+
+/// Numbers without a pattern, the same in every run (Knuth's MMIX).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % end.max(1)
+    }
+}
+
+/// Bytes damaged in one of eight ways; `other` is a sound file to take bytes from.
+fn damaged(bytes: &[u8], other: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+    let mut made = bytes.to_vec();
+    let (at, far) = (numbers.below(made.len()), numbers.below(made.len()));
+    match numbers.below(8) {
+        0 => made[at] ^= 1 << numbers.below(8),
+        1 => made[at] = numbers.below(256) as u8,
+        2 => made.truncate(at),
+        3 => drop(made.drain(at.min(far)..at.max(far))),
+        4 => made.swap(at, far),
+        5 => made.insert(at, numbers.below(256) as u8),
+        6 => made.copy_within(at.min(far)..at.max(far), 0),
+        _ => made = [&bytes[..at], &other[at.min(other.len())..]].concat(),
+    }
+    made
+}
+
+#[test]
+fn every_damage_of_a_block_or_table_is_refused_or_harmless() {
+    let place = Place::new("damaged");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    batch::run(&opened, &folder, Shard::WHOLE, 2, &Control::default()).unwrap();
+    merge::save(&opened, &folder, &merge::merge(&opened, &folder).unwrap()).unwrap();
+    let files = [folder.file_of(0), folder.file_of(1), folder.path.join("table.parquet")];
+    let sound = files.map(|file| fs::read(file).unwrap());
+    let tables = sound.each_ref().map(|bytes| parquet::read(bytes.clone()).unwrap().0);
+    let many = if std::env::var_os("ENDLINE_LONG").is_some() { 100_000 } else { 3_000 };
+    let (mut numbers, mut refused) = (Numbers(18), 0);
+    for number in 0..many {
+        let which = number % sound.len();
+        let bytes = damaged(&sound[which], &sound[(which + 1) % sound.len()], &mut numbers);
+        match parquet::read(bytes.clone()) {
+            Err(_) => refused += 1,
+            // A swap of equal bytes damages nothing; another file's bytes put in whole are that file.
+            Ok((table, _)) => {
+                let same = sound.iter().position(|sound| *sound == bytes).expect("a sound file");
+                assert_eq!(table, tables[same]);
+            }
+        }
+    }
+    assert!(refused > many * 9 / 10, "{refused} of {many} were refused");
+}
+
+#[test]
+fn a_damaged_block_is_named_and_a_damaged_table_is_not_replaced_by_its_blocks() {
+    let place = Place::new("named");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    batch::run(&opened, &folder, Shard::WHOLE, 2, &Control::default()).unwrap();
+    merge::save(&opened, &folder, &merge::merge(&opened, &folder).unwrap()).unwrap();
+
+    // A block of another encounter under this one's name.
+    fs::copy(folder.file_of(4), folder.file_of(3)).unwrap();
+    let error = merge::merge(&opened, &folder).unwrap_err().to_string();
+    assert!(
+        error.contains("block-00003.parquet") && error.contains("run the study again"),
+        "{error}"
+    );
+    assert!(!folder.has(3) && folder.has(4));
+    batch::run(&opened, &folder, Shard::WHOLE, 1, &Control::default()).unwrap();
+    assert!(folder.has(3), "the same command makes it anew");
+
+    let table = folder.path.join("table.parquet");
+    let mut bytes = fs::read(&table).unwrap();
+    bytes[100] ^= 4;
+    fs::write(&table, bytes).unwrap();
+    let request = ResultsRequest {
+        file: Some(place.study()),
+        folder: Some(folder.path.clone()),
+        library: place.library(),
+        ..ResultsRequest::default()
+    };
+    let error = StudyResults::read(request, &PluginHost::empty()).err().unwrap().to_string();
+    assert!(error.contains("table.parquet") && error.contains("merge again"), "{error}");
+}
+
+#[test]
+fn a_label_that_is_unreadable_or_gone_is_not_written_anew() {
+    let place = Place::new("label");
+    let opened = place.open();
+    let path = place.0.join("results");
+    let folder = Folder::open(&path, &opened).unwrap();
+    batch::run(&opened, &folder, Shard { part: 0, of: 12 }, 1, &Control::default()).unwrap();
+    let label = path.join("study.json");
+    let no_text = [0xff, 0xfe, b'{'];
+    fs::write(&label, no_text).unwrap();
+    let error = Folder::open(&path, &opened).unwrap_err().to_string();
+    assert!(error.contains("study.json") && error.contains("cannot be read"), "{error}");
+    assert_eq!(fs::read(&label).unwrap(), no_text);
+    fs::remove_file(&label).unwrap();
+    let error = Folder::open(&path, &opened).unwrap_err().to_string();
+    assert!(error.contains("no study.json") && error.contains("--out"), "{error}");
+}
