@@ -167,7 +167,7 @@ impl Parts {
 
 fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"trap-1\"");
+    let id = fields.need_id("id", "write an id such as \"trap-1\"");
     let kind = fields.need_text("kind", "write trap, buoy or anchor");
     let known = kind.and_then(|_| fields.word("kind", &["trap", "buoy", "anchor"]));
     let item =
@@ -184,7 +184,7 @@ fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
 
 fn joint(node: &Node, problems: &Problems) -> Option<PartJoint> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"splice\"");
+    let id = fields.need_id("id", "write an id such as \"splice\"");
     let start = start(&fields);
     fields.finish();
     Some(PartJoint { id: id?, start })
@@ -211,7 +211,7 @@ pub(crate) fn line(node: &Node, problems: &Problems) -> Option<PartLine> {
 
 /// Reads a line's fields without refusing others.
 pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
-    let id = fields.need_text("id", "write an id such as \"groundline-1\"");
+    let id = fields.need_id("id", "write an id such as \"groundline-1\"");
     let rope = fields.need_text("rope", "write the id of a rope, such as \"pp-3-8\"");
     let from = fields.need_text("from", "write the id of the body or joint at this end");
     let to = fields.need_text("to", "write the id of the body or joint at that end");
@@ -231,7 +231,7 @@ pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
 /// Reads a `[[link]]`; with `in_place` it may carry a rating instead of an item.
 pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<PartLink> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"buoy-link\"");
+    let id = fields.need_id("id", "write an id such as \"buoy-link\"");
     let rating =
         if in_place { fields.value("rating", Quantity::Force, Range::Positive) } else { None };
     let item = if rating.is_some() {

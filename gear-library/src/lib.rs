@@ -19,6 +19,7 @@ mod fields;
 mod items;
 mod library;
 mod line;
+pub mod names;
 mod nearest;
 mod observation;
 mod plugin;

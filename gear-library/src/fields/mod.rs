@@ -9,6 +9,7 @@ mod value;
 use std::cell::RefCell;
 
 use crate::diagnostic::{At, Place};
+use crate::names;
 use crate::nearest::{hint, nearest};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
@@ -95,6 +96,25 @@ impl<'a> Fields<'a> {
             self.missing(key, help);
         }
         self.text(key)
+    }
+
+    /// An id that must be there, such as that of a part.
+    pub fn need_id(&self, key: &'a str, help: &str) -> Option<At<String>> {
+        if !self.has(key) {
+            self.missing(key, help);
+        }
+        self.id(key)
+    }
+
+    /// An id, if it is there.
+    pub fn id(&self, key: &'a str) -> Option<At<String>> {
+        let text = self.text(key)?;
+        if names::is_id(&text.value) {
+            return Some(text);
+        }
+        let message = format!("{:?} is no `{key}`", text.value);
+        self.problems.push(text.place.error(message, names::ID_HELP));
+        None
     }
 
     /// One of a few words, if it is there.

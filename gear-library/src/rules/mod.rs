@@ -105,7 +105,7 @@ fn rules(
 /// Reads an `[[area]]`.
 fn area(node: &Node, problems: &Problems) -> Option<Area> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"lma-1\"");
+    let id = fields.need_id("id", "write an id such as \"lma-1\"");
     let name = fields.need_text("name", "write a name in quotes");
     let within = fields.text("within");
     fields.finish();

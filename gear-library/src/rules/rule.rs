@@ -176,7 +176,7 @@ fn rule(
     subject: Subject,
     check: &Option<At<String>>,
 ) -> Option<Rule> {
-    let id = fields.need_text("id", "write an id such as \"ma.strength\"");
+    let id = fields.need_id("id", "write an id such as \"ma.strength\"");
     let asks = fields.need_text("asks", "say in a sentence what it asks for");
     let cite = fields.need_text("cite", "name the law, or the page, that says so");
     let mend = fields.need_text("mend", "say in a sentence how to mend gear that fails");

@@ -29,7 +29,7 @@ pub struct PlacedGear {
 /// Reads a `[[gear]]`; `None` where it names no assembly, which is reported.
 pub(super) fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
     let fields = Fields::of(node, problems);
-    let id = fields.text("id");
+    let id = fields.id("id");
     let assembly = fields.need_text("assembly", "write the id of an assembly, such as \"single\"");
     let position = fields.values("position", Quantity::Length, &[2]);
     let heading = fields.value("heading", Quantity::Angle, Range::Any);

@@ -35,7 +35,7 @@ pub struct ObstacleOf {
 /// Reads an `[[obstacle]]`.
 pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> Option<ObstacleOf> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"rock\"");
+    let id = fields.need_id("id", "write an id such as \"rock\"");
     let word = fields.need_text("shape", "write plane, sphere, cylinder or box");
     let word = word.and_then(|_| fields.word("shape", &["plane", "sphere", "cylinder", "box"]));
     let position_m = position(&fields);

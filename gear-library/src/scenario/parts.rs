@@ -120,7 +120,7 @@ pub enum ProbePart {
 pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
     let read = |node: &Node| {
         let inner = Fields::of(node, fields.problems());
-        let id = inner.need_text("id", "write an id such as \"test-rope\"")?;
+        let id = inner.need_id("id", "write an id such as \"test-rope\"")?;
         let row = provenance_over(&inner, file);
         let entry =
             entry::body(&inner, Kind::Rope, (id.value.clone(), String::new(), row), &id.value);
@@ -133,7 +133,7 @@ pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
 /// Reads a `[[fixture]]`; `None` where something needed is missing, which is reported.
 pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"anchor\"");
+    let id = fields.need_id("id", "write an id such as \"anchor\"");
     let position = position(&fields);
     let velocity = fields.values("velocity", Quantity::Speed, &[3]);
     let from = fields.value("from", Quantity::Time, Range::NotNegative);
@@ -169,7 +169,7 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
 /// `[[joint]]`: a free end, or a place where lines meet.
 pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVec3)> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"tail\"");
+    let id = fields.need_id("id", "write an id such as \"tail\"");
     let position = position(&fields);
     fields.finish();
     Some((id?, position?))
@@ -178,7 +178,7 @@ pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVe
 /// Reads a `[[body]]`; `None` where something needed is missing, which is reported.
 pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"bob\"");
+    let id = fields.need_id("id", "write an id such as \"bob\"");
     let role = fields.word("role", &["buoy", "weight"]);
     let position = position(&fields);
     let held = fields.value("held_until", Quantity::Time, Range::NotNegative);
@@ -233,7 +233,7 @@ fn above_zero<'a>(fields: &Fields<'a>, key: &'a str, quantity: Quantity) -> Opti
 /// Reads a `[[probe]]`; `None` where something needed is missing, which is reported.
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"anchor tension\"");
+    let id = fields.need_id("id", "write an id such as \"anchor tension\"");
     let of = fields.need_text("of", "write tension, middle, line, height, place, energy or whale");
     let of = of.and_then(|_| {
         fields.word("of", &["tension", "middle", "line", "height", "place", "energy", "whale"])

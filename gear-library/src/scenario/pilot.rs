@@ -115,7 +115,7 @@ fn entry(node: &Node, ids: &Ids, problems: &Problems) -> (Option<At<String>>, Op
 }
 
 fn own_id(fields: &Fields<'_>, ids: &Ids) -> Option<At<String>> {
-    let id = fields.text("id")?;
+    let id = fields.id("id")?;
     if ids.iter().flatten().any(|known| known.value == id.value) {
         let message = format!("there are two entries with the id `{}`", id.value);
         fields.problems().push(id.place.error(message, "give one of them another id"));

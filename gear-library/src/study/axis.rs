@@ -45,7 +45,7 @@ pub(super) fn read_all(nodes: &[Node], problems: &Problems) -> Vec<StudyOption> 
 
 fn read(node: &Node, problems: &Problems) -> Option<Axis> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write what the options differ in, such as id = \"rope\"");
+    let id = fields.need_id("id", "write what the options differ in, such as id = \"rope\"");
     let nodes = fields.tables("value");
     if nodes.is_empty() {
         fields.missing("value", "write each of its values under [[axis.value]]");

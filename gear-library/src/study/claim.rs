@@ -39,7 +39,7 @@ pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Clai
 
 fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Claim> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"slack-mouth\"");
+    let id = fields.need_id("id", "write an id such as \"slack-mouth\"");
     let says = fields.need_text("says", "write the statement in words");
     let source = fields.need_text("source", "say who states it");
     let event = event::need(&fields, "event");

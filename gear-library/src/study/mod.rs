@@ -17,6 +17,7 @@ mod threat;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
 use crate::fields::{Fields, Problems, Range};
+use crate::names;
 use crate::nearest::hint;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
@@ -140,10 +141,7 @@ impl Study {
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, _) = entry::header(&fields, "study", problems);
-        let scenario = fields.need_text(
-            "scenario",
-            "write the id of a scenario of the library, such as \"hello-endline\"",
-        );
+        let scenario = scenario(&fields);
         let seed = fields.count("seed", 0);
         let encounters = encounters(&fields);
         let baseline = fields
@@ -207,6 +205,23 @@ impl Study {
             problems.push(split.place.error(message, hint(&split.value, choices())));
         }
     }
+}
+
+/// The baseline: an id of the library, or a file beside the study or below its folder. A study is copied with what it names, so
+/// that a path out of its folder would be written to elsewhere.
+fn scenario(fields: &Fields<'_>) -> Option<At<String>> {
+    let help = "write the id of a scenario of the library, such as \"hello-endline\"";
+    let named = fields.need_text("scenario", help)?;
+    let text = &named.value;
+    let is_known =
+        if text.ends_with(".toml") { names::stays_below(text) } else { names::is_id(text) };
+    if is_known {
+        return Some(named);
+    }
+    let message = format!("`scenario` is {text:?}, which leads out of the study's folder");
+    let help = format!("{help}, or the path of a file below the study's own folder");
+    fields.problems().push(named.place.error(message, help));
+    None
 }
 
 fn encounters(fields: &Fields<'_>) -> Option<u64> {

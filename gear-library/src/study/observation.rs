@@ -46,7 +46,7 @@ pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Obse
 
 fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<ObservedShare> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"mouth\"");
+    let id = fields.need_id("id", "write an id such as \"mouth\"");
     let says = fields.need_text("says", "write what was seen, in words");
     let source = fields.need_text("source", "say who saw it");
     let of = event::need(&fields, "of");

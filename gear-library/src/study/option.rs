@@ -72,7 +72,7 @@ pub(super) fn sorted(
 
 fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     let fields = Fields::of(node, problems);
-    let id = fields.need_text("id", "write an id such as \"link-600\"");
+    let id = fields.need_id("id", "write an id such as \"link-600\"");
     let name = fields.text("name");
     let strength =
         fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);

@@ -354,3 +354,30 @@ fn tables_are_made_pushed_and_taken_out_with_all_else_as_it_was() {
     assert_eq!(document.text().trim_end(), text.trim_end());
     assert!(document.remove_table("line", 2).is_err());
 }
+
+#[test]
+fn a_study_names_no_file_out_of_its_folder_and_options_have_ids_that_are_names() {
+    let text = |scenario: &str, option: &str| {
+        format!(
+            "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = '{scenario}'\nencounters = 4\nbaseline = \"a\"\n[[option]]\nid = \"a\"\n[[option]]\nid = '{option}'\n[encounter.speed]\nuniform = [\"0.8 m/s\", \"1.4 m/s\"]\nsource = \"assumed\"\n"
+        )
+    };
+    for (scenario, option) in
+        [("hello-endline", "b-600"), ("small.toml", "b"), ("below/s.toml", "b")]
+    {
+        endline_gear::Study::read("s.toml", &text(scenario, option)).unwrap();
+    }
+    let hostile = [
+        ("../../../.cargo/config.toml", "b", "leads out of the study's folder", 4),
+        ("/etc/x.toml", "b", "leads out of the study's folder", 4),
+        ("../x", "b", "leads out of the study's folder", 4),
+        ("hello-endline", "../../x", "is no `id`", 10),
+        ("hello-endline", "", "is no `id`", 10),
+        ("hello-endline", "=cmd|calc", "is no `id`", 10),
+    ];
+    for (scenario, option, says, line) in hostile {
+        let problems = endline_gear::Study::read("s.toml", &text(scenario, option)).unwrap_err();
+        let found = problems.iter().find(|problem| problem.message.contains(says));
+        assert!(found.is_some_and(|one| one.line == line && !one.help.is_empty()), "{problems:?}");
+    }
+}
