@@ -4,6 +4,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::limits::EXCERPT_CHARS;
+
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -30,7 +32,7 @@ pub struct Diagnostic {
     pub help: String,
     /// How bad it is.
     pub severity: Severity,
-    /// The offending line; empty where the problem is the file itself.
+    /// The offending line, of a long one its first [`EXCERPT_CHARS`] characters; empty where the problem is the file itself.
     pub excerpt: String,
     /// How many characters of the line to underline.
     pub width: usize,
@@ -71,9 +73,14 @@ impl fmt::Display for Diagnostic {
         } else {
             write!(f, "{}:{}:{}: {kind}: {}", self.file, self.line, self.column, self.message)?;
             let gutter = " ".repeat(self.line.to_string().len());
-            let (indent, mark) =
-                (" ".repeat(self.column.saturating_sub(1)), "^".repeat(self.width.max(1)));
-            write!(f, "\n {} | {}\n {gutter} | {indent}{mark}", self.line, self.excerpt)?;
+            write!(f, "\n {} | {}", self.line, self.excerpt)?;
+            // Beyond what is shown of a long line there is nothing to underline.
+            let room = EXCERPT_CHARS.saturating_sub(self.column);
+            if self.column <= EXCERPT_CHARS {
+                let indent = " ".repeat(self.column.saturating_sub(1));
+                let mark = "^".repeat(self.width.clamp(1, room + 1));
+                write!(f, "\n {gutter} | {indent}{mark}")?;
+            }
         }
         if self.help.is_empty() { Ok(()) } else { write!(f, "\n  = {}", self.help) }
     }
@@ -116,6 +123,7 @@ impl Place {
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
         let end = floor_boundary(text, self.span.end.clamp(start, line_end));
+        let line = text[line_start..line_end].trim_end_matches('\r');
         Diagnostic {
             file: self.source.path.clone(),
             line: text[..start].matches('\n').count() + 1,
@@ -124,8 +132,8 @@ impl Place {
             message,
             help,
             severity,
-            excerpt: text[line_start..line_end].trim_end_matches('\r').to_owned(),
-            width: text[start..end].chars().count(),
+            excerpt: line.chars().take(EXCERPT_CHARS).collect(),
+            width: text[start..end].chars().take(EXCERPT_CHARS).count(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Figure, Problems, Provenance, provenance};
 use crate::items::{BuoyPiece, Point, pieces, points};
+use crate::limits;
 use crate::schema::{Field, Kind};
 use crate::tree::Node;
 
@@ -60,7 +61,7 @@ pub fn header(
     word: &str,
     problems: &Problems,
 ) -> (String, String, Provenance) {
-    match fields.count("format", 1) {
+    match fields.count("format", &limits::FORMAT) {
         Some(format) if format.value > FORMAT => {
             let help = format!("this program reads format {FORMAT}; open it with a newer one");
             problems.push(

@@ -7,6 +7,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::Diagnostic;
+use crate::limits::LIBRARY_BYTES;
+use crate::read;
 use crate::schema::Kind;
 use crate::whale::gltf::Form;
 
@@ -40,7 +42,22 @@ impl Sources {
                 help,
             ));
         }
-        if problems.is_empty() { Ok(Self { files, meshes }) } else { Err(problems) }
+        let sources = Self { files, meshes };
+        problems.extend(sources.too_large(root));
+        if problems.is_empty() { Ok(sources) } else { Err(problems) }
+    }
+
+    /// Refuses more than a recording can carry.
+    fn too_large(&self, root: &Path) -> Option<Diagnostic> {
+        let bytes = self.files.values().map(String::len).chain(self.meshes.values().map(Vec::len));
+        let (whole, most) = (bytes.sum::<usize>() as u64 >> 20, LIBRARY_BYTES >> 20);
+        (whole > most).then(|| {
+            let message = format!("the files of this library come to {whole} MiB");
+            let help = format!(
+                "at most {most} MiB are read, because a recording carries them; take meshes out"
+            );
+            Diagnostic::of_file(root.display().to_string(), message, help)
+        })
     }
 
     /// From texts by path, without meshes.
@@ -148,7 +165,7 @@ fn read_folder(
     {
         let name =
             path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        match fs::read_to_string(&path) {
+        match read::text(&path) {
             Ok(text) => {
                 files.insert(format!("{folder}/{name}"), text);
             }
@@ -178,7 +195,7 @@ fn read_meshes(
         if Form::of_file(&name).is_none() {
             continue;
         }
-        match fs::read(&path) {
+        match read::mesh(&path) {
             Ok(bytes) => {
                 meshes.insert(format!("{folder}/{name}"), bytes);
             }

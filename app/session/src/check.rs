@@ -1,8 +1,9 @@
 //! Checking what a user names: a library file, a scenario, a folder of either.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Diagnostic, Document, Library, Sources};
+use endline_gear::{Diagnostic, Document, Library, Sources, read};
 
 use crate::cases::Cases;
 use crate::error::Error;
@@ -20,6 +21,8 @@ pub struct Checked {
     pub files: usize,
     /// All problems, file by file.
     pub problems: Vec<Diagnostic>,
+    /// Folders looked at, as the system knows them: links may lead back.
+    seen: BTreeSet<PathBuf>,
 }
 
 /// Checks a path: a folder that is a library with its scenarios, any other folder with the
@@ -37,6 +40,9 @@ pub fn check_path(path: &Path, library: Option<&Path>, host: &PluginHost) -> Che
 
 impl Checked {
     fn folder(&mut self, folder: &Path, library: Option<&Path>, host: &PluginHost) {
+        if !self.enters(folder) {
+            return;
+        }
         if locate::is_library(folder) {
             self.library(folder);
             self.scenarios(&folder.join("scenarios"), Some(folder), host);
@@ -63,6 +69,12 @@ impl Checked {
         }
     }
 
+    /// Notes a folder as looked at; false where it was already.
+    fn enters(&mut self, folder: &Path) -> bool {
+        let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+        self.seen.insert(whole)
+    }
+
     /// Every item of a library; references between items too.
     fn library(&mut self, root: &Path) {
         match Sources::from_folder(root) {
@@ -77,6 +89,9 @@ impl Checked {
     }
 
     fn scenarios(&mut self, folder: &Path, library: Option<&Path>, host: &PluginHost) {
+        if !self.enters(folder) {
+            return;
+        }
         for entry in entries(folder) {
             if entry.is_dir() {
                 self.scenarios(&entry, library, host);
@@ -108,7 +123,7 @@ impl Checked {
             return self.scenario(path, library, host);
         }
         self.files += 1;
-        match std::fs::read_to_string(path) {
+        match read::text(path) {
             Ok(text) => {
                 self.problems.extend(Library::check_file(&path.display().to_string(), &text))
             }
@@ -204,7 +219,7 @@ impl Checked {
 
 /// The kind that a file says it is: observations and rule packs lie anywhere.
 fn kind(path: &Path) -> Option<String> {
-    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let text = read::text(path).unwrap_or_default();
     Document::parse(&text).ok()?.get("kind")
 }
 
@@ -224,4 +239,28 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
         .collect();
     entries.sort();
     entries
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    /// A pipe and a device named as files are refused, and links that lead back end.
+    #[test]
+    fn a_folder_of_pipes_devices_and_loops_is_checked_to_its_end() {
+        let folder = std::env::temp_dir().join(format!("endline-hostile-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for link in ["a", "b"] {
+            symlink(".", folder.join(link)).unwrap();
+        }
+        symlink("/dev/zero", folder.join("zero.toml")).unwrap();
+        let pipe = folder.join("pipe.toml");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let checked = check_path(&folder, None, &PluginHost::empty());
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!((checked.files, checked.problems.len()), (2, 2), "{:?}", checked.problems);
+        let refused = |one: &Diagnostic| one.message.contains("no regular file");
+        assert!(checked.problems.iter().all(refused), "{:?}", checked.problems);
+    }
 }

@@ -8,6 +8,7 @@ use crate::diagnostic::{At, Diagnostic, Place};
 use crate::fields::Problems;
 use crate::items::{Condition, Rope};
 use crate::library::Library;
+use crate::limits;
 use crate::nearest::hint;
 use crate::scenario::{LineStart, Scenario};
 use crate::schema::Kind;
@@ -126,6 +127,17 @@ impl<'a> Builder<'a> {
 
     /// Gives a part its id; a second part of the same id is a problem.
     pub fn name(&mut self, id: String, part: Part, place: &Place) {
+        let most = limits::PARTS.most as usize;
+        if self.names.len() >= most {
+            if self.names.len() == most {
+                self.problems.push(place.error(
+                    format!("the gear has more than {most} parts"),
+                    format!("{}; take some out", limits::PARTS.words()),
+                ));
+                self.names.push((id, part));
+            }
+            return;
+        }
         if self.names.iter().any(|(known, _)| *known == id) {
             self.problems.push(place.error(
                 format!("there are two parts with the id `{id}`"),

@@ -3,6 +3,7 @@
 use endline_sdk::LineEnd;
 
 use crate::diagnostic::At;
+use crate::limits;
 use crate::line::{Insert, Inserts};
 use crate::strength::StrengthFigure;
 
@@ -47,7 +48,7 @@ pub(super) fn starts_from_a(inserts: &Inserts, line_m: f64) -> Vec<f64> {
     let last_m = (inserts.within * line_m).min(line_m - LEAST_PIECE_M) - own_m + 1e-9;
     let mut starts = Vec::new();
     let mut near_m = inserts.first_m;
-    while near_m <= last_m {
+    while near_m <= last_m && starts.len() < limits::PARTS.most as usize {
         starts.push(near_m);
         near_m += inserts.every_m;
     }

@@ -38,6 +38,7 @@ use endline_sim::model::{RopeOnRope, Settings};
 
 use crate::diagnostic::Diagnostic;
 use crate::library::Library;
+use crate::limits;
 use crate::scenario::Scenario;
 use crate::strength::StrengthBudget;
 use builder::Builder;
@@ -111,6 +112,7 @@ pub fn assemble_traced(
     hooks: &dyn Hooks,
     options: &Options,
 ) -> Result<Assembled, Vec<Diagnostic>> {
+    check_options(scenario, options)?;
     let mut builder = Builder::new(scenario, library, hooks, settings(scenario, options));
     builder.add_sea();
     builder.add_whale(options.kinetic);
@@ -127,6 +129,22 @@ pub fn assemble_traced(
     builder.add_pilot();
     builder.add_probes();
     builder.finish()
+}
+
+/// Refuses choices of the caller that no file may ask for either.
+fn check_options(scenario: &Scenario, options: &Options) -> Result<(), Vec<Diagnostic>> {
+    let asked = [
+        ("step", options.step_s, &limits::STEP),
+        ("contact_step", options.contact_step_s, &limits::STEP),
+        ("duration", options.duration_s, &limits::DURATION),
+        ("rope_nodes", options.rope_nodes.map(|nodes| nodes as f64), &limits::ROPE_NODES),
+        ("seed", options.seed.map(|seed| seed as f64), &limits::SEED),
+    ];
+    let beyond = asked.into_iter().filter_map(|(field, value, limit)| {
+        limit.check(field, value?).err().map(|beyond| beyond.at(&scenario.place))
+    });
+    let problems: Vec<Diagnostic> = beyond.collect();
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
 fn rope_on_rope(scenario: &Scenario) -> RopeOnRope {

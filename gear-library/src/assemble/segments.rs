@@ -5,6 +5,7 @@ use endline_sim::model::JointKind;
 use endline_sim::solids::SolidShape;
 
 use crate::diagnostic::{At, Place};
+use crate::limits;
 use crate::scenario::LineStart;
 
 use super::around::Around;
@@ -33,12 +34,11 @@ impl Builder<'_> {
             (Some(nodes), None) => (Some(nodes.value), &nodes.place),
             (None, None) => (None, &self.scenario.place),
         };
-        let counts = match (asked, self.scenario.segment_m) {
-            (None, Some(longest_m)) => {
-                let longest_m = |index: usize| self.own_segment(index).unwrap_or(longest_m);
-                let each = lengths.iter().enumerate();
-                each.map(|(index, length)| at_least_one(length / longest_m(index))).collect()
-            }
+        let counts = match (asked, &self.scenario.segment_m) {
+            (None, Some(longest)) => match self.counts_of_segments(&lengths, longest) {
+                Some(counts) => counts,
+                None => return,
+            },
             (nodes, _) => {
                 match share_out(nodes.unwrap_or_else(|| self.needed_nodes(&lengths)), &lengths) {
                     Some(counts) => counts,
@@ -49,6 +49,21 @@ impl Builder<'_> {
         for (index, count) in counts.into_iter().enumerate() {
             self.spec.lines[index].segments_m = vec![lengths[index] / count as f64; count];
             self.shape_start(index);
+        }
+    }
+
+    /// Segments of every line, each no longer than asked for; `None` where they are too many, which is reported.
+    fn counts_of_segments(&self, lengths: &[f64], longest: &At<f64>) -> Option<Vec<usize>> {
+        let longest_m = |index: usize| self.own_segment(index).unwrap_or(longest.value);
+        let shares: Vec<f64> =
+            lengths.iter().enumerate().map(|(index, length)| length / longest_m(index)).collect();
+        let nodes = shares.iter().sum::<f64>() + 2.0 * lengths.len() as f64;
+        match limits::check_nodes(nodes) {
+            Ok(()) => Some(shares.into_iter().map(at_least_one).collect()),
+            Err(beyond) => {
+                self.problems.push(beyond.at(&longest.place));
+                None
+            }
         }
     }
 

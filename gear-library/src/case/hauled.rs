@@ -1,6 +1,7 @@
 //! A case in which the gear of its scenario is hauled from its first buoy: `[haul]`.
 
 use crate::fields::{Fields, Range};
+use crate::limits;
 use crate::units::Quantity;
 
 /// How gear is hauled in a case.
@@ -20,7 +21,7 @@ pub(super) fn read(fields: &Fields<'_>) -> CaseHaul {
     let haul = CaseHaul {
         speed_m_s: value("speed", Quantity::Speed, Range::Between(0.01, 5.0)),
         block_m: value("height", Quantity::Length, Range::Between(0.0, 20.0)),
-        aboard: fields.count("aboard", 1).map(|count| count.value),
+        aboard: fields.count("aboard", &limits::TRAPS).map(|count| count.value),
     };
     fields.finish();
     haul

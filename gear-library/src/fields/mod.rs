@@ -9,6 +9,7 @@ mod value;
 use std::cell::RefCell;
 
 use crate::diagnostic::{At, Place};
+use crate::limits::{DIAGNOSTICS, Limit};
 use crate::names;
 use crate::nearest::{hint, nearest};
 use crate::tree::{Content, Node};
@@ -197,8 +198,8 @@ impl<'a> Fields<'a> {
         Some(At { value, place: node.place.clone() })
     }
 
-    /// A whole number of at least `least`, if it is there.
-    pub fn count(&self, key: &'a str, least: u64) -> Option<At<u64>> {
+    /// A whole number within a limit, if it is there.
+    pub fn count(&self, key: &'a str, limit: &Limit) -> Option<At<u64>> {
         let node = self.get(key)?;
         let Content::Number(number) = node.content else {
             self.problems.push(node.place.error(
@@ -207,12 +208,15 @@ impl<'a> Fields<'a> {
             ));
             return None;
         };
-        #[expect(clippy::cast_precision_loss, reason = "least is small")]
-        if number.fract() != 0.0 || number < least as f64 || number > 9e15 {
+        if number.fract() != 0.0 || number < limit.least {
             self.problems.push(node.place.error(
                 format!("`{key}` is {number}"),
-                format!("expected a whole number, {least} or more"),
+                format!("expected a whole number, {} or more", limit.least),
             ));
+            return None;
+        }
+        if let Err(beyond) = limit.check(key, number) {
+            self.problems.push(beyond.at(&node.place));
             return None;
         }
         #[expect(
@@ -259,13 +263,14 @@ impl<'a> Fields<'a> {
     /// Refuses every key that was not asked for; the last thing done with a table.
     pub fn finish(&self) {
         let asked = self.asked.borrow();
-        for (name, key, _) in
-            self.entries.iter().filter(|(name, _, _)| !asked.contains(&name.as_str()))
-        {
+        let is_unknown = |(name, _, _): &&(String, Place, Node)| !asked.contains(&name.as_str());
+        let mut unknown = self.entries.iter().filter(is_unknown);
+        for (name, key, _) in unknown.by_ref().take(DIAGNOSTICS) {
             self.problems.push(
                 key.error(format!("unknown field `{name}`"), hint(name, asked.iter().copied())),
             );
         }
+        self.problems.count_more(unknown.count());
     }
 
     /// Where problems go.

@@ -1,5 +1,6 @@
 //! The range a value must lie in.
 
+use crate::limits::Limit;
 use crate::units::{Quantity, format_si};
 
 /// The range a value must lie in, with whether the least value itself is allowed.
@@ -13,6 +14,8 @@ pub enum Range {
     NotNegative,
     /// Between the two, both allowed.
     Between(f64, f64),
+    /// Within a limit, whose reason is told.
+    Within(&'static Limit),
 }
 
 impl Range {
@@ -23,6 +26,7 @@ impl Range {
             Self::Positive => value > 0.0 && value.is_finite(),
             Self::NotNegative => value >= 0.0 && value.is_finite(),
             Self::Between(least, most) => (least..=most).contains(&value),
+            Self::Within(limit) => limit.holds(value),
         }
     }
 
@@ -36,6 +40,7 @@ impl Range {
             Self::Between(least, most) => {
                 format!("between {} and {}", format_si(least, quantity), format_si(most, quantity))
             }
+            Self::Within(Limit { least, most, .. }) => Self::Between(*least, *most).words(quantity),
         }
     }
 }

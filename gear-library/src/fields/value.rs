@@ -3,6 +3,7 @@
 use super::problems::Problems;
 use super::range::Range;
 use crate::diagnostic::At;
+use crate::limits;
 use crate::tree::{Content, Node};
 use crate::units::{self, Quantity, format_si};
 
@@ -23,17 +24,29 @@ pub fn read_value(
     let mut parts = node.place.field.rsplit('.');
     let name = parts.find(|part| part.parse::<usize>().is_err()).unwrap_or_default();
     let refused = match number(node, quantity, name) {
-        Ok(value) if range.holds(value) => {
-            return Some(At { value, place: node.place.clone() });
-        }
-        Ok(value) => Refused {
-            message: format!("`{name}` is {}", format_si(value, quantity)),
-            help: format!("it must be {}", range.words(quantity)),
+        Ok(value) => match within(value, quantity, range, name) {
+            Ok(()) => return Some(At { value, place: node.place.clone() }),
+            Err(refused) => refused,
         },
         Err(refused) => refused,
     };
     problems.push(node.place.error(refused.message, refused.help));
     None
+}
+
+/// Refuses a value outside its range, or beyond the greatest amount of its quantity.
+fn within(value: f64, quantity: Quantity, range: Range, name: &str) -> Result<(), Refused> {
+    let limit = match range {
+        Range::Within(limit) => limit,
+        _ if range.holds(value) => limits::amount(quantity),
+        _ => {
+            return Err(Refused {
+                message: format!("`{name}` is {}", format_si(value, quantity)),
+                help: format!("it must be {}", range.words(quantity)),
+            });
+        }
+    };
+    limit.check(name, value).map_err(|limits::Beyond { message, help }| Refused { message, help })
 }
 
 /// The SI value of a node.

@@ -21,6 +21,7 @@ use crate::diagnostic::Diagnostic;
 use crate::entry;
 use crate::fields::{Fields, Problems};
 use crate::library::Library;
+use crate::read;
 use crate::schema::Kind;
 use crate::sources::Sources;
 use crate::tree::{self, Node};
@@ -124,7 +125,7 @@ fn head(node: &Node, problems: &Problems) -> Option<Head> {
 
 /// Reads a text of the folder; what is wrong with it is reported under its path there.
 fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> Option<Node> {
-    let text = match fs::read_to_string(folder.join(path)) {
+    let text = match read::text(&folder.join(path)) {
         Ok(text) => text,
         Err(error) => {
             let help = "a plugin's file is text in UTF-8 that you may read";

@@ -23,6 +23,7 @@ use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
 use crate::items::Condition;
+use crate::limits;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
@@ -61,7 +62,7 @@ pub struct Scenario {
     /// How many rope nodes there are in all.
     pub rope_nodes: Option<At<u64>>,
     /// Longest segment [m], where no node count is given.
-    pub segment_m: Option<f64>,
+    pub segment_m: Option<At<f64>>,
     /// Lines with another longest segment; of two that name a line, the later counts.
     pub line_segments: Vec<LineSegments>,
     /// How segment lengths follow the whale, where they do.
@@ -132,7 +133,8 @@ impl Scenario {
     fn from_node(node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "scenario", problems);
-        let duration = fields.need_value("duration", Quantity::Time, Range::Between(1e-6, 1e6));
+        let duration =
+            fields.need_value("duration", Quantity::Time, Range::Within(&limits::DURATION));
         let whale = fields.table("whale");
         let resolution = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
@@ -144,12 +146,12 @@ impl Scenario {
             notes,
             place: node.place.clone(),
             duration_s: duration.map_or(60.0, |duration| duration.value),
-            seed: fields.count("seed", 0).map_or(1, |seed| seed.value),
+            seed: fields.count("seed", &limits::SEED).map_or(1, |seed| seed.value),
             step_s: step(&fields),
             auto_step: is_auto(&fields),
             contact_step_s: seconds(&fields, "contact_step"),
             contact_tolerance: contact_tolerance(&fields),
-            rope_nodes: fields.count("rope_nodes", 2),
+            rope_nodes: fields.count("rope_nodes", &limits::ROPE_NODES),
             segment_m: segment(&fields),
             line_segments: each("segments")
                 .filter_map(|node| LineSegments::read(node, problems))
@@ -189,11 +191,11 @@ impl Scenario {
     }
 
     fn check_whole(&self, fields: &Fields<'_>) {
-        if let (Some(nodes), Some(_)) = (&self.rope_nodes, self.segment_m) {
+        if let (Some(nodes), Some(_)) = (&self.rope_nodes, &self.segment_m) {
             let message = "both `rope_nodes` and `segment` are given";
             fields.problems().push(nodes.place.error(message, "keep the one that is meant"));
         }
-        if let (Some(lines), None) = (self.line_segments.first(), self.segment_m) {
+        if let (Some(lines), None) = (self.line_segments.first(), &self.segment_m) {
             let message = "[[segments]] is given, but no `segment` for the other lines";
             let help = "write one, such as segment = \"1 m\", in place of `rope_nodes`";
             fields.problems().push(lines.line.place.error(message, help));
@@ -231,7 +233,7 @@ fn step(fields: &Fields<'_>) -> Option<f64> {
 
 /// A step of time of at most a second [s].
 fn seconds<'a>(fields: &Fields<'a>, key: &'a str) -> Option<f64> {
-    fields.value(key, Quantity::Time, Range::Between(1e-6, 1.0)).map(|step| step.value)
+    fields.value(key, Quantity::Time, Range::Within(&limits::STEP)).map(|step| step.value)
 }
 
 /// `contact_tolerance`: what push and friction may miss by in a step near the whale, as a share of the greatest.
@@ -241,9 +243,8 @@ fn contact_tolerance(fields: &Fields<'_>) -> Option<f64> {
 }
 
 /// `segment`: the longest segment [m].
-fn segment(fields: &Fields<'_>) -> Option<f64> {
-    let longest = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
-    longest.map(|longest| longest.value)
+fn segment(fields: &Fields<'_>) -> Option<At<f64>> {
+    fields.value("segment", Quantity::Length, Range::Within(&limits::SEGMENT))
 }
 
 /// `rope_friction`: the coefficient of rope on rope.

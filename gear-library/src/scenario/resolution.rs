@@ -3,10 +3,11 @@
 use endline_sim::model::Resolution;
 
 use crate::fields::{Fields, Range};
+use crate::limits;
 use crate::units::Quantity;
 
 /// Lengths a segment may be given [m].
-const LENGTHS: Range = Range::Between(1e-3, 1000.0);
+const LENGTHS: Range = Range::Within(&limits::SEGMENT);
 
 /// Reads the table; what it does not name is as usual.
 pub(super) fn read(fields: &Fields<'_>, whale: bool) -> Resolution {

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
+use crate::limits;
 use crate::tree::Node;
 use crate::units::Quantity;
 
@@ -21,7 +22,8 @@ impl LineSegments {
             "line",
             "write the id of a line, or its begin and `*`, such as \"endline-*\"",
         );
-        let longest = fields.need_value("longest", Quantity::Length, Range::Between(1e-3, 1000.0));
+        let longest =
+            fields.need_value("longest", Quantity::Length, Range::Within(&limits::SEGMENT));
         fields.finish();
         Some(Self { line: line?, longest_m: longest?.value })
     }

@@ -1,12 +1,12 @@
 //! The waves of a scenario.
 
-use endline_sim::water::check::MOST_COMPONENTS;
 use endline_sim::water::jonswap::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
 
 use crate::compass::direction;
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Range};
+use crate::limits;
 use crate::units::Quantity;
 
 use super::bearing::bearing;
@@ -27,20 +27,13 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     let ramp = fields.value("ramp", Quantity::Time, Range::NotNegative);
     let phase = fields.value("phase", Quantity::Angle, Range::Any);
     let gamma = fields.value("gamma", Quantity::Ratio, Range::Between(1.0, 20.0));
-    let components = fields.count("components", 1);
+    let components = fields.count("components", &limits::WAVE_COMPONENTS);
     check_shape(
         fields,
         spectrum.is_some(),
         phase.as_ref(),
         gamma_or_components(&gamma, &components),
     );
-    let most = MOST_COMPONENTS as u64;
-    if let Some(components) = components.as_ref().filter(|components| components.value > most) {
-        let message = format!("`components` is {}", components.value);
-        fields
-            .problems()
-            .push(components.place.error(message, format!("expected {most} at most; 64 is usual")));
-    }
     fields.finish();
     let (height, period_s) = (height?, period?.value);
     let kind = match spectrum {
@@ -55,8 +48,7 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
                 peak_period_s: period_s,
                 gamma: gamma.map_or(USUAL_GAMMA, |gamma| gamma.value),
             },
-            components: components
-                .map_or(USUAL_COMPONENTS, |components| components.value.min(most) as usize),
+            components: components.map_or(USUAL_COMPONENTS, |components| components.value as usize),
         },
     };
     let ramp_s = ramp.map_or(USUAL_RAMP * period_s, |ramp| ramp.value);

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems};
+use crate::limits;
 use crate::tree::Node;
 
 use super::event::{self, StudyEvent};
@@ -63,7 +64,7 @@ fn count<'a>(fields: &Fields<'a>, key: &'a str) -> Option<At<u64>> {
     if fields.get(key).is_none() {
         fields.missing(key, "write how many encounters, such as 8");
     }
-    fields.count(key, 0)
+    fields.count(key, &limits::COUNTED)
 }
 
 #[cfg(test)]

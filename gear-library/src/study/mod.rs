@@ -17,6 +17,7 @@ mod threat;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
 use crate::fields::{Fields, Problems, Range};
+use crate::limits;
 use crate::names;
 use crate::nearest::hint;
 use crate::tree::{self, Node};
@@ -142,7 +143,7 @@ impl Study {
         let fields = Fields::of(node, problems);
         let (name, notes, _) = entry::header(&fields, "study", problems);
         let scenario = scenario(&fields);
-        let seed = fields.count("seed", 0);
+        let seed = fields.count("seed", &limits::SEED);
         let encounters = encounters(&fields);
         let baseline = fields
             .need_text("baseline", "write the id of the option that others are compared with");
@@ -231,13 +232,7 @@ fn encounters(fields: &Fields<'_>) -> Option<u64> {
             "write how many encounters every option meets, such as encounters = 1000",
         );
     }
-    let count = fields.count("encounters", 1)?;
-    if count.value > MOST_ENCOUNTERS {
-        fields.problems().push(count.place.error(
-            format!("`encounters` is {}", count.value),
-            format!("at most {MOST_ENCOUNTERS} can be drawn"),
-        ));
-    }
+    let count = fields.count("encounters", &limits::ENCOUNTERS)?;
     Some(count.value)
 }
 
@@ -260,7 +255,7 @@ fn run_rule(fields: &Fields<'_>) -> RunRule {
 fn enough(table: &Fields<'_>) -> Option<Enough> {
     let event = event::need(table, "event");
     let width = table.need_value("narrower", Quantity::Ratio, Range::Between(1e-4, 1.0));
-    let least = table.count("least", 1);
+    let least = table.count("least", &limits::ENCOUNTERS);
     table.finish();
     Some(Enough {
         event: event?,

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
+use crate::limits;
 use crate::tree::Node;
 use crate::units::Quantity;
 
@@ -60,7 +61,7 @@ pub(super) fn read(node: Option<&Node>, problems: &Problems) -> ThreatLabels {
         diameter_m: fields
             .value("diameter", Quantity::Length, Range::Positive)
             .map(|diameter| diameter.value),
-        traps: fields.count("traps", 1).map(|traps| traps.value),
+        traps: fields.count("traps", &limits::TRAPS).map(|traps| traps.value),
         device: text("device"),
     };
     fields.finish();

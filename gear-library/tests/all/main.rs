@@ -7,6 +7,7 @@ mod fins;
 mod idle;
 mod jaws;
 mod joints;
+mod limits;
 mod measured;
 mod mesh_files;
 mod mouth;

@@ -309,6 +309,16 @@ fn weights_must_be_there_and_be_four_at_most() {
 
 /// Whatever the bytes, the answer is a skin or a fault.
 #[test]
+fn one_mesh_at_thousands_of_nodes_is_refused_before_it_is_read() {
+    let many = changed(|file| {
+        let nodes = file["nodes"].as_array_mut().unwrap();
+        let mesh = nodes.iter().find(|node| node.get("mesh").is_some()).unwrap().clone();
+        nodes.extend(std::iter::repeat_n(mesh, 3_000));
+    });
+    told(&many, &["more than 2000000 corners", "each mesh at one node"]);
+}
+
+#[test]
 fn damaged_files_are_faults() {
     let like = skin();
     let good = written(&like, Form::Binary);

@@ -150,7 +150,7 @@ impl Cases {
     }
 
     fn text(&self, path: &Path, more: impl Fn() -> String) -> Result<String, Error> {
-        std::fs::read_to_string(path)
+        endline_gear::read::text(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}{}", more())))
     }
 

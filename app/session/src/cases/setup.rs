@@ -27,7 +27,7 @@ impl Setup {
         host: &PluginHost,
     ) -> Result<Self, Error> {
         let path = cases.root.join("scenarios").join(format!("{}.toml", case.scenario.value));
-        let text = std::fs::read_to_string(&path).map_err(|error| {
+        let text = endline_gear::read::text(&path).map_err(|error| {
             let message = format!("the scenario `{}` cannot be read: {error}", case.scenario.value);
             Error::Diagnostics(vec![
                 case.scenario

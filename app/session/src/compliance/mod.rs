@@ -159,7 +159,7 @@ fn named(id: &str, library: &Library) -> (String, String) {
 
 fn threat_of(file: Option<&Path>, gear: &RuleGear) -> Result<Option<ThreatOfGear>, Error> {
     let Some(file) = file else { return Ok(None) };
-    let text = std::fs::read_to_string(file)
+    let text = endline_gear::read::text(file)
         .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
     ThreatOfGear::find(&file.display().to_string(), &text, gear).map(Some)
 }

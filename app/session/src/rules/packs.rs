@@ -131,7 +131,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
 }
 
 fn read(file: &Path) -> Result<RulePack, Error> {
-    let text = std::fs::read_to_string(file)
+    let text = endline_gear::read::text(file)
         .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
     read_text(&file.display().to_string(), &text).map_err(Error::Diagnostics)
 }

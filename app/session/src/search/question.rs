@@ -35,7 +35,7 @@ impl Question {
         host: &PluginHost,
     ) -> Result<Self, Error> {
         let path = locate::named(named, "observations", library).map_err(Error::Replay)?;
-        let text = std::fs::read_to_string(&path)
+        let text = endline_gear::read::text(&path)
             .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
         let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
         Self::of_text(&path, &text, encounters, &root, host)
@@ -100,7 +100,7 @@ fn opened(
     root: &Path,
     host: &PluginHost,
 ) -> Result<Opened, Error> {
-    let text = std::fs::read_to_string(path)
+    let text = endline_gear::read::text(path)
         .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
     let fault = |error: EditError| Error::at(path, error.message);
     let mut study = Document::parse(&text).map_err(fault)?;

@@ -28,7 +28,7 @@ impl AssemblyFile {
         let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
         let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
         let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-        let text = std::fs::read_to_string(&path)
+        let text = endline_gear::read::text(&path)
             .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
         let id =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

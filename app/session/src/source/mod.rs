@@ -7,6 +7,8 @@ pub(crate) mod sample;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use endline_gear::limits::amount;
+use endline_gear::units::Quantity;
 use endline_gear::{
     Assembled, Diagnostic, Library, Options, Scenario, Sources, StrengthBudget, assemble_traced,
 };
@@ -102,7 +104,7 @@ impl Source {
         library: Option<&Path>,
         overrides: Overrides,
     ) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(scenario)
+        let text = endline_gear::read::text(scenario)
             .map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
         let root: PathBuf = locate::library(Some(scenario), library).map_err(Error::Replay)?;
         let library = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
@@ -184,6 +186,10 @@ impl Source {
                 )
             })?;
         if let Some(rating_n) = rating_n {
+            let whole = scenario.place.clone();
+            amount(Quantity::Force)
+                .check("rating", rating_n)
+                .map_err(|beyond| Error::Diagnostics(vec![beyond.at(&whole)]))?;
             spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
             // A rating that is given has no budget.
             strengths.retain(|budget| spec.links.iter().all(|link| link.id != budget.part));

@@ -170,7 +170,7 @@ impl Workbench {
     }
 
     pub(crate) fn import_table(&mut self, kind: Kind, file: &Path) -> Result<(), String> {
-        let text = std::fs::read_to_string(file)
+        let text = endline_gear::read::text(file)
             .map_err(|error| format!("{}: {error}", file.display()))?;
         let taken = library_table::import(&mut self.project.documents, kind, &text)
             .map_err(|reason| format!("not taken in: {reason}"))?;

@@ -262,7 +262,7 @@ impl Workbench {
         let packs = self.rules.packs.clone().ok_or("no rules were read")?;
         let documents = &mut self.project.documents;
         let like = documents.root().join("studies").join(USUAL_LIKE).with_extension("toml");
-        let like = std::fs::read_to_string(&like)
+        let like = endline_gear::read::text(&like)
             .map_err(|error| format!("{}: {error}; its encounters are taken", like.display()))?;
         if !documents.unsaved().is_empty() {
             documents.save().map_err(|error| format!("not saved, so not compared: {error}"))?;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use endline_gear::limits::{STEP, amount};
 use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
@@ -355,11 +356,8 @@ impl OverArgs {
 
 fn step(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| "expected seconds, such as 0.01".to_owned())?;
-    if seconds > 0.0 && seconds <= 1.0 {
-        Ok(seconds)
-    } else {
-        Err("expected seconds above 0 and at most 1".into())
-    }
+    STEP.check("step", seconds).map_err(|beyond| format!("{}; {}", beyond.message, beyond.help))?;
+    Ok(seconds)
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -374,10 +372,10 @@ fn force(text: &str) -> Result<f64, String> {
         Ok(newtons) => newtons,
         Err(_) => units::parse(text, Quantity::Force).map_err(|error| error.to_string())?,
     };
-    if newtons > 0.0 && f64::is_finite(newtons) {
+    if newtons > 0.0 && amount(Quantity::Force).holds(newtons) {
         Ok(newtons)
     } else {
-        Err("expected a force above 0".into())
+        Err(format!("expected a force above 0; {}", amount(Quantity::Force).words()))
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn mill(args: &MillArgs) -> Result<ExitCode, Failure> {
         None => (args.breaks.clone(), "breaks given on the command line".to_owned()),
         Some(file) => {
             let name = file.display().to_string();
-            let text = fs::read_to_string(file)
+            let text = endline_gear::read::text(file)
                 .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
             (read_breaks(&name, &text).map_err(Error::Diagnostics)?, name)
         }

@@ -42,6 +42,17 @@ pub(super) fn share_out(stretches: &mut [Stretch], length_m: f64) -> Result<(), 
     Ok(())
 }
 
+/// More segments than [`cut`] makes of these: counted before memory is taken for them.
+pub(super) fn most_segments(stretches: &[Stretch], coarse_m: f64) -> f64 {
+    let of = |stretch: &Stretch| {
+        let whole = stretch.rope_m.unwrap_or_default();
+        let grown = stretches.iter().filter_map(|other| other.fine_m).fold(coarse_m, f64::min);
+        let growing = 2.0 * (1.0 + (coarse_m / grown).ln() / GROWTH.ln_1p());
+        whole / stretch.fine_m.unwrap_or(coarse_m) + growing + 1.0
+    };
+    stretches.iter().map(of).sum()
+}
+
 /// Cuts every stretch: wraps into their own segments, the rest into longer ones the farther from a wrap.
 pub(super) fn cut(stretches: &[Stretch], coarse_m: f64) -> Laid {
     let mut laid = Laid { nodes: vec![stretches[0].way[0]], segments_m: Vec::new() };

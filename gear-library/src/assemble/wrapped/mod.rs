@@ -16,6 +16,7 @@ mod stretch;
 use endline_sim::DVec3;
 use endline_sim::model::Rope;
 
+use crate::limits;
 use crate::scenario::WrapOf;
 
 use super::builder::Builder;
@@ -99,6 +100,7 @@ struct WrappedLine<'a> {
 impl WrappedLine<'_> {
     /// Nodes and segments between its ends, through its wraps: the first way found that is free.
     fn lay(&self, skin: &mut PosedSkin) -> Result<Laid, Wrong> {
+        self.check_reach()?;
         let ways = choose::azimuths(skin, &self.helices, self.ends)
             .map_err(|(wrap, what)| none_there(wrap, what))?;
         let mut first_wrong = None;
@@ -111,15 +113,26 @@ impl WrappedLine<'_> {
         Err(first_wrong.unwrap_or_else(|| none_there(0, "there is no way round it".into())))
     }
 
+    /// Refuses ends that lie farther apart than the rope is long, before ways between them are looked at.
+    fn check_reach(&self) -> Result<(), Wrong> {
+        let (needs_m, has_m) = (self.ends[0].distance(self.ends[1]), self.length_m);
+        if needs_m <= has_m {
+            return Ok(());
+        }
+        Err(too_short(needs_m, has_m))
+    }
+
     /// Nodes and segments, each wrap beginning at its azimuth [rad].
     fn lay_from(&self, azimuths: &[f64], skin: &mut PosedSkin) -> Result<Laid, Wrong> {
         let mut stretches = self.stretches(azimuths, skin)?;
-        cut::share_out(&mut stretches, self.length_m).map_err(|(needs_m, has_m)| Wrong {
-            wrap: None,
-            what: format!(
-                "its way round the whale takes {needs_m:.2} m of rope, and it has {has_m:.2} m"
-            ),
-            help: "make it longer, bring its ends nearer, or leave `before` out",
+        cut::share_out(&mut stretches, self.length_m)
+            .map_err(|(needs_m, has_m)| too_short(needs_m, has_m))?;
+        limits::check_nodes(cut::most_segments(&stretches, self.coarse_m)).map_err(|beyond| {
+            Wrong {
+                wrap: None,
+                what: beyond.message,
+                help: "write a longer `segment` for its wraps",
+            }
         })?;
         let mut laid = cut::cut(&stretches, self.coarse_m);
         clear::clear(skin, &mut laid).map_err(|region| Wrong {
@@ -143,6 +156,16 @@ impl WrappedLine<'_> {
         }
         stretches.push(leg::lay(skin, [at, self.ends[1]], None));
         Ok(stretches)
+    }
+}
+
+fn too_short(needs_m: f64, has_m: f64) -> Wrong {
+    Wrong {
+        wrap: None,
+        what: format!(
+            "its way round the whale takes {needs_m:.2} m of rope, and it has {has_m:.2} m"
+        ),
+        help: "make it longer, bring its ends nearer, or leave `before` out",
     }
 }
 

@@ -13,6 +13,7 @@ use super::file::File;
 use super::joints::Joints;
 use super::marks;
 use super::{Fault, from_gltf};
+use crate::limits::MESH_CORNERS;
 use crate::nearest::{hint, nearest};
 
 /// Weights that sum to 1 by less than this are scaled to do so.
@@ -45,6 +46,7 @@ pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Ve
         strangers: BTreeSet::new(),
         faults: Vec::new(),
     };
+    check_size(file).map_err(|fault| vec![fault])?;
     for mesh in file.document.nodes().filter_map(|node| node.mesh()) {
         for primitive in mesh.primitives() {
             reading.primitive(&primitive);
@@ -58,6 +60,25 @@ pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Ve
         ));
     }
     if reading.faults.is_empty() { Ok(reading.mesh) } else { Err(reading.faults) }
+}
+
+/// Refuses more corners than are read, counted before any is made: a mesh may stand at many nodes.
+fn check_size(file: &File) -> Result<(), Fault> {
+    let corners = |primitive: Primitive<'_>| {
+        let counted = primitive.indices().or_else(|| primitive.get(&Semantic::Positions));
+        counted.map_or(0, |accessor| accessor.count())
+    };
+    let meshes = file.document.nodes().filter_map(|node| node.mesh());
+    let mut all = 0_usize;
+    for primitive in meshes.flat_map(|mesh| mesh.primitives()) {
+        all = all.saturating_add(corners(primitive));
+        if all > MESH_CORNERS {
+            let help = "make the mesh coarser, and put each mesh at one node";
+            let message = format!("has more than {MESH_CORNERS} corners of triangles");
+            return Err(Fault::new(message, help));
+        }
+    }
+    Ok(())
 }
 
 struct Reading<'a> {

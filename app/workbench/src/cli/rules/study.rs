@@ -17,7 +17,7 @@ pub(super) fn study(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode
     let packs = Packs::open(library, &args.pack)?;
     let file = AssemblyFile::open(&args.assembly, library)?;
     let like = locate::named(&args.like, "studies", library).map_err(Failure::failed)?;
-    let like = std::fs::read_to_string(&like)
+    let like = endline_gear::read::text(&like)
         .map_err(|error| Failure::failed(format!("{}: {error}", like.display())))?;
     let asked = Asked { id: &file.id, text: &file.text, sources: &file.sources };
     let options = options(asked, &args.option, args.depth, &packs, &host::load())?;

@@ -95,7 +95,8 @@ fn list<'a>(ui: &mut Ui, shared: &mut Shared, examples: impl Iterator<Item = &'a
 
 fn examples(root: &Path) -> Vec<Example> {
     let read = |path: PathBuf| {
-        let document = endline_gear::Document::parse(&std::fs::read_to_string(&path).ok()?).ok()?;
+        let document =
+            endline_gear::Document::parse(&endline_gear::read::text(&path).ok()?).ok()?;
         let text = |field: &str| document.get(field).unwrap_or_default();
         Some(Example {
             name: text("name"),

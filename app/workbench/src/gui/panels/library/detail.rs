@@ -163,7 +163,7 @@ fn uses(documents: &Documents, path: &str) -> Uses {
         .map(str::to_owned);
     let scenarios = files::scenarios(documents.root()).into_iter();
     let scenarios =
-        scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
+        scenarios.filter(|file| endline_gear::read::text(file).is_ok_and(|text| names(&text)));
     Uses {
         path: path.to_owned(),
         version: 0,

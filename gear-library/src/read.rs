@@ -1,0 +1,79 @@
+//! Files from disk: regular files only, and only up to a size.
+//!
+//! A pipe never ends and a device such as `/dev/zero` takes all memory, whatever it is named.
+
+use std::fs::{self, File};
+use std::io::{Error, ErrorKind, Read, Result};
+use std::path::Path;
+
+use crate::limits::{MESH_FILE_BYTES, TEXT_FILE_BYTES};
+
+/// The text of a file.
+///
+/// # Errors
+/// A file that cannot be read, is no regular file, is longer than [`TEXT_FILE_BYTES`] or is not UTF-8.
+pub fn text(path: &Path) -> Result<String> {
+    let bytes = at_most(path, TEXT_FILE_BYTES)?;
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8"))
+}
+
+/// The bytes of a mesh or an animation.
+///
+/// # Errors
+/// A file that cannot be read, is no regular file, or is longer than [`MESH_FILE_BYTES`].
+pub fn mesh(path: &Path) -> Result<Vec<u8>> {
+    at_most(path, MESH_FILE_BYTES)
+}
+
+/// The bytes of a regular file of at most so many.
+///
+/// # Errors
+/// A file that cannot be read, is no regular file, or is longer.
+pub fn at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
+    // Looked at before it is opened: opening a pipe waits for its other end.
+    regular(&fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    regular(&file.metadata()?)?;
+    let mut bytes = Vec::new();
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let mebibytes = most >> 20;
+        let message = format!("it is longer than {mebibytes} MiB, the most that is read");
+        return Err(Error::new(ErrorKind::FileTooLarge, message));
+    }
+    Ok(bytes)
+}
+
+fn regular(about: &fs::Metadata) -> Result<()> {
+    if about.is_file() {
+        return Ok(());
+    }
+    let message = if about.is_dir() {
+        "it is a folder"
+    } else {
+        "it is no regular file: a pipe or a device is not read"
+    };
+    Err(Error::new(ErrorKind::InvalidInput, message))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_folders_and_long_files_are_refused() {
+        let folder = std::env::temp_dir().join(format!("endline-read-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let link = folder.join("zero.toml");
+        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+        for refused in [link.as_path(), folder.as_path()] {
+            assert!(text(refused).is_err());
+        }
+        let long = folder.join("long.toml");
+        File::create(&long).unwrap().set_len(TEXT_FILE_BYTES + 1).unwrap();
+        assert_eq!(text(&long).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        fs::write(&long, "format = 1").unwrap();
+        assert_eq!(text(&long).unwrap(), "format = 1");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}
