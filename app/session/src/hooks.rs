@@ -35,7 +35,7 @@ pub fn load_with(loader: &mut Loader) -> (PluginHost, Vec<PluginProblem>) {
         Ok(program) => loader.load(&remembering(known_file(), &by_child(program, PATIENCE))),
         Err(error) => {
             let reason = format!("the program cannot find itself to check it: {error}");
-            loader.load(&|_: &Path| Err(reason.clone()))
+            loader.load(&|_: &Path, _: &str| Err(reason.clone()))
         }
     }
 }

@@ -47,14 +47,14 @@ pub fn patient(
     program: PathBuf,
     hangs: &str,
     seconds: u64,
-) -> impl Fn(&Path) -> Result<(), String> {
+) -> impl Fn(&Path, &str) -> Result<(), String> {
     let [short, long] =
         [seconds, 60].map(|seconds| by_child(program.clone(), Duration::from_secs(seconds)));
-    move |file| {
+    move |file, hash| {
         if file.to_string_lossy().ends_with(&format!("{hangs}{}", env::consts::DLL_SUFFIX)) {
-            short(file)
+            short(file, hash)
         } else {
-            long(file)
+            long(file, hash)
         }
     }
 }
@@ -100,7 +100,7 @@ fn bad_files_are_set_aside() {
 fn a_checker_that_cannot_start_is_named() {
     let checker = by_child("/nowhere/endline", Duration::from_secs(1));
     assert!(
-        checker(&first_party_file("endline_gear_types"))
+        checker(&first_party_file("endline_gear_types"), "")
             .unwrap_err()
             .contains("cannot start /nowhere/endline")
     );
@@ -111,14 +111,15 @@ fn a_file_that_passed_is_not_checked_again_until_it_changes() {
     let folder = folder("remembered");
     let (file, list) = (folder.join("plugin"), folder.join("cache/plugins-checked"));
     let asked = RefCell::new(0);
-    let checker = |_: &Path| {
+    let checker = |_: &Path, _: &str| {
         *asked.borrow_mut() += 1;
         if fs::read(&file).unwrap() == b"bad" { Err("bad".to_owned()) } else { Ok(()) }
     };
     let ask_twice = || {
         let remembering = remembering(Some(list.clone()), &checker);
-        let _ = remembering(&file);
-        let answer = remembering(&file);
+        let hash = blake3::hash(&fs::read(&file).unwrap()).to_hex().to_string();
+        let _ = remembering(&file, &hash);
+        let answer = remembering(&file, &hash);
         (answer.is_ok(), *asked.borrow())
     };
     fs::write(&file, "good").unwrap();

@@ -86,9 +86,16 @@ impl Choices {
     /// Allows a file with these bytes.
     ///
     /// # Errors
-    /// Where the decision cannot be kept.
+    /// Where the decision cannot be kept, or the path does not fit on a line.
     pub fn allow(&mut self, file: &Path, hash: &str) -> Result<(), String> {
-        self.allowed.insert(whole(file), hash.to_owned());
+        let file = whole(file);
+        // A line break in a path would begin a line of its own, which allows another file.
+        if file.to_str().is_none_or(|text| text.chars().any(char::is_control)) {
+            return Err(format!(
+                "{file:?}: a path with control characters, or that is not UTF-8, cannot be kept; give the file another name"
+            ));
+        }
+        self.allowed.insert(file, hash.to_owned());
         self.keep()
     }
 
@@ -158,6 +165,9 @@ mod tests {
         read().switch("org.example.slow", false).unwrap();
         assert_eq!((change("1"), change("2")), (None, Some(Change::Changed)));
         assert!(read().is_off("org.example.slow") && !read().is_off("org.example.fast"));
+        let hidden = folder.join("a\nallow 3 lib.so");
+        assert!(read().allow(&hidden, "2").unwrap_err().contains("control characters"));
+        assert!(!fs::read_to_string(&list).unwrap().contains("allow 3"));
         assert!(read().forget(&file).unwrap() && !read().forget(&file).unwrap());
         read().switch("org.example.slow", true).unwrap();
         assert_eq!((change("1"), read().is_off("org.example.slow")), (Some(Change::New), false));

@@ -28,11 +28,10 @@ pub fn chosen_file() -> Option<PathBuf> {
     user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins-chosen"))
 }
 
-/// Folder that libraries are copied to as they are opened; that for temporary files where the user has none.
-pub(super) fn copies_folder() -> PathBuf {
-    user_folder("XDG_CACHE_HOME", ".cache")
-        .unwrap_or_else(|| env::temp_dir().join("endline"))
-        .join("plugins-open")
+/// Folder that libraries are copied to as they are opened, where the system opens none from memory; none without a home, for a
+/// folder that others can foresee is no place for code.
+pub(super) fn copies_folder() -> Option<PathBuf> {
+    user_folder("XDG_CACHE_HOME", ".cache").map(|folder| folder.join("plugins-open"))
 }
 
 /// File in the user's cache folder that lists the hashes of files that passed the check.

@@ -9,8 +9,8 @@ use endline_sdk::{Act, Attribute, Descriptor, FrictionModel, GearType, WhaleMoti
 
 use super::choices::Ask;
 
-/// Lets a plugin file pass, or says why not.
-pub type Checker<'a> = dyn Fn(&Path) -> Result<(), String> + 'a;
+/// Lets a plugin file with bytes of this hash pass, or says why not.
+pub type Checker<'a> = dyn Fn(&Path, &str) -> Result<(), String> + 'a;
 
 /// Which hook a plugin serves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,12 +8,13 @@ use std::env::consts::DLL_EXTENSION;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use endline_gear::limits::LIBRARY_BYTES;
+use endline_gear::read::at_most;
 use endline_gear::{Diagnostic, TextPlugin};
 
 use super::choices::{Change, Choices};
 use super::copy::with_copy;
 use super::cut_short;
-use super::folders::copies_folder;
 use super::host::PluginHost;
 use super::info::{Checker, PluginProblem, Refusal, Standing};
 use super::library::{self, Opened};
@@ -76,7 +77,7 @@ impl Loader {
         if let Some(opened) = self.opened.get(&key) {
             return Ok((hash, opened.clone()));
         }
-        checker(file).map_err(|reason| {
+        checker(file, &hash).map_err(|reason| {
             let reason = format!("set aside, because it failed the check before loading: {reason}");
             Refusal {
                 standing: Standing::SetAside,
@@ -95,7 +96,7 @@ impl PluginHost {
     /// A folder that does not exist is passed over. Libraries stay mapped for the life of the program.
     #[must_use]
     pub fn discover(folders: &[PathBuf]) -> (Self, Vec<PluginProblem>) {
-        Self::discover_checked(folders, &|_: &Path| Ok(()))
+        Self::discover_checked(folders, &|_: &Path, _: &str| Ok(()))
     }
 
     /// Loads every library in the folders that the checker lets pass.
@@ -110,7 +111,7 @@ impl PluginHost {
 
 /// The hash of a library file and its bytes, all of them.
 fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
-    let bytes = fs::read(file).map_err(|error| {
+    let bytes = at_most(file, LIBRARY_BYTES).map_err(|error| {
         Refusal::new(format!("cannot be read: {error}"), "check its permissions")
     })?;
     if let Some(whole) = cut_short::missing_from(&bytes) {
@@ -121,12 +122,15 @@ fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
 }
 
 fn open_copy(file: &Path, bytes: &[u8]) -> Result<Opened, Refusal> {
-    with_copy(file, bytes, &copies_folder(), |copy| library::open(copy, file))
+    with_copy(file, bytes, |copy| library::open(copy, file))?
 }
 
-/// Opens one file unasked and unchecked: the child process does.
-pub(super) fn open_here(file: &Path) -> Result<(String, Opened), Refusal> {
+/// Opens one file unasked and unchecked, of the hash wanted where that is not empty: the child process does.
+pub(super) fn open_here(file: &Path, wanted: &str) -> Result<(String, Opened), Refusal> {
     let (hash, bytes) = read(file)?;
+    if !wanted.is_empty() && wanted != hash {
+        return Err(Refusal::new("has changed as it was checked", "load the plugins again"));
+    }
     Ok((hash, open_copy(file, &bytes)?))
 }
 

@@ -2,6 +2,7 @@
 
 mod moment;
 mod over;
+mod stuck;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -110,9 +111,16 @@ impl Run {
     /// Takes one step under these controls, kept within their ranges.
     ///
     /// # Errors
-    /// Where the run cannot go on; it then stays where it was, and says so in its summary.
+    /// Where the run cannot go on, or has stuck; it then stays where it was, and says so in its summary.
     pub fn step(&mut self, controls: Controls) -> Result<(), Stop> {
-        self.step_raw(controls.within_range(self.acts()))
+        self.step_raw(controls.within_range(self.acts()))?;
+        match self.stuck() {
+            None => Ok(()),
+            Some(stop) => {
+                self.stopped = Some(stop.clone());
+                Err(stop)
+            }
+        }
     }
 
     /// Takes one step under recorded controls, bit for bit.

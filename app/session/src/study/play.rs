@@ -18,14 +18,6 @@ use super::ready::Ready;
 use super::row::row;
 use super::table::Row;
 
-/// A run has stuck where its solver tried this many times the steps of its time so far, and of a while more, in contact: in
-/// the few that do, rope is wedged so that only steps of a millionth of a second go through.
-const STUCK: f64 = 10.0;
-/// Likewise of Newton's passes: a step in contact takes two as a rule, and rope that is wedged up to forty in steps that are short besides.
-const STUCK_PASSES: f64 = 20.0;
-/// That while: time for which a run may stick before it is given up, at the usual cost [s].
-const STUCK_FOR_S: f64 = 60.0;
-
 /// Time after which a run that has stayed invalid is given up: what has crossed stays crossed, and what presses too hard goes on doing so [s].
 const INVALID_FOR_S: f64 = 60.0;
 
@@ -176,17 +168,7 @@ impl Opened {
 
     /// Takes a run to its end, looking at it now and then.
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
-        let settings = &run.model().spec.settings;
-        let step_s = settings.contact_step_s.min(settings.step_s);
         while !run.finished() && run.step(run.pilot()).is_ok() {
-            let audit = run.audit();
-            let usual = (run.state().time_s + STUCK_FOR_S) / step_s;
-            let [most_steps, most_passes] =
-                [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
-            if audit.solver_steps + audit.halved > most_steps || audit.passes > most_passes {
-                run.give_up("it sticks: hardly a step of the solver goes through");
-                break;
-            }
             if run.is_time_to_look() {
                 let invalid = run.stays_invalid(INVALID_FOR_S);
                 look(run);

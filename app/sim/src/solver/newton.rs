@@ -53,6 +53,8 @@ pub(crate) enum NewtonEnd {
     BodiesCrushed([usize; 2]),
     /// These two segments are crushed by each other.
     CrushedRopes([usize; 2]),
+    /// More rope lies together at these two segments than is solved.
+    CrowdedRopes([usize; 2]),
     /// The friction plugin failed.
     Plugin(Failed),
 }
@@ -137,6 +139,9 @@ impl Solver {
         }
         self.measure_bodies(context)?;
         self.measure_body_pairs(context)?;
+        if let Some(segments) = self.ropes.crowded {
+            return Err(NewtonEnd::CrowdedRopes(segments));
+        }
         self.cost.enter(CostPart::Contact);
         self.crushed_ropes(false).map_or(Ok(()), |segments| Err(NewtonEnd::CrushedRopes(segments)))
     }

@@ -105,6 +105,7 @@ fn reject(end: NewtonEnd, audit: &mut Audit) -> Rejection {
         NewtonEnd::BodyCrushed(body, triangle) => Rejection::BodyPinched(body, triangle),
         NewtonEnd::BodiesCrushed(bodies) => Rejection::BodiesMeet(bodies),
         NewtonEnd::CrushedRopes(segments) => Rejection::RopesPinched(segments),
+        NewtonEnd::CrowdedRopes(segments) => Rejection::RopesCrowded(segments),
         NewtonEnd::Plugin(failed) => Rejection::Plugin(failed),
     }
 }

@@ -28,6 +28,8 @@ pub(crate) enum Rejection {
     RopesMeet,
     /// This segment went into or through this obstacle or body.
     WentThrough(usize, usize),
+    /// More rope lies together at these two segments than is solved.
+    RopesCrowded([usize; 2]),
     /// The friction plugin failed, with its message.
     Plugin(Failed),
 }
@@ -35,7 +37,7 @@ pub(crate) enum Rejection {
 impl Rejection {
     /// Whether a shorter step may help.
     pub fn may_halve(&self) -> bool {
-        !matches!(self, Self::Crossed(_) | Self::Plugin(_))
+        !matches!(self, Self::Crossed(_) | Self::RopesCrowded(_) | Self::Plugin(_))
     }
 
     /// The reason a run ends where even the shortest step is rejected.
@@ -100,6 +102,14 @@ impl Rejection {
                 let reason = format!(
                     "rope goes through {solid} even at the shortest step; use shorter segments or a \
                      slower start"
+                );
+                (line_of(segment), reason)
+            }
+            Self::RopesCrowded([segment, other]) => {
+                let reason = format!(
+                    "more rope lies together here, on {}, than can be solved; check its length, or use \
+                     longer segments",
+                    line_of(other)
                 );
                 (line_of(segment), reason)
             }

@@ -59,6 +59,9 @@ fn try_solver_step(
     solver.pieces.measure_drift(state, dt);
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
+    if let Some(segments) = solver.ropes.crowded {
+        return Err(Rejection::RopesCrowded(segments));
+    }
     let by_rope_alone = !may_touch && !on_solid && !on_skin && !on_body;
     let untouched = by_rope_alone && !on_rope;
     let rests = untouched || by_rope_alone && solver.ropes.rest(model, state);

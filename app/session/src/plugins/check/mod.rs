@@ -6,11 +6,10 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::process::ExitStatus;
+use std::time::Duration;
 
 use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
 
@@ -18,16 +17,12 @@ use super::choices::Choices;
 use super::host::PluginHost;
 use super::info::{Checker, PluginInfo};
 use super::loader::{open_folder, open_here};
+use child::{Ended, Orders};
 use trial::Finding;
 
+mod child;
 mod report;
 pub mod trial;
-
-/// How much of what a child says is kept [bytes]; the verdict is the last line of its standard error.
-const MOST_SAID: u64 = 65_536;
-
-/// How often a child is looked at.
-const LOOK: Duration = Duration::from_millis(4);
 
 /// A plugin of a file that was tried, and what each check found.
 #[derive(Clone, Debug)]
@@ -43,12 +38,22 @@ pub struct Tried {
 /// # Errors
 /// Where the file or a plugin's declaration cannot be used. A file that crashes takes this process with it: that is what the child is for.
 pub fn try_here(file: &Path, begin: &dyn Fn(&str, &'static str)) -> Result<Vec<Tried>, String> {
+    try_file(file, "", begin)
+}
+
+/// The same of a file with these bytes; of any where the hash is empty.
+fn try_file(
+    file: &Path,
+    hash: &str,
+    begin: &dyn Fn(&str, &'static str),
+) -> Result<Vec<Tried>, String> {
     let mut host = PluginHost::empty();
     let mut problems = Vec::new();
     if file.is_dir() {
         open_folder(file, &mut host, &mut problems);
     } else {
-        let (hash, opened) = open_here(file).map_err(|refusal| refusal.at(file).to_string())?;
+        let (hash, opened) =
+            open_here(file, hash).map_err(|refusal| refusal.at(file).to_string())?;
         host.add_loaded(file, &hash, opened, &Choices::everything(), &mut problems);
     }
     if let Some(problem) = problems.first() {
@@ -93,15 +98,19 @@ fn fault(tried: &Tried) -> Option<String> {
 /// # Errors
 /// With what is wrong first, the last line a program reads of its child.
 pub fn report_here(file: &Path, out: &mut dyn Write) -> Result<(), String> {
+    let orders = Orders::received();
     let out = RefCell::new(out);
     // Where nobody reads any more, the verdict is all that counts.
     let say = |line: &str| {
         let mut out = out.borrow_mut();
         let _ = writeln!(out, "{line}").and_then(|()| out.flush());
     };
-    let tried = try_here(file, &|id, check| say(&format!("{BEGINS}{check}` of `{id}`")))?;
+    let begin = |id: &str, check: &str| say(&format!("{BEGINS}{check}` of `{id}`"));
+    let tried = try_file(file, &orders.hash, &begin)?;
     report::lines(&tried).iter().for_each(|line| say(line));
-    sound(file, &tried)
+    sound(file, &tried)?;
+    orders.signature().iter().for_each(|signature| say(signature));
+    Ok(())
 }
 
 /// The first thing wrong in a file, as an error.
@@ -127,9 +136,9 @@ const BEGINS: &str = "trying the check `";
 pub fn by_child(
     program: impl Into<PathBuf>,
     limit: Duration,
-) -> impl Fn(&Path) -> Result<(), String> {
+) -> impl Fn(&Path, &str) -> Result<(), String> {
     let program = program.into();
-    move |file| report_of_child(&program, file, limit).1
+    move |file, hash| told_by_child(&program, file, hash, limit).1
 }
 
 /// What the child says of a file, without its lines about each check, and the verdict. A folder without code needs no child.
@@ -141,78 +150,43 @@ pub fn report_of_child(
     if file.is_dir() {
         return report_of_folder(file);
     }
-    let mut command = Command::new(program);
-    command
-        .args(["plugins", "check", "--here"])
-        .arg(file)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .env("RUST_BACKTRACE", "0");
-    let mut child = match command.spawn() {
-        Ok(child) => child,
-        Err(error) => {
-            return (String::new(), Err(format!("cannot start {}: {error}", program.display())));
-        }
+    told_by_child(program, file, "", limit)
+}
+
+/// The same, of a file with these bytes.
+fn told_by_child(
+    program: &Path,
+    file: &Path,
+    hash: &str,
+    limit: Duration,
+) -> (String, Result<(), String>) {
+    let orders = Orders::new(hash);
+    let Ended { status, out, error } = match child::run(program, file, &orders, limit) {
+        Ok(ended) => ended,
+        Err(error) => return (String::new(), Err(error)),
     };
-    let (out, said) = (drained(child.stdout.take()), drained(child.stderr.take()));
-    let ended = wait(&mut child, limit);
-    let out = text_of(out);
+    let signature = orders.signature();
+    let is_signature = |line: &str| Some(line) == signature.as_deref();
     let at = out
         .lines()
         .rev()
         .find_map(|line| line.strip_prefix("trying "))
-        .map(|check| format!("at {check}"));
-    let report: String = out
-        .lines()
-        .filter(|line| !line.starts_with(BEGINS))
-        .fold(String::new(), |text, line| text + line + "\n");
-    let verdict = match ended {
-        Err(error) => Err(error.to_string()),
-        Ok(None) => {
-            let at = at.unwrap_or_else(|| "when opened".to_owned());
-            Err(format!("it hangs {at} (no answer in {:.0} s)", limit.as_secs_f64()))
+        .map_or_else(|| "when opened".to_owned(), |check| format!("at {check}"));
+    let verdict = match status {
+        None => Err(format!("it hangs {at} (no answer in {:.0} s)", limit.as_secs_f64())),
+        Some(status) if status.success() && !out.lines().any(is_signature) => {
+            Err(format!("it ends the program {at}, before every check was made"))
         }
-        Ok(Some(status)) => verdict(status, &text_of(said), at),
+        Some(status) => verdict(status, &error, &at),
     };
+    let report = out
+        .lines()
+        .filter(|line| !line.starts_with(BEGINS) && !is_signature(line))
+        .fold(String::new(), |text, line| text + line + "\n");
     (report, verdict)
 }
 
-/// Reads what a child says on a thread of its own, so that it never waits for a reader.
-fn drained<R: Read + Send + 'static>(pipe: Option<R>) -> Option<JoinHandle<Vec<u8>>> {
-    pipe.map(|mut pipe| {
-        thread::spawn(move || {
-            let mut said = Vec::new();
-            // What cannot be read was not said.
-            let _ = pipe.by_ref().take(MOST_SAID).read_to_end(&mut said);
-            let _ = std::io::copy(&mut pipe, &mut std::io::sink());
-            said
-        })
-    })
-}
-
-fn text_of(reader: Option<JoinHandle<Vec<u8>>>) -> String {
-    let said = reader.and_then(|reader| reader.join().ok()).unwrap_or_default();
-    String::from_utf8_lossy(&said).into_owned()
-}
-
-/// Waits for a child; kills it and gives `None` where it takes too long.
-fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus>> {
-    let start = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
-        }
-        if start.elapsed() > limit {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
-        }
-        thread::sleep(LOOK);
-    }
-}
-
-fn verdict(status: ExitStatus, said: &str, at: Option<String>) -> Result<(), String> {
+fn verdict(status: ExitStatus, said: &str, at: &str) -> Result<(), String> {
     if status.success() {
         return Ok(());
     }
@@ -223,9 +197,7 @@ fn verdict(status: ExitStatus, said: &str, at: Option<String>) -> Result<(), Str
     match (status.code(), last) {
         (Some(_), Some(last)) => Err(last.to_owned()),
         (Some(code), None) => Err(format!("the check ended with exit code {code}")),
-        (None, _) => {
-            Err(format!("it crashes {} ({status})", at.unwrap_or_else(|| "when opened".to_owned())))
-        }
+        (None, _) => Err(format!("it crashes {at} ({status})")),
     }
 }
 
@@ -234,16 +206,15 @@ fn verdict(status: ExitStatus, said: &str, at: Option<String>) -> Result<(), Str
 pub fn remembering<'a>(
     list: Option<PathBuf>,
     checker: &'a Checker<'a>,
-) -> impl Fn(&Path) -> Result<(), String> + 'a {
+) -> impl Fn(&Path, &str) -> Result<(), String> + 'a {
     let known = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
     let known = RefCell::new(known.lines().map(str::to_owned).collect::<BTreeSet<_>>());
-    move |file| {
-        let bytes = fs::read(file).map_err(|error| format!("cannot be read: {error}"))?;
-        let passed = format!("{ABI_MAJOR}.{ABI_MINOR} {}", blake3::hash(&bytes).to_hex());
+    move |file, hash| {
+        let passed = format!("{ABI_MAJOR}.{ABI_MINOR} {hash}");
         if known.borrow().contains(&passed) {
             return Ok(());
         }
-        checker(file)?;
+        checker(file, hash)?;
         known.borrow_mut().insert(passed);
         if let Some(list) = &list {
             note(list, &known.borrow());

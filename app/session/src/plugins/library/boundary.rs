@@ -19,6 +19,7 @@ use libloading::Library;
 
 use super::super::info::{Hook, Refusal};
 use super::arguments::{raw_contacts, raw_gear_step, raw_motion_input, raw_values};
+use super::float_state::guarded;
 use super::handed_over::HandedOver;
 use super::rig::{self, ReadText};
 use super::{REBUILD, TELL_AUTHOR};
@@ -34,6 +35,10 @@ const MESSAGE_ROOM: usize = 1024;
 
 /// Most places along one line; more is taken for a lie.
 const MOST_PLACES: usize = 1_000_000;
+
+/// What is wrong with a library that sets the rounding mode or the treatment of subnormal numbers.
+const CHANGED_FLOATS: &str =
+    "it changed the processor's floating-point state, which decides how this program rounds";
 
 const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 
@@ -52,12 +57,16 @@ pub(super) fn open(file: &Path, named: &Path) -> Result<Contents, Refusal> {
 
 fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
     // SAFETY: opening runs the library's initialisers; a file that cannot stand that was refused by the child process.
-    let library = unsafe { Library::new(file) }.map_err(|error| {
+    let (library, kept) = guarded(|| unsafe { Library::new(file) });
+    let library = library.map_err(|error| {
         Refusal::new(format!("is not a library that can be opened: {error}"), NOT_A_PLUGIN)
     })?;
     // SAFETY: the symbol is only taken for an address here.
     let entry = unsafe { library.get::<*const AbiEntry>(ENTRY_NAME) }.map(|symbol| *symbol);
     std::mem::forget(library);
+    if !kept {
+        return Err(Refusal::new(CHANGED_FLOATS, TELL_AUTHOR));
+    }
     entry.map_err(|_| {
         Refusal::new(
             format!("does not export `{ENTRY_NAME}`"),
@@ -462,7 +471,10 @@ fn owned(raw: AbiText) -> Option<String> {
 fn call(function: impl FnOnce(*mut AbiMessage) -> i32) -> Result<(), HookError> {
     let mut room = [0_u8; MESSAGE_ROOM];
     let mut message = AbiMessage::over(&mut room);
-    let status = function(&mut message);
+    let (status, kept) = guarded(|| function(&mut message));
+    if !kept {
+        return Err(HookError::new(CHANGED_FLOATS));
+    }
     if status == STATUS_OK {
         return Ok(());
     }

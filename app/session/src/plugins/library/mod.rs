@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `boundary` | all unsafe code: opening, reading what a library hands over, calling its functions |
+//! | `float_state` | the processor's floating-point state, put back after a library's code |
 //! | `handed_over` | which part of a library's structs this program can count on |
 //! | `descriptor` | what a plugin declares of itself |
 //! | `arguments` | what its functions are called with |
@@ -15,6 +16,7 @@
 mod arguments;
 mod boundary;
 mod descriptor;
+mod float_state;
 mod handed_over;
 mod rig;
 

@@ -34,7 +34,12 @@ pub(crate) struct Found {
     pub segments: Vec<[usize; 2]>,
     /// Pairs of a knot, by its number, and a segment, in rising order.
     pub knots: Vec<[usize; 2]>,
+    /// Whether there is more than is listed: rope lies in a heap.
+    pub crowded: bool,
 }
+
+/// Most pairs of segments that are listed: a hundred times what the shipped scenarios have.
+const MOST_PAIRS: usize = 500_000;
 
 /// Rope in which to search.
 #[derive(Clone, Copy)]
@@ -67,7 +72,12 @@ impl Broad {
         let Rope { pieces: all, knots, may_touch } = rope;
         self.neighbours.update(all, knots, farthest, may_touch);
         let mut boxes = [SegmentBoxes::NONE; 2];
+        found.crowded = self.neighbours.crowded;
         for near in &self.neighbours.pieces {
+            if found.segments.len() > MOST_PAIRS {
+                found.crowded = true;
+                break;
+            }
             let pieces = near.pieces.map(|piece| &all.pieces[piece]);
             let [one, other] = pieces;
             let is_straight = match near.are {

@@ -27,6 +27,9 @@ pub(super) struct NearGroups {
     pub may: [[bool; IN_A_GROUP]; IN_A_GROUP],
 }
 
+/// Most pairs of groups that are listed, for about 100 MB: a hundred times what the shipped scenarios have.
+const MOST_GROUPS: usize = 1_000_000;
+
 /// A knot and a group of rope.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearKnot {
@@ -71,6 +74,8 @@ pub(super) struct Neighbours {
     pub pieces: Vec<NearPieces>,
     pub groups: Vec<NearGroups>,
     pub knots: Vec<NearKnot>,
+    /// Whether more is near than is listed.
+    pub crowded: bool,
 }
 
 impl Neighbours {
@@ -89,6 +94,10 @@ impl Neighbours {
         let pieces = &all.pieces;
         let axis = self.sort(pieces);
         for place in 0..self.order.len() {
+            if self.groups.len() > MOST_GROUPS {
+                self.crowded = true;
+                return;
+            }
             let one = self.order[place];
             self.add(pieces, [one, one], knots, reach, may_touch);
             let near = pieces[one].held_whole.grown(reach.farthest_m());
@@ -107,6 +116,7 @@ impl Neighbours {
 
     /// Empties the list, with room for what rope usually has near it, so that it does not grow as rope goes about.
     fn clear(&mut self, pieces: usize, knots: usize) {
+        self.crowded = false;
         self.pieces.clear();
         self.groups.clear();
         self.knots.clear();

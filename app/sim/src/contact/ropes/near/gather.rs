@@ -55,6 +55,7 @@ impl RopeWorkspace {
         self.pairs.clear();
         self.through.clear();
         self.touching = false;
+        self.crowded = None;
         let rope = &state.rope;
         self.gather_to(
             model,
@@ -103,6 +104,9 @@ impl RopeWorkspace {
         let moves = Moves { from, to: &to };
         let [reach, farthest] = [margin, MARGIN_M].map(|margin| self.reach(margin));
         broad.collect(rope, &moves, reach, farthest, &mut found);
+        if found.crowded {
+            self.crowded = found.segments.first().copied();
+        }
         let cut = &state.rope.cut;
         let is_whole = |segments: [usize; 2]| segments.iter().all(|segment| !cut[*segment]);
         for segments in found.segments.iter().filter(|segments| is_whole(**segments)) {

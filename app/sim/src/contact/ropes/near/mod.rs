@@ -77,6 +77,8 @@ pub(crate) struct RopeWorkspace {
     broad: Broad,
     found: Found,
     passes: usize,
+    /// Two segments where so much rope lies together that it is not solved.
+    pub crowded: Option<[usize; 2]>,
 }
 
 impl RopeWorkspace {
