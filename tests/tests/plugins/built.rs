@@ -89,7 +89,7 @@ pub fn compile_c(source: &str, folder: &Path) -> PathBuf {
         "-fPIC",
         "-I",
     ]);
-    command.arg(root().join("plugins/sdk/include")).arg("-o").arg(&file).arg(&source);
+    command.arg(root().join("plugins/sdk/include")).arg("-o").arg(&file).arg(&source).arg("-lm");
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     file

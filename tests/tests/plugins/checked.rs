@@ -96,6 +96,42 @@ fn bad_files_are_set_aside() {
     assert_eq!(problems.len(), 4, "{problems:?}");
 }
 
+/// Libraries that end early, hold the pipe, take memory or change how the processor rounds, as they are opened.
+#[test]
+fn hostile_files_do_not_pass_and_do_not_hold_the_check_up() {
+    let folder = folder("hostile");
+    let program = stand_in(&folder);
+    for name in ["early", "forks", "greedy", "rounds"] {
+        compile_c(&format!("tests/plugins/{name}.c"), &folder);
+    }
+    let checker = by_child(program, Duration::from_secs(60));
+    let (host, problems) = PluginHost::discover_checked(&[folder], &checker);
+    assert_eq!(host.ids(), Vec::<String>::new());
+    for (file, reason) in [
+        ("early", "it ends the program when opened, before every check was made"),
+        ("forks", "does not export"),
+        ("greedy", "it crashes when opened (signal: 6"),
+        ("rounds", "it changed the processor's floating-point state"),
+    ] {
+        let problem =
+            problems.iter().find(|problem| problem.file.to_string_lossy().contains(file)).unwrap();
+        assert!(problem.reason.contains(reason), "{problem}");
+    }
+    assert_eq!(problems.len(), 4, "{problems:?}");
+}
+
+/// Bytes that were swapped after they were allowed are not opened.
+#[test]
+fn a_child_opens_only_the_bytes_that_were_hashed() {
+    let folder = folder("swapped");
+    let checker = by_child(stand_in(&folder), Duration::from_secs(60));
+    let file = first_party_file("endline_gear_types");
+    let refused = checker(&file, &"0".repeat(64)).unwrap_err();
+    assert!(refused.contains("has changed as it was checked"), "{refused}");
+    let hash = blake3::hash(&fs::read(&file).unwrap()).to_hex().to_string();
+    checker(&file, &hash).unwrap();
+}
+
 #[test]
 fn a_checker_that_cannot_start_is_named() {
     let checker = by_child("/nowhere/endline", Duration::from_secs(1));

@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::process::ExitCode;
 
+use super::output::harmless;
+
 /// What to tell the user, and the exit code.
 #[derive(Debug)]
 pub struct Failure {
@@ -25,7 +27,7 @@ impl Failure {
     #[must_use]
     pub fn tell(&self) -> ExitCode {
         // Nobody is left to tell where standard error is closed; the exit code still says it.
-        let _ = writeln!(std::io::stderr(), "endline: {}", self.message);
+        let _ = writeln!(std::io::stderr(), "endline: {}", harmless(&self.message));
         ExitCode::from(self.code)
     }
 }
