@@ -2,6 +2,7 @@
 //!
 //! Standard library only: this is the first thing a newcomer compiles, before any system package is there.
 
+mod fuzz;
 mod packages;
 mod plugins;
 mod run;
@@ -28,6 +29,8 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
                                          workspace, the golden states and calls of the program
        cargo xtask golden                write the table of golden states anew, after the physics was changed
                                          on purpose
+       cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
+                                         N hours at low priority; print inputs, panics, hangs and memory
        cargo xtask window                only drive the window that was built
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask shape [all | sizes | circles] [PACKAGE]
@@ -61,6 +64,10 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["test"] => Box::new(test::test),
         ["test", "--quick"] => Box::new(test::quick),
         ["golden"] => Box::new(test::write_golden),
+        ["fuzz", "--hours", hours] => {
+            let hours: f64 = hours.parse().ok().filter(|hours| *hours > 0.0)?;
+            Box::new(move |workspace| fuzz::for_hours(workspace, hours))
+        }
         ["window"] => Box::new(window::drive),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {

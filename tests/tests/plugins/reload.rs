@@ -37,7 +37,7 @@ fn asked(loaded: &(PluginHost, Vec<PluginProblem>)) -> (String, Change) {
 fn a_library_built_anew_is_asked_about_and_taken_in_beside_the_old() {
     let folder = folder("reload");
     let checks = Cell::new(0);
-    let checker = |_: &Path| {
+    let checker = |_: &Path, _: &str| {
         checks.set(checks.get() + 1);
         Ok(())
     };
@@ -77,9 +77,9 @@ fn a_plugin_switched_off_is_left_out_and_still_known() {
     build(&folder, "1.0");
     let mut loader = Loader::new(std::slice::from_ref(&folder), Choices::everything());
     loader.choices.switch(ID, false).unwrap();
-    let (host, problems) = loader.load(&|_: &Path| Ok(()));
+    let (host, problems) = loader.load(&|_: &Path, _: &str| Ok(()));
     assert!(problems.is_empty() && host.motion(ID).is_none());
     assert_eq!(host.switched_off()[0].id, ID);
     loader.choices.switch(ID, true).unwrap();
-    assert!(loader.load(&|_: &Path| Ok(())).0.motion(ID).is_some());
+    assert!(loader.load(&|_: &Path, _: &str| Ok(())).0.motion(ID).is_some());
 }

@@ -9,7 +9,7 @@ const LONGEST: usize = 600;
 const LONG: usize = 400;
 
 /// What the top of the workspace holds, besides what a developer's own tools put into dot-files.
-const TOP: [&str; 16] = [
+const TOP: [&str; 17] = [
     "CHANGELOG.md",
     "CONTRIBUTING.md",
     "Cargo.lock",
@@ -20,6 +20,7 @@ const TOP: [&str; 16] = [
     "app",
     "assets",
     "clippy.toml",
+    "deny.toml",
     "docs",
     "gear-library",
     "plugins",

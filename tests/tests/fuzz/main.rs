@@ -1,0 +1,56 @@
+//! Every reader on damaged files, and damaged scenarios that still read settled and stepped: nothing may panic, hang or grow.
+//!
+//! | file | what |
+//! |---|---|
+//! | `targets` | what is fed, and what it is fed from |
+//! | `mutate` | how files are damaged |
+//! | `watch` | the clock and memory of the inputs at work |
+//! | `campaign` | targets by turns, for so long; the report |
+//!
+//! The test takes seconds. `cargo xtask fuzz --hours N` runs the same for hours, from a seed of the clock.
+//! What it finds is kept in the folder `fuzz` of the build; such a file belongs into `tests/corpus` once it is mended.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
+
+mod campaign;
+#[path = "../linked/mod.rs"]
+mod linked;
+mod mutate;
+mod targets;
+mod watch;
+
+use std::time::Duration;
+
+use campaign::Campaign;
+
+/// A seed that is always the same, so that a failure comes again.
+const SEED: u64 = 20_261_126;
+
+#[test]
+fn damaged_files_of_every_kind_are_read_or_refused() {
+    let report =
+        Campaign { seed: SEED, turn: Duration::from_millis(150), turns: 4, threads: 1 }.run();
+    println!("{report}");
+    assert!(report.is_clean(), "{report}");
+    assert!(report.inputs() > 500, "{report}");
+}
+
+/// The same for hours: `cargo xtask fuzz --hours N`.
+#[test]
+#[ignore = "takes hours: cargo xtask fuzz"]
+fn for_hours() {
+    let hours: f64 = std::env::var("ENDLINE_FUZZ_HOURS")
+        .ok()
+        .and_then(|hours| hours.parse().ok())
+        .unwrap_or(0.01);
+    let seed = std::time::UNIX_EPOCH.elapsed().map_or(SEED, |since| since.as_nanos() as u64);
+    let turn = Duration::from_secs(1);
+    let turns = (hours * 3600.0 / targets::all().len() as f64).ceil() as u32;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let report = Campaign { seed, turn, turns, threads }.run();
+    println!("{report}");
+    assert!(report.is_clean(), "{report}");
+}
