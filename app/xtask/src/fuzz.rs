@@ -8,16 +8,6 @@ use crate::workspace::Workspace;
 /// # Errors
 /// When it cannot be built, or found something.
 pub fn for_hours(workspace: &Workspace, hours: f64) -> Outcome {
-    let arguments = [
-        "test",
-        "--package",
-        "endline-tests",
-        "--test",
-        "fuzz",
-        "--",
-        "for_hours",
-        "--ignored",
-        "--nocapture",
-    ];
+    let arguments = ["test", "--package", "endline-tests", "--test", "fuzz", "--", "--nocapture"];
     workspace.cargo_with(&arguments, &[("ENDLINE_FUZZ_HOURS", &hours.to_string())])
 }

@@ -1,14 +1,17 @@
 //! What is fed, and what it is fed from: the shipped files of each kind, and the corpus of what was found before.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use endline_gear::whale::gltf::{About, Form, read, write};
 use endline_gear::{
     Case, Document, Library, Observation, Options, Scenario, Study, Table, TextPlugin, WhaleItem,
     assemble,
 };
+use endline_sdk::Controls;
 use endline_session::Recording;
+use endline_session::hash::StateHash;
+use endline_session::recording::Header;
 use endline_session::rules::Packs;
 use endline_sim::{Input, Model, Workspace, settle, step};
 
@@ -213,7 +216,13 @@ fn recording() -> Vec<u8> {
         scenario: "format = 1\n".into(),
         ..endline_session::Source::default()
     };
-    let recording = Recording { source, ..Recording::default() };
+    let recording = Recording {
+        header: Header::default(),
+        source,
+        inputs: vec![Controls::default(); 3],
+        hashes: vec![StateHash::default(); 4],
+        damage: None,
+    };
     recording.save(&file).unwrap();
     std::fs::read(file).unwrap()
 }
