@@ -119,7 +119,7 @@ const fn up_to(quantity: Quantity, most: f64, why: &'static str) -> Limit {
 /// The greatest amount of each quantity, either way from zero: beyond it a figure is a slip of the keyboard, whatever it is of.
 static AMOUNTS: [Limit; 19] = [
     up_to(Quantity::Ratio, 1e15, "no ratio, count or coefficient is greater"),
-    up_to(Quantity::Length, 1e5, "the sea is flat here, and no gear is a hundred kilometres long"),
+    up_to(Quantity::Length, 1e6, "the sea is flat here, and nothing is a thousand kilometres away"),
     up_to(Quantity::Area, 1e6, "nothing in a model is larger"),
     up_to(Quantity::Volume, 1e6, "nothing in a model is larger"),
     up_to(Quantity::Mass, 1e9, "nothing in a model is heavier"),

@@ -20,7 +20,7 @@ pub(super) fn with_copy<T>(
 ) -> Result<T, Refusal> {
     #[cfg(target_os = "linux")]
     if let Ok(copy) = in_memory::write(bytes) {
-        return Ok(work(&in_memory::path(&copy)));
+        return Ok(work(&in_memory::path(copy)));
     }
     on_disk::with_copy(file, bytes, work)
 }
@@ -29,7 +29,7 @@ pub(super) fn with_copy<T>(
 mod in_memory {
     use std::fs::File;
     use std::io::Write;
-    use std::os::fd::AsRawFd;
+    use std::os::fd::IntoRawFd;
     use std::path::PathBuf;
 
     use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, memfd_create};
@@ -46,8 +46,9 @@ mod in_memory {
         Ok(file)
     }
 
-    pub(super) fn path(file: &File) -> PathBuf {
-        PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
+    /// The path of such bytes. They stay open, as a library stays mapped: the loader takes the same path for the same library.
+    pub(super) fn path(file: File) -> PathBuf {
+        PathBuf::from(format!("/proc/self/fd/{}", file.into_raw_fd()))
     }
 }
 
