@@ -7,6 +7,8 @@ mod cost;
 mod crossing;
 mod determinism;
 mod haul;
+mod hostile;
+mod interrupts;
 mod mill;
 mod replay;
 mod rules;

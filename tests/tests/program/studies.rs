@@ -54,7 +54,7 @@ source = "assumed"
 const NEEDED: [&str; 6] = ["friction", "knots", "ropes", "scenarios", "sites", "weak-links"];
 
 /// The shipped study scenario, shorter, coarser, and with no whale; its study in a library of the test's own.
-fn small(place: &Place) -> String {
+pub fn small(place: &Place) -> String {
     let library_here = place.library();
     for entry in fs::read_dir(&library_here).unwrap().map(|entry| entry.unwrap()) {
         if entry.path().is_dir() && !NEEDED.contains(&entry.file_name().to_str().unwrap()) {
@@ -75,7 +75,7 @@ fn small(place: &Place) -> String {
     study.display().to_string()
 }
 
-fn table(folder: &Path) -> Vec<u8> {
+pub fn table(folder: &Path) -> Vec<u8> {
     fs::read(folder.join("table.parquet")).unwrap()
 }
 
@@ -237,7 +237,7 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table() {
 }
 
 /// Blocks that stand in a folder.
-fn blocks(folder: &Path) -> usize {
+pub fn blocks(folder: &Path) -> usize {
     let names = fs::read_dir(folder)
         .into_iter()
         .flatten()

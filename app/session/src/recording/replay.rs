@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::hash::{PART_NAMES, input_hash};
 use crate::plugins::{PluginHost, PluginUsed};
 use crate::run::{Run, RunOptions};
+use crate::source::Prepared;
 
 /// How a recording is run again.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,6 +50,7 @@ pub fn start(
     options: ReplayOptions,
 ) -> Result<Run, Error> {
     let prepared = recording.source.clone().prepare(host)?;
+    check_header(recording, &prepared)?;
     if !options.other_plugins {
         check_plugins(&recording.header.plugins, &prepared.plugins)?;
     }
@@ -56,6 +58,31 @@ pub fn start(
         prepared,
         RunOptions { unsettled: recording.header.unsettled, frames_hz: options.frames_hz },
     )
+}
+
+/// What stands at the head of a recording must be what its own files say.
+fn check_header(recording: &Recording, prepared: &Prepared) -> Result<(), Error> {
+    let (header, settings) = (&recording.header, &prepared.model.spec.settings);
+    let differ = [
+        ("step", header.dt_s.to_bits() != settings.step_s.to_bits()),
+        ("seed", header.seed != settings.seed),
+        ("hash of the model", header.model_hash != recording.source.hash()),
+    ];
+    let wrong: Vec<&str> = differ.iter().filter(|(_, is)| *is).map(|(what, _)| *what).collect();
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Replay(format!(
+        "the recording contradicts itself: its {} is not that of the scenario and library in it; it was altered",
+        wrong.join(", its ")
+    )))
+}
+
+/// Whether a run that was taken through a recording ends in the recorded state.
+#[must_use]
+pub fn ends_as_recorded(recording: &Recording, run: &Run) -> bool {
+    let at = usize::try_from(run.state().step).unwrap_or(usize::MAX);
+    recording.hashes.get(at) == Some(&run.state_hash())
 }
 
 /// Runs a recording again to its end, telling the steps taken and in all.
@@ -206,6 +233,9 @@ pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(),
             }
             Some(_) => {}
         }
+    }
+    for plugin in here.iter().filter(|plugin| recorded.iter().all(|known| known.id != plugin.id)) {
+        problems.push(format!("plugin {}: used here, but not recorded", plugin.id));
     }
     if problems.is_empty() {
         return Ok(());

@@ -29,9 +29,12 @@ pub use moment::Moment;
 pub struct RunOptions {
     /// Start even where statics did not converge.
     pub unsettled: bool,
-    /// Frames kept for each simulated second; 0 keeps none.
+    /// Frames kept for each simulated second, fewer of a long run; 0 keeps none.
     pub frames_hz: f64,
 }
+
+/// Most frames kept: those of a line of 500 nodes take 50 MB.
+const MOST_FRAMES: usize = 2048;
 
 /// A run in progress.
 pub struct Run {
@@ -43,6 +46,8 @@ pub struct Run {
     inputs: Vec<Controls>,
     hashes: Vec<StateHash>,
     frames: Vec<Arc<Frame>>,
+    /// How often every second frame was dropped.
+    thinned: u32,
     settled: Arc<Settled>,
     stopped: Option<Stop>,
     /// Since when every look has found it invalid [s].
@@ -94,6 +99,7 @@ impl Run {
             inputs: Vec::new(),
             hashes: vec![StateHash::of(&Input::default(), &settled.state)],
             frames: Vec::new(),
+            thinned: 0,
             stopped: None,
             invalid_since_s: None,
             state: settled.state.clone(),
@@ -149,15 +155,27 @@ impl Run {
 
     /// Runs by the pilot program to the end of the scenario or to a stop, telling the steps taken and in all.
     pub fn to_end(&mut self, mut progress: impl FnMut(u64, u64)) {
+        self.to_end_until(|run| {
+            progress(run.state.step, run.steps_in_all());
+            false
+        });
+    }
+
+    /// Runs by the pilot program to the end of the scenario, to a stop, or until `over` says after a step that it is enough.
+    pub fn to_end_until(&mut self, mut over: impl FnMut(&mut Self) -> bool) {
         while !self.finished() && self.step(self.pilot()).is_ok() {
-            progress(self.state.step, self.steps_in_all());
+            if over(self) {
+                return;
+            }
         }
     }
 
     /// Ends the run here, with a reason.
-    pub fn give_up(&mut self, reason: &str) {
-        self.stopped =
-            Some(Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() });
+    pub fn give_up(&mut self, reason: &str) -> Stop {
+        let stop =
+            Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() };
+        self.stopped = Some(stop.clone());
+        stop
     }
 
     /// The pilot program's controls for the next step.
@@ -324,10 +342,21 @@ impl Run {
     }
 
     fn keep_frame(&mut self) {
-        if self.options.frames_hz > 0.0
-            && self.state.step.is_multiple_of(frame_stride(self.options.frames_hz, self.step_s()))
-        {
+        if self.options.frames_hz <= 0.0 {
+            return;
+        }
+        let stride = frame_stride(self.options.frames_hz, self.step_s()) << self.thinned;
+        if self.state.step.is_multiple_of(stride) {
             self.frames.push(self.frame());
+        }
+        if self.frames.len() > MOST_FRAMES {
+            // A long run keeps every second of its frames, and half as many from here on.
+            self.thinned += 1;
+            let mut place = 0;
+            self.frames.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
         }
     }
 }

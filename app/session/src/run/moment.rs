@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sim::balance::Balance;
 use endline_sim::metrics::Metrics;
-use endline_sim::{Audit, State, Workspace};
+use endline_sim::{Audit, Frame, State, Workspace};
 
 use crate::source::Prepared;
 use crate::timing::clock_ns;
@@ -21,8 +21,6 @@ pub struct Moment {
     invalid_since_s: Option<f64>,
     /// Steps so far.
     steps: usize,
-    /// Frames kept so far.
-    frames: usize,
 }
 
 impl Run {
@@ -36,7 +34,6 @@ impl Run {
             balance: self.workspace.balance,
             invalid_since_s: self.invalid_since_s,
             steps: self.inputs.len(),
-            frames: self.frames.len(),
         }
     }
 
@@ -55,7 +52,8 @@ impl Run {
             metrics: moment.metrics.clone(),
             inputs: self.inputs[..moment.steps].to_vec(),
             hashes: self.hashes[..=moment.steps].to_vec(),
-            frames: self.frames[..moment.frames].to_vec(),
+            frames: self.frames_until(moment.steps),
+            thinned: self.thinned,
             state: moment.state.clone(),
             settled: Arc::clone(&self.settled),
             stopped: None,
@@ -64,5 +62,11 @@ impl Run {
             options: self.options,
             prepared,
         }
+    }
+
+    /// The frames kept of the first steps.
+    fn frames_until(&self, steps: usize) -> Vec<Arc<Frame>> {
+        let frames = self.frames.iter().take_while(|frame| frame.step <= steps as u64);
+        frames.cloned().collect()
     }
 }

@@ -44,18 +44,9 @@ impl Run {
     }
 
     /// Whether it is time to ask whether the run is over.
-    pub(crate) fn is_time_to_look(&self) -> bool {
+    #[must_use]
+    pub fn is_time_to_look(&self) -> bool {
         let stride = (1.0 / (LOOKS_HZ * self.step_s())).round().max(1.0) as u64;
         self.state.step.is_multiple_of(stride)
-    }
-
-    /// Runs by the pilot program until it is over, to the end of the scenario or to a stop, telling the steps taken and in all.
-    pub fn to_end_or_over(&mut self, rule: &RunRule, mut progress: impl FnMut(u64, u64)) {
-        while !self.finished() && self.step(self.pilot()).is_ok() {
-            progress(self.state.step, self.steps_in_all());
-            if self.is_time_to_look() && self.is_over(rule) {
-                return;
-            }
-        }
     }
 }

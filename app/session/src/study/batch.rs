@@ -13,7 +13,7 @@ use super::shard::Shard;
 use super::table::Table;
 
 /// Runs the missing blocks of a shard; fewer where the study has seen enough. The control pauses
-/// and cancels it between two encounters and receives its progress.
+/// it between two encounters, cancels it within one, and receives its progress.
 ///
 /// A cancelled study is no error: blocks that are written stay, encounters of unfinished blocks are
 /// dropped, and a second call continues from the blocks.
@@ -107,7 +107,10 @@ impl Work<'_> {
             if !self.control.goes_on() {
                 return Ok(false);
             }
-            rows.extend(self.opened.rows(encounter));
+            let Some(own) = self.opened.rows(encounter, &|| !self.control.is_cancelled()) else {
+                return Ok(false);
+            };
+            rows.extend(own);
             self.control.encounter_done();
         }
         self.folder.write(block, &Table::of(rows))?;

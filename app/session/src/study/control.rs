@@ -126,7 +126,7 @@ impl Control {
         }
     }
 
-    /// Ends the study after the encounters under way. Blocks that are written stay.
+    /// Ends the study; encounters under way are dropped. Blocks that are written stay.
     pub fn cancel(&self) {
         self.ask(Wish::Cancel);
         lock(&self.progress).stop_clock();

@@ -42,9 +42,10 @@ struct Came {
 }
 
 impl Opened {
-    /// Rows of every option in encounter `index`, in the order of the options.
+    /// Rows of every option in encounter `index`, in the order of the options; none where `goes_on` says on the way that nobody
+    /// wants them any more.
     #[must_use]
-    pub fn rows(&self, index: u32) -> Vec<Row> {
+    pub fn rows(&self, index: u32, goes_on: &dyn Fn() -> bool) -> Option<Vec<Row>> {
         let ready = Ready::new(self, index);
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
         let mut came: Vec<Came> = Vec::new();
@@ -54,7 +55,10 @@ impl Opened {
                 rows[option] = row(self, option, &ready.encounter, Ok(&twin.report));
                 continue;
             }
-            let ended = self.came(&ready, option, &order[place + 1..], &came);
+            let ended = self.came(&ready, option, &order[place + 1..], &came, goes_on);
+            if !goes_on() {
+                return None;
+            }
             rows[option] = row(
                 self,
                 option,
@@ -63,7 +67,7 @@ impl Opened {
             );
             came.extend(ended.ok());
         }
-        rows
+        Some(rows)
     }
 
     /// The run of an option, begun where it parts ways with one that came before if it can be; watched for those that come after.
@@ -73,6 +77,7 @@ impl Opened {
         option: usize,
         after: &[usize],
         came: &[Came],
+        goes_on: &dyn Fn() -> bool,
     ) -> Result<Came, String> {
         let prepared = ready.option(option)?;
         let begun =
@@ -83,7 +88,10 @@ impl Opened {
         };
         let mut run = begun.map_or_else(begin, Ok)?;
         let mut watch = Watch::new(ready, option, after);
-        self.to_its_end(&mut run, |run| watch.look(run));
+        self.to_its_end_while(&mut run, |run| {
+            watch.look(run);
+            goes_on()
+        });
         Ok(Came {
             option,
             summary: run.summary(),
@@ -168,19 +176,27 @@ impl Opened {
 
     /// Takes a run to its end, looking at it now and then.
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
-        while !run.finished() && run.step(run.pilot()).is_ok() {
-            if run.is_time_to_look() {
-                let invalid = run.stays_invalid(INVALID_FOR_S);
-                look(run);
-                if run.is_over(&self.study.run) {
-                    break;
-                }
-                if let Some(reason) = invalid {
-                    run.give_up(&format!("it stayed invalid for {INVALID_FOR_S} s: {reason}"));
-                    break;
-                }
+        self.to_its_end_while(run, |run| {
+            look(run);
+            true
+        });
+    }
+
+    /// The same while each look says to go on.
+    fn to_its_end_while(&self, run: &mut Run, mut look: impl FnMut(&Run) -> bool) {
+        run.to_end_until(|run| {
+            if !run.is_time_to_look() {
+                return false;
             }
-        }
+            let invalid = run.stays_invalid(INVALID_FOR_S);
+            if !look(run) || run.is_over(&self.study.run) {
+                return true;
+            }
+            if let Some(reason) = &invalid {
+                run.give_up(&format!("it stayed invalid for {INVALID_FOR_S} s: {reason}"));
+            }
+            invalid.is_some()
+        });
     }
 }
 

@@ -22,7 +22,7 @@ use super::study::args::StudyCommand;
 #[command(
     name = "endline",
     version,
-    after_help = "Exit codes: 0 success, 1 the run or check failed, 2 wrong usage."
+    after_help = "Exit codes: 0 success, 1 the run or check failed, 2 wrong usage, 128 and the signal's number when interrupted (130 by Ctrl+C)."
 )]
 pub struct Args {
     /// Command to run.

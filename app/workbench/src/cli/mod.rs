@@ -1,12 +1,14 @@
 //! The command line: what it takes, and which file does it.
 //!
-//! Exit codes: 0 done, 1 the run or check failed, 2 wrong use of the command line.
+//! Exit codes: 0 done, 1 the run or check failed, 2 wrong use of the command line, 128 and the signal's number where a signal ended
+//! it.
 
 mod args;
 mod check;
 mod failure;
 mod haul;
 mod host;
+mod interrupt;
 mod mill;
 mod output;
 mod picture;

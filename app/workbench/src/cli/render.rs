@@ -9,10 +9,14 @@ use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
 use endline_sim::{Frame, Model};
 
 use super::args::RenderArgs;
-use super::{Failure, host, picture};
+use super::replay::tell_version;
+use super::{Failure, host, output, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     picture::check_view(&args.view).map_err(Failure::usage)?;
+    if is_same(&args.file, &args.out) {
+        return Err(Failure::usage("--out is the file that is drawn; name another"));
+    }
     let moment = if args.file.extension().is_some_and(|extension| extension == "toml") {
         of_scenario(args, library)?
     } else {
@@ -20,6 +24,12 @@ pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCo
     };
     picture::draw(&moment.model, &moment.frame, &shot(args, &moment)?).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Whether two paths lead to one file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let known = |path: &Path| path.canonicalize().ok();
+    known(one).is_some_and(|one| known(other) == Some(one))
 }
 
 /// What is drawn.
@@ -31,8 +41,14 @@ struct Moment {
 
 fn of_recording(args: &RenderArgs) -> Result<Moment, Failure> {
     let recording = Recording::load(&args.file)?;
+    tell_version(&recording);
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let (run, frame) = replay::frame_at(&recording, &host::load(), options, args.at)?;
+    if !replay::ends_as_recorded(&recording, &run) {
+        output::note(
+            "what is drawn is not the recorded state; `endline replay --verify` names the first step that differs",
+        );
+    }
     Ok(Moment {
         model: Arc::clone(run.model()),
         frame,

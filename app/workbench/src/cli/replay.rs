@@ -45,6 +45,15 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         words(&run, verdict.as_ref())
     })?;
     match difference {
+        None if verdict.is_none()
+            && is_bound(args, &recording)
+            && !replay::ends_as_recorded(&recording, &run) =>
+        {
+            Err(Failure::failed(format!(
+                "{}: the run ends in another state than the recorded one; --verify names the first step that differs",
+                args.recording.display()
+            )))
+        }
         None => Ok(ExitCode::SUCCESS),
         Some(difference) => Err(Failure::failed(told(args, &recording, difference))),
     }
@@ -62,8 +71,13 @@ fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdic
     Ok((replay::replay(recording, &host, options, tell)?, None))
 }
 
+/// Whether the bits are promised: by this version, with the recorded plugins.
+fn is_bound(args: &ReplayArgs, recording: &Recording) -> bool {
+    recording.header.program == endline_session::VERSION && !args.other_plugins
+}
+
 /// Bits are promised for one program only; another version may differ, and says so beforehand.
-fn tell_version(recording: &Recording) {
+pub(super) fn tell_version(recording: &Recording) {
     let (recorded, here) = (&recording.header.program, endline_session::VERSION);
     if recorded != here {
         output::note(&format!(

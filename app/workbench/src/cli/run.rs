@@ -8,6 +8,7 @@ use endline_session::recording::take_over::take_over;
 use endline_session::{Prepared, Recording, Report, Run, RunOptions, prepare};
 
 use super::args::RunArgs;
+use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::{Failure, host, output, picture, table};
 
@@ -23,24 +24,52 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         .unwrap_or_default());
     let prepared = prepare(&args.scenario, library, &host, over)?;
     let mut run = started(args, recording.as_ref(), prepared)?;
-    let progress = Progress::new("running");
-    let tell = |step, steps| progress.at(step, steps);
-    if args.until_over {
-        run.to_end_or_over(&RunRule::default(), tell);
-    } else {
-        run.to_end(tell);
-    }
-    drop(progress);
+    let interrupt = Interrupt::watch();
+    to_end(args, &mut run, &interrupt);
 
     let report = Report::from_run(&run);
-    if let Some(folder) = &args.out {
-        save(&run, &report, folder)?;
-    }
+    // A summary is not lost with a recording that cannot be kept.
+    let kept = args.out.as_ref().map_or(Ok(()), |folder| save(&run, &report, folder));
     output::print(&if args.json { report.json() + "\n" } else { table::summary(&report) })?;
+    kept?;
+    if let Some(code) = interrupt.exit_code() {
+        output::note(&how_to_go_on(args, &run));
+        return Ok(code);
+    }
     if let Some(stopped) = &report.stopped {
         return Err(Failure::failed(stopped));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// To the end, until it is over where that is asked for, or to an interrupt.
+fn to_end(args: &RunArgs, run: &mut Run, interrupt: &Interrupt) {
+    let progress = Progress::new("running");
+    let rule = RunRule::default();
+    run.to_end_until(|run| {
+        progress.at(run.state().step, run.steps_in_all());
+        if interrupt.is_asked() {
+            run.give_up("it was interrupted");
+            return true;
+        }
+        args.until_over && run.is_time_to_look() && run.is_over(&rule)
+    });
+}
+
+/// What an interrupted user can do.
+fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
+    let time_s = run.state().time_s;
+    let scenario = args.scenario.display();
+    match &args.out {
+        Some(folder) => format!(
+            "interrupted at {time_s:.2} s; to go on from there: endline run {scenario} --from {} --at {time_s:.2} --out {}-2",
+            folder.join("recording.endline").display(),
+            folder.display()
+        ),
+        None => format!(
+            "interrupted at {time_s:.2} s, and no recording is kept; with --out DIR the run could go on from there"
+        ),
+    }
 }
 
 /// The run at its start, or at the moment taken over from a recording.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use endline_session::search::{
@@ -10,6 +11,7 @@ use endline_session::search::{
 use endline_session::study::encounter::Encounter;
 use endline_session::study::{Control, REPLAY_HZ, Shard};
 
+use super::interrupt::Interrupt;
 use super::study::args::shard;
 use super::study::{all_cores, keep, lower_priority};
 use super::{Failure, host, output};
@@ -74,7 +76,17 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         neighbours: args.neighbours,
         net: args.net,
     };
-    let stories = found(&question, &folder, &effort, &Control::default(), told())?;
+    let control = Arc::new(Control::default());
+    let (interrupt, watched) = (Interrupt::watch(), Arc::clone(&control));
+    interrupt.on_asked(move || watched.cancel());
+    let stories = found(&question, &folder, &effort, &control, told())?;
+    if let Some(code) = interrupt.exit_code() {
+        output::note(&format!(
+            "interrupted: runs are kept in {}; the same command goes on from them",
+            folder.path.display()
+        ));
+        return Ok(code);
+    }
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
         let encounter = Encounter::at_point(&question.opened, &story.point);
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;

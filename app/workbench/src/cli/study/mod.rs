@@ -8,7 +8,9 @@ mod words;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
+use endline_session::study::control::Count;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
@@ -18,6 +20,7 @@ use endline_session::{locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
 use self::progress::Bar;
+use super::interrupt::Interrupt;
 use super::{Failure, host, output, picture, table};
 
 /// Does what a study command says.
@@ -47,10 +50,24 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     }
     let threads = args.threads.map_or_else(all_cores, usize::from);
     let bar = Bar::new();
-    let control = Control::new(move |progress| bar.at(progress));
+    let control = Arc::new(Control::new(move |progress| bar.at(progress)));
+    let (interrupt, watched) = (Interrupt::watch(), Arc::downgrade(&control));
+    interrupt.on_asked(move || {
+        if let Some(control) = watched.upgrade() {
+            control.cancel();
+        }
+    });
     let progress = batch::run(&opened, &folder, args.shard, threads, &control)?;
     // The bar disappears with its control.
     drop(control);
+    if let Some(code) = interrupt.exit_code() {
+        let Count { done, total, .. } = progress.blocks;
+        output::note(&format!(
+            "interrupted: {done} of {total} encounters are kept in {}; the same command goes on from them",
+            folder.path.display()
+        ));
+        return Ok(code);
+    }
     output::print(&words::ran(&opened, &folder, progress.blocks))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,0 +1,157 @@
+//! Files and calls that ask for too much, or mean harm: each ends soon, with what is wrong, where, and how to mend it.
+#![cfg(unix)]
+
+use std::fmt::Write;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::process::Command;
+
+use crate::common::{Place, edit, text};
+
+#[test]
+fn numbers_past_their_limits_are_refused_at_their_place() {
+    let place = Place::new("limits");
+    let scenario = place.short_scenario("hello-endline", "1 s");
+    let sound = fs::read_to_string(&scenario).unwrap();
+    let cases = [
+        ("rope_nodes", "rope_nodes = 1000000", "1000000 nodes, more than 100000", "rope_nodes"),
+        ("rope_nodes", "rope_nodes = 1000000000000", "1000000000000 nodes", "rope_nodes"),
+        ("rope_nodes", "segment = \"1 mm\"", "nodes, more than 100000", "longer `segment`"),
+        (
+            "position",
+            "position = [\"1e300 m\", \"0 m\"]",
+            "`position` is 1e300 m",
+            "up to 100000 m",
+        ),
+        ("position", "position = [\"4000000 m\", \"0 m\"]", "`position` is", "up to 100000 m"),
+        ("duration", "duration = \"1e30 s\"", "`duration` is 1e30 s", "up to 10000000 s"),
+    ];
+    for (start, line, says, mend) in cases {
+        fs::write(&scenario, &sound).unwrap();
+        edit(scenario.as_ref(), start, line);
+        if line.contains("1 mm") {
+            let own = fs::read_to_string(&scenario).unwrap();
+            let (before, after) = own.split_once("[resolution]").unwrap();
+            let after = after.split_once("[site]").unwrap().1;
+            fs::write(&scenario, format!("{before}[site]{after}")).unwrap();
+            // 32.5 m of rope has room for 32,500: four gears beside each other do not.
+            let more: String = (1..4).fold(String::new(), |mut text, number| {
+                write!(text, "\n[[gear]]\nid = \"more-{number}\"\nassembly = \"single\"\nposition = [\"{number}00 m\", \"0 m\"]\n").unwrap();
+                text
+            });
+            let own = fs::read_to_string(&scenario).unwrap().replacen(
+                "[[gear]]",
+                "[[gear]]\nid = \"first\"",
+                1,
+            );
+            fs::write(&scenario, own + &more).unwrap();
+        }
+        for command in ["check", "run"] {
+            place.endline(&[command, &scenario]).fails(1, &[says, mend]);
+        }
+    }
+    fs::write(&scenario, &sound).unwrap();
+    for step in ["1e-12", "0", "2", "nan"] {
+        place.endline(&["run", &scenario, "--dt", step]).fails(2, &["expected seconds from"]);
+    }
+}
+
+#[test]
+fn what_is_no_regular_file_is_not_read_and_links_that_lead_round_end() {
+    let place = Place::new("links");
+    let library = place.library();
+    let ropes = library.join("ropes");
+    assert!(Command::new("mkfifo").arg(ropes.join("pipe.toml")).status().unwrap().success());
+    symlink("/dev/zero", ropes.join("zero.toml")).unwrap();
+    for name in ["pipe.toml", "zero.toml"] {
+        let file = text(&ropes.join(name));
+        place.endline(&["check", &file]).fails(1, &[name, "it is no regular file"]);
+    }
+    let called = place.endline(&["check", library.to_str().unwrap()]);
+    called.fails(1, &["ropes/pipe.toml", "ropes/zero.toml", "it is no regular file"]);
+
+    let folder = place.path("round");
+    fs::create_dir_all(&folder).unwrap();
+    for name in ["a", "b"] {
+        symlink(".", folder.join(name)).unwrap();
+    }
+    place.endline(&["check", folder.to_str().unwrap()]).fails(1, &["nothing to check here"]);
+}
+
+#[test]
+fn a_file_with_thousands_of_mistakes_tells_the_first_and_counts_the_rest() {
+    let place = Place::new("mistakes");
+    let rope = place.library().join("ropes/sink-3-8.toml");
+    let mut own = fs::read_to_string(&rope).unwrap();
+    (0..5000).for_each(|key| writeln!(own, "unknown{key} = 1").unwrap());
+    fs::write(&rope, own).unwrap();
+    let called = place.endline(&["check", rope.to_str().unwrap()]);
+    called.fails(1, &["unknown0", "4799 more problems are not told"]);
+    assert!(called.stdout.len() + called.stderr.len() < 200_000, "{}", called.stdout.len());
+
+    // One line of 100 kB is not told whole with each of its mistakes.
+    let keys: Vec<String> =
+        (0..2000).map(|key| format!("{{ time = \"{key} furlong\", pitch = 1 }}")).collect();
+    let act = place.write(
+        "gear-library/acts/long.toml",
+        &format!("format = 1\nkind = \"act\"\nname = \"long\"\nkey = [{}]\n", keys.join(", ")),
+    );
+    let called = place.endline(&["check", act.to_str().unwrap()]);
+    called.fails(1, &["furlong"]);
+    assert!(called.stdout.len() + called.stderr.len() < 400_000, "{}", called.stdout.len());
+}
+
+#[test]
+fn nothing_of_a_file_steers_the_terminal() {
+    let place = Place::new("terminal");
+    let rope = place.library().join("ropes/sink-3-8.toml");
+    edit(&rope, "name", "name = \"x\\u001b]52;c;eA==\\u0007\\u202e\"");
+    edit(&rope, "strength", "strength = \"12 \u{1b}[31mfurlong\"");
+    let called = place.endline(&["check", rope.to_str().unwrap()]);
+    assert_ne!(called.code, Some(0), "{called}");
+    let told = called.stdout + &called.stderr;
+    assert!(
+        !told.contains('\u{1b}') && !told.contains('\u{202e}') && told.contains("<1b>"),
+        "{told}"
+    );
+}
+
+#[test]
+fn rope_in_a_heap_ends_its_run_with_the_reason() {
+    let place = Place::new("heap");
+    let scenario = place.short_scenario("hitches", "1 s");
+    edit(scenario.as_ref(), "length = \"0.9459 m\"", "length = \"9.459 m\"");
+    let called = place.endline(&["run", &scenario]);
+    called.fails(1, &["stopped at", "rope touches rope at more than", "check lengths"]);
+}
+
+#[test]
+fn a_recording_that_contradicts_itself_is_refused_and_no_picture_is_written_over_it() {
+    let place = Place::new("forged");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    place.endline(&["run", &scenario, "--out", "out"]).done();
+    let path = place.path("out/recording.endline");
+    let sound = fs::read(&path).unwrap();
+    let file = path.to_str().unwrap();
+    let called = place.endline(&["render", file, "--at", "0", "--out", file]);
+    called.fails(2, &["--out is the file that is drawn"]);
+    assert_eq!(fs::read(&path).unwrap(), sound, "the recording is as it was");
+
+    let mut recording = endline_session::Recording::load(&path).unwrap();
+    type Forge = fn(&mut endline_session::Recording);
+    let forged: [(&str, Forge); 4] = [
+        ("its step", |recording| recording.header.dt_s *= 0.5),
+        ("its seed", |recording| recording.header.seed += 1),
+        ("its hash of the model", |recording| recording.header.model_hash.truncate(3)),
+        ("used here, but not recorded", |recording| recording.header.plugins.clear()),
+    ];
+    for (says, forge) in forged {
+        let header = recording.header.clone();
+        forge(&mut recording);
+        recording.save(&path).unwrap();
+        for arguments in [vec!["replay", file], vec!["replay", file, "--verify"]] {
+            place.endline(&arguments).fails(1, &[says]);
+        }
+        recording.header = header;
+    }
+}
