@@ -120,7 +120,7 @@ fn nothing_of_a_file_steers_the_terminal() {
 fn rope_in_a_heap_ends_its_run_with_the_reason() {
     let place = Place::new("heap");
     let scenario = place.short_scenario("hitches", "1 s");
-    edit(scenario.as_ref(), "length = \"0.9459 m\"", "length = \"9.459 m\"");
+    edit(scenario.as_ref(), "length = \"0.9459 m\"", "length = \"30 m\"");
     let called = place.endline(&["run", &scenario]);
     called.fails(1, &["stopped at", "rope touches rope at more than", "check lengths"]);
 }
