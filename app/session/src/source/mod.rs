@@ -7,7 +7,7 @@ pub(crate) mod sample;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::limits::amount;
+use endline_gear::limits::{Beyond, STEP, amount};
 use endline_gear::units::Quantity;
 use endline_gear::{
     Assembled, Diagnostic, Library, Options, Scenario, Sources, StrengthBudget, assemble_traced,
@@ -177,6 +177,11 @@ impl Source {
         let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
         let (library, problems) = Library::read(&self.library);
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
+        if let Some(step_s) = step_s {
+            let beyond =
+                |beyond: Beyond| Error::Replay(format!("{}; {}", beyond.message, beyond.help));
+            STEP.check("the step asked for", step_s).map_err(beyond)?;
+        }
         let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
         let Assembled { mut spec, files, mut strengths } =
