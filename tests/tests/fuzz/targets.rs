@@ -23,6 +23,9 @@ const NODES: u64 = 60;
 /// Steps that it takes.
 const STEPS: usize = 10;
 
+/// How a file is damaged.
+pub type Damage = fn(&[u8], &mut Dice) -> Vec<u8>;
+
 /// A reader, or more than one in a row.
 pub struct Target {
     pub name: &'static str,
@@ -31,7 +34,7 @@ pub struct Target {
     /// Inputs that once did harm.
     pub known: Vec<Vec<u8>>,
     /// How to damage them; anyhow where none is given.
-    pub damage: Option<fn(&[u8], &mut Dice) -> Vec<u8>>,
+    pub damage: Option<Damage>,
     /// Feeds an input; whether it was read, or what went wrong.
     pub feed: fn(&[u8]) -> Result<bool, String>,
 }
