@@ -111,6 +111,30 @@ fn a_resolution_that_cannot_be_kept_is_told_and_counts_agree() {
     }
 }
 
+/// A step of a millionth of a millionth of a second is refused alike in a file and as an option, with the reason.
+#[test]
+fn a_step_beyond_its_limit_is_refused_on_the_command_line_as_in_a_file() {
+    let place = Place::new("step-limit");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    let why = ["`step` is 1e-12 s", "because", "10 ms is usual"];
+    place.endline(&["run", &scenario, "--dt", "1e-12"]).fails(2, &why);
+    edit(scenario.as_ref(), "step", "step = \"1e-12 s\"");
+    place.endline(&["run", &scenario]).fails(1, &why);
+}
+
+/// Names and comments of a file cannot turn against the terminal, whatever prints them.
+#[test]
+fn escapes_of_a_file_do_not_reach_the_terminal() {
+    let place = Place::new("escapes");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    edit(scenario.as_ref(), "duration", "duration = \"\\u001b]52;c;cm0gLXJm\\u0007 1 s\"");
+    let refused = place.endline(&["check", &scenario]);
+    assert_eq!(refused.code, Some(1), "{refused}");
+    let told = refused.stdout + &refused.stderr;
+    assert!(!told.contains(['\u{1b}', '\u{7}']), "{told:?}");
+    assert!(told.contains("]52;c;"), "{told}");
+}
+
 #[test]
 fn people_get_pounds_force_beside_newtons() {
     let place = Place::new("table");
@@ -179,6 +203,8 @@ fn wrong_use_ends_with_2() {
         &["run", "a.toml", "--threads", "2"],
         &["run", "a.toml", "--dt", "-0.01"],
         &["run", "a.toml", "--dt", "nan"],
+        &["run", "a.toml", "--dt", "1e-12"],
+        &["run", "a.toml", "--rating", "1e300"],
         &["run", "a.toml", "--weak-links", "maybe"],
         &["run", "a.toml", "--rating", "3 furlong"],
         &["run", "a.toml", "--sed", "1"],
