@@ -1,4 +1,6 @@
 //! The clock and the memory of the inputs at work.
+//!
+//! Time is that of the processor, where the system tells it: on a busy machine a clock on the wall measures the others.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,21 +10,67 @@ use std::time::{Duration, Instant};
 
 /// An input that takes longer hangs.
 pub const HANGS: Duration = Duration::from_secs(10);
-/// Time of a wall clock after which the whole is ended: on a busy machine ten seconds may be few.
-const ENDED: Duration = Duration::from_secs(120);
+/// Time after which the whole is ended, because the input may never end.
+const ENDED: Duration = Duration::from_secs(60);
+
+/// The time that a thread has worked.
+#[derive(Clone)]
+enum Clock {
+    /// File in which the system counts its nanoseconds.
+    Processor(PathBuf),
+    Wall(Instant),
+}
+
+impl Clock {
+    /// That of the thread that asks.
+    fn own() -> Self {
+        let file = PathBuf::from("/proc")
+            .join(std::fs::read_link("/proc/thread-self").unwrap_or_default());
+        let file = file.join("schedstat");
+        if file.is_file() { Self::Processor(file) } else { Self::Wall(Instant::now()) }
+    }
+
+    fn now(&self) -> Duration {
+        match self {
+            Self::Wall(since) => since.elapsed(),
+            Self::Processor(file) => {
+                let text = std::fs::read_to_string(file).unwrap_or_default();
+                let worked = text.split_whitespace().next().and_then(|word| word.parse().ok());
+                Duration::from_nanos(worked.unwrap_or_default())
+            }
+        }
+    }
+}
+
+/// An input at work.
+struct Work {
+    clock: Clock,
+    since: Duration,
+    target: &'static str,
+    input: Vec<u8>,
+}
+
+impl Work {
+    fn took(&self) -> Duration {
+        self.clock.now().saturating_sub(self.since)
+    }
+}
 
 /// What a thread is working on.
 #[derive(Clone, Default)]
-pub struct AtWork(Arc<Mutex<Option<(Instant, &'static str, Vec<u8>)>>>);
+pub struct AtWork(Arc<Mutex<Option<Work>>>);
 
 impl AtWork {
+    /// Begins an input, on the thread that works on it.
     pub fn begin(&self, target: &'static str, input: &[u8]) {
-        *self.0.lock().unwrap() = Some((Instant::now(), target, input.to_vec()));
+        let clock = Clock::own();
+        let (since, input) = (clock.now(), input.to_vec());
+        *self.0.lock().unwrap() = Some(Work { clock, since, target, input });
     }
 
     /// Ends it; how long it took.
     pub fn end(&self) -> Duration {
-        self.0.lock().unwrap().take().map_or(Duration::ZERO, |(since, ..)| since.elapsed())
+        self.0.lock().unwrap().take().map_or(Duration::ZERO, |work| work.took())
     }
 }
 
@@ -31,10 +79,11 @@ pub fn over(workers: Vec<AtWork>, done: Arc<AtomicBool>) {
     thread::spawn(move || {
         while !done.load(Ordering::Relaxed) {
             for worker in &workers {
-                if let Some((since, target, input)) = &*worker.0.lock().unwrap()
-                    && since.elapsed() > ENDED
+                if let Some(work) = worker.0.lock().unwrap().as_ref()
+                    && work.took() > ENDED
                 {
-                    eprintln!("`{target}` never ends: {}", keep(target, input).display());
+                    let file = keep(work.target, &work.input);
+                    eprintln!("`{}` never ends: {}", work.target, file.display());
                     std::process::abort();
                 }
             }

@@ -43,7 +43,7 @@ impl Drop for Place {
 fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
-    let load: Load = Arc::new(|loader| loader.load(&|_: &Path| Ok(())));
+    let load: Load = Arc::new(|loader| loader.load(&|_: &Path, _: &str| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
     harness.state_mut().shared.workbench.plugins.load_with(loader, load, Vec::new());
     harness.state_mut().shared.give(PanelAction::Show(PanelId::PLUGINS));
