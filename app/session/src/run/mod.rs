@@ -141,8 +141,18 @@ impl Run {
 
     /// Runs by the pilot program to the end of the scenario or to a stop, telling the steps taken and in all.
     pub fn to_end(&mut self, mut progress: impl FnMut(u64, u64)) {
+        self.to_end_while(|step, steps| {
+            progress(step, steps);
+            true
+        });
+    }
+
+    /// The same as long as the caller, told the steps taken and in all, says to go on.
+    pub fn to_end_while(&mut self, mut goes_on: impl FnMut(u64, u64) -> bool) {
         while !self.finished() && self.step(self.pilot()).is_ok() {
-            progress(self.state.step, self.steps_in_all());
+            if !goes_on(self.state.step, self.steps_in_all()) {
+                return;
+            }
         }
     }
 
