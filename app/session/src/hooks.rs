@@ -8,8 +8,8 @@ use endline_gear::Hooks;
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 
 use crate::plugins::{
-    Choices, Loader, PluginHost, PluginProblem, by_child, chosen_file, known_file, program_folder,
-    remembering,
+    Choices, Loader, PluginHost, PluginProblem, by_child, chosen_file, known_file, program,
+    program_folder, remembering,
 };
 
 /// A plugin that has not opened after this is taken to hang.
@@ -31,7 +31,7 @@ pub fn load_plugins(folders: &[PathBuf]) -> (PluginHost, Vec<PluginProblem>) {
 
 /// The same with a loader that was used before: what has not changed is not opened again.
 pub fn load_with(loader: &mut Loader) -> (PluginHost, Vec<PluginProblem>) {
-    match std::env::current_exe() {
+    match program() {
         Ok(program) => loader.load(&remembering(known_file(), &by_child(program, PATIENCE))),
         Err(error) => {
             let reason = format!("the program cannot find itself to check it: {error}");

@@ -3,6 +3,8 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
+use crate::plugins;
+
 /// Name of the shipped library's folder.
 const LIBRARY: &str = "gear-library";
 
@@ -23,7 +25,7 @@ pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf,
     let mut looked = Vec::new();
     around(scenario, &mut looked);
     looked.extend(env::var_os("ENDLINE_LIBRARY").map(PathBuf::from));
-    let program = env::current_exe().ok();
+    let program = plugins::program().ok();
     looked.extend(
         program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))),
     );
@@ -65,12 +67,33 @@ pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf
     if path.is_file() {
         return Ok(path);
     }
-    let ids: Vec<String> = toml_files(&items)
-        .iter()
-        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
-        .collect();
+    let ids = ids_in(&items);
     let help = endline_gear::hint(name, ids.iter().map(String::as_str));
     Err(format!("there is no file `{name}` and no `{name}.toml` in {}; {help}", items.display()))
+}
+
+/// Ids of the items in one folder of a library, such as `ropes`, in order.
+///
+/// # Errors
+/// Where the library has no such folder, with the nearest.
+pub fn ids(root: &Path, folder: &str) -> Result<Vec<String>, String> {
+    let items = root.join(folder);
+    let (ids, inside) = (ids_in(&items), Path::new(folder).components().count() == 1);
+    if inside && !ids.is_empty() {
+        return Ok(ids);
+    }
+    let entries = std::fs::read_dir(root).into_iter().flatten().flatten();
+    let with_items = entries.filter(|entry| !toml_files(&entry.path()).is_empty());
+    let mut known: Vec<String> =
+        with_items.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    known.sort();
+    let help = endline_gear::hint(folder, known.iter().map(String::as_str));
+    Err(format!("{} has no folder of items `{folder}`; {help}", root.display()))
+}
+
+fn ids_in(folder: &Path) -> Vec<String> {
+    let stem = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
+    toml_files(folder).iter().filter_map(stem).collect()
 }
 
 /// Writes a text to a new file; never over one that is there.

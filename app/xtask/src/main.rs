@@ -5,6 +5,7 @@
 mod fuzz;
 mod packages;
 mod plugins;
+mod python;
 mod run;
 mod shape;
 mod test;
@@ -33,6 +34,8 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
                                          N hours at low priority; print inputs, panics, hangs and memory
        cargo xtask window                only drive the window that was built
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
+       cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
+                                         run its tests
        cargo xtask shape [all | sizes | circles] [PACKAGE]
                                          print how large files and functions are, and which files name each
                                          other in circles; PACKAGE is the folder of one, such as sim";
@@ -73,6 +76,8 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["plugins", "--release"] => {
             Box::new(|workspace| plugins::build(workspace, Profile::Release))
         }
+        ["python"] => Box::new(|workspace| python::test(workspace, Profile::Dev)),
+        ["python", "--release"] => Box::new(|workspace| python::test(workspace, Profile::Release)),
         ["shape"] => Box::new(|workspace| shape::print(workspace, Part::All, None)),
         ["shape", part, package @ ..] if package.len() < 2 => {
             let part = Part::named(part)?;

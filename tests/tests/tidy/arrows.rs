@@ -1,5 +1,5 @@
 //! Which crate may know which:
-//! `plugins/* -> sdk <- sim <- gear-library <- session <- workbench`, `tests -> all`, read from the manifests.
+//! `plugins/* -> sdk <- sim <- gear-library <- session <- workbench <- python`, `tests -> all`, read from the manifests.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ struct Wall {
 const PLUGINS: [&str; 3] =
     ["endline-friction-models", "endline-gear-types", "endline-whale-motions"];
 
-const WALLS: [Wall; 8] = [
+const WALLS: [Wall; 9] = [
     Wall { folder: "plugins/sdk", ours: &[], outside: Some(&[]) },
     Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&["libm"]) },
@@ -53,6 +53,12 @@ const WALLS: [Wall; 8] = [
         folder: "app/workbench",
         ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"],
         outside: None,
+    },
+    // Above the workbench for its pictures alone.
+    Wall {
+        folder: "app/python",
+        ours: &["endline", "endline-sim", "endline-gear", "endline-session"],
+        outside: Some(&["pyo3"]),
     },
 ];
 

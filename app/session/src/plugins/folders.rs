@@ -2,6 +2,10 @@
 
 use std::env;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The program that other programs stand for, such as an interpreter that has loaded Endline as a module.
+static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// Folders searched, in order: beside the program, the user's own, and those `ENDLINE_PLUGINS` names
 /// (separated as `PATH` is).
@@ -17,9 +21,21 @@ pub fn default_folders() -> Vec<PathBuf> {
 /// The folder of what came with the program, beside it: its libraries are opened unasked.
 #[must_use]
 pub fn program_folder() -> Option<PathBuf> {
-    env::current_exe()
-        .ok()
-        .and_then(|program| program.parent().map(|folder| folder.join("plugins")))
+    program().ok().and_then(|program| program.parent().map(|folder| folder.join("plugins")))
+}
+
+/// Says once, before anything is loaded, that this process stands for the program `endline` at a place: plugins and library
+/// are looked for beside that file, and it checks new plugins. Said before, it stays as it was.
+pub fn stands_for(program: PathBuf) {
+    let _ = PROGRAM.set(program);
+}
+
+/// The file of the program: the one this process stands for, else the one it is.
+///
+/// # Errors
+/// Where the system does not tell.
+pub fn program() -> std::io::Result<PathBuf> {
+    PROGRAM.get().cloned().map_or_else(env::current_exe, Ok)
 }
 
 /// File in the user's data folder that holds what the user has decided about plugins.

@@ -39,6 +39,7 @@ pub mod merge;
 mod open;
 mod parquet;
 mod plan;
+mod planned;
 mod play;
 pub(crate) mod prepare;
 pub mod priority;

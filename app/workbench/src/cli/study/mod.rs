@@ -38,7 +38,7 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
 
 fn plan(args: &PlanArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
-    output::print(&if args.json { words::plan_json(&opened) } else { words::plan(&opened) })?;
+    output::print(&if args.json { opened.plan_json() + "\n" } else { words::plan(&opened) })?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -7,41 +7,11 @@ use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
 use endline_session::units::N_PER_LBF;
-use serde::Serialize;
 
 use super::super::table::columns;
 
 /// Encounters shown by a plan.
 const SHOWN: u32 = 5;
-
-/// What `plan --json` prints.
-#[derive(Serialize)]
-struct Plan<'a> {
-    schema: &'static str,
-    study: &'a str,
-    hash: &'a str,
-    encounters: u64,
-    blocks: u64,
-    options: Vec<&'a str>,
-    baseline: &'a str,
-    /// Options that share their runs until something parts.
-    families: Vec<Vec<&'a str>>,
-}
-
-pub(super) fn plan_json(opened: &Opened) -> String {
-    let plan = Plan {
-        schema: "endline.study_plan/1",
-        study: &opened.study.id,
-        hash: &opened.hash,
-        encounters: opened.study.encounters,
-        blocks: opened.study.encounters.div_ceil(u64::from(BLOCK)),
-        options: opened.options.iter().map(|option| option.id.as_str()).collect(),
-        baseline: &opened.options[opened.baseline].id,
-        families: opened.families(),
-    };
-    // Structs of numbers and strings always serialise.
-    serde_json::to_string(&plan).unwrap_or_default() + "\n"
-}
 
 pub(super) fn plan(opened: &Opened) -> String {
     let study = &opened.study;

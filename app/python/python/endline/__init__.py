@@ -1,0 +1,55 @@
+"""Endline: fishing gear designed so that entangled whales get out alive.
+
+>>> import endline
+>>> result = endline.run("hello-endline")
+>>> result.figures["lines"][0]["peak_tension_N"]
+
+Numbers are SI, and names carry their units: ``_m``, ``_s``, ``_N``. The x axis points east, y north, z up; z = 0 is the mean
+sea surface.
+"""
+
+from __future__ import annotations
+
+import warnings as _warnings
+
+from . import _endline
+from ._command import PROGRAM as _PROGRAM
+from ._endline import EndlineError
+
+_endline.stands_for(_PROGRAM)
+for _place in ("file", "line", "field", "help"):
+    setattr(EndlineError, _place, None)
+EndlineError.problems = []
+
+from ._library import Assembly, Library  # noqa: E402
+from ._result import Contacts, Line, Replayed, Result  # noqa: E402
+from ._scenario import Scenario, replay, run, settle  # noqa: E402
+from ._study import Study  # noqa: E402
+
+#: Version of Endline and the mark of the code that decides a run.
+__version__: str = _endline.version()
+
+__all__ = [
+    "Assembly",
+    "Contacts",
+    "EndlineError",
+    "Library",
+    "Line",
+    "Replayed",
+    "Result",
+    "Scenario",
+    "Study",
+    "plugin_problems",
+    "replay",
+    "run",
+    "settle",
+]
+
+
+def plugin_problems(*, warn: bool = False) -> list[str]:
+    """Plugins that were left out and why, as the command line tells them; ``warn`` also warns of each."""
+    problems = _endline.problems()
+    if warn:
+        for problem in problems:
+            _warnings.warn(problem, stacklevel=2)
+    return problems

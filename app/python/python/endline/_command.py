@@ -1,0 +1,17 @@
+"""The command ``endline`` that comes with this package."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+#: The program. Its plugins lie beside it, and the gear library above.
+PROGRAM = Path(__file__).parent / "bin" / ("endline.exe" if os.name == "nt" else "endline")
+
+
+def main() -> None:
+    """Gives this process to the program, with the same arguments."""
+    if not PROGRAM.is_file():
+        sys.exit(f"endline: {PROGRAM} is missing; this package was built without the command (`cargo xtask python` builds it)")
+    os.execv(PROGRAM, ["endline", *sys.argv[1:]])

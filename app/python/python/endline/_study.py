@@ -1,0 +1,98 @@
+"""Studies: options of gear compared on the same encounters."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Union
+
+from . import _endline
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class Study:
+    """A study, opened and checked.
+
+    ``name``: its id in the library, or its file. ``library``: folder of the gear library. A folder of results, ``out``, is
+    ``results/<id>`` where it is not given, as on the command line; both may work on the same folder.
+    """
+
+    def __init__(self, name: PathLike, library: PathLike | None = None) -> None:
+        self.name = os.fspath(name)
+        self.library = None if library is None else os.fspath(library)
+        self._inner = _endline.Study(self.name, self.library)
+
+    @property
+    def id(self) -> str:
+        """Its id."""
+        return self._inner.id
+
+    @property
+    def hash(self) -> str:
+        """BLAKE3 of all that defines its runs, hexadecimal."""
+        return self._inner.hash
+
+    @property
+    def encounters(self) -> int:
+        """Encounters asked for, the same for all options."""
+        return self._inner.encounters
+
+    @property
+    def options(self) -> list[str]:
+        """Ids of its options."""
+        return self._inner.options
+
+    def plan(self) -> dict[str, Any]:
+        """What it will run, under the keys of ``endline.study_plan/1``."""
+        return json.loads(self._inner.plan())
+
+    def out(self, out: PathLike | None = None) -> Path:
+        """The folder of results."""
+        return Path("results", self.id) if out is None else Path(out)
+
+    def run(
+        self, out: PathLike | None = None, *, part: int = 0, of: int = 1, threads: int | None = None
+    ) -> tuple[int, int]:
+        """Runs the missing encounters, and answers how many are done and how many there are.
+
+        ``part`` from 0, ``of`` so many: only each ``of``-th block (``--shard part+1/of``). ``threads``: one for each core where
+        None. Other threads of Python go on meanwhile. Ctrl+C ends it after the encounters under way; blocks that are written
+        stay, and another call goes on from them.
+        """
+        return self._inner.run(self.out(out), part, of, threads or os.cpu_count() or 1)
+
+    def merge(self, out: PathLike | None = None) -> Path:
+        """Joins the blocks of encounters to ``table.parquet`` and ``table.csv``; answers the first."""
+        return Path(self._inner.merge(self.out(out)))
+
+    def report(self, out: PathLike | None = None) -> tuple[Path, dict[str, Any]]:
+        """Writes the report of a merged study; answers its page and the findings under the keys of ``endline study report --json``."""
+        page, findings = self._inner.report(self.out(out))
+        return Path(page), json.loads(findings)
+
+    def read(self, out: PathLike | None = None, *, to: str = "pyarrow") -> Any:
+        """The merged table, a row for each run of an option on an encounter; names of columns carry their units.
+
+        ``to``: ``"pyarrow"``, ``"polars"`` or ``"pandas"``, which must be installed.
+        """
+        file = self.out(out) / "table.parquet"
+        if not file.is_file():
+            raise FileNotFoundError(f"{file} is not there: call merge() once the study was run")
+        if to == "pyarrow":
+            import pyarrow.parquet
+
+            return pyarrow.parquet.read_table(file)
+        if to == "polars":
+            import polars
+
+            return polars.read_parquet(file)
+        if to == "pandas":
+            import pandas
+
+            return pandas.read_parquet(file)
+        raise ValueError(f"to={to!r}: expected 'pyarrow', 'polars' or 'pandas'")
+
+    def __repr__(self) -> str:
+        return f"Study({self.id!r}, {len(self.options)} options, {self.encounters} encounters)"

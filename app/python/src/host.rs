@@ -1,0 +1,40 @@
+//! The plugins of this program and this user, loaded once.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use endline_session::plugins::{self, default_folders};
+use endline_session::{PluginHost, load_plugins};
+use pyo3::prelude::*;
+
+static LOADED: OnceLock<(PluginHost, Vec<String>)> = OnceLock::new();
+
+fn loaded() -> &'static (PluginHost, Vec<String>) {
+    LOADED.get_or_init(|| {
+        let (host, problems) = load_plugins(&default_folders());
+        (host, problems.iter().map(ToString::to_string).collect())
+    })
+}
+
+/// The plugins.
+pub fn host() -> &'static PluginHost {
+    &loaded().0
+}
+
+/// Problems of plugins that were left out, as the command line tells them.
+#[pyfunction]
+pub fn problems(python: Python<'_>) -> Vec<String> {
+    python.detach(|| loaded().1.clone())
+}
+
+/// Names the program beside which plugins and library lie. Called once, when the package is imported.
+#[pyfunction]
+pub fn stands_for(program: PathBuf) {
+    plugins::stands_for(program);
+}
+
+/// Version of Endline with the mark of the code that decides a run.
+#[pyfunction]
+pub fn version() -> &'static str {
+    endline_session::VERSION
+}

@@ -1,0 +1,116 @@
+//! What a run leaves: its figures, its moments, a recording, pictures.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use endline_session::{Recording, Report, Run};
+use endline_sim::{DVec3, Frame, Model};
+use endline_workbench::scene::{RenderRequest, render};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::error::{failed, raised};
+use crate::moments::{self, Numbers};
+
+/// A run that has ended.
+#[pyclass(frozen, module = "endline._endline")]
+pub struct Result {
+    report: Report,
+    model: Arc<Model>,
+    frames: Vec<Arc<Frame>>,
+    recording: Recording,
+}
+
+impl Result {
+    /// Of a run as it stands.
+    pub fn of(run: &Run) -> Self {
+        Self {
+            report: Report::from_run(run),
+            model: Arc::clone(run.model()),
+            frames: run.frames().to_vec(),
+            recording: run.recording(),
+        }
+    }
+
+    fn frame(&self, moment: usize) -> PyResult<&Arc<Frame>> {
+        self.frames.get(moment).ok_or_else(|| {
+            PyIndexError::new_err(format!(
+                "there are {} moments, none of index {moment}",
+                self.frames.len()
+            ))
+        })
+    }
+}
+
+#[pymethods]
+impl Result {
+    /// The figures as the JSON of `endline run --json`.
+    fn json(&self) -> String {
+        self.report.json()
+    }
+
+    /// Each line: id, its first node and the one after its last, its first segment and the one after its last.
+    fn lines(&self) -> Vec<(String, [usize; 4])> {
+        let (nodes, segments) = (&self.model.line_nodes, &self.model.line_segments);
+        let lines = self.model.spec.lines.iter().zip(nodes).zip(segments);
+        lines
+            .map(|((line, nodes), segments)| {
+                (line.id.clone(), [nodes.start, nodes.end, segments.start, segments.end])
+            })
+            .collect()
+    }
+
+    /// Ids of the bodies.
+    fn bodies(&self) -> Vec<String> {
+        self.model.spec.bodies.iter().map(|body| body.id.clone()).collect()
+    }
+
+    /// A series of all moments: its numbers, its shape, and numpy's name of their type. `None` where there is none of that name.
+    fn series<'py>(
+        &self,
+        python: Python<'py>,
+        name: &str,
+    ) -> Option<(Bound<'py, PyBytes>, Vec<usize>, &'static str)> {
+        let Numbers { bytes, shape, kind } = moments::series(&self.frames, name)?;
+        Some((PyBytes::new(python, &bytes), shape, kind))
+    }
+
+    /// The regions of skin that contacts lie on, by contact.
+    fn contact_regions(&self) -> Vec<&'static str> {
+        let contacts = self.frames.iter().flat_map(|frame| &frame.contacts);
+        contacts.map(|contact| contact.region.name()).collect()
+    }
+
+    /// Saves the recording.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        self.recording.save(&path).map_err(raised)
+    }
+
+    /// The pixels of a picture of a moment, row by row from the top: red, green, blue, opacity.
+    fn render<'py>(
+        &self,
+        python: Python<'py>,
+        moment: usize,
+        view: &str,
+        size: [u32; 2],
+        caption: &str,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let frame = self.frame(moment)?;
+        let out = PathBuf::new();
+        let fit: &[DVec3] = &[];
+        let pixels = python.detach(|| {
+            render(&RenderRequest {
+                model: &self.model,
+                frame,
+                size,
+                view,
+                scale_n: None,
+                fit,
+                caption,
+                out: &out,
+            })
+        });
+        Ok(PyBytes::new(python, pixels.map_err(failed)?.as_flattened()))
+    }
+}

@@ -1,0 +1,116 @@
+//! A scenario prepared, settled and run; a recording run again.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use endline_session::recording::replay::{self as again, ReplayOptions, Verdict};
+use endline_session::settled::SettledShape;
+use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, locate, prepare};
+use endline_sim::settle;
+use pyo3::prelude::*;
+
+use crate::Signals;
+use crate::error::{failed, raised};
+use crate::host::host;
+use crate::result::Result;
+
+/// A scenario with its gear library, ready to run.
+#[pyclass(frozen, module = "endline._endline")]
+pub struct Scenario {
+    prepared: Prepared,
+}
+
+#[pymethods]
+impl Scenario {
+    /// A scenario by its id in the library, or by its file; what is given is set over what it says.
+    #[new]
+    #[pyo3(signature = (name, library=None, *, seed=None, step_s=None, weak_links=None, rating_n=None, kinetic=None))]
+    #[expect(clippy::too_many_arguments, reason = "each is a keyword of Python's")]
+    fn new(
+        python: Python<'_>,
+        name: &str,
+        library: Option<PathBuf>,
+        seed: Option<u64>,
+        step_s: Option<f64>,
+        weak_links: Option<bool>,
+        rating_n: Option<f64>,
+        kinetic: Option<bool>,
+    ) -> PyResult<Self> {
+        let library = library.as_deref();
+        let file = locate::named(name, "scenarios", library).map_err(failed)?;
+        let over = Overrides { seed, step_s, weak_links, rating_n, kinetic };
+        let prepared = python.detach(|| prepare(&file, library, host(), over));
+        Ok(Self { prepared: prepared.map_err(raised)? })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.prepared.source.scenario_name
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.prepared.source.scenario
+    }
+
+    #[getter]
+    fn model_hash(&self) -> String {
+        self.prepared.source.hash()
+    }
+
+    #[getter]
+    fn duration_s(&self) -> f64 {
+        self.prepared.model.spec.settings.duration_s
+    }
+
+    /// The gear at rest, as the JSON of `endline settle`.
+    fn settle(&self, python: Python<'_>) -> String {
+        python.detach(|| {
+            let start = Instant::now();
+            let settled = settle(&self.prepared.model);
+            SettledShape::of(&self.prepared, &settled, start.elapsed().as_secs_f64()).json()
+        })
+    }
+
+    /// Settles and runs to the end, keeping moments at a rate.
+    fn run(&self, python: Python<'_>, frames_hz: f64, unsettled: bool) -> PyResult<Result> {
+        let options = RunOptions { unsettled, frames_hz };
+        python.detach(|| {
+            let mut run = Run::new(self.prepared.clone(), options).map_err(raised)?;
+            let mut signals = Signals::new();
+            run.to_end_until(|_| !signals.go_on());
+            signals.outcome()?;
+            Ok(Result::of(&run))
+        })
+    }
+}
+
+/// The file and the text of a scenario by its id in a library, or by its file.
+pub fn text_of(name: &str, library: Option<&Path>) -> PyResult<(PathBuf, String)> {
+    let file = locate::named(name, "scenarios", library).map_err(failed)?;
+    let text = std::fs::read_to_string(&file)
+        .map_err(|error| failed(format!("{}: cannot be read: {error}", file.display())))?;
+    Ok((file, text))
+}
+
+/// A recording run again, and where it differs: step, time [s] and part of the state; `None` where every step gave the recorded
+/// bits.
+#[pyfunction]
+pub fn replay(
+    python: Python<'_>,
+    recording: PathBuf,
+    frames_hz: f64,
+    other_plugins: bool,
+) -> PyResult<(Result, Option<(u64, f64, &'static str)>)> {
+    let options = ReplayOptions { other_plugins, frames_hz };
+    python.detach(|| {
+        let recording = Recording::load(&recording).map_err(raised)?;
+        let (run, verdict) =
+            again::verify(&recording, host(), options, |_, _| {}).map_err(raised)?;
+        let differs = match verdict {
+            Verdict::Same { .. } => None,
+            Verdict::Differs { step, time_s, part } => Some((step, time_s, part)),
+        };
+        Ok((Result::of(&run), differs))
+    })
+}

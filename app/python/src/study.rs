@@ -1,0 +1,145 @@
+//! A study planned, run in parts, merged and reported.
+
+use std::path::{Path, PathBuf};
+
+use endline_session::locate;
+use endline_session::study::folder::Folder;
+use endline_session::study::stats::Findings;
+use endline_session::study::{Control, Opened, Shard, batch, merge, report};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::Signals;
+use crate::error::{failed, raised};
+use crate::host::host;
+
+/// A study, opened and checked.
+#[pyclass(frozen, module = "endline._endline")]
+pub struct Study {
+    opened: Opened,
+}
+
+#[pymethods]
+impl Study {
+    /// A study by its id in the library, or by its file.
+    #[new]
+    #[pyo3(signature = (name, library=None))]
+    fn new(python: Python<'_>, name: &str, library: Option<PathBuf>) -> PyResult<Self> {
+        let library = library.as_deref();
+        let file = locate::named(name, "studies", library).map_err(failed)?;
+        let opened = python.detach(|| Opened::open(&file, library, host()));
+        Ok(Self { opened: opened.map_err(raised)? })
+    }
+
+    #[getter]
+    fn id(&self) -> &str {
+        &self.opened.study.id
+    }
+
+    #[getter]
+    fn hash(&self) -> &str {
+        &self.opened.hash
+    }
+
+    #[getter]
+    fn encounters(&self) -> u64 {
+        self.opened.study.encounters
+    }
+
+    #[getter]
+    fn options(&self) -> Vec<&str> {
+        self.opened.options.iter().map(|option| option.id.as_str()).collect()
+    }
+
+    /// What it will run, as the JSON of `endline study plan`.
+    fn plan(&self) -> String {
+        self.opened.plan_json()
+    }
+
+    /// Names of the files of one part's blocks in a folder of results.
+    fn blocks(&self, out: PathBuf, part: u32, of: u32) -> PyResult<Vec<PathBuf>> {
+        let (folder, shard) = (self.folder(&out)?, shard(part, of)?);
+        let own = (0..folder.blocks()).filter(|block| shard.holds(*block));
+        Ok(own.map(|block| folder.file_of(block)).collect())
+    }
+
+    /// Runs the missing blocks of a part: encounters done and in all.
+    fn run(
+        &self,
+        python: Python<'_>,
+        out: PathBuf,
+        part: u32,
+        of: u32,
+        threads: usize,
+    ) -> PyResult<(u32, u32)> {
+        let (folder, shard) = (self.folder(&out)?, shard(part, of)?);
+        python.detach(|| {
+            let control = Control::default();
+            let work = || batch::run(&self.opened, &folder, shard, threads, &control);
+            let progress = watched(&control, work)?;
+            Ok((progress.encounters.done, progress.encounters.total))
+        })
+    }
+
+    /// Joins the blocks of a folder: the file of the table.
+    fn merge(&self, python: Python<'_>, out: PathBuf) -> PyResult<PathBuf> {
+        let folder = self.folder(&out)?;
+        let merged = python.detach(|| {
+            let table = merge::merge(&self.opened, &folder)?;
+            merge::save(&self.opened, &folder, &table)
+        });
+        merged.map_err(raised)?;
+        Ok(folder.path.join("table.parquet"))
+    }
+
+    /// Writes the report of a merged study: its page, and the findings as the JSON of `endline study report`.
+    fn report(&self, python: Python<'_>, out: PathBuf) -> PyResult<(PathBuf, String)> {
+        let folder = self.folder(&out)?;
+        let written = python.detach(|| {
+            let table = merge::load(&self.opened, &folder)?;
+            let findings = Findings::of(&self.opened, &table, &folder.registration);
+            let page = report::write(&self.opened, &folder, &findings, &[])?;
+            Ok((page, findings.json()))
+        });
+        written.map_err(raised)
+    }
+}
+
+impl Study {
+    fn folder(&self, out: &Path) -> PyResult<Folder> {
+        Folder::open(out, &self.opened).map_err(raised)
+    }
+}
+
+fn shard(part: u32, of: u32) -> PyResult<Shard> {
+    if part < of {
+        return Ok(Shard { part, of });
+    }
+    Err(PyValueError::new_err(format!(
+        "part {part} of {of}: expected a part from 0 to one less than their number"
+    )))
+}
+
+/// Does work on a thread of its own; Ctrl+C here cancels it after the encounters under way.
+fn watched<T: Send>(
+    control: &Control,
+    work: impl FnOnce() -> Result<T, endline_session::Error> + Send,
+) -> PyResult<T> {
+    std::thread::scope(|scope| {
+        let worker = scope.spawn(work);
+        let mut signals = Signals::new();
+        while !worker.is_finished() {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            if !signals.go_on() {
+                control.cancel();
+                break;
+            }
+        }
+        let done = worker.join();
+        signals.outcome()?;
+        match done {
+            Ok(done) => done.map_err(raised),
+            Err(_) => Err(failed("a thread of the study has panicked".into())),
+        }
+    })
+}

@@ -1,0 +1,134 @@
+"""A run by Python is the run of the command line, number for number."""
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import library_file
+
+import endline
+
+
+#: Figures that tell real time, and the name of the file, which each names in its own way.
+CLOCKS = {"scenario", "wall_s", "times_real_time", "approach", "contact", "cost"}
+
+
+def test_the_state_is_that_of_the_command_line(hello, hello_json):
+    assert hello.state_hash == hello_json["state_hash"]
+
+
+def test_the_figures_are_those_of_the_command_line(hello, hello_json):
+    assert list(hello.figures) == list(hello_json)
+    for key in set(hello.figures) - CLOCKS:
+        here, there = hello.figures[key], hello_json[key]
+        if key == "settled":
+            here, there = ({name: value for name, value in figure.items() if name != "wall_s"} for figure in (here, there))
+        assert here == there, key
+
+
+def test_moments_have_the_documented_shapes(hello):
+    moments = len(hello.time_s)
+    assert moments == 601
+    assert np.allclose(np.diff(hello.time_s), 0.1)
+    nodes = max(line.nodes.stop for line in hello.lines)
+    assert hello.node_position_m.shape == (moments, nodes, 3)
+    assert hello.tension_N.shape == hello.segment_length_m.shape
+    assert hello.tension_N.shape[0] == moments
+    assert hello.whale_position_m.shape == (moments, 3)
+    assert np.allclose(np.linalg.norm(hello.whale_orientation, axis=1), 1)
+    assert hello.body_position_m.shape == (moments, len(hello.bodies), 3)
+    assert not hello.tension_N.flags.writeable
+
+
+def test_no_moment_exceeds_the_peak_of_all_steps(hello):
+    for line in hello.figures["lines"]:
+        greatest = hello.line_tension_N(line["id"]).max()
+        assert 0.5 * line["peak_tension_N"] < greatest <= line["peak_tension_N"] * (1 + 1e-9)
+
+
+def test_contacts_lie_on_their_segments(hello):
+    contacts = hello.contacts
+    assert len(contacts) > 0
+    first = hello.figures["whale"]["first_contact_s"]
+    assert abs(hello.time_s[contacts.moment[0]] - first) < 0.2
+    for line in hello.lines:
+        own = contacts.line == hello.lines.index(line)
+        segment = contacts.segment[own] - line.segments.start
+        a = hello.node_position_m[contacts.moment[own], line.nodes.start + segment]
+        b = hello.node_position_m[contacts.moment[own], line.nodes.start + segment + 1]
+        reach = np.linalg.norm(contacts.position_m[own] - a, axis=1) + np.linalg.norm(contacts.position_m[own] - b, axis=1)
+        assert np.allclose(reach, np.linalg.norm(b - a, axis=1), atol=1e-6)
+
+
+def test_settle_is_that_of_the_command_line(command):
+    there = json.loads(command("settle", library_file("scenarios/hello-endline.toml"), "--json"))
+    here = endline.settle("hello-endline")
+    assert [line["tension_N"] for line in here["lines"]] == [line["tension_N"] for line in there["lines"]]
+    assert here["schema"] == "endline.settle/1"
+
+
+def test_overrides_reach_the_model(hello):
+    other = endline.Scenario("hello-endline", rating_N=1.0, seed=9)
+    assert other.model_hash != hello.figures["model_hash"]
+    assert endline.Scenario("hello-endline").model_hash == hello.figures["model_hash"]
+
+
+def test_a_recording_replays_to_the_same_bits_here_and_on_the_command_line(hello, command, tmp_path):
+    file = tmp_path / "hello.endline"
+    hello.save(file)
+    again = endline.replay(file)
+    assert again.verified and again.result.state_hash == hello.state_hash
+    assert np.array_equal(again.result.node_position_m, hello.node_position_m)
+    assert "verified" in command("replay", file, "--verify")
+
+
+def test_other_threads_run_meanwhile():
+    scenario = endline.Scenario("hello-endline")
+    ticks, done = [], threading.Event()
+
+    def run():
+        scenario.run(frames_hz=0)
+        done.set()
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    while not done.is_set():
+        ticks.append(time.monotonic())
+        time.sleep(0.01)
+    thread.join()
+    # A run that held the lock of the interpreter would let none of these through until its end.
+    assert len(ticks) > 5
+
+
+def test_ctrl_c_stops_a_run():
+    script = "import endline; s = endline.Scenario('foraging-dive'); print('running', flush=True); s.run(); print('ended')"
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "running\n"
+    time.sleep(1)
+    process.send_signal(signal.SIGINT)
+    out, error = process.communicate(timeout=120)
+    assert "KeyboardInterrupt" in error and "ended" not in out
+
+
+@pytest.mark.parametrize("wrong", ["hello-endlin", "no/such/file.toml"])
+def test_a_name_that_is_not_there_is_told(wrong):
+    with pytest.raises(endline.EndlineError) as raised:
+        endline.run(wrong)
+    assert wrong in str(raised.value)
+
+
+def test_errors_have_file_line_and_field(tmp_path):
+    text = library_file("scenarios/hello-endline.toml").read_text()
+    file = tmp_path / "wrong.toml"
+    file.write_text(text.replace('length = "13.7 m"', 'length = "13.7 kg"'))
+    with pytest.raises(endline.EndlineError) as raised:
+        endline.Scenario(file)
+    error = raised.value
+    assert error.file == str(file) and error.field == "whale.length"
+    assert error.line == 1 + text.splitlines().index('length = "13.7 m"')
+    assert error.problems[0]["message"] in str(error)

@@ -1,0 +1,129 @@
+//! The Python package: built as a wheel with the command, its plugins and the gear library inside, installed in a virtual
+//! environment of its own, and tested there.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::workspace::{Profile, Workspace, announce};
+use crate::{Outcome, plugins};
+
+/// The package's folder.
+const FOLDER: &str = "app/python";
+
+/// Folders of the gear library that hold code of its crate.
+const CODE: [&str; 4] = ["src", "tests", "benches", "examples"];
+
+/// Builds the wheel, installs it and runs its tests.
+///
+/// # Errors
+/// When Python is missing, a package cannot be installed, or a test fails.
+pub fn test(workspace: &Workspace, profile: Profile) -> Outcome {
+    let environment = environment(workspace)?;
+    let wheel = wheel(workspace, profile, &environment)?;
+    let install = ["install", "--quiet", "--force-reinstall", "--no-deps"];
+    let wheel = wheel.display().to_string();
+    call(&tool(&environment, "pip"), &[install.as_slice(), &[&wheel]].concat(), workspace)?;
+    call(&tool(&environment, "pytest"), &["--quiet", "app/python/tests"], workspace)
+}
+
+/// Builds the wheel; answers its file.
+fn wheel(workspace: &Workspace, profile: Profile, environment: &Path) -> Outcome<PathBuf> {
+    // The command without its window: what a module draws with is all that it needs besides.
+    let parts =
+        ["--package", "endline-python", "--package", "endline", "--lib", "--bin", "endline"];
+    let features = ["--no-default-features", "--features", "endline/scene"];
+    workspace.cargo(&[&["build", profile.flag()], parts.as_slice(), &features].concat())?;
+    plugins::build(workspace, profile)?;
+    bring(workspace, profile)?;
+    let wheels = workspace.target.join("wheels");
+    // Of several versions pip would be given the wrong one.
+    let _ = fs::remove_dir_all(&wheels);
+    let out = wheels.display().to_string();
+    let manifest = format!("{FOLDER}/Cargo.toml");
+    let build = ["build", "--manifest-path", &manifest, "--out", &out, profile.flag()];
+    call(&tool(environment, "maturin"), &build, workspace)?;
+    let mut files = fs::read_dir(&wheels).into_iter().flatten().flatten().map(|file| file.path());
+    let wheel = files.find(|file| file.extension() == Some(OsStr::new("whl")));
+    let wheel = wheel.ok_or_else(|| format!("maturin has put no wheel into {out}"))?;
+    let bytes = fs::metadata(&wheel).map_or(0, |file| file.len());
+    eprintln!("{} ({:.1} MB)", wheel.display(), bytes as f64 / 1e6);
+    Ok(wheel)
+}
+
+/// Puts command, plugins and gear library into the package.
+fn bring(workspace: &Workspace, profile: Profile) -> Outcome {
+    let package = workspace.root.join(FOLDER).join("python/endline");
+    let (bin, library) = (package.join("bin"), package.join("gear-library"));
+    for folder in [&bin, &library] {
+        let _ = fs::remove_dir_all(folder);
+    }
+    copy(&workspace.products(profile).join("plugins"), &bin.join("plugins"))?;
+    let program = workspace.program(profile);
+    let name = program.file_name().unwrap_or_default();
+    fs::copy(&program, bin.join(name))
+        .map_err(|error| format!("cannot copy {}: {error}", program.display()))?;
+    let items = workspace.root.join("gear-library");
+    for entry in entries(&items)? {
+        let name = entry.file_name().unwrap_or_default();
+        if entry.is_dir() && !CODE.iter().any(|code| name == *code) {
+            copy(&entry, &library.join(name))?;
+        }
+    }
+    Ok(())
+}
+
+/// Copies a folder with all it holds.
+fn copy(from: &Path, to: &Path) -> Outcome {
+    fs::create_dir_all(to).map_err(|error| format!("cannot make {}: {error}", to.display()))?;
+    for entry in entries(from)? {
+        let place = to.join(entry.file_name().unwrap_or_default());
+        if entry.is_dir() {
+            copy(&entry, &place)?;
+        } else {
+            fs::copy(&entry, &place)
+                .map_err(|error| format!("cannot copy {}: {error}", entry.display()))?;
+        }
+    }
+    Ok(())
+}
+
+fn entries(folder: &Path) -> Outcome<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)
+        .map_err(|error| format!("cannot read {}: {error}", folder.display()))?;
+    Ok(entries.flatten().map(|entry| entry.path()).collect())
+}
+
+/// A virtual environment with what building and testing need, made where it is not there.
+fn environment(workspace: &Workspace) -> Outcome<PathBuf> {
+    let environment = workspace.target.join("python-env");
+    let path = environment.display().to_string();
+    if !tool(&environment, "pip").is_file() {
+        call(Path::new("python3"), &["-m", "venv", &path], workspace).map_err(|error| {
+            format!("{error}; Python 3.10 or later with venv is needed (Debian: apt-get install python3-venv)")
+        })?;
+    }
+    let needs = format!("{FOLDER}/requirements.txt");
+    let install = ["install", "--quiet", "--disable-pip-version-check", "--requirement", &needs];
+    call(&tool(&environment, "pip"), &install, workspace)?;
+    Ok(environment)
+}
+
+/// A program of a virtual environment.
+fn tool(environment: &Path, name: &str) -> PathBuf {
+    let folder = if cfg!(windows) { "Scripts" } else { "bin" };
+    environment.join(folder).join(format!("{name}{}", std::env::consts::EXE_SUFFIX))
+}
+
+fn call(program: &Path, arguments: &[&str], workspace: &Workspace) -> Outcome {
+    announce(&program.display().to_string(), arguments);
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(&workspace.root);
+    command.env("CARGO_TARGET_DIR", &workspace.target);
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(format!("`{}` failed, see above", program.display())),
+        Err(error) => Err(format!("cannot start {}: {error}", program.display())),
+    }
+}
