@@ -3,6 +3,10 @@
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Saves so far.
+static SAVES: AtomicU32 = AtomicU32::new(0);
 
 /// Saves a text in one move: writes beside, syncs, renames.
 ///
@@ -12,7 +16,10 @@ pub fn save_text(path: &Path, text: &str) -> io::Result<()> {
     let name = path
         .file_name()
         .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
-    let beside = path.with_file_name(format!(".{}.saving", name.to_string_lossy()));
+    // The process id keeps two programs apart, and the number two saves of one program.
+    let number = SAVES.fetch_add(1, Ordering::Relaxed);
+    let own = format!(".{}.{}-{number}.saving", name.to_string_lossy(), std::process::id());
+    let beside = path.with_file_name(own);
     let written = write_synced(&beside, text).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
         let _ = fs::remove_file(&beside);

@@ -10,6 +10,7 @@ use super::condition::{can_redo, can_undo, has_moments, has_whale, unsaved};
 use super::info::{Choice, FileQuestion, Make, Shortcut, When};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
+use crate::edit::saving::Keep;
 use crate::locate;
 use crate::workbench::Workbench;
 
@@ -31,6 +32,13 @@ pub enum EditAction {
     Redo,
     /// Save every changed text.
     Save,
+    /// Decide between a file that was changed on disk and the edits of it here.
+    Reconcile {
+        /// The text, as for [`Set`](Self::Set).
+        path: String,
+        /// What is kept.
+        keep: Keep,
+    },
     /// Save the scenario to another file and go on with that.
     SaveScenarioAs(PathBuf),
     /// Open a scenario.
@@ -67,6 +75,7 @@ impl EditAction {
             Self::Undo => "edit.undo",
             Self::Redo => "edit.redo",
             Self::Save => "edit.save",
+            Self::Reconcile { .. } => "edit.reconcile",
             Self::SaveScenarioAs(_) => "edit.save-scenario-as",
             Self::OpenScenario(_) => "edit.open",
             Self::Recover(_) => "edit.recover",
@@ -178,6 +187,12 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("the edits kept"),
     ),
     Info::new(
+        "edit.reconcile",
+        "Decide about a file changed on disk",
+        "Keeps the edits made here, what someone else wrote to the file since, or both.",
+        Make::Values("path, what is kept"),
+    ),
+    Info::new(
         "edit.add-inserts",
         "Put in weak inserts",
         "Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly.",
@@ -220,6 +235,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(
         EditAction::Undo => workbench.undo(),
         EditAction::Redo => workbench.redo(),
         EditAction::Save => workbench.save(),
+        EditAction::Reconcile { path, keep } => workbench.reconcile(&path, keep),
         EditAction::SaveScenarioAs(path) => workbench.save_scenario_as(&path),
         EditAction::OpenScenario(path) => workbench.open_scenario(&path),
         EditAction::Recover(edits) => workbench.recover(&edits),

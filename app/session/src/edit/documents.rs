@@ -16,14 +16,16 @@ use super::texts::Texts;
 /// `ropes/x.toml`; the scenario's is [`SCENARIO`](Self::SCENARIO), the study's
 /// [`STUDY`](Self::STUDY), the observation's [`OBSERVATION`](Self::OBSERVATION).
 pub struct Documents {
-    root: PathBuf,
-    scenario_path: PathBuf,
+    pub(super) root: PathBuf,
+    pub(super) scenario_path: PathBuf,
     study_path: Option<PathBuf>,
     observation_path: Option<PathBuf>,
-    texts: Texts,
+    pub(super) texts: Texts,
     history: History,
     problems: Problems,
     library: Arc<Library>,
+    /// Texts of files that were changed on disk since they were read and have edits here too, by path, as they are on disk.
+    pub(super) newer: BTreeMap<String, String>,
     /// Grows with every change of a text.
     version: u64,
     /// Meshes of the library's folder, as they were when it was opened.
@@ -61,6 +63,7 @@ impl Documents {
             history: History::default(),
             problems: Problems::default(),
             library: Arc::default(),
+            newer: BTreeMap::new(),
             version: 0,
             meshes: Sources::default().with_meshes_of(&sources),
         };
@@ -180,7 +183,7 @@ impl Documents {
     }
 
     /// The file of a text that is none of the library's gear.
-    fn file_outside(&self, key: &str) -> Option<&Path> {
+    pub(super) fn file_outside(&self, key: &str) -> Option<&Path> {
         match key {
             Self::SCENARIO => Some(&self.scenario_path),
             Self::STUDY => self.study_path.as_deref(),
@@ -363,6 +366,7 @@ impl Documents {
         };
         let free = (1..1000).map(named).find(|path| !path.exists());
         self.scenario_path = free.unwrap_or_else(|| named(1000));
+        self.texts.read(Self::SCENARIO, None);
         self.put_all(vec![(Self::SCENARIO.to_owned(), text)]);
         &self.scenario_path
     }
@@ -462,7 +466,7 @@ impl Documents {
         files.find(|path| !path.exists()).ok_or_else(|| "there are 1000 copies already".to_owned())
     }
 
-    fn change(&mut self, texts: Vec<(String, Option<String>)>) {
+    pub(super) fn change(&mut self, texts: Vec<(String, Option<String>)>) {
         let change = |(path, after): (String, Option<String>)| Change {
             before: self.texts.get(&path).map(str::to_owned),
             path,
@@ -514,51 +518,8 @@ impl Documents {
         self.texts.get(path) != self.texts.saved(path)
     }
 
-    /// Writes every changed text to its file, each whole or not at all; returns how many.
-    ///
-    /// # Errors
-    /// With the files that could not be written; the others are saved.
-    pub fn save(&mut self) -> Result<usize, String> {
-        let (mut count, mut failed) = (0, Vec::new());
-        for path in self.texts.unsaved().to_vec() {
-            let file = self.file_of(&path);
-            let written = match self.texts.get(&path) {
-                Some(text) => save_text(&file, text),
-                None => std::fs::remove_file(&file),
-            };
-            match written {
-                Ok(()) => {
-                    count += 1;
-                    self.texts.mark_saved(&path);
-                }
-                Err(error) => failed.push(format!("{}: {error}", file.display())),
-            }
-        }
-        self.texts.refresh();
-        if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
-    }
-
-    /// The file of a text.
-    fn file_of(&self, path: &str) -> PathBuf {
-        self.file_outside(path).map_or_else(|| self.root.join(path), Path::to_owned)
-    }
-
-    /// Writes the scenario to another file and continues with that file; the earlier file stays as
-    /// it was saved.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
-    pub fn save_scenario_as(&mut self, path: &Path) -> Result<(), String> {
-        let text = self.texts.get(Self::SCENARIO).unwrap_or_default();
-        save_text(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-        self.scenario_path = path.to_owned();
-        self.texts.mark_saved(Self::SCENARIO);
-        self.read_all();
-        Ok(())
-    }
-
     /// Reads all texts again: the library, and every problem.
-    fn read_all(&mut self) {
+    pub(super) fn read_all(&mut self) {
         self.texts.refresh();
         let outside = [Self::SCENARIO, Self::STUDY, Self::OBSERVATION]
             .map(|key| (self.shown_name(key), self.texts.get(key)));

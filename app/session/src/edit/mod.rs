@@ -8,6 +8,7 @@
 //! | `figures` | figures typed: their sources, and what follows from them |
 //! | `history` | undo and redo |
 //! | [`problems`] | located problems of the texts |
+//! | [`saving`] | texts written to their files, none over what someone else wrote since |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
 //! | [`assembly`] | parts of an assembly added, split and joined |
@@ -24,6 +25,7 @@ pub mod observation;
 pub mod pilot_program;
 pub mod problems;
 pub mod recovery;
+pub mod saving;
 pub mod scenario;
 mod texts;
 

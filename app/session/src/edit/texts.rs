@@ -59,6 +59,11 @@ impl Texts {
         replace(&mut self.saved, path, self.present.get(path).cloned());
     }
 
+    /// The file of a text was found to be so on disk; it is not there where `None`.
+    pub(super) fn read(&mut self, path: &str, on_disk: Option<String>) {
+        replace(&mut self.saved, path, on_disk);
+    }
+
     /// Parses what has changed and compares the present texts with those of the files.
     pub(super) fn refresh(&mut self) {
         for (path, text) in &self.present {

@@ -9,6 +9,7 @@ use super::Workbench;
 use super::model::Texts;
 use super::notice::{Event, Notice};
 use crate::edit::recovery::{Autosave, UnsavedEdits};
+use crate::edit::saving::Keep;
 use crate::edit::{Documents, library_table, pilot_program};
 use crate::rules::mend::{Asked, usual_inserts};
 
@@ -116,6 +117,12 @@ impl Workbench {
             1 => "saved 1 file".to_owned(),
             count => format!("saved {count} files"),
         }));
+        Ok(())
+    }
+
+    pub(crate) fn reconcile(&mut self, path: &str, keep: Keep) -> Result<(), String> {
+        let done = self.project.documents.reconcile(path, keep)?;
+        self.notice = Some(Notice::done(done));
         Ok(())
     }
 

@@ -1,5 +1,5 @@
-//! What the window asks: what to do with edits a crash left, with unsaved ones as it closes or another scenario is opened, and with a
-//! plugin it does not know.
+//! What the window asks: what to do with edits a crash left, with unsaved ones as it closes or another scenario is opened, with a
+//! file that was changed on disk, and with a plugin it does not know.
 
 use endline_session::command::{EditAction, PluginAction};
 use std::path::{Path, PathBuf};
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::UnsavedEdits;
+use endline_session::edit::saving::Keep;
 use endline_session::plugins::Change;
 
 use super::files::stem;
@@ -145,6 +146,63 @@ impl Questions {
             });
         });
     }
+}
+
+/// Lines of a file changed on disk that are shown at most.
+const LINES_SHOWN: usize = 5;
+
+/// Asks what becomes of a file that someone else changed on disk, as edits of it are saved.
+pub fn newer(context: &Context, shared: &mut Shared) {
+    let documents = &shared.workbench.project.documents;
+    let Some((path, theirs)) = documents.newer().next() else { return };
+    let (path, name) = (path.to_owned(), documents.shown_name(path));
+    let read = documents.saved_text(&path).unwrap_or_default();
+    let theirs: Vec<String> = theirs
+        .lines()
+        .filter(|line| !read.lines().any(|known| known == *line))
+        .take(LINES_SHOWN)
+        .map(str::to_owned)
+        .collect();
+    let window = Window::new("Changed on disk")
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0))
+        .max_width(460.0);
+    window.show(context, |ui| {
+        ui.label(RichText::new(name).strong());
+        ui.add(
+            Label::new("The file was changed since Endline read it. Your edits are not saved.")
+                .wrap(),
+        );
+        if !theirs.is_empty() {
+            ui.label(RichText::new("On disk it now has").color(Theme::palette_of(ui).faint));
+            ui.add(Label::new(RichText::new(theirs.join("\n")).monospace().size(12.0)).truncate());
+        }
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            let answers = [
+                ("Keep both", Keep::Both, "Your edits go to a file of their own beside it"),
+                ("Keep mine", Keep::Mine, "Your edits replace what is on disk"),
+                (
+                    "Take theirs",
+                    Keep::Theirs,
+                    "What is on disk replaces your edits; Undo brings them back",
+                ),
+                (
+                    "Not now",
+                    Keep::Undecided,
+                    "The file stays as it is, and your edits stay unsaved",
+                ),
+            ];
+            for (label, keep, help) in answers {
+                let clicked =
+                    if keep == Keep::Both { primary(ui, true, label) } else { ui.button(label) };
+                if clicked.on_hover_text(help).clicked() {
+                    shared.give(EditAction::Reconcile { path: path.clone(), keep });
+                }
+            }
+        });
+    });
 }
 
 /// Asks before a plugin library is opened that is new, or has changed since it was allowed.

@@ -273,6 +273,32 @@ fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
     assert_eq!(harness.state().shared.workbench.project.documents.scenario_path(), other);
 }
 
+#[test]
+fn a_file_changed_by_someone_else_is_asked_about_before_it_is_written_over() {
+    let folder = Folder::new("changed-on-disk");
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
+    let file = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
+    let on_disk = || std::fs::read_to_string(&file).unwrap();
+    let first = on_disk();
+    for (answer, mine, theirs, kept) in [
+        ("Not now", "7 s", "# A colleague's note.\n", false),
+        ("Keep both", "8 s", "# Another note.\n", false),
+        ("Keep mine", "9 s", "# A third note.\n", true),
+    ] {
+        harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", mine);
+        std::fs::write(&file, first.clone() + theirs).unwrap();
+        harness.state_mut().shared.give(EditAction::Save);
+        harness.run_steps(3);
+        assert!(!on_disk().contains(mine), "it asks first");
+        harness.get_by_label_contains(theirs.trim());
+        click(&mut harness, answer);
+        assert_eq!(on_disk().contains(mine), kept, "{answer}");
+        assert_eq!(on_disk().contains(theirs), !kept, "{answer}");
+    }
+    let beside = file.with_file_name("reference-a-pendulum-mine.toml");
+    assert!(std::fs::read_to_string(beside).unwrap().contains("8 s"));
+}
+
 /// Clicks what has a label, scrolled to.
 fn click(harness: &mut Harness<'static, App>, label: &str) {
     harness.get_by_label(label).scroll_to_me();

@@ -204,6 +204,7 @@ impl eframe::App for App {
         });
         self.palette.show(ui.ctx(), &mut self.shared);
         questions::plugin(ui.ctx(), &mut self.shared);
+        questions::newer(ui.ctx(), &mut self.shared);
         self.questions.before_closing(ui.ctx(), &mut self.shared);
         self.questions.before_opening(ui.ctx(), &mut self.shared);
         let commands = std::mem::take(&mut self.shared.commands);
