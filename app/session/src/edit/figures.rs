@@ -59,7 +59,7 @@ fn typed(
 fn factor(before: &str, after: &str, quantity: Quantity) -> Option<f64> {
     let [before, after] = [before, after].map(|text| units::parse(text, quantity).ok());
     let factor = after? / before?;
-    (factor.is_finite() && factor > 0.0 && factor != 1.0).then_some(factor)
+    (factor.is_finite() && factor > 0.0 && (factor - 1.0).abs() > 1e-12).then_some(factor)
 }
 
 /// A figure's text with its number multiplied, to four digits; its unit stays.

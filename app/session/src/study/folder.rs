@@ -170,8 +170,8 @@ impl Folder {
         }
         let own = self.encounters_of(block);
         let is_own = |encounter: &Option<f64>| {
-            encounter
-                .is_some_and(|encounter| own.clone().any(|known| f64::from(known) == encounter))
+            let range = f64::from(own.start)..f64::from(own.end);
+            encounter.is_some_and(|encounter| range.contains(&encounter))
         };
         if !table.reals("encounter").iter().all(is_own) {
             let message =
