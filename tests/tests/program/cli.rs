@@ -118,7 +118,7 @@ fn a_step_beyond_its_limit_is_refused_on_the_command_line_as_in_a_file() {
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     let why = ["`step` is 1e-12 s", "because", "10 ms is usual"];
     place.endline(&["run", &scenario, "--dt", "1e-12"]).fails(2, &why);
-    edit(scenario.as_ref(), "step", "step = \"1e-12 s\"");
+    edit(scenario.as_ref(), "duration", "duration = \"0.1 s\"\nstep = \"1e-12 s\"");
     place.endline(&["run", &scenario]).fails(1, &why);
 }
 
