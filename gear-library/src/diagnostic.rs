@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::limits::EXCERPT_CHARS;
+use crate::limits::{Beyond, EXCERPT_CHARS};
 
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,6 +135,14 @@ impl Place {
             excerpt: line.chars().take(EXCERPT_CHARS).collect(),
             width: text[start..end].chars().take(EXCERPT_CHARS).count(),
         }
+    }
+}
+
+impl Beyond {
+    /// The same as a problem at a place.
+    #[must_use]
+    pub fn at(self, place: &Place) -> Diagnostic {
+        place.error(self.message, self.help)
     }
 }
 

@@ -3,7 +3,6 @@
 //! A limit lies far beyond what gear, whales and seas need, and well within what the program bears.
 //! It is there so that a slip of the keyboard, or a hostile file, is refused with a message instead of taking all memory or all day.
 
-use crate::diagnostic::{Diagnostic, Place};
 use crate::units::{Quantity, format_si};
 
 /// The least and the most of something, and why.
@@ -85,13 +84,12 @@ pub const WAVE_COMPONENTS: Limit = count_of(
 /// Encounters of a study.
 pub const ENCOUNTERS: Limit = count_of(
     1.0,
-    crate::study::MOST_ENCOUNTERS as f64,
+    65_536.0,
     "the sequence they are drawn from has no more",
     "1,000 tell a rate to a few percent",
 );
 /// Encounters that were counted in a study.
-pub const COUNTED: Limit =
-    count_of(0.0, crate::study::MOST_ENCOUNTERS as f64, "a study has no more encounters", "");
+pub const COUNTED: Limit = count_of(0.0, 65_536.0, "a study has no more encounters", "");
 /// Size of one text file.
 pub const TEXT_FILE_BYTES: u64 = 16 << 20;
 /// Size of one file of a mesh or an animation.
@@ -176,14 +174,6 @@ impl Limit {
         let [least, most] = [least, most].map(|value| format_si(*value, self.quantity));
         let mend = if mend.is_empty() { String::new() } else { format!("; {mend}") };
         format!("it must be between {least} and {most}, because {why}{mend}")
-    }
-}
-
-impl Beyond {
-    /// The same as a problem at a place.
-    #[must_use]
-    pub fn at(self, place: &Place) -> Diagnostic {
-        place.error(self.message, self.help)
     }
 }
 

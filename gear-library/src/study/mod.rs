@@ -33,7 +33,7 @@ pub use prior::{Law, Level, Prior, Target};
 pub use threat::{ThreatLabels, ThreatRow};
 
 /// Most encounters: the Sobol sequence used has this many points.
-pub const MOST_ENCOUNTERS: u64 = 65_536;
+pub const MOST_ENCOUNTERS: u64 = limits::ENCOUNTERS.most as u64;
 
 /// Share of encounters drawn from the priors themselves, where a study does not say: no encounter then weighs more than
 /// four times the mean.

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use super::output::harmless;
+use super::harmless::harmless;
 
 /// What to tell the user, and the exit code.
 #[derive(Debug)]

@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod failure;
+mod harmless;
 mod haul;
 mod host;
 mod interrupt;
