@@ -63,6 +63,22 @@ fn an_interrupted_run_tells_its_summary_and_its_recording_goes_on() {
 }
 
 #[test]
+fn a_run_under_nohup_outlives_its_terminal() {
+    let place = Place::new("nohup");
+    let scenario = place.encounter();
+    edit(scenario.as_ref(), "duration", "duration = \"900 s\"");
+    let program = text(&endline_tests::program().unwrap());
+    let mut command = Command::new("sh");
+    command.args(["-c", "trap '' HUP; exec \"$@\"", "sh", &program, "run", &scenario]);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    wait("a handler", || handles(&child, 15));
+    assert!(!handles(&child, 1), "SIGHUP stays ignored");
+    send(&child, "-HUP");
+    send(&child, "-TERM");
+    ended(child).fails(143, &["interrupted at"]);
+}
+
+#[test]
 fn an_interrupted_study_keeps_its_encounters_and_the_same_command_goes_on() {
     let place = Place::new("interrupted-study");
     let study = small(&place);

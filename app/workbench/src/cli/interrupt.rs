@@ -17,6 +17,9 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
+/// The number of SIGHUP on every Unix: `nohup` has a program ignore it, and it then stays ignored.
+const HANGUP: i32 = 1;
+
 /// How often a command that waits on other threads looks [ms].
 const LOOK_MS: u64 = 50;
 
@@ -31,7 +34,9 @@ impl Interrupt {
     /// Watches from here on.
     pub(super) fn watch() -> Self {
         let interrupt = Self::default();
-        for signal in SIGNALS {
+        for signal in
+            SIGNALS.into_iter().filter(|signal| !(*signal == HANGUP && is_ignored(HANGUP)))
+        {
             if let Err(error) = interrupt.watch_for(signal) {
                 output::note(&format!("an interrupt will end the program at once: {error}"));
             }
@@ -78,4 +83,61 @@ impl Interrupt {
 /// The status that shells give a program ended by a signal.
 fn status(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(1)
+}
+
+/// Whether whoever started the program had it ignore a signal.
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
+/// The command line of this program, as a shell takes it, with other values of some options.
+pub(super) fn command_line(options: &[(&str, &str)]) -> String {
+    with_options(std::env::args(), options)
+}
+
+fn with_options(arguments: impl Iterator<Item = String>, options: &[(&str, &str)]) -> String {
+    let mut words = vec!["endline".to_owned()];
+    let mut arguments = arguments.skip(1);
+    while let Some(argument) = arguments.next() {
+        let is_new = |(name, _): &(&str, &str)| {
+            argument.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+        };
+        if !options.iter().any(is_new) {
+            words.push(quoted(&argument));
+        } else if !argument.contains('=') {
+            arguments.next();
+        }
+    }
+    words.extend(options.iter().flat_map(|(name, value)| [(*name).to_owned(), quoted(value)]));
+    words.join(" ")
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+%@".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_goes_on_from_another_recording_and_is_otherwise_the_same() {
+        let line = |words: &[&str], options: &[(&str, &str)]| {
+            with_options(words.iter().map(|word| (*word).to_owned()), options)
+        };
+        let from = [("--from", "b/r.endline"), ("--at", "2.5")];
+        assert_eq!(
+            line(&["/bin/endline", "run", "a b.toml", "--from", "a", "--at=1", "--json"], &from),
+            "endline run 'a b.toml' --json --from b/r.endline --at 2.5"
+        );
+        assert_eq!(line(&["x", "study", "run", "it's"], &[]), "endline study run 'it'\\''s'");
+    }
 }

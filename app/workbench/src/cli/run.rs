@@ -8,7 +8,7 @@ use endline_session::recording::take_over::take_over;
 use endline_session::{Prepared, Recording, Report, Run, RunOptions, prepare};
 
 use super::args::RunArgs;
-use super::interrupt::Interrupt;
+use super::interrupt::{self, Interrupt};
 use super::progress::Progress;
 use super::{Failure, host, output, picture, table};
 
@@ -59,13 +59,16 @@ fn to_end(args: &RunArgs, run: &mut Run, interrupt: &Interrupt) {
 /// What an interrupted user can do.
 fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
     let time_s = run.state().time_s;
-    let scenario = args.scenario.display();
     match &args.out {
-        Some(folder) => format!(
-            "interrupted at {time_s:.2} s; to go on from there: endline run {scenario} --from {} --at {time_s:.2} --out {}-2",
-            folder.join("recording.endline").display(),
-            folder.display()
-        ),
+        Some(folder) => {
+            let recording = folder.join("recording.endline").display().to_string();
+            let again = interrupt::command_line(&[
+                ("--from", &recording),
+                ("--at", &format!("{time_s:.6}")),
+                ("--out", &format!("{}-2", folder.display())),
+            ]);
+            format!("interrupted at {time_s:.2} s; to go on from there: {again}")
+        }
         None => format!(
             "interrupted at {time_s:.2} s, and no recording is kept; with --out DIR the run could go on from there"
         ),
