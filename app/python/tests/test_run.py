@@ -106,7 +106,7 @@ def test_other_threads_run_meanwhile():
 
 
 def test_ctrl_c_stops_a_run():
-    script = "import endline; s = endline.Scenario('foraging-dive'); print('running', flush=True); s.run(); print('ended')"
+    script = "import signal, endline; signal.signal(signal.SIGINT, signal.default_int_handler); s = endline.Scenario('hello-endline'); print('running', flush=True); s.run(); print('ended')"
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "running\n"
     time.sleep(1)

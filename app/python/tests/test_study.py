@@ -82,7 +82,7 @@ def test_blocks_missing_are_told(small, tmp_path):
 
 def test_ctrl_c_ends_a_study_and_the_next_call_goes_on(small, by_command, tmp_path):
     file, out = small(24, seconds=2), tmp_path / "out"
-    script = f"import endline; s = endline.Study({str(file)!r}); print('running', flush=True); s.run({str(out)!r}, threads=1)"
+    script = f"import signal, endline; signal.signal(signal.SIGINT, signal.default_int_handler); s = endline.Study({str(file)!r}); print('running', flush=True); s.run({str(out)!r}, threads=1)"
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "running\n"
     while len(list(out.glob("block-*"))) < 2 and process.poll() is None:
