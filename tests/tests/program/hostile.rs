@@ -1,5 +1,10 @@
 //! Files and calls that ask for too much, or mean harm: each ends soon, with what is wrong, where, and how to mend it.
 #![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 use std::fmt::Write;
 use std::fs;

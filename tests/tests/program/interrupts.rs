@@ -1,5 +1,10 @@
 //! Interrupted as terminals and batch systems do it: what there is is kept and told, and the program says how to go on.
 #![cfg(target_os = "linux")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
