@@ -24,7 +24,7 @@ mod watch;
 
 use std::time::Duration;
 
-use campaign::Campaign;
+use campaign::{Campaign, Turn};
 
 /// A seed that is always the same, so that a failure comes again.
 const SEED: u64 = 20_261_126;
@@ -41,10 +41,10 @@ fn damaged_files_of_every_kind_are_read_or_refused() {
 
 /// What the suite runs.
 const SHORT: Campaign =
-    Campaign { seed: SEED, turn: Duration::from_millis(150), turns: 4, threads: 1 };
+    Campaign { seed: SEED, turn: Turn::Inputs { quick: 60, slow: 3 }, turns: 1, threads: 1 };
 
 fn for_hours(hours: f64) -> Campaign {
-    let turn = Duration::from_secs(1);
+    let turn = Turn::Time(Duration::from_secs(1));
     let turns = (hours * 3600.0 / targets::all().len() as f64).ceil() as u32;
     let seed = std::time::UNIX_EPOCH.elapsed().map_or(SEED, |since| since.as_nanos() as u64);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
