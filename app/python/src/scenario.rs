@@ -20,24 +20,25 @@ pub struct Scenario {
     prepared: Prepared,
 }
 
+/// What is set over what a scenario says: a dictionary with each of these keys.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Over {
+    seed: Option<u64>,
+    step_s: Option<f64>,
+    weak_links: Option<bool>,
+    rating_n: Option<f64>,
+    kinetic: Option<bool>,
+}
+
 #[pymethods]
 impl Scenario {
     /// A scenario by its id in the library, or by its file; what is given is set over what it says.
     #[new]
-    #[pyo3(signature = (name, library=None, *, seed=None, step_s=None, weak_links=None, rating_n=None, kinetic=None))]
-    #[expect(clippy::too_many_arguments, reason = "each is a keyword of Python's")]
-    fn new(
-        python: Python<'_>,
-        name: &str,
-        library: Option<PathBuf>,
-        seed: Option<u64>,
-        step_s: Option<f64>,
-        weak_links: Option<bool>,
-        rating_n: Option<f64>,
-        kinetic: Option<bool>,
-    ) -> PyResult<Self> {
+    fn new(python: Python<'_>, name: &str, library: Option<PathBuf>, over: Over) -> PyResult<Self> {
         let library = library.as_deref();
         let file = locate::named(name, "scenarios", library).map_err(failed)?;
+        let Over { seed, step_s, weak_links, rating_n, kinetic } = over;
         let over = Overrides { seed, step_s, weak_links, rating_n, kinetic };
         let prepared = python.detach(|| prepare(&file, library, host(), over));
         Ok(Self { prepared: prepared.map_err(raised)? })

@@ -43,13 +43,8 @@ class Scenario:
     def __init__(
         self,
         name: str,
-        library: _Path | None = None,
-        *,
-        seed: int | None = None,
-        step_s: float | None = None,
-        weak_links: bool | None = None,
-        rating_n: float | None = None,
-        kinetic: bool | None = None,
+        library: _Path | None,
+        over: dict[str, int | float | bool | None],
     ) -> None: ...
     def settle(self) -> str: ...
     def run(self, frames_hz: float, unsettled: bool) -> Result: ...

@@ -34,15 +34,8 @@ class Scenario:
         rating_N: float | None = None,
         kinetic: bool | None = None,
     ) -> None:
-        self._inner = _endline.Scenario(
-            os.fspath(name),
-            library,
-            seed=seed,
-            step_s=step_s,
-            weak_links=weak_links,
-            rating_n=rating_N,
-            kinetic=kinetic,
-        )
+        over = {"seed": seed, "step_s": step_s, "weak_links": weak_links, "rating_n": rating_N, "kinetic": kinetic}
+        self._inner = _endline.Scenario(os.fspath(name), library, over)
 
     @property
     def name(self) -> str:

@@ -8,8 +8,8 @@ use endline_gear::{Diagnostic, Document, Library, Sources, save_text};
 
 use super::figures;
 use super::history::{Change, History};
-use super::library_table::slug;
 use super::problems::{Named, Problems};
+use super::slug::slug;
 use super::texts::Texts;
 
 /// All texts that are open. The key of a library file is its path in the library's folder, such as

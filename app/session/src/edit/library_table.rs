@@ -6,6 +6,7 @@
 
 use super::documents::Documents;
 use super::figures;
+use super::slug::slug;
 use endline_gear::{Confidence, Document, Kind, Setting};
 
 /// Columns before the kind's own.
@@ -237,18 +238,6 @@ fn fresh(kind: Kind, name: &str) -> String {
     )
 }
 
-/// A name as the stem of a file: lower case, words joined by dashes.
-#[must_use]
-pub fn slug(name: &str) -> String {
-    let words: String = name
-        .to_lowercase()
-        .chars()
-        .map(|letter| if letter.is_ascii_alphanumeric() { letter } else { ' ' })
-        .collect();
-    let joined = words.split_whitespace().collect::<Vec<_>>().join("-");
-    if joined.is_empty() { "entry".to_owned() } else { joined }
-}
-
 /// Writes cells into a table from one cell on: to the right over `keys`, downwards over `paths`.
 /// Cells beyond the edges are listed as left out.
 ///
@@ -304,6 +293,5 @@ mod tests {
         };
         assert!(head(&["id", "Diameter", "Stretch at break"]));
         assert!(!head(&["3/8 in", "1,700 lbf"]));
-        assert_eq!(slug("3/8 in Poly (mill)"), "3-8-in-poly-mill");
     }
 }

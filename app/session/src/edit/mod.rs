@@ -7,6 +7,7 @@
 //! | `texts` | texts as they stand and as their files have them |
 //! | `figures` | figures typed: their sources, and what follows from them |
 //! | `history` | undo and redo |
+//! | `slug` | names as stems of files |
 //! | [`problems`] | located problems of the texts |
 //! | [`saving`] | texts written to their files, none over what someone else wrote since |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
@@ -27,6 +28,7 @@ pub mod problems;
 pub mod recovery;
 pub mod saving;
 pub mod scenario;
+mod slug;
 mod texts;
 
 pub use documents::Documents;
