@@ -94,7 +94,10 @@ pub fn text_of(name: &str, library: Option<&Path>) -> PyResult<(PathBuf, String)
     Ok((file, text))
 }
 
-/// A recording run again, and where it differs: step, time [s] and part of the state; `None` where every step gave the recorded
+/// Where a run differs from its recording: step, time [s] and part of the state.
+type Difference = (u64, f64, &'static str);
+
+/// A recording run again, and where it differs; `None` where every step gave the recorded
 /// bits.
 #[pyfunction]
 pub fn replay(
@@ -102,7 +105,7 @@ pub fn replay(
     recording: PathBuf,
     frames_hz: f64,
     other_plugins: bool,
-) -> PyResult<(Result, Option<(u64, f64, &'static str)>)> {
+) -> PyResult<(Result, Option<Difference>)> {
     let options = ReplayOptions { other_plugins, frames_hz };
     python.detach(|| {
         let recording = Recording::load(&recording).map_err(raised)?;
