@@ -171,11 +171,9 @@ impl Run {
     }
 
     /// Ends the run here, with a reason.
-    pub fn give_up(&mut self, reason: &str) -> Stop {
-        let stop =
-            Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() };
-        self.stopped = Some(stop.clone());
-        stop
+    pub fn give_up(&mut self, reason: &str) {
+        self.stopped =
+            Some(Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() });
     }
 
     /// The pilot program's controls for the next step.
