@@ -9,7 +9,7 @@ use endline_gear::{Diagnostic, Document, Library, Sources, save_text};
 use super::figures;
 use super::history::{Change, History};
 use super::problems::{Named, Problems};
-use super::slug::slug;
+use super::slug::{free_file, slug};
 use super::texts::Texts;
 
 /// All texts that are open. The key of a library file is its path in the library's folder, such as
@@ -359,13 +359,10 @@ impl Documents {
     pub(crate) fn put_scenario_as_new(&mut self, text: String, what: &str) -> &Path {
         let name = Document::parse(&text).ok().and_then(|document| document.get("name"));
         let stem = slug(&format!("{} {what}", name.unwrap_or_default()));
-        let folder = self.scenario_path.parent().unwrap_or(&self.root).to_owned();
-        let named = |number: u32| match number {
-            1 => folder.join(format!("{stem}.toml")),
-            number => folder.join(format!("{stem}-{number}.toml")),
-        };
-        let free = (1..1000).map(named).find(|path| !path.exists());
-        self.scenario_path = free.unwrap_or_else(|| named(1000));
+        let folder = self.scenario_path.parent().unwrap_or(&self.root);
+        // A save asks before it writes over a file, should every name be taken.
+        let free = free_file(folder, &stem);
+        self.scenario_path = free.unwrap_or_else(|| folder.join(format!("{stem}.toml")));
         self.texts.read(Self::SCENARIO, None);
         self.put_all(vec![(Self::SCENARIO.to_owned(), text)]);
         &self.scenario_path

@@ -7,7 +7,7 @@
 //! | `texts` | texts as they stand and as their files have them |
 //! | `figures` | figures typed: their sources, and what follows from them |
 //! | `history` | undo and redo |
-//! | `slug` | names as stems of files |
+//! | `slug` | names of files |
 //! | [`problems`] | located problems of the texts |
 //! | [`saving`] | texts written to their files, none over what someone else wrote since |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use endline_gear::save_text;
 
 use super::documents::Documents;
+use super::slug::free_file;
 use crate::save::text_if_there;
 
 /// What becomes of a file that was changed on disk since it was read, and of the edits of it here.
@@ -94,15 +95,9 @@ impl Documents {
     /// A file for edits beside the one they are of; none is there.
     fn file_for_mine(&self, path: &str) -> Result<PathBuf, String> {
         let file = self.file_of(path);
-        let part = |part: Option<&std::ffi::OsStr>| {
-            part.map(|part| part.to_string_lossy().into_owned()).unwrap_or_default()
-        };
-        let (stem, ending) = (part(file.file_stem()), part(file.extension()));
-        let named = |number: u32| match number {
-            1 => file.with_file_name(format!("{stem}-mine.{ending}")),
-            number => file.with_file_name(format!("{stem}-mine-{number}.{ending}")),
-        };
-        let free = (1..1000).map(named).find(|path| !path.exists());
+        let stem = file.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
+        let folder = file.parent().unwrap_or(&self.root);
+        let free = free_file(folder, &format!("{stem}-mine"));
         free.ok_or_else(|| format!("{}: there are 1000 copies already", file.display()))
     }
 
