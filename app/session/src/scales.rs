@@ -38,6 +38,14 @@ pub fn nice_below(value: f64) -> f64 {
     power * [5.0, 2.0, 1.0].into_iter().find(|step| *step <= lead * (1.0 + 1e-12)).unwrap_or(1.0)
 }
 
+/// The least of 1, 2, 5 times a power of ten that is not below `value`; zero where there is none.
+#[must_use]
+pub fn nice_above(value: f64) -> f64 {
+    let below = nice_below(value);
+    // The next of 1, 2, 5 is at most 2.5 times as much.
+    if value <= below * (1.0 + 1e-12) { below } else { nice_below(below * 2.6) }
+}
+
 /// The round step, 1, 2 or 5 times a power of ten, nearest to `wanted`; zero where there is none.
 fn step(wanted: f64) -> f64 {
     let step = nice_below(wanted);
@@ -85,6 +93,15 @@ mod tests {
             (f64::NAN, 0.0),
         ] {
             assert!((nice_below(value) - nice).abs() < 1e-12, "{value}");
+        }
+    }
+
+    #[test]
+    fn the_nice_number_above_is_the_next_one() {
+        for (value, nice) in
+            [(1.0, 1.0), (1.1, 2.0), (2.1, 5.0), (0.6, 1.0), (5.01, 10.0), (0.0, 0.0)]
+        {
+            assert!((nice_above(value) - nice).abs() < 1e-12, "{value}");
         }
     }
 

@@ -42,7 +42,8 @@ pub fn wraps(view: &LiveView) -> Vec<Wrap> {
 }
 
 /// Turns about a part at the moment shown: of the newest as measured, else of the sample before.
-fn turns(view: &LiveView, part: BodyPart) -> f64 {
+#[must_use]
+pub fn turns(view: &LiveView, part: BodyPart) -> f64 {
     let now = || {
         let whale = view.summary.as_ref()?.whale.as_ref()?;
         Some(whale.regions.iter().find(|region| region.part == part)?.wraps)

@@ -1,0 +1,126 @@
+//! How rope lies on the whale: a map of the body, numbers by part, the outcome and what it means.
+
+mod map;
+
+use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::command::TimeAction;
+use endline_session::figures::{PART, Part, View, WHALE, parts};
+use endline_session::live::LiveView;
+use endline_session::units::Units;
+use endline_sim::metrics::WhaleSummary;
+
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::figures::{Style, list, table};
+use crate::gui::widgets::words::spoken;
+use crate::gui::widgets::{self, words};
+use crate::gui::wraps::wraps;
+use map::SkinMap;
+
+/// Rope on the whale's body, and the outcome.
+#[derive(Default)]
+pub struct EntanglementPanel {
+    map: SkinMap,
+}
+
+impl Panel for EntanglementPanel {
+    fn id(&self) -> PanelId {
+        PanelId::ENTANGLEMENT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let Some(view) = shared.workbench.view().cloned() else {
+            return widgets::nothing(ui, "No run yet.");
+        };
+        let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
+            return widgets::nothing(ui, "No whale in this run.");
+        };
+        let style = Style { view: View::Entanglement, units: shared.workbench.preferences.units };
+        let parts = parts(whale, &view.frame.contacts);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            let first = outcome(ui, whale, style);
+            self.map.show(ui, &view, whale, style.units);
+            let wrap = wrap_list(ui, &view, style.units);
+            shared.commands.extend(first.or(wrap).map(|chosen| TimeAction::Seek(chosen).into()));
+            widgets::caption(ui, "By part");
+            table(ui, PART, &parts, style, Part::is_untouched);
+        });
+    }
+}
+
+/// The outcome and the figures of the whale; answers the moment that was clicked [s].
+fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
+    let palette = Theme::palette_of(ui);
+    let (text, meaning, colour) = words::outcome(whale.outcome, palette);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(text).heading().color(colour));
+        let standing = if whale.decided { "" } else { "so far: " };
+        ui.label(RichText::new(format!("{standing}{meaning}")).color(palette.faint));
+    });
+    let wanted = list(ui, WHALE, whale, style);
+    ui.label(
+        RichText::new(
+            "Relative, given this encounter: it says nothing of how often whales meet gear.",
+        )
+        .small()
+        .color(palette.faint),
+    );
+    wanted
+}
+
+/// Wrap by wrap at the moment shown; answers the moment asked for by a click on one.
+fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
+    let palette = Theme::palette_of(ui);
+    widgets::caption(ui, "Wraps at this moment");
+    let found = wraps(view);
+    if found.is_empty() {
+        ui.label(
+            RichText::new("No rope lies a quarter of a turn or more about a part.")
+                .color(palette.faint),
+        );
+        return None;
+    }
+    let mut wanted = None;
+    Grid::new("wraps").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            for head in ["Part", "Turns", "Since", "Touching", "Rope"] {
+                ui.label(RichText::new(head).small().color(palette.faint));
+            }
+            ui.end_row();
+            for wrap in &found {
+                ui.label(spoken(wrap.part.name()));
+                ui.label(format!("{:.2}", wrap.turns));
+                match wrap.since_s {
+                    Some(since_s)
+                        if ui
+                            .link(format!("{since_s:.2} s"))
+                            .on_hover_text("See when it came half round")
+                            .clicked() =>
+                    {
+                        wanted = Some(since_s);
+                    }
+                    Some(_) => {}
+                    None => {
+                        ui.label(RichText::new("not yet half round").color(palette.faint));
+                    }
+                }
+                ui.label(units.length(wrap.touching_m));
+                let lines = wrap
+                    .lines
+                    .iter()
+                    .map(|(line, length_m)| format!("{line} {}", units.length(*length_m)));
+                let lines = lines.collect::<Vec<_>>().join(", ");
+                ui.label(if lines.is_empty() {
+                    "loose: nothing presses".to_owned()
+                } else {
+                    lines
+                });
+                ui.end_row();
+            }
+        },
+    );
+    wanted
+}
