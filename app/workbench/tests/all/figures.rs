@@ -2,7 +2,8 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use endline_session::command::RunAction;
+use endline_session::command::{RunAction, TimeAction};
+use endline_session::edit::Documents;
 use std::slice::from_ref;
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, flown, opened, wait};
+use crate::common::{Folder, flown, give, opened, wait};
 
 /// Shows one panel alone.
 fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
@@ -141,4 +142,49 @@ fn the_comparison_has_every_figure_that_is_declared_for_it() {
             assert!(harness.query_all_by_label(&text).next().is_some(), "no `{text}` of {row:?}");
         }
     }
+}
+
+#[test]
+fn the_map_of_the_skin_has_a_scale_of_its_own_and_says_which_moment_it_shows() {
+    let folder = Folder::new("figures-map");
+    let mut harness = flown(&folder);
+    only(&mut harness, PanelId::ENTANGLEMENT);
+    harness.get_by_label("At 2.00 s");
+    // The top stands where a run with a hundredth of a turn does not move it.
+    harness.get_by_label("1.00 turns");
+    give(&mut harness, TimeAction::Seek(1.0));
+    wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.sought));
+    harness.run_steps(2);
+    let shown = format!("At {:.2} s", view(&harness).frame.time_s);
+    assert_ne!(shown, "At 2.00 s");
+    harness.get_by_label(&shown);
+    harness.get_by_label("Most until 2.00 s");
+}
+
+#[test]
+fn a_whale_that_no_gear_holds_is_told_with_its_tensions_and_let_feel_it_by_a_click() {
+    let folder = Folder::new("figures-steered");
+    let mut harness = flown(&folder);
+    let warning = "This whale does not feel the gear";
+    let feels = |harness: &Harness<'static, App>| {
+        let documents = &harness.state().shared.workbench.project.documents;
+        documents.field(Documents::SCENARIO, "whale.dynamics")
+    };
+    for panel in [PanelId::SUMMARY, PanelId::TENSION] {
+        only(&mut harness, panel);
+        harness.get_by_label_contains(warning);
+    }
+    assert_eq!(feels(&harness), None);
+    harness.get_by_label("Let it feel gear").click();
+    harness.run_steps(3);
+    assert_eq!(feels(&harness).as_deref(), Some("kinetic"));
+    harness.state_mut().shared.perform(RunAction::Start);
+    wait(&mut harness, |app| {
+        app.shared.workbench.view().is_some_and(|view| {
+            view.model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some())
+                && view.summary.is_some()
+        })
+    });
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains(warning).is_none(), "this run's whale is held");
 }

@@ -12,10 +12,12 @@ use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::live::engine;
+use endline_session::units::Units;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout;
 use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panels::view::hud::{readings, waiting};
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
 
 use crate::common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
@@ -146,6 +148,24 @@ fn the_pad_steers_only_while_flying() {
     harness.key_press(egui::Key::Escape);
     harness.run_steps(3);
     assert_eq!(told.borrow().last().unwrap(), "autopilot");
+}
+
+#[test]
+fn a_hand_steers_in_real_time_whatever_the_speed_was_and_is_told_that_time_stands_still() {
+    let folder = Folder::new("fly-speed");
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.speed > 100.0));
+    harness.state_mut().shared.give(FlightAction::Toggle);
+    wait(&mut harness, |app| {
+        app.shared.workbench.view().is_some_and(|view| (view.speed - 1.0).abs() < 1e-9)
+    });
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    assert!(waiting(&view).contains("Space"), "{:?}", view.status);
+    let told: Vec<String> = readings(&view, Units::Si).into_iter().map(|(name, _)| name).collect();
+    assert!(["ROLL", "PITCH", "THROTTLE"].iter().all(|name| told.contains(&(*name).to_owned())));
 }
 
 #[test]

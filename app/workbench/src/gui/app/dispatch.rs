@@ -21,6 +21,9 @@ use crate::gui::layout;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Selection;
 
+/// Simulated seconds in a real one while a hand steers.
+const REAL_TIME: f64 = 1.0;
+
 impl App {
     /// Performs commands, one after the other.
     pub fn perform(&mut self, context: &Context, commands: Vec<WindowCommand>) {
@@ -115,12 +118,7 @@ impl App {
     fn pilot(&mut self, action: FlightAction) -> Result<(), String> {
         match action {
             FlightAction::Toggle if self.shared.flying => return self.stop_flying(),
-            FlightAction::Toggle => {
-                self.shared.flying = true;
-                let view = self.shared.workbench.view();
-                let speed = view.map_or(0.5, |view| view.controls.speed);
-                self.shared.pilot.set_throttle(speed.max(0.3));
-            }
+            FlightAction::Toggle => return self.start_flying(),
             FlightAction::Person => self.panels.view.change_person(),
             FlightAction::NextAct => {
                 let acts = self.shared.workbench.acts().len();
@@ -128,6 +126,17 @@ impl App {
             }
             FlightAction::ChooseAct(act) => self.shared.pilot.choose_act(act),
             FlightAction::Mouth => self.shared.pilot.toggle_mouth(),
+        }
+        Ok(())
+    }
+
+    /// Gives the controls to keys and pad, at a pace that a hand can follow.
+    fn start_flying(&mut self) -> Result<(), String> {
+        self.shared.flying = true;
+        let Some(view) = self.shared.workbench.view().cloned() else { return Ok(()) };
+        self.shared.pilot.set_throttle(view.controls.speed.max(0.3));
+        if view.speed > REAL_TIME {
+            return self.shared.workbench.perform(Command::Run(RunAction::Speed(REAL_TIME)));
         }
         Ok(())
     }

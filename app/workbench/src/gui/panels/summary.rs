@@ -36,6 +36,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
         return widgets::nothing(ui, "The gear is being settled.");
     };
     let style = Style { view: View::Summary, units: shared.workbench.preferences.units };
+    widgets::steered::warning(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(

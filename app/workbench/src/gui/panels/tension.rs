@@ -7,6 +7,7 @@ use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD};
+use crate::gui::widgets::steered;
 
 /// Tension of every line over time.
 #[derive(Default)]
@@ -20,6 +21,9 @@ impl Panel for TensionPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        if let Some(view) = shared.workbench.view().cloned() {
+            steered::warning(ui, shared, &view);
+        }
         let height = ui.available_height() - HEAD;
         self.drawn.show(ui, shared, Kind::Tension, "", height);
     }

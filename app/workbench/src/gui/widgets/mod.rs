@@ -5,6 +5,7 @@ pub mod figures;
 pub mod plot;
 pub mod plot_key;
 pub mod problem;
+pub mod steered;
 pub mod words;
 
 use egui::{Align2, FontId, Grid, Rect, RichText, Sense, Ui, UiBuilder, vec2};

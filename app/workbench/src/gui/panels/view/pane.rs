@@ -137,7 +137,8 @@ fn write_over(
             rect,
             view,
             shared.workbench.preferences.units,
-            &hud::told(&view.controls, act, shared.pilot.hands()),
+            &(hud::waiting(view).to_owned()
+                + &hud::told(&view.controls, act, shared.pilot.hands())),
         );
     }
 }
