@@ -1,5 +1,5 @@
 // Daylight from above that fades with depth, water that hides what is far, a sandy seabed with grid lines, wet skin.
-uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface, 4 skin
+uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface, 4 skin, 5 rope, 6 its edge
 uniform float grid_m;     // distance of the seabed's lines [m]
 
 in vec3 world;
@@ -30,16 +30,47 @@ vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
     return (colour * (sky_light + sun) + edge) * daylight(world.z);
 }
 
+// A mark's share in the colour between two corners, drawn to an uneven edge.
+float marked(float share, float uneven) {
+    return smoothstep(0.42, 0.58, share + 0.30 * uneven);
+}
+
+// Skin's colour and how dull it is. Between skin and a mark both change evenly; here callosities and white patches get an edge.
+vec4 marks() {
+    float dull = 1.0 - tint.a;
+    if (dull > 0.01 && distance(tint.rgb, mix(SKIN, CALLOSITY, dull)) < 0.03) {
+        dull = marked(dull, grain_at(own * 7.0) + 0.6 * grain_at(own * 17.0));
+        return vec4(mix(SKIN, CALLOSITY, dull), dull);
+    }
+    float white = (tint.r - SKIN.r) / (WHITE.r - SKIN.r);
+    if (dull < 0.01 && distance(tint.rgb, mix(SKIN, WHITE, white)) < 0.03) {
+        return vec4(mix(SKIN, WHITE, marked(white, grain_at(own * 2.6) + 0.5 * grain_at(own * 6.0))), dull);
+    }
+    return vec4(tint.rgb, dull);
+}
+
 // Skin: dark and mottled, wet and glossy where it is smooth; rough patches stay dull. Its tint's fourth part says how smooth.
 vec3 skin(vec3 n, vec3 view) {
-    float dull = 1.0 - tint.a;
+    vec4 mark = marks();
+    float dull = mark.a;
     float mottle = 0.6 * grain_at(own * 2.3) + 0.4 * grain_at(own * 9.0);
     float rough = grain_at(own * 16.0);
-    vec3 colour = tint.rgb * (1.0 + mix(0.13 * mottle, 0.22 * rough, dull));
+    vec3 colour = mark.rgb * (1.0 + mix(0.13 * mottle, 0.30 * rough, dull));
     vec3 tilt = vec3(grain_at(own * 14.0 + 7.0), grain_at(own * 14.0 + 31.0), rough);
     vec3 m = normalize(n + mix(0.03, 0.16, dull) * tilt);
     float gloss = pow(max(dot(reflect(view, m), SUN), 0.0), 22.0);
     return lit(colour, m, view, 0.34) + (1.0 - dull) * gloss * vec3(0.20, 0.24, 0.25) * daylight(world.z);
+}
+
+// Laid rope: three strands that turn to the right, as far as they are wide enough to be seen. Its grain is the place along it and
+// the direction round it.
+vec3 rope(vec3 n, vec3 view) {
+    const float LAY_M = 0.035;
+    float turn = atan(own.z, own.y) / 6.2831853 - own.x / LAY_M;
+    float seen = clamp(1.3 - 8.0 * fwidth(own.x) / LAY_M, 0.0, 1.0);
+    float strands = mix(1.0, 0.80 + 0.20 * cos(3.0 * 6.2831853 * turn), seen);
+    float round = 0.62 + 0.38 * abs(dot(n, view));
+    return tint.rgb * strands * round * (0.94 + 0.10 * n.z);
 }
 
 // Sand in low ridges, and lines to measure by.
@@ -84,6 +115,10 @@ void main() {
         colour *= 0.80 + 0.20 * abs(dot(n, view));
     } else if (look == 2) {
         colour = seabed(far);
+    } else if (look == 5) {
+        colour = rope(n, view);
+    } else if (look == 6) {
+        colour = vec3(0.03, 0.09, 0.13);
     } else {
         colour = skin(n, view);
     }

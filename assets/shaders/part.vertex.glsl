@@ -2,6 +2,7 @@
 uniform mat4 to_clip;
 uniform float pixel_angle; // size of a pixel at distance 1 [m]
 uniform float least_px;    // least half width [px]
+uniform float edge_px;     // how much wider than that an edge is [px]
 
 in vec3 place;
 in vec3 normal;
@@ -15,8 +16,8 @@ out vec4 tint;
 out vec3 own;
 
 void main() {
-    float least = least_px * pixel_angle * length(place - eye);
-    float wide = radius > 0.0 ? max(radius, least) : 0.0;
+    float pixel = pixel_angle * length(place - eye);
+    float wide = radius > 0.0 ? max(radius, least_px * pixel) + edge_px * pixel : 0.0;
     world = place + normal * wide;
     outward = normal;
     tint = colour;

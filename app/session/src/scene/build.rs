@@ -22,6 +22,8 @@ pub enum Look {
     },
     /// Sea surface: see-through, brighter at a flat angle, seen from both sides.
     Surface,
+    /// Laid rope in its own colours, with a dark edge; its grain is the place along it [m] and the direction round it.
+    Rope,
     /// Wet, mottled skin; its grain sticks to the body at rest.
     Skin,
 }
@@ -29,7 +31,7 @@ pub enum Look {
 /// Triangles drawn one way.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// What it is: `seabed`, `obstacles`, `whale`, `ropes`, `bodies`, `marks`, `forces`, `surface`.
+    /// What it is: `seabed`, `obstacles`, `whale`, `eyes`, `ropes`, `bodies`, `current`, `marks`, `forces`, `surface`; heads of arrows apart.
     pub name: &'static str,
     /// How it is drawn.
     pub look: Look,
@@ -71,6 +73,8 @@ pub struct Show {
     pub forces: bool,
     /// The whale.
     pub whale: bool,
+    /// Names of buoys, traps and anchors that look small, written over the scene.
+    pub names: bool,
 }
 
 impl Default for Show {
@@ -83,6 +87,7 @@ impl Default for Show {
             contacts: true,
             forces: false,
             whale: true,
+            names: true,
         }
     }
 }
@@ -96,6 +101,9 @@ impl Scene {
             .scale_n
             .unwrap_or_else(|| frame.tension_n.iter().copied().fold(0.0, f64::max))
             .max(1.0);
+        let [skin, eyes] = whale::skin_and_eyes(model, frame);
+        let [current, current_heads] = sea::current(model);
+        let [shafts, force_heads] = forces::forces(frame);
         let mut parts = Vec::new();
         let mut add = |wanted: bool, name, look, least_px, mesh: Mesh| {
             if wanted && !mesh.triangles.is_empty() {
@@ -104,12 +112,15 @@ impl Scene {
         };
         add(show.seabed, "seabed", Look::Seabed { grid_m: 10.0 }, 0.0, sea::seabed(model, &bounds));
         add(true, "obstacles", Look::Solid, 0.0, obstacles::obstacles(model));
-        add(show.whale, "whale", Look::Skin, 0.0, whale::skin(model, frame));
-        add(true, "ropes", Look::Own, 1.1, rope::lines(model, frame, scale_n));
+        add(show.whale, "whale", Look::Skin, 0.0, skin);
+        add(show.whale, "eyes", Look::Solid, 0.0, eyes);
+        add(true, "ropes", Look::Rope, 1.4, rope::lines(model, frame, scale_n));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
-        add(show.current, "current", Look::Own, 0.8, sea::current(model));
+        add(show.current, "current", Look::Own, 0.8, current);
+        add(show.current, "current heads", Look::Own, 5.0, current_heads);
         add(show.contacts, "marks", Look::Own, 4.0, forces::contacts(frame));
-        add(show.forces, "forces", Look::Own, 1.2, forces::forces(frame));
+        add(show.forces, "forces", Look::Own, 1.0, shafts);
+        add(show.forces, "force heads", Look::Own, 9.0, force_heads);
         add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
         Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
     }

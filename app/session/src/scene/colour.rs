@@ -17,7 +17,7 @@ const CIVIDIS: [[u8; 3]; 10] = [
 ];
 
 /// The scale's darkest part would sink into the water, so slack rope starts here.
-const LEAST: f64 = 0.4;
+const LEAST: f64 = 0.6;
 
 /// The colour of a tension, as a share of the scale's top (clamped to 0..1).
 #[must_use]
@@ -62,6 +62,8 @@ pub const BALEEN: Colour = rgb(0x9a, 0x93, 0x7c);
 pub const MOUTH: Colour = rgb(0x74, 0x5c, 0x60);
 /// White patches of belly and throat.
 pub const WHITE: Colour = rgb(0xa9, 0xb0, 0xb3);
+/// Lid round an eye.
+pub const LID: Colour = rgb(0x68, 0x70, 0x78);
 /// Eye.
 pub const EYE: Colour = rgb(0x16, 0x16, 0x18);
 /// Buoy.

@@ -67,16 +67,18 @@ fn pressing(of: Presser, place: DVec3, push: DVec3, friction: DVec3) -> Option<S
 }
 
 /// An arrow for each force of rope and bodies on skin, its tip at the contact; its length goes with the force, the greatest of the frame
-/// being 1.5 m.
-pub fn forces(frame: &Frame) -> Mesh {
-    let mut mesh = Mesh::default();
+/// being 1.5 m. Shafts, and heads.
+pub fn forces(frame: &Frame) -> [Mesh; 2] {
+    let [mut shafts, mut heads] = <[Mesh; 2]>::default();
     let greatest_n = greatest_n(frame);
     for force in on_skin(frame) {
         if let Some(shaft) = force.shaft(greatest_n) {
-            mesh.arrow(single(force.place - shaft), single(shaft), 0.012, FORCE);
+            let tip = single(force.place);
+            shafts.bar(single(force.place - shaft), tip, 0.012, FORCE);
+            heads.head(tip, single(shaft).normalize_or_zero(), 0.1, FORCE);
         }
     }
-    mesh
+    [shafts, heads]
 }
 
 /// A ball at every place where rope or a body presses on skin.

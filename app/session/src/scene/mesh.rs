@@ -80,6 +80,22 @@ impl Mesh {
         }
     }
 
+    /// A tube of rope: like [`tube`](Self::tube), with the place along it [m] and the direction round it as grain.
+    pub fn rope(&mut self, centres: &[Vec3], radius_m: f32, colours: &[Colour], sides: usize) {
+        // Balls and tubes of the same mesh have none.
+        self.grain.resize(self.place.len(), Vec3::ZERO);
+        self.tube(centres, radius_m, colours, sides);
+        let mut along = 0.0;
+        for (index, rings) in centres.iter().enumerate() {
+            along += if index > 0 { rings.distance(centres[index - 1]) } else { 0.0 };
+            for side in 0..sides {
+                let angle = std::f32::consts::TAU * side as f32 / sides as f32;
+                self.grain.push(Vec3::new(along, angle.cos(), angle.sin()));
+            }
+        }
+        self.grain.truncate(self.place.len());
+    }
+
     /// One ring of a tube; returns its first vertex.
     fn ring(
         &mut self,
@@ -209,17 +225,25 @@ impl Mesh {
         }
     }
 
-    /// An arrow from `from` along `shaft` (its whole length), flat-shaded by its colour.
-    pub fn arrow(&mut self, from: Vec3, shaft: Vec3, radius_m: f32, colour: Colour) {
-        let along = shaft.normalize_or_zero();
-        let head = (4.0 * radius_m).min(0.5 * shaft.length());
-        let neck = from + shaft - along * head;
-        self.bar(from, neck, radius_m, colour);
+    /// Head of an arrow: a cone with its tip at a place. All of it stands out from the tip, so that it keeps its shape where the drawing
+    /// widens it to a least length on screen.
+    pub fn head(&mut self, tip: Vec3, along: Vec3, length_m: f32, colour: Colour) {
+        const SIDES: u32 = 12;
+        /// Half angle of the cone.
+        const HALF: f32 = 0.4;
         let across = any_across(along);
-        let tip = self.vertex(from + shaft, along, 0.0, colour);
-        let base = self.ring(neck, along, across, 2.5 * radius_m, colour, 8);
-        for side in 0..8 {
-            self.triangles.push([base + side, base + (side + 1) % 8, tip]);
+        let other = along.cross(across);
+        let point = self.vertex(tip, along, 0.0, colour);
+        let middle = self.vertex(tip, -along, length_m * HALF.cos(), colour);
+        let rim = middle + 1;
+        for side in 0..SIDES {
+            let angle = std::f32::consts::TAU * side as f32 / SIDES as f32;
+            let out = across * angle.cos() + other * angle.sin();
+            self.vertex(tip, out * HALF.sin() - along * HALF.cos(), length_m, colour);
+        }
+        for side in 0..SIDES {
+            let next = rim + (side + 1) % SIDES;
+            self.triangles.extend([[rim + side, next, point], [next, rim + side, middle]]);
         }
     }
 }

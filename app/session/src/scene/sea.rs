@@ -55,14 +55,14 @@ fn sheet(bounds: &Bounds, colour: Colour, place: impl Fn(f64, f64) -> DVec3) -> 
     mesh
 }
 
-/// A column of arrows beside the gear; each is as long as the current is fast at its height.
-pub fn current(model: &Model) -> Mesh {
+/// A column of arrows beside the gear, each as long as the current is fast at its height: shafts, and heads.
+pub fn current(model: &Model) -> [Mesh; 2] {
     let water = &model.spec.water;
-    let mut mesh = Mesh::default();
+    let [mut mesh, mut heads] = <[Mesh; 2]>::default();
     let bottom = -model.spec.seabed.as_ref().map_or(water.depth_m, |seabed| seabed.depth_m);
     let along = water.current.surface_m_s.normalize_or_zero();
     if water.density_kg_m3 <= 0.0 || along == DVec3::ZERO || bottom >= 0.0 {
-        return mesh;
+        return [mesh, heads];
     }
     let across = DVec3::new(-along.y, along.x, 0.0);
     // Beside the gear as it was placed, so that the column stands still while the gear moves.
@@ -84,8 +84,10 @@ pub fn current(model: &Model) -> Mesh {
         let velocity = water.velocity(from.as_dvec3());
         let shaft: Vec3 = single(velocity * ARROW_M_PER_M_S);
         if shaft.length() > 0.05 {
-            mesh.arrow(from, shaft, radius, CURRENT);
+            mesh.bar(from, from + shaft, 0.5 * radius, CURRENT);
+            let head_m = (5.0 * radius).min(0.5 * shaft.length());
+            heads.head(from + shaft, shaft.normalize_or_zero(), head_m, CURRENT);
         }
     }
-    mesh
+    [mesh, heads]
 }

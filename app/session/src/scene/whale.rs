@@ -4,26 +4,56 @@ use endline_sim::whale::{Mark, Skin, pose, skin_all};
 use endline_sim::{Frame, Model};
 use glam::Vec3;
 
-use super::colour::{BALEEN, CALLOSITY, EYE, MOUTH, SKIN, WHITE, faded};
+use super::colour::{BALEEN, CALLOSITY, EYE, LID, MOUTH, SKIN, WHITE, faded};
 use super::mesh::{Colour, Mesh, single};
 
-/// The skin in its pose, smooth-shaded and tinted as it is marked.
-pub fn skin(model: &Model, frame: &Frame) -> Mesh {
-    let (Some(whale), Some(at)) = (&model.spec.whale, &frame.whale) else { return Mesh::default() };
+/// Radius of an eye and how far its lid stands round it, in lengths of the whale.
+const EYE_RADIUS: f32 = 0.0035;
+const LID_RADIUS: f32 = 0.0055;
+
+/// The skin in its pose, smooth-shaded and tinted as it is marked; and the eyes, which are drawn and touch nothing.
+pub fn skin_and_eyes(model: &Model, frame: &Frame) -> [Mesh; 2] {
+    let (Some(whale), Some(at)) = (&model.spec.whale, &frame.whale) else {
+        return [Mesh::default(), Mesh::default()];
+    };
     let (mut bones, mut places) = (Vec::new(), Vec::new());
     pose(&whale.skin, at.position, at.orientation, &at.posture, &mut bones);
     skin_all(&whale.skin, &bones, &mut places);
     let place: Vec<Vec3> = places.into_iter().map(single).collect();
     let normal = smooth_normals(&place, &whale.skin.triangles);
     let grain = whale.skin.vertices.iter().copied().map(single).collect();
-    Mesh {
+    let eyes = eyes(&whale.skin, &place, &normal, whale.length_m as f32);
+    let skin = Mesh {
         radius_m: vec![0.0; place.len()],
         colour: tints(&whale.skin),
         triangles: whale.skin.triangles.clone(),
         place,
         normal,
         grain,
+    };
+    [skin, eyes]
+}
+
+/// A dark ball in a paler lid in the middle of each side's skin that is marked as an eye.
+fn eyes(skin: &Skin, place: &[Vec3], normal: &[Vec3], length_m: f32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for side in [1.0, -1.0] {
+        let of_side = |vertex: &usize| {
+            skin.marks.get(*vertex) == Some(&Mark::Eye) && skin.vertices[*vertex].y * side > 0.0
+        };
+        let own: Vec<usize> = (0..place.len()).filter(of_side).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let middle = own.iter().map(|vertex| place[*vertex]).sum::<Vec3>() / own.len() as f32;
+        let out = own.iter().map(|vertex| normal[*vertex]).sum::<Vec3>().normalize_or_zero();
+        // Of each ball, less than half stands out of the skin.
+        for (radius, colour, sunk) in [(LID_RADIUS, LID, 0.75), (EYE_RADIUS, EYE, 0.15)] {
+            let radius = radius * length_m;
+            mesh.ball(middle - out * (sunk * radius), radius, colour, 8);
+        }
     }
+    mesh
 }
 
 /// Normals at vertices: the mean of the triangles round each, weighted by area.
@@ -52,6 +82,6 @@ fn tint(mark: Mark) -> Colour {
         Mark::Baleen => faded(BALEEN, 0.5),
         Mark::Mouth => faded(MOUTH, 0.8),
         Mark::White => WHITE,
-        Mark::Eye => EYE,
+        Mark::Eye => SKIN,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use endline_session::scene::colour::rgb;
+use endline_session::scene::colour::{CALLOSITY, SKIN, WHITE, rgb};
 use endline_session::scene::mesh::Colour;
 use endline_session::scene::{Look, Part, Scene};
 use glam::Vec3;
@@ -90,6 +90,18 @@ struct Eye {
     viewport: Viewport,
 }
 
+/// What of a part is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pass {
+    /// The part itself.
+    Whole,
+    /// A dark edge round it.
+    Edge,
+}
+
+/// Width of a rope's dark edge [px].
+const EDGE_PX: f32 = 1.0;
+
 /// Source of a shader in `assets/shaders`.
 macro_rules! source {
     ($name:literal) => {
@@ -104,6 +116,15 @@ macro_rules! sea_shader {
     };
 }
 
+/// The colours of skin and its marks as the shader of parts knows them.
+fn skin_colours() -> String {
+    let colours = [("SKIN", SKIN), ("CALLOSITY", CALLOSITY), ("WHITE", WHITE)];
+    let line = |(name, [red, green, blue, _]): (&str, Colour)| {
+        format!("const vec3 {name} = vec3({red:.5}, {green:.5}, {blue:.5});\n")
+    };
+    colours.map(line).concat()
+}
+
 impl Drawer {
     /// A drawer on an OpenGL context that is current.
     ///
@@ -115,7 +136,7 @@ impl Drawer {
             let part = Program::from_source(
                 &context,
                 sea_shader!("part.vertex"),
-                sea_shader!("part.fragment"),
+                &(skin_colours() + sea_shader!("part.fragment")),
             )?;
             let backdrop = Program::from_source(
                 &context,
@@ -168,7 +189,10 @@ impl Drawer {
         let drawn = target.write::<CoreError>(|| {
             self.draw_backdrop(&eye);
             for loaded in &self.loaded {
-                loaded.draw(&self.part, &eye);
+                if loaded.look == Look::Rope {
+                    loaded.draw(&self.part, &eye, Pass::Edge);
+                }
+                loaded.draw(&self.part, &eye, Pass::Whole);
             }
             Ok(())
         });
@@ -241,18 +265,22 @@ impl Loaded {
         self.triangles.fill(mesh.triangles.as_flattened());
     }
 
-    fn draw(&self, program: &Program, eye: &Eye) {
-        let (look, grid_m, see_through) = match self.look {
-            Look::Solid => (0, 10.0, false),
-            Look::Own => (1, 10.0, false),
-            Look::Seabed { grid_m } => (2, grid_m, false),
-            Look::Surface => (3, 10.0, true),
-            Look::Skin => (4, 10.0, false),
+    fn draw(&self, program: &Program, eye: &Eye, pass: Pass) {
+        let look = match (pass, self.look) {
+            (Pass::Edge, _) => 6,
+            (_, Look::Solid) => 0,
+            (_, Look::Own) => 1,
+            (_, Look::Seabed { .. }) => 2,
+            (_, Look::Surface) => 3,
+            (_, Look::Skin) => 4,
+            (_, Look::Rope) => 5,
         };
+        let grid_m = if let Look::Seabed { grid_m } = self.look { grid_m } else { 10.0 };
         eye.sea(program);
         program.use_uniform("to_clip", eye.to_clip);
         program.use_uniform("pixel_angle", eye.pixel_angle);
         program.use_uniform("least_px", self.least_px);
+        program.use_uniform("edge_px", if pass == Pass::Edge { EDGE_PX } else { 0.0 });
         program.use_uniform("look", look);
         program.use_uniform("grid_m", grid_m);
         program.use_vertex_attribute("place", &self.place);
@@ -260,17 +288,20 @@ impl Loaded {
         program.use_vertex_attribute("radius", &self.radius);
         program.use_vertex_attribute("colour", &self.colour);
         program.use_vertex_attribute("grain", &self.grain);
-        program.draw_elements(render_states(see_through), eye.viewport, &self.triangles);
+        let states = render_states(self.look == Look::Surface, pass);
+        program.draw_elements(states, eye.viewport, &self.triangles);
     }
 }
 
-fn render_states(see_through: bool) -> RenderStates {
+fn render_states(see_through: bool, pass: Pass) -> RenderStates {
     let (blend, write_mask) = if see_through {
         (Blend::TRANSPARENCY, WriteMask::COLOR)
     } else {
         (Blend::Disabled, WriteMask::COLOR_AND_DEPTH)
     };
-    RenderStates { depth_test: DepthTest::LessOrEqual, cull: Cull::None, blend, write_mask }
+    // Of the wider tube, only the far side shows: round the rope, never over it.
+    let cull = if pass == Pass::Edge { Cull::Front } else { Cull::None };
+    RenderStates { depth_test: DepthTest::LessOrEqual, cull, blend, write_mask }
 }
 
 impl Drawer {

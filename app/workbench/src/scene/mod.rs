@@ -6,6 +6,7 @@
 
 pub mod camera;
 pub mod draw;
+pub mod labels;
 pub mod offscreen;
 pub mod overlay;
 pub mod pick;

@@ -1,7 +1,7 @@
 //! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar.
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
-use endline_session::units::N_PER_LBF;
+use endline_session::units::{N_PER_LBF, Units};
 
 use endline_session::scales::{decimals, nice_below, ticks};
 use endline_session::scene::colour::tension_colour;
@@ -17,6 +17,8 @@ pub struct Overlay<'a> {
     pub scale_n: f64,
     /// Length that one point spans at the camera's target [m].
     pub metres_a_point: f64,
+    /// Units of the scale bar.
+    pub units: Units,
 }
 
 const INK: Color32 = Color32::from_rgb(0xe6, 0xee, 0xf0);
@@ -32,7 +34,7 @@ pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     }
     // In a flat pane it would lie on the caption.
     if rect.height() > 90.0 {
-        scale_bar(painter, rect, overlay.metres_a_point);
+        scale_bar(painter, rect, overlay.metres_a_point, overlay.units);
     }
 }
 
@@ -120,9 +122,10 @@ fn gradient(painter: &Painter, bar: Rect) {
     painter.add(mesh);
 }
 
-fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64) {
-    let length_m = nice_below(metres_a_point * 150.0);
-    let width = (length_m / metres_a_point) as f32;
+fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64, units: Units) {
+    let a_point = units.of_metres(metres_a_point);
+    let length = nice_below(a_point * 150.0);
+    let width = (length / a_point) as f32;
     if !width.is_finite() || width < 4.0 {
         return;
     }
@@ -136,10 +139,9 @@ fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64) {
         painter.line_segment([end - vec2(0.0, 4.0), end + vec2(0.0, 4.0)], line);
     }
     let middle: Pos2 = left + (right - left) * 0.5;
-    let text = if length_m < 1.0 {
-        format!("{:.0} cm", length_m * 100.0)
-    } else {
-        format!("{} m", thousands(length_m, 0))
+    let text = match units.length_symbol() {
+        "m" if length < 1.0 => format!("{:.0} cm", length * 100.0),
+        symbol => format!("{} {symbol}", thousands(length, decimals(length))),
     };
     painter.text(
         middle - vec2(0.0, 13.0),

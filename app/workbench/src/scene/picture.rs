@@ -5,11 +5,13 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use endline_session::scene::{Scene, Show};
+use endline_session::units::Units;
 use endline_sim::{DVec3, Frame, Model};
 use three_d::{Context, RenderTarget, ScissorBox, Viewport};
 
 use super::camera::{Camera, View};
 use super::draw::{Drawer, Water};
+use super::labels;
 use super::offscreen::Offscreen;
 use super::overlay::{self, Overlay};
 
@@ -93,20 +95,28 @@ fn draw(
         time_s: scene.time_s,
         scale_n: if request.model.spec.lines.is_empty() { 0.0 } else { scene.scale_n },
         metres_a_point: camera.metres_a_point(f64::from(height)),
+        units: Units::Mixed,
     };
-    write_over(&surface, request.size, &overlay)?;
+    write_over(&surface, request.size, |painter, rect| {
+        labels::paint(painter, rect, camera, request.model, request.frame);
+        overlay::paint(painter, rect, &overlay);
+    })?;
     let context =
         Context::from_gl_context(surface.gl.clone()).map_err(|error| error.to_string())?;
     Ok(RenderTarget::screen(&context, width, height).read_color())
 }
 
-/// Paints the overlay onto the surface with egui.
-fn write_over(surface: &Offscreen, size: [u32; 2], overlay: &Overlay<'_>) -> Result<(), String> {
+/// Paints onto the surface with egui.
+fn write_over(
+    surface: &Offscreen,
+    size: [u32; 2],
+    paint: impl Fn(&egui::Painter, egui::Rect),
+) -> Result<(), String> {
     let rect =
         egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size[0] as f32, size[1] as f32));
     let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
     let context = egui::Context::default();
-    let mut output = context.run_ui(input, |ui| overlay::paint(ui.painter(), rect, overlay));
+    let mut output = context.run_ui(input, |ui| paint(ui.painter(), rect));
     let shapes = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
     let mut painter = egui_glow::Painter::new(surface.gl.clone(), "", None, false)
         .map_err(|error| error.to_string())?;

@@ -17,7 +17,10 @@ fn scene() -> Scene {
 #[test]
 fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
     let names: Vec<&str> = scene().parts.iter().map(|part| part.name).collect();
-    assert_eq!(names, ["seabed", "whale", "ropes", "bodies", "current", "marks", "surface"]);
+    assert_eq!(
+        names,
+        ["seabed", "whale", "ropes", "bodies", "current", "current heads", "marks", "surface"]
+    );
     let model = sample::model();
     let bare = Show {
         scale_n: None,
@@ -27,6 +30,7 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
         contacts: false,
         forces: false,
         whale: false,
+        names: false,
     };
     let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare)
         .parts

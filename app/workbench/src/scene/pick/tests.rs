@@ -16,6 +16,7 @@ const HIDDEN: Show = Show {
     contacts: true,
     forces: false,
     whale: false,
+    names: false,
 };
 
 #[test]

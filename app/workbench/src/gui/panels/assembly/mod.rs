@@ -271,6 +271,7 @@ const GEAR_ALONE: Show = Show {
     contacts: false,
     forces: false,
     whale: false,
+    names: false,
     scale_n: None,
 };
 

@@ -155,6 +155,7 @@ impl ViewPanel {
             ui.checkbox(&mut self.show.contacts, "Contact");
             ui.checkbox(&mut self.show.forces, "Force on skin");
             ui.checkbox(&mut self.show.whale, "Whale");
+            ui.checkbox(&mut self.show.names, "Names of small bodies");
             ui.separator();
             ui.label("Brightest rope at");
             ui.radio_value(&mut self.scale, ScaleTop::Peak, "the run's peak");

@@ -9,7 +9,7 @@ use super::{ViewPanel, hud, marks, picking, pose, spoken};
 use crate::gui::canvas::Canvas;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::scene::{Camera, Overlay, Water, overlay};
+use crate::scene::{Camera, Overlay, Water, labels, overlay};
 
 /// Width from which a pane names the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
@@ -110,10 +110,19 @@ fn write_over(
     let last = slot + 1 == panel.eyes.len() && run == usize::from(compared);
     let scale_n = if last { panel.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
+    if panel.show.names {
+        labels::paint(&painter, rect, camera, &view.model, &view.frame);
+    }
     overlay::paint(
         &painter,
         rect,
-        &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point },
+        &Overlay {
+            caption: &caption,
+            time_s: view.frame.time_s,
+            scale_n,
+            metres_a_point,
+            units: shared.workbench.preferences.units,
+        },
     );
     marks::paint(&painter, &panel.picks, pane, camera, view, shared.workbench.preferences.units);
     if several && slot == panel.chosen {
