@@ -24,20 +24,68 @@ pub fn offers(shared: &Shared) -> Vec<Offer> {
     declared().flat_map(|command| command.offers(shared)).collect()
 }
 
-/// The commands whose names hold every typed word, whatever its case.
+/// Words that other programs use, and those that stand in names here.
+const SYNONYMS: &[(&str, &[&str])] = &[
+    ("remove", &["delete"]),
+    ("erase", &["delete"]),
+    ("copy", &["duplicate"]),
+    ("clone", &["duplicate"]),
+    ("zoom", &["see everything", "size"]),
+    ("fit", &["see everything"]),
+    ("camera", &["view", "person"]),
+    ("preferences", &["units", "size", "dark", "light"]),
+    ("settings", &["units", "size", "dark", "light"]),
+    ("options", &["units", "size", "dark", "light"]),
+    ("theme", &["dark", "light"]),
+    ("font", &["size"]),
+    ("scale", &["size"]),
+    ("peak", &["read", "tension"]),
+    ("maximum", &["read", "tension"]),
+    ("report", &["results"]),
+    ("graph", &["plots", "tension"]),
+    ("chart", &["plots", "tension"]),
+    ("export", &["save"]),
+    ("screenshot", &["picture", "png"]),
+    ("image", &["picture", "png"]),
+    ("video", &["film", "recording"]),
+    ("movie", &["film", "recording"]),
+    ("gamepad", &["pad", "fly"]),
+    ("joystick", &["pad", "fly"]),
+    ("simulate", &["run"]),
+    ("exit", &["quit"]),
+    ("shortcuts", &["keys"]),
+    ("measure", &["ruler"]),
+];
+
+/// The commands that every typed word fits, whatever its case: those first whose name has the words.
 fn matching(all: Vec<Offer>, typed: &str) -> Vec<Offer> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    let holds =
-        |offer: &Offer| words.iter().all(|word| offer.name.to_lowercase().contains(word.as_str()));
-    let mut found: Vec<Offer> = all.into_iter().filter(holds).collect();
-    // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
-    let begins = |name: &str, word: &str| name.split_whitespace().any(|own| own.starts_with(word));
     let whole = words.join(" ");
-    found.sort_by_cached_key(|offer| {
+    let ranked = |offer: Offer| {
         let name = offer.name.to_lowercase();
-        (words.iter().filter(|word| !begins(&name, word)).count(), name != whole)
-    });
-    found
+        let ranks = words.iter().map(|word| rank(&name, offer.help, word));
+        Some((ranks.sum::<Option<u32>>()?, name != whole, offer))
+    };
+    let mut found: Vec<_> = all.into_iter().filter_map(ranked).collect();
+    found.sort_by_key(|(rank, is_other, _)| (*rank, *is_other));
+    found.into_iter().map(|(.., offer)| offer).collect()
+}
+
+/// How far a typed word is from a command, by name in lower case and help; `None` where it does not fit.
+fn rank(name: &str, help: &str, word: &str) -> Option<u32> {
+    // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
+    if name.split_whitespace().any(|own| own.starts_with(word)) {
+        return Some(0);
+    }
+    if name.contains(word) {
+        return Some(1);
+    }
+    // A word of which less is typed means much else.
+    let meant = SYNONYMS.iter().filter(|(other, _)| word.len() > 2 && other.starts_with(word));
+    if meant.flat_map(|(_, names)| *names).any(|own| name.contains(own)) {
+        return Some(10);
+    }
+    (word.len() > 2 && help.to_lowercase().contains(word)).then_some(100)
 }
 
 impl Palette {
@@ -154,6 +202,14 @@ mod tests {
             );
         }
         assert_eq!(names("").len(), 3);
+        assert_eq!(names("graph"), ["Show Tension"], "a word of another program");
+        let told = || {
+            let undo = Offer { help: "Takes the last edit back.", ..offer("Undo") };
+            vec![undo, offer("Edit inputs")]
+        };
+        let found: Vec<String> =
+            matching(told(), "edit").into_iter().map(|offer| offer.name).collect();
+        assert_eq!(found, ["Edit inputs", "Undo"], "what it does counts after what it is called");
         assert!(names("dance").is_empty());
     }
 }
