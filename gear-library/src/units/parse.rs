@@ -136,10 +136,18 @@ fn read_unit(text: &str, unit: &str, quantity: Quantity) -> Result<f64, UnitErro
     };
     let names = quantity.units().iter().flat_map(super::Unit::names).copied();
     let known: Vec<&str> = quantity.units().iter().map(super::Unit::name).collect();
-    let meant = if other.is_none() { nearest(unit, names) } else { None };
+    let meant = match other {
+        None => nearest(unit, names),
+        // In the trade a pull of so many pounds is mostly written without the `f`.
+        Some(Quantity::Mass) if quantity == Quantity::Force && unit.starts_with("lb") => {
+            Some("lbf")
+        }
+        Some(_) => None,
+    };
+    let number = text.trim().trim_end_matches(unit).trim();
     let hint = meant.map_or_else(
         || format!("; known units are {}", known.join(", ")),
-        |name| format!("; did you mean `{name}`?"),
+        |name| format!("; did you mean `{number} {name}`?"),
     );
     Err(UnitError { message, help: expected + &hint })
 }

@@ -51,6 +51,8 @@ pub enum EditAction {
     AddInserts(String),
     /// Copy an entry of the library, by its path, to a file of its own.
     Duplicate(String),
+    /// Delete an entry of the library, by its path. The file goes with the next save.
+    Remove(String),
     /// Take a table of a kind into the library.
     ImportTable {
         /// The kind of its rows.
@@ -82,6 +84,7 @@ impl EditAction {
             Self::ToggleWeakLinks => "edit.weak-links",
             Self::AddInserts(_) => "edit.add-inserts",
             Self::Duplicate(_) => "edit.duplicate",
+            Self::Remove(_) => "edit.remove",
             Self::ImportTable { .. } => "edit.import-table",
             Self::AddEntry => "edit.add-entry",
             Self::DeleteEntry(_) => "edit.delete-entry",
@@ -205,6 +208,12 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("path"),
     ),
     Info::new(
+        "edit.remove",
+        "Delete an entry",
+        "Deletes an entry of the library that the open scenario does not use; its file goes with the next save.",
+        Make::Values("path"),
+    ),
+    Info::new(
         "edit.import-table",
         "Import a table",
         "Changes the entries of a library table that a CSV file names, and adds those that it does not know.",
@@ -242,6 +251,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(
         EditAction::ToggleWeakLinks => workbench.toggle_weak_links(),
         EditAction::AddInserts(assembly) => workbench.add_inserts(&assembly),
         EditAction::Duplicate(path) => workbench.duplicate(path),
+        EditAction::Remove(path) => workbench.remove(&path),
         EditAction::ImportTable { kind, file } => workbench.import_table(kind, &file),
         EditAction::AddEntry => workbench.add_entry(),
         EditAction::DeleteEntry(index) => workbench.delete_entry(index),

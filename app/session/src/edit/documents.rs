@@ -299,18 +299,23 @@ impl Documents {
         numbered.find(|candidate| !taken(candidate)).unwrap_or(first)
     }
 
-    /// Sets a field; comments and order stay. Setting a value that is already there changes nothing. A figure of a library entry
+    /// Sets a field; comments and order stay. Setting a value that is already there changes nothing. A bare number takes the unit of
+    /// the value before it. A figure of a library entry
     /// loses the source of its old value. Answers what else changed, in a sentence.
     ///
     /// # Errors
     /// Where the file is not TOML or has no such place.
     pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<Option<String>, String> {
-        if self.field(path, field).as_deref() == Some(value) {
+        let before = self.field(path, field);
+        if before.as_deref() == Some(value) {
             return Ok(None);
         }
-        let mut said = None;
+        let measured = before.and_then(|before| figures::with_unit_before(value, &before));
+        let value = measured.as_deref().unwrap_or(value);
+        let mut said = measured.as_ref().map(|taken| format!("read as {taken}"));
         self.alter(path, |document| {
-            said = figures::set(document, path, field, value).map_err(|error| error.to_string())?;
+            let also = figures::set(document, path, field, value);
+            said = also.map_err(|error| error.to_string())?.or(said.take());
             Ok(())
         })?;
         Ok(said)

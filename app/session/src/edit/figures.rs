@@ -31,6 +31,17 @@ pub(super) fn set(
     Ok(None)
 }
 
+/// A number typed without a unit, with the unit of the value before it; `None` where either has no such thing. A share stays as it is
+/// typed, for `0.5` and `0.5 %` are both meant.
+pub(super) fn with_unit_before(typed: &str, before: &str) -> Option<String> {
+    let typed = typed.trim();
+    let is_number = |letter: char| letter.is_ascii_digit() || "+-.,/ ".contains(letter);
+    let bare = !typed.is_empty() && typed.chars().all(is_number);
+    let unit = before.trim().trim_start_matches(is_number);
+    let measured = unit.len() < before.trim().len() && unit.starts_with(char::is_alphabetic);
+    (bare && measured).then(|| format!("{typed} {unit}"))
+}
+
 /// The kind of a library file by its path.
 fn kind_of(path: &str) -> Option<Kind> {
     path.split_once('/').and_then(|(folder, _)| Kind::in_folder(folder))
@@ -124,6 +135,25 @@ mod tests {
         set(&mut trap, path, "name", "Mine").unwrap();
         assert_eq!(trap.get("name").as_deref(), Some("Mine"));
         assert!(set(&mut trap, "scenario", "mass", "1 kg").unwrap().is_none());
+    }
+
+    #[test]
+    fn a_bare_number_takes_the_unit_that_was_there() {
+        let cases = [
+            ("1700", "2,700 lbf", Some("1700 lbf")),
+            ("1,700", "12 kN", Some("1,700 kN")),
+            ("7/16", "3/8 in", Some("7/16 in")),
+            ("-0.5", "-0.701 N/m", Some("-0.5 N/m")),
+            ("0.5", "75 %", None),
+            ("0.5", "0.3", None),
+            ("1700 N", "2,700 lbf", None),
+            ("pp", "12 kN", None),
+            ("12", "e7-99", None),
+            ("", "12 kN", None),
+        ];
+        for (typed, before, expected) in cases {
+            assert_eq!(with_unit_before(typed, before).as_deref(), expected, "{typed} {before}");
+        }
     }
 
     #[test]

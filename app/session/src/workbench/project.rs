@@ -176,6 +176,22 @@ impl Workbench {
         Ok(())
     }
 
+    pub(crate) fn remove(&mut self, path: &str) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        if documents.text(path).is_none() {
+            return Err(format!("{path} is not in the library"));
+        }
+        if documents.in_use(path) {
+            return Err(format!(
+                "{path} is in use by the open scenario: choose another there first"
+            ));
+        }
+        documents.remove(path);
+        self.notice =
+            Some(Notice::done(format!("{path} goes with the next save; Undo brings it back")));
+        Ok(())
+    }
+
     pub(crate) fn import_table(&mut self, kind: Kind, file: &Path) -> Result<(), String> {
         let text = endline_gear::read::text(file)
             .map_err(|error| format!("{}: {error}", file.display()))?;

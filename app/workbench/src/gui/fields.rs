@@ -1,6 +1,7 @@
 //! A field of a text as it is typed: committed on Enter or when left, red where it is wrong.
 
-use egui::{Id, Key, Response, Stroke, TextEdit, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::{Context, Id, Key, Response, Stroke, TextEdit, Ui};
 use endline_gear::Diagnostic;
 use endline_session::edit::Documents;
 use endline_session::edit::problems::message;
@@ -72,6 +73,11 @@ fn edit_as(
         .clip_text(true);
     let editor = editor.hint_text(said.hint);
     let response = ui.add(editor);
+    if response.gained_focus()
+        && !ui.input(|input| input.pointer.any_down() || input.pointer.any_released())
+    {
+        select_all(ui.ctx(), edit_id, &typed);
+    }
     outline(ui, &response, problem);
     if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, typed.clone()));
@@ -84,6 +90,21 @@ fn edit_as(
     ui.data_mut(|data| data.remove_temp::<String>(id));
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
     (!escaped && typed != stored).then_some(typed)
+}
+
+/// Selects what stands in a text box that was reached by keys, so that typing replaces it.
+fn select_all(context: &Context, edit_id: Id, text: &str) {
+    let mut state = TextEdit::load_state(context, edit_id).unwrap_or_default();
+    let end = CCursor::new(text.chars().count());
+    state.cursor.set_char_range(Some(CCursorRange::two(CCursor::default(), end)));
+    state.store(context, edit_id);
+}
+
+/// Goes to the text box of a field, with all that stands in it selected.
+pub fn go_to(context: &Context, documents: &Documents, path: &str, field: &str) {
+    let id = edit_id(path, field);
+    context.memory_mut(|memory| memory.request_focus(id));
+    select_all(context, id, &documents.field(path, field).unwrap_or_default());
 }
 
 /// Id of what is typed into a text box and not committed yet.

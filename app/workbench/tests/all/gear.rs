@@ -11,6 +11,7 @@ use endline_session::edit::library_table::{import, to_csv};
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::PanelAction;
+use endline_workbench::gui::fields::{edit_id, go_to};
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 
@@ -372,4 +373,71 @@ fn gear_is_chosen_by_its_picture() {
     harness.run_steps(3);
     assert_eq!(harness.state().panels.assembly.shown.as_deref(), Some("single"));
     assert!(!harness.state().panels.assembly.selecting, "the picture is taken and the gear shown");
+}
+
+/// The field of the library's files that has the focus.
+fn focused(harness: &Harness<'static, App>, kind: Kind, key: &str) -> Option<String> {
+    let focused = harness.ctx.memory(|memory| memory.focused())?;
+    let documents = &harness.state().shared.workbench.project.documents;
+    documents.files(kind.folder()).find(|path| edit_id(path, key) == focused).map(str::to_owned)
+}
+
+#[test]
+fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_of_its_cell() {
+    let folder = Folder::new("table-keys");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
+    harness.run_steps(3);
+    let first = "ropes/sink-3-8.toml";
+    let documents = &harness.state().shared.workbench.project.documents;
+    go_to(&harness.ctx, documents, first, "strength");
+    harness.run_steps(2);
+    // What stood there is selected, so that typing replaces it.
+    harness.event(egui::Event::Text("2345".to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert_eq!(documents.field(first, "strength").as_deref(), Some("2345 lbf"));
+    let below = focused(&harness, Kind::Rope, "strength").expect("a cell below has the focus");
+    assert_ne!(below, first);
+    harness.key_press(egui::Key::ArrowUp);
+    harness.run_steps(3);
+    assert_eq!(focused(&harness, Kind::Rope, "strength").as_deref(), Some(first));
+    harness.key_press(egui::Key::Tab);
+    harness.run_steps(3);
+    assert_eq!(focused(&harness, Kind::Rope, "strength"), None, "Tab leaves for the next cell");
+}
+
+#[test]
+fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_brings_it_back() {
+    let folder = Folder::new("delete-entry");
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let remove = |harness: &mut Harness<'static, App>, path: &str| {
+        harness.state_mut().dock =
+            egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
+        harness.state_mut().shared.give(PanelAction::Entry(path.to_owned()));
+        harness.run_steps(3);
+        harness.get_by_label("Delete").click();
+        harness.run_steps(3);
+    };
+    let documents = &harness.state().shared.workbench.project.documents;
+    let (used, unused): (Vec<_>, Vec<_>) =
+        documents.files("ropes").map(str::to_owned).partition(|path| documents.in_use(path));
+    let count = used.len() + unused.len();
+    remove(&mut harness, &used[0]);
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(notice.text.contains("in use by the open scenario"), "{}", notice.text);
+    remove(&mut harness, &unused[0]);
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert_eq!(documents.files("ropes").count(), count - 1);
+    assert!(folder.0.join(&unused[0]).exists(), "its file goes with the save");
+    harness.state_mut().shared.perform(EditAction::Save);
+    harness.run_steps(2);
+    assert!(!folder.0.join(&unused[0]).exists());
+    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.run_steps(2);
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert_eq!(documents.files("ropes").count(), count);
 }

@@ -187,3 +187,47 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
     give(&mut harness, PanelAction::ExportPlots(csv.clone()));
     assert!(std::fs::read_to_string(csv).unwrap().lines().count() > 100);
 }
+
+/// Sources of the window: every file under `app/workbench/src/gui` and the session's texts for it.
+fn sources(folder: &std::path::Path, found: &mut Vec<std::path::PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_letter_of_a_text_on_screen_can_be_drawn() {
+    let folder = Folder::new("glyphs");
+    let (harness, _) = workbench(&folder, Pilot::default());
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for part in ["src/gui", "src/input", "src/scene", "../session/src"] {
+        sources(&root.join(part), &mut files);
+    }
+    assert!(files.len() > 200, "{}", files.len());
+    // What no font has is drawn by one picture, the same for all.
+    const UNKNOWN: char = '\u{10fffd}';
+    let drawn = |letter: char| {
+        let (font, ink) = (egui::FontId::proportional(13.0), egui::Color32::WHITE);
+        let galley =
+            harness.ctx.fonts_mut(|fonts| fonts.layout_no_wrap(letter.to_string(), font, ink));
+        let picture = galley.rows[0].glyphs[0].uv_rect;
+        (picture.min, picture.max)
+    };
+    let mut missing = std::collections::BTreeSet::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let code = text.lines().map(str::trim).filter(|line| !line.starts_with("//"));
+        for letter in code.flat_map(str::chars).filter(|letter| !letter.is_ascii()) {
+            if drawn(letter) == drawn(UNKNOWN) {
+                missing.insert((letter, file.clone()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "drawn as empty boxes: {missing:?}");
+}

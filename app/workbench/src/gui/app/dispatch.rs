@@ -170,6 +170,11 @@ impl App {
                 let duplicate = path.map(|path| Command::Edit(EditAction::Duplicate(path)));
                 return duplicate.map_or(Ok(()), |command| self.work(command));
             }
+            PanelAction::Remove => {
+                let path = shared.selection.entry.clone();
+                let remove = path.map(|path| Command::Edit(EditAction::Remove(path)));
+                return remove.map_or(Ok(()), |command| self.work(command));
+            }
             PanelAction::DeleteEntry => {
                 let entry = panels.program.chosen.take();
                 let delete = entry.map(|entry| Command::Edit(EditAction::DeleteEntry(entry)));

@@ -80,6 +80,8 @@ pub enum PanelAction {
     Assembly(String),
     /// Copy the entry chosen in the library.
     Duplicate,
+    /// Delete the entry chosen in the library.
+    Remove,
     /// Delete the entry chosen in the pilot program.
     DeleteEntry,
     /// Write the table shown, as it is sorted and searched.
@@ -178,6 +180,7 @@ impl PanelAction {
             Self::Entry(_) => "panel.entry",
             Self::Assembly(_) => "panel.assembly",
             Self::Duplicate => "panel.duplicate",
+            Self::Remove => "panel.remove",
             Self::DeleteEntry => "panel.delete-entry",
             Self::ExportTable(_) => "panel.export-table",
             Self::ImportTable(_) => "panel.import-table",

@@ -82,10 +82,14 @@ pub static COMMANDS: &[WindowInfo] = &[
         Make::Plain(|| PanelAction::Duplicate.into()),
     )
     .with_keys(&[Shortcut::new("Ctrl+D", When::Always)])
-    .only_if(|shared| match &shared.selection.entry {
-        Some(_) => Ok(()),
-        None => Err("choose a row of the library first".to_owned()),
-    }),
+    .only_if(has_row),
+    WindowInfo::new(
+        "panel.remove",
+        "Delete the chosen entry of the library",
+        "Deletes the row chosen in the library; its file goes with the next save, and Undo brings it back.",
+        Make::Plain(|| PanelAction::Remove.into()),
+    )
+    .only_if(has_row),
     WindowInfo::new(
         "panel.delete-entry",
         "Delete the chosen entry of the pilot program",
@@ -177,4 +181,11 @@ fn at_rest(shared: &Shared) -> Result<(), String> {
         return Ok(());
     }
     Err("the gear of the assembly panel is not at rest yet".to_owned())
+}
+
+fn has_row(shared: &Shared) -> Result<(), String> {
+    match &shared.selection.entry {
+        Some(_) => Ok(()),
+        None => Err("choose a row of the library first".to_owned()),
+    }
 }

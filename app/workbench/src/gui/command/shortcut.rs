@@ -23,8 +23,8 @@ pub fn to_egui(keys: &str) -> Option<KeyboardShortcut> {
 #[must_use]
 pub fn spelled(keys: &str) -> String {
     match keys {
-        "Left" => "←".to_owned(),
-        "Right" => "→".to_owned(),
+        "Left" => "⏴".to_owned(),
+        "Right" => "⏵".to_owned(),
         "-" => "−".to_owned(),
         "Escape" => "Esc".to_owned(),
         other => other.to_owned(),

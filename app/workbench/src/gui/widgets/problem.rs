@@ -10,7 +10,7 @@ use super::super::theme::Theme;
 pub fn entry(ui: &mut Ui, problem: &Diagnostic) -> bool {
     let palette = Theme::palette_of(ui);
     let (mark, colour) =
-        if problem.is_error() { ("✖", palette.error) } else { ("▲", palette.warning) };
+        if problem.is_error() { ("✖", palette.error) } else { ("⚠", palette.warning) };
     let row = ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
         ui.horizontal(|ui| {

@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, id: 
             }
         }
         ui.label(
-            RichText::new("greatest tension; floats pulled under are marked ▼")
+            RichText::new("greatest tension; floats pulled under are marked ⏷")
                 .color(Theme::palette_of(ui).faint),
         );
     });
@@ -120,7 +120,7 @@ fn cell(ui: &mut Ui, answer: Option<&Answer>, units: Units) {
                 (true, true) => palette.warning,
                 (true, false) => palette.text,
             };
-            let mark = if under { " ▼" } else { "" };
+            let mark = if under { " ⏷" } else { "" };
             ui.label(RichText::new(format!("{}{mark}", units.force().text(most))).color(color))
                 .on_hover_text(&rest.shape.outcome)
         }

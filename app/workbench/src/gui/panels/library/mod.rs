@@ -6,6 +6,7 @@ mod paste;
 mod picture;
 mod rows;
 mod table;
+mod walk;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command::command;
@@ -43,6 +44,8 @@ pub struct LibraryPanel {
     uses: Uses,
     compared: detail::Compared,
     found: Option<(Wanted, Arc<Vec<Row>>)>,
+    /// The row to be brought into sight.
+    go_to: Option<usize>,
 }
 
 impl Default for LibraryPanel {
@@ -56,6 +59,7 @@ impl Default for LibraryPanel {
             uses: Uses::default(),
             compared: detail::Compared::default(),
             found: None,
+            go_to: None,
         }
     }
 }
@@ -141,6 +145,7 @@ impl LibraryPanel {
         command(ui, shared, "Redo", EditAction::Redo);
         command(ui, shared, "Undo", EditAction::Undo);
         ui.menu_button("Table ⏷", |ui| self.table_menu(ui, shared));
+        command(ui, shared, "Delete", PanelAction::Remove);
         command(ui, shared, "Duplicate", PanelAction::Duplicate);
     }
 

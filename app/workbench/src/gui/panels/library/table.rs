@@ -3,10 +3,11 @@
 use egui::{Align, Button, Layout, RichText, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use endline_gear::{Field, Kind, units};
+use endline_session::command::EditAction;
 use endline_session::edit::library_table;
 
-use super::LibraryPanel;
 use super::rows::Row;
+use super::{LibraryPanel, walk};
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -25,6 +26,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
     let kind = panel.kind;
     let (words, figures) = (kind.words(), kind.fields());
     let shown = panel.shown_rows(shared);
+    let went = walk::asked(ui, kind, &shown);
     let mut builder = TableBuilder::new(ui)
         .id_salt(kind.folder())
         .striped(true)
@@ -35,6 +37,9 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
         Column::initial(CELL_WIDTH).at_least(60.0).clip(true),
         words.len() + figures.len(),
     );
+    if let Some(row) = panel.go_to.take() {
+        builder = builder.scroll_to_row(row, None);
+    }
     let mut edits = Vec::new();
     let table = builder.header(24.0, |mut row| header(&mut row, panel, kind));
     let heights = shown.iter().map(|row| if row.problem { ROW_WITH_REASON } else { ROW });
@@ -47,6 +52,11 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
     });
     for (path, field, value) in edits {
         shared.workbench.set(&path, field, &value);
+    }
+    if let Some((row, key)) = went {
+        panel.go_to = Some(row);
+        let documents = &shared.workbench.project.documents;
+        fields::go_to(ui.ctx(), documents, &shown[row].path, key);
     }
 }
 
@@ -101,7 +111,7 @@ fn field_help(field: &Field) -> String {
 fn cells(
     row: &mut TableRow<'_, '_>,
     panel: &mut LibraryPanel,
-    shared: &Shared,
+    shared: &mut Shared,
     shown: &Row,
     edits: &mut Vec<Edit>,
 ) {
@@ -136,7 +146,7 @@ fn near(ui: &Ui) -> bool {
     ui.clip_rect().expand2(egui::vec2(2.0 * CELL_WIDTH, 0.0)).intersects(ui.max_rect())
 }
 
-fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &Shared, row: &Row) {
+fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &Row) {
     let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
     let name =
@@ -151,9 +161,24 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &Shared, row: &Row) 
     let label =
         Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
     let response = ui.add(label);
-    if response.clicked() {
+    if response.clicked() || response.secondary_clicked() {
         panel.chosen = Some(path.to_owned());
     }
+    response.context_menu(|ui| {
+        for (text, action) in [
+            ("Duplicate", EditAction::Duplicate(path.to_owned())),
+            ("Delete", EditAction::Remove(path.to_owned())),
+        ] {
+            if ui.button(text).clicked() {
+                shared.give(action);
+                ui.close();
+            }
+        }
+        if ui.button("Copy id").clicked() {
+            ui.ctx().copy_text(library_table::id_of(path).to_owned());
+            ui.close();
+        }
+    });
     if response.contains_pointer() {
         let notes = shared
             .workbench

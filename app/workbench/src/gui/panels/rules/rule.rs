@@ -104,7 +104,7 @@ fn card(ui: &mut Ui, shared: &mut Shared, number: usize, edit: &Proposal) {
         for change in edit.changes.iter().take(MOST_FIELDS) {
             let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "–".to_owned());
             let text = format!(
-                "{}: {} → {}",
+                "{}: {} to {}",
                 change.field,
                 or_none(&change.before),
                 or_none(&change.after)

@@ -181,7 +181,7 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
     line.col(|ui| {
         let palette = Theme::palette_of(ui);
         let colour = if story.is_like() { palette.good } else { palette.text };
-        let mirrored = if story.mirrored { " ⇄" } else { "" };
+        let mirrored = if story.mirrored { " mirrored" } else { "" };
         let text = RichText::new(format!("{:.2}{mirrored}", story.distance)).color(colour);
         let response = ui.label(text);
         if story.mirrored {
