@@ -33,6 +33,25 @@ pub fn text_if_there(path: &Path) -> Result<Option<String>, Error> {
     }
 }
 
+/// Copies a file, or a folder with all that is in it.
+///
+/// # Errors
+/// What cannot be read or written, by its path.
+pub(crate) fn copy_tree(from: &Path, to: &Path) -> Result<(), Error> {
+    let failed = |error: io::Error| Error::at(from, format!("cannot be copied: {error}"));
+    if !from.is_dir() {
+        let folder = to.parent().unwrap_or(to);
+        fs::create_dir_all(folder).map_err(failed)?;
+        return fs::copy(from, to).map(drop).map_err(failed);
+    }
+    fs::create_dir_all(to).map_err(failed)?;
+    for entry in fs::read_dir(from).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        copy_tree(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
+}
+
 fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;

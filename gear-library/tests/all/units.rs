@@ -68,7 +68,11 @@ const REFUSED: &[(&str, Q, &[&str])] = &[
     ("", Q::Length, &["has no number", "expected a length"]),
     ("in", Q::Length, &["has no number"]),
     ("10 kg", Q::Length, &["`kg` is a unit of a mass, not of a length"]),
-    ("1700 lb", Q::Force, &["`lb` is a unit of a mass, not of a force", "did you mean `1700 lbf`?"]),
+    (
+        "1700 lb",
+        Q::Force,
+        &["`lb` is a unit of a mass, not of a force", "did you mean `1700 lbf`?"],
+    ),
     ("1,5 m", Q::Length, &["`1,5` does not read as a number", "decimals with a point"]),
     ("3/0 in", Q::Length, &["`3/0` does not read"]),
     ("1 2 3 m", Q::Length, &["`1 2 3` does not read"]),

@@ -174,6 +174,13 @@ pub(super) fn has_results(workbench: &Workbench) -> Condition {
     require(shown, "no results of a study are shown")
 }
 
+/// The results shown are those of a whole study, with their report.
+pub(super) fn has_report(workbench: &Workbench) -> Condition {
+    has_results(workbench)?;
+    let written = workbench.report_shown().is_some();
+    require(written, "the report is written when the study has run to its end")
+}
+
 /// Plugins can be loaded again.
 pub(super) fn loads_plugins(workbench: &Workbench) -> Condition {
     require(workbench.plugins.has_loader(), "there are no folders of plugins here")

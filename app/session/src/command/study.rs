@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use super::condition::{has_results, study_at_work, study_opened, study_runs};
+use super::condition::{has_report, has_results, study_at_work, study_opened, study_runs};
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::{Command, Info};
@@ -26,6 +26,8 @@ pub enum StudyAction {
     Cancel,
     /// Show the results in a folder.
     ShowResults(PathBuf),
+    /// Write what reproduces the results shown, and their report, into a folder.
+    SaveBundle(PathBuf),
     /// Run an encounter of the results shown again.
     Replay {
         /// Place of the option.
@@ -46,6 +48,7 @@ impl StudyAction {
             Self::Pause => "study.pause",
             Self::Cancel => "study.cancel",
             Self::ShowResults(_) => "study.results",
+            Self::SaveBundle(_) => "study.save-bundle",
             Self::Replay { .. } => "study.replay",
         }
     }
@@ -116,6 +119,16 @@ pub static COMMANDS: &[Info] = &[
         },
     ),
     Info::new(
+        "study.save-bundle",
+        "Save the study's bundle",
+        "Writes a folder with the report of the results shown, their numbers, and the study, scenario and library that reproduce them.",
+        Make::File {
+            question: |_| FileQuestion::folder("folder for the bundle"),
+            command: |_, folder| Command::Study(StudyAction::SaveBundle(folder)),
+        },
+    )
+    .only_if(has_report),
+    Info::new(
         "study.replay",
         "Run an encounter again",
         "Runs an encounter of the results shown again, up to where it ended in the study.",
@@ -137,6 +150,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: StudyAction) -> Result<
         StudyAction::Pause => workbench.pause_study(),
         StudyAction::Cancel => workbench.cancel_study(),
         StudyAction::ShowResults(folder) => workbench.show_results(&folder),
+        StudyAction::SaveBundle(folder) => workbench.save_bundle(&folder),
         StudyAction::Replay { option, encounter } => workbench.replay_encounter(option, encounter),
     }
 }

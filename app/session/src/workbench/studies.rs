@@ -8,6 +8,7 @@ use super::model::Then;
 use super::notice::Notice;
 use crate::edit::Documents;
 use crate::locate;
+use crate::save::copy_tree;
 use crate::study::queue::{self, Job, Queue, State};
 use crate::study::{ResultsReader, ResultsRequest, StudyResults};
 
@@ -160,6 +161,32 @@ impl Workbench {
     pub(crate) fn duplicate_study(&mut self) -> Result<(), String> {
         let copy = self.project.documents.duplicate_study()?;
         self.notice = Some(Notice::done(format!("a copy: {}", copy.display())));
+        Ok(())
+    }
+
+    /// The report of the results shown, where it is written.
+    #[must_use]
+    pub fn report_shown(&self) -> Option<PathBuf> {
+        let page = self.studies.results.shown()?.folder.join("report.html");
+        page.is_file().then_some(page)
+    }
+
+    /// Copies the report of the results shown, its numbers and its bundle to a folder of their own in `folder`.
+    pub(crate) fn save_bundle(&mut self, folder: &Path) -> Result<(), String> {
+        let Some(shown) = self.studies.results.shown().cloned() else {
+            return Err("no results of a study are shown".to_owned());
+        };
+        let own = folder.join(&shown.opened.study.id);
+        if own.exists() {
+            return Err(format!("{} is there already: choose another folder", own.display()));
+        }
+        for part in ["report.html", "report.csv", "findings.json", "table.csv", "bundle"] {
+            let from = shown.folder.join(part);
+            if from.exists() {
+                copy_tree(&from, &own.join(part)).map_err(|error| error.to_string())?;
+            }
+        }
+        self.notice = Some(Notice::done(format!("report and bundle: {}", own.display())));
         Ok(())
     }
 

@@ -16,6 +16,7 @@ mod words;
 
 pub(crate) use page::STYLE;
 use std::path::PathBuf;
+pub use words::lowest;
 
 use crate::error::Error;
 use crate::save::atomically;

@@ -3,7 +3,7 @@
 use askama::Template;
 
 use crate::study::open::Opened;
-use crate::study::stats::Findings;
+use crate::study::stats::{Findings, answer};
 
 use super::cell::{Line, Table};
 use super::hauled::HauledLoad;
@@ -24,6 +24,7 @@ struct Page<'a> {
     notes: &'a str,
     scenario: &'a str,
     baseline: &'a str,
+    answer: Vec<String>,
     counts: Counts,
     rates: Vec<Table>,
     rates_figure: String,
@@ -95,6 +96,7 @@ impl<'a> Page<'a> {
             notes: &study.notes,
             scenario: &study.scenario.value,
             baseline: &opened.options[opened.baseline].name,
+            answer: answer(findings, &findings.event),
             counts: Counts::of(findings),
             rates: results::rates(findings),
             rates_figure: figures::rates(findings),

@@ -7,7 +7,7 @@ use crate::study::stats::{
 };
 
 use super::cell::{Cell, Line, Table};
-use super::words::{event_words, force, percent_interval, points, rate, ratio, short_rate};
+use super::words::{event_words, force, lowest, percent_interval, points, rate, ratio, short_rate};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;
@@ -120,7 +120,7 @@ fn against(findings: &Findings, event: &str) -> Table {
         "only with the option, only with the baseline",
         "McNemar test, p",
         among.as_str(),
-        "share of resamples in which its rate is lowest",
+        "resamples in which its rate is lowest, alone or tied",
     ];
     let row = |option: &OptionFinding| -> Option<Vec<Cell>> {
         let paired = option.against(&findings.event)?;
@@ -136,7 +136,7 @@ fn against(findings: &Findings, event: &str) -> Table {
                 .adjusted(&findings.event)
                 .map_or_else(|| "not registered".into(), |p| format!("{p:.3}"))
                 .into(),
-            format!("{:.0} %", 100.0 * option.best_share).into(),
+            lowest(option.lowest).into(),
         ])
     };
     let rows = findings.others().filter_map(row).collect();

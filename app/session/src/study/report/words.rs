@@ -2,7 +2,7 @@
 
 use endline_gear::StudyEvent;
 
-use crate::study::stats::{Interval, Rate};
+use crate::study::stats::{Interval, Lowest, Rate};
 
 /// Newtons in a pound-force.
 pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
@@ -49,6 +49,17 @@ pub(super) fn ratio(ratio: Option<f64>, interval: Option<Interval>) -> String {
 /// `1512 N (340 lbf)`.
 pub(super) fn force(newtons: f64) -> String {
     format!("{newtons:.0}\u{a0}N ({:.0}\u{a0}lbf)", newtons / N_PER_LBF)
+}
+
+/// `alone 12 %, tied 30 %`; `tied in all` where no resample tells the options apart.
+#[must_use]
+pub fn lowest(Lowest { alone, tied }: Lowest) -> String {
+    match (alone > 0.0, tied > 0.0) {
+        (false, true) if tied >= 1.0 => "tied in all".to_owned(),
+        (_, false) => format!("alone {:.0} %", 100.0 * alone),
+        (false, true) => format!("tied {:.0} %", 100.0 * tied),
+        (true, true) => format!("alone {:.0} %, tied {:.0} %", 100.0 * alone, 100.0 * tied),
+    }
 }
 
 /// An event in words, by its name in tables.

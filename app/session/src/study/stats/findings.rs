@@ -18,17 +18,17 @@ use super::marks::{Marks, encounters};
 use super::multiplicity::holm;
 use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
-use super::sensitivity::{self, InputFinding, best_shares};
+use super::sensitivity::{self, InputFinding, Lowest};
 use super::survival::Survival;
 use super::tensions::Tensions;
 
 /// Name of the schema.
-const SCHEMA: &str = "endline.findings/1";
+const SCHEMA: &str = "endline.findings/2";
 
 /// What a study found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Findings {
-    /// Always `endline.findings/1`.
+    /// Always `endline.findings/2`.
     pub schema: &'static str,
     /// Id of the study.
     pub study: String,
@@ -90,7 +90,7 @@ pub struct OptionFinding {
     /// Delivered strength of each line and weak link in the gear as it is assembled.
     pub strengths: Vec<PartStrength>,
     /// How often it has the lowest rate of the event when encounters are drawn again.
-    pub best_share: f64,
+    pub lowest: Lowest,
 }
 
 /// Looks at the lengths of segments near the whale.
@@ -148,10 +148,10 @@ impl Findings {
         let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
         let event = &opened.study.event;
         let marks: Vec<Marks> = ids.iter().map(|id| Marks::of(table, id, event)).collect();
-        let best = best_shares(&marks);
+        let lowest = sensitivity::lowest(&marks);
         let mut options: Vec<OptionFinding> =
             (0..ids.len()).map(|option| found(opened, table, option)).collect();
-        options.iter_mut().zip(best).for_each(|(option, share)| option.best_share = share);
+        options.iter_mut().zip(lowest).for_each(|(option, lowest)| option.lowest = lowest);
         let comparisons = adjust(&mut options, opened.baseline, registration);
         let now = Registration::of(&opened.study);
         let mut claims = claims::look_at_all(&opened.study.claims, table);
@@ -248,7 +248,7 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         tensions: Tensions::of(table, &plan.id, baseline),
         survival: Survival::of(table, &plan.id),
         strengths: plan.prepared.strengths.iter().map(PartStrength::from).collect(),
-        best_share: 0.0,
+        lowest: Lowest::default(),
     }
 }
 

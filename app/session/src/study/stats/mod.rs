@@ -5,6 +5,7 @@
 //! Encounters count by their weights, which importance sampling gives them; without it all count alike.
 //! Encounters are taken as independent; those of a Sobol sequence fill their space more evenly, so that intervals err on the wide side.
 
+mod answer;
 mod bands;
 mod better;
 pub(super) mod bootstrap;
@@ -25,6 +26,7 @@ mod weighted;
 #[cfg(test)]
 mod coverage;
 
+pub use answer::answer;
 pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
@@ -33,7 +35,7 @@ pub use interval::{Interval, Rate};
 pub use marks::{Mark, Marks};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
-pub use sensitivity::{InputFinding, Part};
+pub use sensitivity::{InputFinding, Lowest, Part};
 pub use sobol::SobolIndex;
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;

@@ -216,11 +216,20 @@ fn parts(
     }
 }
 
-/// How often each option has the lowest rate when encounters are drawn again; ties count for all that share it.
-pub(super) fn best_shares(marks: &[Marks]) -> Vec<f64> {
+/// How often an option has the lowest rate when encounters are drawn again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Lowest {
+    /// Share of the draws in which no other option has it.
+    pub alone: f64,
+    /// Share of the draws in which others have it too.
+    pub tied: f64,
+}
+
+/// How often each option has the lowest rate when encounters are drawn again.
+pub(super) fn lowest(marks: &[Marks]) -> Vec<Lowest> {
     let count = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
     let mut draws = Draws::of("ranking");
-    let mut best = vec![0_u32; marks.len()];
+    let mut counts = vec![[0_u32; 2]; marks.len()];
     let mut indices = vec![0; count];
     for _ in 0..RESAMPLES {
         indices.iter_mut().for_each(|index| *index = draws.below(count));
@@ -233,10 +242,14 @@ pub(super) fn best_shares(marks: &[Marks]) -> Vec<f64> {
         };
         let rates: Vec<f64> = marks.iter().map(rate).collect();
         let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
-        best.iter_mut()
-            .zip(&rates)
-            .filter(|(_, rate)| **rate <= least)
-            .for_each(|(best, _)| *best += 1);
+        let have = |rate: &f64| *rate <= least;
+        let tied = usize::from(rates.iter().filter(|rate| have(rate)).count() > 1);
+        let best = counts.iter_mut().zip(&rates).filter(|(_, rate)| have(rate));
+        best.for_each(|(counts, _)| counts[tied] += 1);
     }
-    best.into_iter().map(|count| f64::from(count) / RESAMPLES as f64).collect()
+    let share = |count: u32| f64::from(count) / RESAMPLES as f64;
+    counts
+        .into_iter()
+        .map(|[alone, tied]| Lowest { alone: share(alone), tied: share(tied) })
+        .collect()
 }

@@ -217,6 +217,11 @@ impl App {
                     self.copy(context, line, "command line");
                 }
             }
+            WindowAction::OpenReport => {
+                if let Some(page) = self.shared.workbench.report_shown() {
+                    open_folder(&page)?;
+                }
+            }
             WindowAction::OpenFolder(folder) => open_folder(&folder)?,
             WindowAction::Ask(id) => self.ask(id)?,
             WindowAction::Quit => context.send_viewport_cmd(ViewportCommand::Close),

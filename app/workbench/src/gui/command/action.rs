@@ -111,6 +111,8 @@ pub enum WindowAction {
     CopyStudyLine,
     /// Copy the command line that searches for the open observation.
     CopySearchLine,
+    /// Open the report of the results shown.
+    OpenReport,
     /// Show a folder in the system's file manager, or open a file.
     OpenFolder(PathBuf),
     /// Ask for the file of the command of this identity.
@@ -204,6 +206,7 @@ impl WindowAction {
             Self::CopyCommandLine => "window.copy-run",
             Self::CopyStudyLine => "window.copy-study",
             Self::CopySearchLine => "window.copy-search",
+            Self::OpenReport => "window.open-report",
             Self::OpenFolder(_) => "window.open-folder",
             Self::Ask(id) => id,
             Self::Quit => "window.quit",

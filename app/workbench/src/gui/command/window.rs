@@ -70,6 +70,16 @@ pub static COMMANDS: &[WindowInfo] = &[
     )
     .only_if(study_opened),
     WindowInfo::new(
+        "window.open-report",
+        "Open the study's report",
+        "Opens the report of the results shown with the program that is usual for pages.",
+        Make::Plain(|| WindowAction::OpenReport.into()),
+    )
+    .only_if(|shared| match shared.workbench.report_shown() {
+        Some(_) => Ok(()),
+        None => Err("the report is written when a study has run to its end".to_owned()),
+    }),
+    WindowInfo::new(
         "window.copy-search",
         "Copy the search as command line",
         "Copies the command that searches for the open observation.",

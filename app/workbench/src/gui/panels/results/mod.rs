@@ -8,16 +8,19 @@ mod spread;
 use endline_session::command::StudyAction;
 use std::sync::Arc;
 
-use egui::{ComboBox, RichText, ScrollArea, Ui};
+use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use endline_gear::StudyEvent;
 use endline_session::study::ResultsReader;
 use endline_session::study::StudyResults;
+use endline_session::study::stats::answer;
 
+use crate::gui::command::action::WindowAction;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
+use crate::gui::widgets::command::command;
 use runs::{Listed, Sort};
 use spread::Placed;
 
@@ -85,6 +88,12 @@ impl Panel for ResultsPanel {
         self.head(ui, shared, &shown);
         ui.separator();
         let event = self.event(&shown);
+        if !matches!(self.part, Part::Runs | Part::Sensitivity | Part::Claims) {
+            for sentence in answer(&shown.findings, &event) {
+                ui.add(Label::new(RichText::new(sentence).strong()).wrap());
+            }
+            ui.add_space(4.0);
+        }
         let scrolled = |ui: &mut Ui, draw: &dyn Fn(&mut Ui)| {
             ScrollArea::both().id_salt("results").auto_shrink(false).show(ui, draw);
         };
@@ -126,7 +135,7 @@ impl ResultsPanel {
         self.event.clone().unwrap_or_else(|| shown.findings.event.clone())
     }
 
-    fn head(&mut self, ui: &mut Ui, shared: &Shared, shown: &Arc<StudyResults>) {
+    fn head(&mut self, ui: &mut Ui, shared: &mut Shared, shown: &Arc<StudyResults>) {
         let palette = Theme::palette_of(ui);
         let (study, findings) = (&shown.opened.study, &shown.findings);
         ui.horizontal_wrapped(|ui| {
@@ -162,12 +171,8 @@ impl ResultsPanel {
             {
                 ui.ctx().copy_text(report_line(shared, shown));
             }
-            if shown.folder.join("report.html").is_file() {
-                ui.label(
-                    RichText::new("report.html is in its folder").small().color(palette.faint),
-                )
-                .on_hover_text(shown.folder.display().to_string());
-            }
+            command(ui, shared, "Open report", WindowAction::OpenReport);
+            command(ui, shared, "Save bundle …", WindowAction::Ask("study.save-bundle"));
         });
     }
 

@@ -2,6 +2,7 @@
 
 use egui::{Grid, RichText, Ui};
 use endline_session::study::StudyResults;
+use endline_session::study::report::lowest;
 use endline_session::study::stats::{Interval, OptionFinding, Rate, Verdict};
 
 use crate::gui::theme::Theme;
@@ -33,8 +34,14 @@ pub(super) fn show(ui: &mut Ui, shown: &StudyResults, event: &str) {
             "Rate less the baseline's in the same encounters; below zero is rarer",
         ),
         ("Ratio", "Rate over the baseline's"),
-        ("P(rarer)", "Probability that the event is rarer than with the baseline"),
-        ("Best", "How often this option has the lowest rate when encounters are drawn again"),
+        (
+            "Chance that it is rarer",
+            "Probability that the event is rarer than with the baseline, from 0 to 1",
+        ),
+        (
+            "Lowest",
+            "How often this option has the lowest rate when encounters are drawn again: alone, or tied with others",
+        ),
         ("Undecided", "Runs too short for their outcome to stand; they count"),
     ];
     Grid::new("rates").num_columns(heads.len()).striped(true).spacing([16.0, 4.0]).show(ui, |ui| {
@@ -74,7 +81,7 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
         });
         ui.label(format!("{:.3}", paired.fewer));
     }
-    ui.label(if own_event { format!("{:.0} %", 100.0 * option.best_share) } else { "–".into() });
+    ui.label(if own_event { lowest(option.lowest) } else { "–".into() });
     ui.label(option.undecided.to_string());
     ui.end_row();
 }

@@ -137,6 +137,13 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
 fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Question");
     text(ui, shared, "Name", "name", "Shown in the report");
+    text(
+        ui,
+        shared,
+        "Notes",
+        "notes",
+        "What is asked and why; stands under the name in the report",
+    );
     let scenarios = shared.workbench.studies.scenarios.iter();
     let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
     choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);

@@ -1,0 +1,181 @@
+//! What a study tells of an event, in plain words, for the head of its report and of the panel *Results*.
+//!
+//! An option is told apart from the baseline where the 95 % interval of their difference in the same encounters leaves out zero. Where
+//! several registered comparisons are made, Holm's probability stands beside it.
+//!
+//! To tell a difference `d` apart takes about `n = z² s / d²` encounters, `s` being the share of them that come out otherwise and `z`
+//! the normal quantile 1.96: 154 for 5 points where one encounter in ten does.
+
+use endline_gear::StudyEvent;
+
+use super::{Findings, Paired};
+
+/// Encounters below which a study is called small.
+const SMALL: u64 = 154;
+
+/// What is asked.
+struct Asked<'a> {
+    event: String,
+    baseline: &'a str,
+    encounters: u64,
+    /// Registered comparisons.
+    comparisons: u64,
+}
+
+/// An option beside the baseline.
+struct Compared<'a> {
+    name: &'a str,
+    paired: &'a Paired,
+    /// Holm's probability of a registered comparison.
+    adjusted: Option<f64>,
+}
+
+/// Sentences that answer the question of an event, by its name, the most important first.
+#[must_use]
+pub fn answer(findings: &Findings, event: &str) -> Vec<String> {
+    let words = StudyEvent::find(event).map_or_else(|| event.to_owned(), |event| event.words());
+    let asked = Asked {
+        event: words,
+        baseline: &findings.options[findings.baseline].name,
+        encounters: findings.encounters,
+        comparisons: findings.comparisons,
+    };
+    let compared = findings.others().filter_map(|option| {
+        let adjusted = option.adjusted(event);
+        Some(Compared { name: &option.name, paired: option.against(event)?, adjusted })
+    });
+    sentences(&asked, compared.collect())
+}
+
+fn sentences(asked: &Asked<'_>, compared: Vec<Compared<'_>>) -> Vec<String> {
+    if compared.is_empty() {
+        return Vec::new();
+    }
+    let (told, open): (Vec<_>, Vec<_>) = compared.into_iter().partition(Compared::is_told_apart);
+    let nothing = told.is_empty().then(|| {
+        let Asked { event, baseline, encounters, .. } = asked;
+        format!("{encounters} encounters tell no option apart from {baseline} in “{event}”.")
+    });
+    let apart = told.iter().map(|option| option.apart(asked));
+    nothing.into_iter().chain(apart).chain(undecided(&open, &told)).chain(small(asked)).collect()
+}
+
+impl Compared<'_> {
+    fn is_told_apart(&self) -> bool {
+        let interval = self.paired.difference_interval;
+        interval.low > 0.0 || interval.high < 0.0
+    }
+
+    /// How far the difference may be from none [points].
+    fn reach(&self) -> f64 {
+        let interval = self.paired.difference_interval;
+        100.0 * interval.low.abs().max(interval.high.abs())
+    }
+
+    /// That it has more or less of the event than the baseline, and how surely.
+    fn apart(&self, asked: &Asked<'_>) -> String {
+        let Paired { difference, difference_interval, .. } = self.paired;
+        let way = if *difference < 0.0 { "rarer" } else { "more frequent" };
+        let [low, high] =
+            [difference_interval.low, difference_interval.high].map(|side| 100.0 * side);
+        let Asked { event, baseline, comparisons, .. } = asked;
+        let among = match self.adjusted {
+            Some(p) if *comparisons > 1 && p > 0.05 => format!(
+                "; among {comparisons} registered comparisons this may be chance (p = {p:.2} by Holm)"
+            ),
+            Some(p) if *comparisons > 1 => {
+                format!("; p = {p:.3} among {comparisons} registered comparisons")
+            }
+            Some(_) => String::new(),
+            None => "; this comparison was not registered beforehand".to_owned(),
+        };
+        format!(
+            "With {}, “{event}” is {way} than with {baseline} by {:.1} points [{low:.1}, {high:.1}]{among}.",
+            self.name,
+            100.0 * difference.abs()
+        )
+    }
+}
+
+/// How large a difference may be that was not seen.
+fn undecided(open: &[Compared<'_>], told: &[Compared<'_>]) -> Option<String> {
+    if open.is_empty() {
+        return None;
+    }
+    let same = |option: &&Compared<'_>| option.paired.only_this + option.paired.only_other == 0;
+    let same = open.iter().filter(same).count();
+    let most = open.iter().map(Compared::reach).fold(0.0, f64::max);
+    let rest = if told.is_empty() { "" } else { "other " };
+    let options = match open {
+        [one] => one.name.to_owned(),
+        several => format!("The {} {rest}options", several.len()),
+    };
+    let same = match same {
+        0 => String::new(),
+        all if all == open.len() => " None of these encounters came out otherwise.".to_owned(),
+        some => format!(" With {some} of them, no encounter came out otherwise."),
+    };
+    let of_it = if told.is_empty() { "it" } else { "the baseline" };
+    Some(format!("{options} may differ from {of_it} by up to {most:.0} points.{same}"))
+}
+
+/// That there are few encounters.
+fn small(asked: &Asked<'_>) -> Option<String> {
+    (asked.encounters < SMALL).then(|| {
+        format!(
+            "{} encounters are few: 5 points take about {SMALL} to be told apart where one encounter in ten comes out otherwise.",
+            asked.encounters
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Mark, Marks};
+    use super::*;
+
+    /// Marks of encounters that came to the event or not.
+    fn marks(came: impl Iterator<Item = bool>) -> Marks {
+        Marks(came.map(|came| Some(Mark { came, weight: 1.0 })).collect())
+    }
+
+    fn asked(encounters: u64, comparisons: u64) -> Asked<'static> {
+        Asked { event: "held".to_owned(), baseline: "as today", encounters, comparisons }
+    }
+
+    fn compared(paired: &Paired, adjusted: Option<f64>) -> Compared<'_> {
+        Compared { name: "weak", paired, adjusted }
+    }
+
+    #[test]
+    fn encounters_that_all_end_alike_decide_nothing_and_say_how_much_may_hide() {
+        let all = || marks((0..8).map(|number| number < 2));
+        let paired = Paired::of(&all(), &all());
+        let told = sentences(&asked(8, 1), vec![compared(&paired, Some(1.0))]);
+        assert_eq!(told[0], "8 encounters tell no option apart from as today in “held”.");
+        let points = 100.0 * paired.difference_interval.high;
+        assert!((20.0..40.0).contains(&points), "Wilson's upper bound of none in eight is 32 %");
+        let hidden = format!("weak may differ from it by up to {points:.0} points.");
+        assert!(told[1].starts_with(&hidden), "{}", told[1]);
+        assert!(told[1].ends_with("None of these encounters came out otherwise."), "{}", told[1]);
+        assert!(told[2].starts_with("8 encounters are few"));
+        assert_eq!(told.len(), 3);
+    }
+
+    #[test]
+    fn an_option_that_is_told_apart_comes_first_with_its_interval() {
+        // Of 400 encounters 100 are held with the baseline, 60 of these with the option.
+        let (this, other) = (marks((0..400).map(|n| n < 60)), marks((0..400).map(|n| n < 100)));
+        let paired = Paired::of(&this, &other);
+        let told = sentences(&asked(400, 3), vec![compared(&paired, Some(0.000_1))]);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(
+            told[0].starts_with("With weak, “held” is rarer than with as today by 10.0 points [")
+        );
+        assert!(told[0].ends_with("; p = 0.000 among 3 registered comparisons."), "{}", told[0]);
+        let by_chance = sentences(&asked(400, 30), vec![compared(&paired, Some(0.2))]);
+        assert!(by_chance[0].contains("this may be chance (p = 0.20 by Holm)"), "{}", by_chance[0]);
+        let unregistered = sentences(&asked(400, 3), vec![compared(&paired, None)]);
+        assert!(unregistered[0].contains("not registered beforehand"));
+    }
+}
