@@ -8,6 +8,7 @@ use super::condition::{has_report, has_results, study_at_work, study_opened, stu
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::{Command, Info};
+use crate::edit::Documents;
 use crate::locate;
 use crate::workbench::Workbench;
 
@@ -18,6 +19,10 @@ pub enum StudyAction {
     Open(PathBuf),
     /// Go on with a copy of the open study.
     Duplicate,
+    /// Make the unsaved edits of scenario and gear an option of the open study.
+    OptionFromEdits,
+    /// Add an option of the open study with another assembly, by its id.
+    OptionWithAssembly(String),
     /// Run the open study, or go on with it.
     Run,
     /// Pause the study at work, or go on with it.
@@ -44,6 +49,8 @@ impl StudyAction {
         match self {
             Self::Open(_) => "study.open",
             Self::Duplicate => "study.duplicate",
+            Self::OptionFromEdits => "study.option-from-edits",
+            Self::OptionWithAssembly(_) => "study.option-with-assembly",
             Self::Run => "study.run",
             Self::Pause => "study.pause",
             Self::Cancel => "study.cancel",
@@ -84,6 +91,27 @@ pub static COMMANDS: &[Info] = &[
         "Duplicate the study",
         "Copies the open study to a file of its own and opens the copy.",
         Make::Plain(|| Command::Study(StudyAction::Duplicate)),
+    )
+    .only_if(study_opened),
+    Info::new(
+        "study.option-from-edits",
+        "Add an option from the present design",
+        "Makes the unsaved edits of the scenario and its gear an option of the open study; scenario and gear go back to their files.",
+        Make::Plain(|| Command::Study(StudyAction::OptionFromEdits)),
+    )
+    .only_if(study_opened),
+    Info::new(
+        "study.option-with-assembly",
+        "Add an option with the assembly",
+        "Adds an option to the open study whose gear is another assembly.",
+        Make::Choices(|workbench| {
+            let files = workbench.project.documents.files("assemblies");
+            let id = |file: &str| file.trim_start_matches("assemblies/").trim_end_matches(".toml").to_owned();
+            let choice = |id: String| {
+                Choice::new(id.clone(), Command::Study(StudyAction::OptionWithAssembly(id)))
+            };
+            files.map(|file| choice(id(file))).collect()
+        }),
     )
     .only_if(study_opened),
     Info::new(
@@ -146,6 +174,10 @@ pub(super) fn perform(workbench: &mut Workbench, action: StudyAction) -> Result<
     match action {
         StudyAction::Open(path) => workbench.open_study(&path),
         StudyAction::Duplicate => workbench.duplicate_study(),
+        StudyAction::OptionFromEdits => workbench.add_option(Documents::option_from_edits),
+        StudyAction::OptionWithAssembly(id) => {
+            workbench.add_option(|documents| documents.option_with_assembly(&id))
+        }
         StudyAction::Run => workbench.queue_study(),
         StudyAction::Pause => workbench.pause_study(),
         StudyAction::Cancel => workbench.cancel_study(),

@@ -11,6 +11,7 @@
 //! | [`problems`] | located problems of the texts |
 //! | [`saving`] | texts written to their files, none over what someone else wrote since |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
+//! | `option` | options of a study, made from unsaved edits or another assembly |
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
 //! | [`assembly`] | parts of an assembly added, split and joined |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
@@ -23,6 +24,7 @@ mod figures;
 mod history;
 pub mod library_table;
 pub mod observation;
+mod option;
 pub mod pilot_program;
 pub mod problems;
 pub mod recovery;

@@ -164,6 +164,17 @@ impl Workbench {
         Ok(())
     }
 
+    /// Adds an option to the open study.
+    pub(crate) fn add_option(
+        &mut self,
+        add: impl FnOnce(&mut Documents) -> Result<String, String>,
+    ) -> Result<(), String> {
+        let id = add(&mut self.project.documents)?;
+        self.notice =
+            Some(Notice::done(format!("the study has the option {id}; Undo takes it back")));
+        Ok(())
+    }
+
     /// The report of the results shown, where it is written.
     #[must_use]
     pub fn report_shown(&self) -> Option<PathBuf> {

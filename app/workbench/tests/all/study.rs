@@ -13,6 +13,7 @@ use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::live::engine;
 use endline_session::study::queue::{Job, State};
+use endline_session::study::stats::answer;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel_id::PanelId;
@@ -293,4 +294,54 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     assert!(!harness.state().shared.workbench.project.documents.file_has_error(Documents::STUDY));
     retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");
     assert_eq!(field(&harness, "encounter.tide.choice.2").as_deref(), Some("0.3 m/s"));
+}
+
+#[test]
+fn a_design_becomes_an_option_its_results_are_said_in_words_and_its_bundle_is_saved() {
+    let folder = Folder::new("design-option");
+    let mut harness = studying(&folder);
+    let field = |harness: &Harness<'static, App>, text: &str, field: &str| {
+        harness.state().shared.workbench.project.documents.field(text, field)
+    };
+    give(&mut harness, StudyAction::OptionFromEdits);
+    let refused = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(refused.text.contains("open small-rig"), "another scenario is open: {}", refused.text);
+    give(&mut harness, EditAction::OpenScenario(folder.0.join("scenarios/small-rig.toml")));
+    give(&mut harness, StudyAction::OptionFromEdits);
+    let refused = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(refused.text.contains("nothing is edited"), "{}", refused.text);
+
+    let old = field(&harness, Documents::SCENARIO, "link.0.rating").unwrap();
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "link.0.rating", "7 N");
+    give(&mut harness, StudyAction::OptionFromEdits);
+    let made = |key: &str| field(&harness, Documents::STUDY, &format!("option.2.{key}"));
+    assert_eq!(made("id").as_deref(), Some("design"));
+    assert_eq!(made("name").as_deref(), Some("link rating 7 N"));
+    assert_eq!(made("set.\"link.0.rating\"").as_deref(), Some("7 N"));
+    let now = field(&harness, Documents::SCENARIO, "link.0.rating");
+    assert_eq!(now, Some(old), "the baseline stays as its file has it");
+    assert!(
+        !harness.state().shared.workbench.project.documents.file_has_error(Documents::STUDY),
+        "the option assembles"
+    );
+
+    harness.get_by_label("Run study").click();
+    harness.run_steps(2);
+    done(&mut harness, 6);
+    let shown = Arc::clone(harness.state().shared.workbench.studies.results.shown().unwrap());
+    assert_eq!(shown.findings.options.len(), 3);
+    for sentence in answer(&shown.findings, &shown.findings.event) {
+        harness.get_by_label(&sentence);
+    }
+    harness.get_by_label_contains("6 encounters are few");
+    let report = harness.state().shared.workbench.report_shown().expect("a report");
+    assert!(std::fs::read_to_string(report).unwrap().contains("6 encounters are few"));
+    let out = folder.0.join("out");
+    give(&mut harness, StudyAction::SaveBundle(out.clone()));
+    for part in ["report.html", "findings.json", "bundle/study.toml", "bundle/gear-library/ropes"] {
+        assert!(out.join("small").join(part).exists(), "{part}");
+    }
+    give(&mut harness, StudyAction::SaveBundle(out));
+    let refused = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(refused.text.contains("is there already"), "{}", refused.text);
 }

@@ -1,7 +1,8 @@
 //! Options of a study: each a list of differences from the baseline scenario.
 
-use egui::{Frame, RichText, Ui};
+use egui::{Frame, RichText, ScrollArea, Ui};
 use endline_gear::Setting;
+use endline_session::command::StudyAction;
 use endline_session::edit::Documents;
 
 use super::Edits;
@@ -9,6 +10,7 @@ use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
+use crate::gui::widgets::command::command;
 
 /// What is often set, as a hint where a setting is typed.
 const SUCH_AS: &str =
@@ -37,9 +39,14 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         );
         ui.add_space(4.0);
     }
-    if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked() {
-        act = Some(Act::Copy(count.saturating_sub(1)));
-    }
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked()
+        {
+            act = Some(Act::Copy(count.saturating_sub(1)));
+        }
+        command(ui, shared, "From the present design", StudyAction::OptionFromEdits);
+        ui.menu_button("With other gear ⏷", |ui| other_gear(ui, shared));
+    });
     match act {
         Some(Act::Copy(index)) => copy(shared, index),
         Some(Act::Drop(index)) => {
@@ -53,6 +60,25 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         }
         None => {}
     }
+}
+
+/// The assemblies of the library by their names; one that is chosen is an option.
+fn other_gear(ui: &mut Ui, shared: &mut Shared) {
+    ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
+        let documents = &shared.workbench.project.documents;
+        let names = documents.files("assemblies").map(|file| {
+            let id = file.trim_start_matches("assemblies/").trim_end_matches(".toml").to_owned();
+            (documents.field(file, "name").unwrap_or_else(|| id.clone()), id)
+        });
+        let mut names: Vec<(String, String)> = names.collect();
+        names.sort();
+        for (name, id) in names {
+            if ui.button(name).on_hover_text(&id).clicked() {
+                shared.give(StudyAction::OptionWithAssembly(id));
+                ui.close();
+            }
+        }
+    });
 }
 
 fn head(
