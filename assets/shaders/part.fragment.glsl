@@ -32,7 +32,8 @@ vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
 
 // A mark's share in the colour between two corners, drawn to an uneven edge.
 float marked(float share, float uneven) {
-    return smoothstep(0.42, 0.58, share + 0.30 * uneven);
+    float between = 4.0 * share * (1.0 - share);
+    return smoothstep(0.42, 0.58, share + 0.40 * between * uneven);
 }
 
 // Skin's colour and how dull it is. Between skin and a mark both change evenly; here callosities and white patches get an edge.
@@ -44,7 +45,7 @@ vec4 marks() {
     }
     float white = (tint.r - SKIN.r) / (WHITE.r - SKIN.r);
     if (dull < 0.01 && distance(tint.rgb, mix(SKIN, WHITE, white)) < 0.03) {
-        return vec4(mix(SKIN, WHITE, marked(white, grain_at(own * 2.6) + 0.5 * grain_at(own * 6.0))), dull);
+        return vec4(mix(SKIN, WHITE, marked(white, 1.5 * grain_at(own * 1.9) + 0.6 * grain_at(own * 6.0))), dull);
     }
     return vec4(tint.rgb, dull);
 }

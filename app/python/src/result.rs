@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use endline_session::units::Units;
 use endline_session::{Recording, Report, Run};
 use endline_sim::{DVec3, Frame, Model};
 use endline_workbench::scene::{RenderRequest, render};
@@ -109,6 +110,7 @@ impl Result {
                 fit,
                 caption,
                 out: &out,
+                units: Units::Mixed,
             })
         });
         Ok(PyBytes::new(python, pixels.map_err(failed)?.as_flattened()))

@@ -1,5 +1,7 @@
 //! What is seen on the skin, and the relief of the callosities.
 
+use std::f64::consts::PI;
+
 use endline_sim::whale::Mark;
 
 use super::curve::smooth_step;
@@ -28,6 +30,14 @@ const PATCHES: [Patch; 9] = [
     Patch { upper: false, at: [0.45, 0.10], angle: [0.12, 0.12], height: 0.4 },
 ];
 
+/// Half width of the white patch behind the navel, from the middle of the belly [rad]; zero where there is none.
+fn belly_patch(at: f64) -> f64 {
+    let along = (at - 0.52) / 0.07;
+    let round = libm::sqrt((1.0 - along * along).max(0.0));
+    // Its edge is uneven, as on living animals.
+    round * (0.55 + 0.14 * libm::sin(150.0 * at) + 0.08 * libm::sin(61.0 * at + 1.0))
+}
+
 /// Marks of a form.
 pub struct Marks {
     relief: f64,
@@ -45,10 +55,9 @@ impl Marks {
     #[must_use]
     pub fn trunk(&self, at: f64, angle: f64) -> Mark {
         let eye = (at - (self.corner + 0.004)).abs() < 0.006 && (angle - 1.45).abs() < 0.09;
-        let edge = 2.75 + 0.25 * libm::sin(90.0 * at) * libm::sin(37.0 * at + 1.0);
-        match at {
-            _ if eye => Mark::Eye,
-            at if (0.46..0.58).contains(&at) && angle > edge => Mark::White,
+        match (eye, angle > PI - belly_patch(at)) {
+            (true, _) => Mark::Eye,
+            (_, true) => Mark::White,
             _ => Mark::Skin,
         }
     }

@@ -109,6 +109,29 @@ fn a_time_outside_the_recording_is_refused() {
     assert!(!place.path("late.png").exists());
 }
 
+#[test]
+fn a_stretch_of_a_recording_is_a_film_and_what_is_no_stretch_is_refused() {
+    let place = Place::new("film");
+    let file = record(&place);
+    let film = ["--from", "0", "--to", "0.2", "--fps", "10", "--size", "160x90"];
+    let call = |out: &str, options: &[&str]| {
+        let mut words = vec!["render", &file, "--out", out];
+        words.extend(options);
+        place.endline(&words)
+    };
+    call("run.gif", &film).done();
+    let bytes = fs::read(place.path("run.gif")).unwrap();
+    assert!(bytes.starts_with(b"GIF89a"));
+    assert_eq!(u16::from_le_bytes([bytes[6], bytes[7]]), 160, "its width");
+    // Each picture is told by a graphic control extension of its own.
+    let pictures = bytes.windows(3).filter(|bytes| *bytes == [0x21, 0xf9, 0x04]).count();
+    assert_eq!(pictures, 3, "at 0, 0.1 and 0.2 s");
+    call("run.png", &film).fails(2, &["run.png is no film", ".gif, .mp4 or .webm"]);
+    call("late.gif", &["--from", "0.1", "--to", "99"])
+        .fails(2, &["--to 99", "no stretch of a run"]);
+    call("both.gif", &["--from", "0", "--at", "1"]).fails(2, &["--at"]);
+}
+
 /// A scenario of the encounter whose pilot turns, opens the mouth and works the flippers, by time and by what happens.
 fn flown(place: &Place) -> String {
     let scenario = place.encounter();

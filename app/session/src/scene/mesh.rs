@@ -83,7 +83,7 @@ impl Mesh {
     /// A tube of rope: like [`tube`](Self::tube), with the place along it [m] and the direction round it as grain.
     pub fn rope(&mut self, centres: &[Vec3], radius_m: f32, colours: &[Colour], sides: usize) {
         // Balls and tubes of the same mesh have none.
-        self.grain.resize(self.place.len(), Vec3::ZERO);
+        self.grain.resize(self.place.len(), Vec3::Y);
         self.tube(centres, radius_m, colours, sides);
         let mut along = 0.0;
         for (index, rings) in centres.iter().enumerate() {

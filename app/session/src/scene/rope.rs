@@ -33,6 +33,8 @@ pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
         }
     }
     knots(model, frame, scale_n, &mut mesh);
+    // A knot has no lay: its grain is the same all over.
+    mesh.grain.resize(mesh.place.len(), Vec3::Y);
     mesh
 }
 

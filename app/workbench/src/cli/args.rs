@@ -46,7 +46,7 @@ pub(super) enum Command {
     Replay(ReplayArgs),
     /// Write a recorded run as a scenario with a pilot program that repeats it and can be edited.
     Pilot(PilotArgs),
-    /// Draw one moment of a recording or a scenario to a PNG file, without a display.
+    /// Draw a moment of a recording or a scenario as a picture, or a stretch of it as a film, without a display.
     Render(RenderArgs),
     /// Run validation cases and compare results with expected values.
     Validate(ValidateArgs),
@@ -186,14 +186,23 @@ pub(super) struct RenderArgs {
     /// Simulated time in seconds; at 0 a scenario shows its gear at rest.
     #[arg(long, value_name = "T", default_value_t = 0.0)]
     pub(super) at: f64,
+    /// Start of a film in seconds [default: 0].
+    #[arg(long, value_name = "T", conflicts_with = "at")]
+    pub(super) from: Option<f64>,
+    /// End of a film in seconds [default: the end of the run].
+    #[arg(long, value_name = "T", conflicts_with = "at")]
+    pub(super) to: Option<f64>,
+    /// Pictures a second of a film, 1 to 50.
+    #[arg(long, value_name = "N", default_value_t = 20, conflicts_with = "at", value_parser = clap::value_parser!(u32).range(1..=50))]
+    pub(super) fps: u32,
     /// Bodies and lines to fit into the picture, such as trap-1,endline-top [default: all].
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
     /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
-    /// PNG file to write.
-    #[arg(long, value_name = "FILE.png")]
+    /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg.
+    #[arg(long, value_name = "FILE")]
     pub(super) out: PathBuf,
     /// Width and height in pixels, each from 16 to 8192.
     #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]

@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod failure;
+mod film;
 mod harmless;
 mod haul;
 mod host;

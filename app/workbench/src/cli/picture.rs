@@ -1,7 +1,12 @@
 //! Pictures of frames; a build without the feature `scene` says that it draws none.
 
 use std::path::Path;
+use std::sync::Arc;
 
+#[cfg(feature = "scene")]
+use endline_session::scene::Scene;
+#[cfg(feature = "scene")]
+use endline_session::units::Units;
 use endline_session::{Report, Run};
 use endline_sim::{DVec3, Frame, Model};
 
@@ -61,12 +66,83 @@ pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), 
         fit,
         caption,
         out,
+        units: Units::Mixed,
     })
 }
 
 /// A build that draws nothing says so.
 #[cfg(not(feature = "scene"))]
 pub(super) fn draw(_model: &Model, _frame: &Frame, _shot: &Shot<'_>) -> Result<(), String> {
+    Err(NO_SCENE.into())
+}
+
+/// Whether a file is a film by its extension.
+#[cfg(feature = "scene")]
+pub(super) fn is_film(out: &Path) -> bool {
+    scene::film::Film::is_named(out)
+}
+
+/// A build that draws nothing makes no films; the picture that is tried instead says so.
+#[cfg(not(feature = "scene"))]
+pub(super) fn is_film(_out: &Path) -> bool {
+    false
+}
+
+/// A film asked for on the command line.
+#[cfg_attr(not(feature = "scene"), allow(dead_code, reason = "as for a picture"))]
+pub(super) struct Reel<'a> {
+    pub model: &'a Model,
+    /// The moments drawn.
+    pub frames: &'a [Arc<Frame>],
+    /// Pictures a second.
+    pub fps: u32,
+    /// Name of the view.
+    pub view: &'a str,
+    /// Width and height [px].
+    pub size: [u32; 2],
+    /// Line of text at the top left.
+    pub caption: &'a str,
+    /// File to write.
+    pub out: &'a Path,
+}
+
+/// Draws a film; `go_on` hears of each picture and ends the film there where it answers `false`. Answers how many there are.
+#[cfg(feature = "scene")]
+pub(super) fn film(reel: &Reel<'_>, go_on: impl Fn(usize) -> bool) -> Result<usize, String> {
+    let view = scene::View::named(reel.view).unwrap_or_default();
+    let mut film = scene::film::Film::begin(reel.out, reel.size, reel.fps)?;
+    let mut renderer = scene::Renderer::new(reel.size)?;
+    // One scale and one place of the eye for all, so that nothing jumps that did not move.
+    let tensions = reel.frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
+    let scale_n = Some(tensions.fold(0.0, f64::max));
+    let some = reel.frames.iter().step_by((reel.frames.len() / 20).max(1));
+    let places: Vec<DVec3> = some.flat_map(|frame| Scene::places_of(reel.model, frame)).collect();
+    let mut drawn = 0;
+    for frame in reel.frames {
+        let request = scene::RenderRequest {
+            model: reel.model,
+            frame,
+            size: reel.size,
+            view: reel.view,
+            scale_n,
+            fit: &places,
+            caption: reel.caption,
+            out: reel.out,
+            units: Units::Mixed,
+        };
+        film.add(&renderer.picture(&request, view)?)?;
+        drawn += 1;
+        if !go_on(drawn) {
+            break;
+        }
+    }
+    film.end()?;
+    Ok(drawn)
+}
+
+/// A build that draws nothing says so.
+#[cfg(not(feature = "scene"))]
+pub(super) fn film(_reel: &Reel<'_>, _go_on: impl Fn(usize) -> bool) -> Result<usize, String> {
     Err(NO_SCENE.into())
 }
 

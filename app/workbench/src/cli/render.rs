@@ -1,4 +1,4 @@
-//! `endline render`: a moment of a recording, or of a scenario, as a picture.
+//! `endline render`: a moment of a recording, or of a scenario, as a picture; `film` has films.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -10,12 +10,21 @@ use endline_sim::{Frame, Model};
 
 use super::args::RenderArgs;
 use super::replay::tell_version;
-use super::{Failure, host, output, picture};
+use super::{Failure, film, host, output, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     picture::check_view(&args.view).map_err(Failure::usage)?;
     if is_same(&args.file, &args.out) {
         return Err(Failure::usage("--out is the file that is drawn; name another"));
+    }
+    if picture::is_film(&args.out) {
+        return film::film(args, library);
+    }
+    if args.from.is_some() || args.to.is_some() {
+        return Err(Failure::usage(format!(
+            "{} is no film: --from and --to need --out with .gif, .mp4 or .webm",
+            args.out.display()
+        )));
     }
     let moment = if args.file.extension().is_some_and(|extension| extension == "toml") {
         of_scenario(args, library)?

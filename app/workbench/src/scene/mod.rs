@@ -6,6 +6,7 @@
 
 pub mod camera;
 pub mod draw;
+pub mod film;
 pub mod labels;
 pub mod offscreen;
 pub mod overlay;
@@ -17,7 +18,7 @@ pub use camera::{Camera, View};
 pub use draw::{Drawer, Water};
 pub use overlay::Overlay;
 pub use pick::Picked;
-pub use picture::{RenderRequest, render, render_png};
+pub use picture::{RenderRequest, Renderer, render, render_png, write_png};
 
 #[cfg(test)]
 pub(crate) mod sample;

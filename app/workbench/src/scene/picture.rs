@@ -33,6 +33,8 @@ pub struct RenderRequest<'a> {
     pub caption: &'a str,
     /// PNG file to write.
     pub out: &'a Path,
+    /// Units of the scale bar.
+    pub units: Units,
 }
 
 /// Largest side of a picture [px].
@@ -61,76 +63,118 @@ pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
             "a picture of {width} x {height} pixels cannot be drawn; each side may have 16 to {LARGEST}"
         ));
     }
-    let scene = Scene::of(
-        request.model,
-        request.frame,
-        &Show { scale_n: request.scale_n, ..Show::default() },
-    );
-    let aspect = f64::from(request.size[0]) / f64::from(request.size[1]);
-    let length_m = request.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
-    let all = Scene::places_of(request.model, request.frame);
-    let places = if request.fit.is_empty() { &all } else { request.fit };
-    let camera = Camera::of_view(view, places, request.frame.whale.as_ref(), length_m, aspect);
-    draw(request, &scene, &camera)
+    Renderer::new(request.size)?.picture(request, view)
 }
 
-fn draw(
-    request: &RenderRequest<'_>,
-    scene: &Scene,
-    camera: &Camera,
-) -> Result<Vec<[u8; 4]>, String> {
-    let [width, height] = request.size;
-    let surface = Offscreen::new(request.size)?;
-    let mut drawer = Drawer::new(surface.gl.clone())?;
-    drawer.load(scene);
-    drawer.draw(0, camera, request.size, Water::DARK);
-    drawer.show(
-        0,
-        request.size,
-        Viewport::new_at_origo(width, height),
-        ScissorBox::new_at_origo(width, height),
-    );
-    let overlay = Overlay {
-        caption: request.caption,
-        time_s: scene.time_s,
-        scale_n: if request.model.spec.lines.is_empty() { 0.0 } else { scene.scale_n },
-        metres_a_point: camera.metres_a_point(f64::from(height)),
-        units: Units::Mixed,
-    };
-    write_over(&surface, request.size, |painter, rect| {
-        labels::paint(painter, rect, camera, request.model, request.frame);
-        overlay::paint(painter, rect, &overlay);
-    })?;
-    let context =
-        Context::from_gl_context(surface.gl.clone()).map_err(|error| error.to_string())?;
-    Ok(RenderTarget::screen(&context, width, height).read_color())
-}
-
-/// Paints onto the surface with egui.
-fn write_over(
-    surface: &Offscreen,
+/// Draws pictures of one size, one after the other, without a display.
+pub struct Renderer {
+    /// Its context is current as long as it lives.
+    _surface: Offscreen,
     size: [u32; 2],
-    paint: impl Fn(&egui::Painter, egui::Rect),
-) -> Result<(), String> {
-    let rect =
-        egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size[0] as f32, size[1] as f32));
-    let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
-    let context = egui::Context::default();
-    let mut output = context.run_ui(input, |ui| paint(ui.painter(), rect));
-    let shapes = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-    let mut painter = egui_glow::Painter::new(surface.gl.clone(), "", None, false)
-        .map_err(|error| error.to_string())?;
-    painter.paint_and_update_textures(
-        size,
-        output.pixels_per_point,
-        &shapes,
-        &mut output.textures_delta,
-    );
-    painter.destroy();
-    Ok(())
+    drawer: Drawer,
+    context: Context,
+    overlay: egui::Context,
+    painter: egui_glow::Painter,
 }
 
-fn write_png(out: &Path, size: [u32; 2], pixels: &[[u8; 4]]) -> Result<(), String> {
+impl Renderer {
+    /// OpenGL for pictures of a size [px]; current on this thread.
+    ///
+    /// # Errors
+    /// Without OpenGL, with the reason.
+    pub fn new(size: [u32; 2]) -> Result<Self, String> {
+        let surface = Offscreen::new(size)?;
+        let failed = |error: &dyn std::fmt::Display| error.to_string();
+        Ok(Self {
+            size,
+            drawer: Drawer::new(surface.gl.clone())?,
+            context: Context::from_gl_context(surface.gl.clone())
+                .map_err(|error| failed(&error))?,
+            overlay: egui::Context::default(),
+            painter: egui_glow::Painter::new(surface.gl.clone(), "", None, false)
+                .map_err(|error| failed(&error))?,
+            _surface: surface,
+        })
+    }
+
+    /// A picture from a named view, row by row from the top: red, green, blue, opacity. The size of the request is that of this.
+    ///
+    /// # Errors
+    /// A view that is unknown.
+    pub fn picture(
+        &mut self,
+        request: &RenderRequest<'_>,
+        view: View,
+    ) -> Result<Vec<[u8; 4]>, String> {
+        let RenderRequest { model, frame, fit, .. } = request;
+        let aspect = f64::from(self.size[0]) / f64::from(self.size[1]);
+        let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
+        let all = Scene::places_of(model, frame);
+        let places = if fit.is_empty() { &all[..] } else { fit };
+        let camera = Camera::of_view(view, places, frame.whale.as_ref(), length_m, aspect);
+        let show = Show { scale_n: request.scale_n, ..Show::default() };
+        Ok(self.seen_by(request, &show, &camera, Water::DARK))
+    }
+
+    /// A picture as a camera sees it.
+    pub fn seen_by(
+        &mut self,
+        request: &RenderRequest<'_>,
+        show: &Show,
+        camera: &Camera,
+        water: Water,
+    ) -> Vec<[u8; 4]> {
+        let [width, height] = self.size;
+        let scene = Scene::of(request.model, request.frame, show);
+        self.drawer.load(&scene);
+        self.drawer.draw(0, camera, self.size, water);
+        let clip = ScissorBox::new_at_origo(width, height);
+        self.drawer.show(0, self.size, Viewport::new_at_origo(width, height), clip);
+        let overlay = Overlay {
+            caption: request.caption,
+            time_s: scene.time_s,
+            scale_n: if request.model.spec.lines.is_empty() { 0.0 } else { scene.scale_n },
+            metres_a_point: camera.metres_a_point(f64::from(height)),
+            units: request.units,
+        };
+        self.write_over(|painter, rect| {
+            if show.names {
+                labels::paint(painter, rect, camera, request.model, request.frame);
+            }
+            overlay::paint(painter, rect, &overlay);
+        });
+        RenderTarget::screen(&self.context, width, height).read_color()
+    }
+
+    /// Paints onto the surface with egui.
+    fn write_over(&mut self, paint: impl Fn(&egui::Painter, egui::Rect)) {
+        let [width, height] = self.size;
+        let rect =
+            egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width as f32, height as f32));
+        let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
+        let mut output = self.overlay.run_ui(input, |ui| paint(ui.painter(), rect));
+        let shapes =
+            self.overlay.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
+        self.painter.paint_and_update_textures(
+            self.size,
+            output.pixels_per_point,
+            &shapes,
+            &mut output.textures_delta,
+        );
+    }
+}
+
+impl Drop for Renderer {
+    fn drop(&mut self) {
+        self.painter.destroy();
+    }
+}
+
+/// Writes pixels as a PNG file.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_png(out: &Path, size: [u32; 2], pixels: &[[u8; 4]]) -> Result<(), String> {
     let explain =
         |reason: String| format!("{}: the picture cannot be written: {reason}", out.display());
     let file = File::create(out).map_err(|error| explain(error.to_string()))?;

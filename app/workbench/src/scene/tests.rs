@@ -7,6 +7,8 @@ use endline_session::scene::colour::tension_colour;
 use endline_session::scene::mesh::Colour;
 use endline_session::scene::{Scene, Show};
 
+use endline_session::units::Units;
+
 use super::{Camera, RenderRequest, View, render, render_png, sample};
 
 fn scene() -> Scene {
@@ -172,6 +174,7 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
         fit: &[],
         caption: "sample",
         out: &out,
+        units: Units::Mixed,
     };
     let pixels = render(&request).unwrap();
     let places = Scene::places_of(&model, &frame);
@@ -237,6 +240,7 @@ fn a_wrong_view_or_size_says_what_is_allowed() {
         fit: &[],
         caption: "",
         out: &out,
+        units: Units::Mixed,
     };
     assert!(
         render(&request("behind", [64, 64]))
@@ -260,6 +264,7 @@ fn a_png_has_the_size_asked_for_and_an_unwritable_path_is_named() {
         fit: &[],
         caption: "sample",
         out,
+        units: Units::Mixed,
     };
     render_png(&request(&out)).unwrap();
     let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&out).unwrap()));
