@@ -310,3 +310,32 @@ fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
     };
     assert_eq!(names(&free), names(&early), "rows stay in place while it is off the skin");
 }
+
+#[test]
+fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
+    let folder = Folder::new("view-picture");
+    let mut harness = settled(&folder);
+    let file = folder.0.join("view.png");
+    give(&mut harness, ViewAction::SavePicture(file.clone()));
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(notice.text.starts_with("saved "), "{}", notice.text);
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(file).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    let size = DVec2::new(1920.0, 1080.0);
+    assert_eq!((info.width, info.height), (1920, 1080));
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let camera = harness.state().panels.view.eyes[0].camera.clone();
+    let middle = view.frame.nodes[view.frame.nodes.len() / 2];
+    let at = camera.project(middle, size).unwrap();
+    let pixel = |x: f64, y: f64| {
+        let first = 3 * (y as usize * 1920 + x as usize);
+        [bytes[first], bytes[first + 1], bytes[first + 2]].map(i32::from)
+    };
+    // Rope is yellow to grey, water blue.
+    let near = (-2..=2).map(|aside| pixel(at.x + f64::from(aside), at.y));
+    let warmest = near.map(|[red, _, blue]| red - blue).max().unwrap();
+    let [red, _, blue] = pixel(at.x + 60.0, at.y);
+    assert!(warmest > 0 && red < blue, "rope {warmest}, water {red} {blue}");
+}

@@ -47,10 +47,7 @@ impl App {
     fn dispatch(&mut self, context: &Context, command: WindowCommand) -> Result<(), String> {
         match command {
             WindowCommand::Workbench(command) => self.work(command),
-            WindowCommand::View(action) => {
-                self.look(action);
-                Ok(())
-            }
+            WindowCommand::View(action) => self.look(action),
             WindowCommand::Flight(action) => self.pilot(action),
             WindowCommand::Panel(action) => self.arrange(action),
             WindowCommand::Window(action) => self.manage(context, action),
@@ -102,7 +99,7 @@ impl App {
         replays.then_some(PanelId::VIEW)
     }
 
-    fn look(&mut self, action: ViewAction) {
+    fn look(&mut self, action: ViewAction) -> Result<(), String> {
         let view = &mut self.panels.view;
         match action {
             ViewAction::Look(from) => view.look(from),
@@ -112,7 +109,13 @@ impl App {
             ViewAction::Ruler => view.picks.toggle_ruler(),
             ViewAction::Inspect(picked) => view.picks.read = Some(picked),
             ViewAction::LetGo => view.picks.let_go(),
+            ViewAction::SavePicture(file) => {
+                view.save_picture(&self.shared, &file)?;
+                let said = format!("saved {}", file.display());
+                self.shared.workbench.notice = Some(Notice::done(said));
+            }
         }
+        Ok(())
     }
 
     fn pilot(&mut self, action: FlightAction) -> Result<(), String> {

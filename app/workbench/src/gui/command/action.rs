@@ -30,7 +30,7 @@ pub enum WindowCommand {
 }
 
 /// An action in the 3-D view.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ViewAction {
     /// Look from a named place.
     Look(View),
@@ -46,6 +46,8 @@ pub enum ViewAction {
     Inspect(Picked),
     /// Inspect and measure nothing any more.
     LetGo,
+    /// Write what the chosen pane shows as a PNG file.
+    SavePicture(PathBuf),
 }
 
 /// An action of the pilot.
@@ -155,6 +157,7 @@ impl ViewAction {
             Self::Ruler => "view.ruler",
             Self::Inspect(_) => "view.inspect",
             Self::LetGo => "view.let-go",
+            Self::SavePicture(_) => "view.save-picture",
         }
     }
 }

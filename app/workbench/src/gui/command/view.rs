@@ -1,10 +1,11 @@
 //! Commands in the 3-D view.
 
-use endline_session::command::{Choice, Make, Shortcut, When};
+use endline_session::command::{Choice, FileQuestion, Make, Shortcut, When};
 
 use super::WindowInfo;
 use super::action::{ViewAction, WindowCommand};
 use crate::gui::canvas::MOST_PANES;
+use crate::gui::files::stem;
 use crate::gui::inspector::worst_m;
 use crate::gui::shared::Shared;
 use crate::scene::{Picked, View};
@@ -68,6 +69,21 @@ pub static COMMANDS: &[WindowInfo] = &[
                 .collect()
         }),
     ),
+    WindowInfo::new(
+        "view.save-picture",
+        "Save a picture of the view",
+        "Draws what the chosen view shows at full size, 1920 by 1080, into a PNG file.",
+        Make::File {
+            question: |shared| {
+                let scenario = stem(shared.workbench.project.documents.scenario_path());
+                let time_s = shared.workbench.view().map_or(0.0, |view| view.frame.time_s);
+                let name = format!("{scenario}-{time_s:.0}-s.png");
+                FileQuestion::write("picture", &["png"], name)
+            },
+            command: |_, file| ViewAction::SavePicture(file).into(),
+        },
+    )
+    .only_if(shown),
     WindowInfo::new(
         "view.pose",
         "Drag the whale's start",

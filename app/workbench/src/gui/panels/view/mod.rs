@@ -6,12 +6,13 @@ pub mod hud;
 mod marks;
 mod pane;
 pub mod picking;
+mod picture;
 pub mod pose;
 mod split;
 mod state;
 mod transport;
 
-use crate::gui::command::action::{FlightAction, ViewAction};
+use crate::gui::command::action::{FlightAction, ViewAction, WindowAction};
 use std::sync::Arc;
 
 use egui::{Rect, Ui, pos2};
@@ -26,6 +27,7 @@ use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::command::command;
 use crate::gui::widgets::words::capital;
 use crate::scene::View;
 use split::{Pane, places};
@@ -130,6 +132,7 @@ impl ViewPanel {
         if ui.button("Frame").on_hover_text("See everything (F)").clicked() {
             self.frame();
         }
+        command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
         let several =
             if count == 1 { "1 view ⏷".to_owned() } else { format!("{count} views ⏷") };
         ui.menu_button(several, |ui| {

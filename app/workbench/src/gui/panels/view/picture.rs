@@ -1,0 +1,49 @@
+//! The view as a picture in a file, drawn anew at full size: not a crop of the screen.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_session::scene::Show;
+
+use super::ViewPanel;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::scene::{RenderRequest, Renderer, Water, write_png};
+
+/// Width and height [px].
+const SIZE: [u32; 2] = [1920, 1080];
+
+impl ViewPanel {
+    /// Writes what the chosen pane shows of the run as a PNG.
+    ///
+    /// # Errors
+    /// Without a run or OpenGL, or where the file cannot be written.
+    pub fn save_picture(&mut self, shared: &Shared, file: &Path) -> Result<(), String> {
+        let view = shared.workbench.view().ok_or("there is no run to draw")?;
+        let (model, frame) = (Arc::clone(&view.model), Arc::clone(&view.frame));
+        let show = Show { scale_n: Some(self.scale_n), ..self.show };
+        let camera = self.eye().camera.clone();
+        let water =
+            if shared.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
+        let name = shared.workbench.project.documents.scenario_path().file_stem();
+        let caption = name.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let (units, file) = (shared.workbench.preferences.units, PathBuf::from(file));
+        // A thread of its own: the window's OpenGL stays current on this one.
+        let drawing = std::thread::spawn(move || {
+            let request = RenderRequest {
+                model: &model,
+                frame: &frame,
+                size: SIZE,
+                view: "",
+                scale_n: show.scale_n,
+                fit: &[],
+                caption: &caption,
+                out: &file,
+                units,
+            };
+            let pixels = Renderer::new(SIZE)?.seen_by(&request, &show, &camera, water);
+            write_png(&file, SIZE, &pixels)
+        });
+        drawing.join().map_err(|_| "the picture could not be drawn".to_owned())?
+    }
+}
