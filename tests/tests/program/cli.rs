@@ -225,6 +225,11 @@ fn missing_files_are_named() {
     place.endline(&["replay", "no-such.endline"]).fails(1, &["no-such.endline", "cannot be read"]);
     place.endline(&["check", "no-such.toml"]).fails(1, &["no-such.toml", "cannot be read"]);
     place.endline(&["plugins", "check", "no-such.so"]).fails(1, &["no-such.so"]);
+    let library = text(&place.library());
+    let meant = place.endline(&["settle", "hello-endlin", "--library", &library]);
+    meant.fails(1, &["no `hello-endlin.toml`", "did you mean `hello-endline`?"]);
+    let settled = place.endline(&["settle", "hello-endline", "--library", &library]).done();
+    assert!(settled.stdout.contains("endline-top"), "{settled}");
     let scenario = place.write("alone/case.toml", "");
     let nowhere = place.endline(&["run", &text(&scenario), "--library", "no-such-library"]);
     nowhere.fails(1, &["no-such-library", "ropes", "--library"]);

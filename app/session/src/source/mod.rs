@@ -78,7 +78,7 @@ pub struct Prepared {
     pub strengths: Arc<[StrengthBudget]>,
 }
 
-/// Reads a scenario and its gear library (found as [`locate::library`] says where `library` is
+/// Reads a scenario, by its file or by its id in the library, and its gear library (found as [`locate::library`] says where `library` is
 /// `None`) and assembles the model.
 ///
 /// # Errors
@@ -104,6 +104,14 @@ impl Source {
         library: Option<&Path>,
         overrides: Overrides,
     ) -> Result<Self, Error> {
+        let by_id = match scenario.is_file() {
+            true => None,
+            false => {
+                let id = scenario.to_string_lossy();
+                Some(locate::named(&id, "scenarios", library).map_err(Error::Replay)?)
+            }
+        };
+        let scenario = by_id.as_deref().unwrap_or(scenario);
         let text = endline_gear::read::text(scenario)
             .map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
         let root: PathBuf = locate::library(Some(scenario), library).map_err(Error::Replay)?;

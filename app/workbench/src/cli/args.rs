@@ -84,7 +84,7 @@ pub(super) enum Command {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RunArgs {
-    /// Scenario file.
+    /// Scenario file, or a scenario of the gear library by its id.
     pub(super) scenario: PathBuf,
     /// Folder for the summary, the recording and a picture; it is created if missing.
     #[arg(long, value_name = "DIR")]
@@ -110,7 +110,7 @@ pub(super) struct RunArgs {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct SettleArgs {
-    /// Scenario file.
+    /// Scenario file, or a scenario of the gear library by its id.
     pub(super) scenario: PathBuf,
     /// Print the result as one JSON object.
     #[arg(long)]
@@ -180,7 +180,7 @@ pub(super) struct PilotArgs {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RenderArgs {
-    /// Recording or scenario file; it is run up to the time --at.
+    /// Recording file, scenario file, or a scenario of the gear library by its id; it is run up to the time --at.
     #[arg(value_name = "RECORDING|SCENARIO")]
     pub(super) file: PathBuf,
     /// Simulated time in seconds; at 0 a scenario shows its gear at rest.

@@ -12,6 +12,7 @@ use endline_sim::Frame;
 use super::args::RenderArgs;
 use super::interrupt::Interrupt;
 use super::progress::Progress;
+use super::render::is_scenario;
 use super::replay::tell_version;
 use super::{Failure, host, output, picture};
 
@@ -78,7 +79,7 @@ struct Player {
 
 impl Player {
     fn open(args: &RenderArgs, library: Option<&Path>) -> Result<Self, Failure> {
-        if args.file.extension().is_some_and(|extension| extension == "toml") {
+        if is_scenario(&args.file) {
             let prepared = prepare(&args.file, library, &host::load(), Overrides::default())?;
             let caption = prepared.source.scenario_name.clone();
             let run = Run::new(prepared, RunOptions::default())?;
