@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
 use endline_session::command::TimeAction;
-use endline_session::units::ForceUnit;
+use endline_session::units::Units;
 use endline_sim::Model;
 use endline_sim::metrics::Event;
 
@@ -39,12 +39,12 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
             "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
         );
     }
-    let unit = shared.workbench.preferences.units.force();
+    let units = shared.workbench.preferences.units;
     let mut wanted = None;
     ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
         for event in view.events.iter() {
             let now = (event.time_s - view.frame.time_s).abs() < 0.05;
-            if row(ui, event, unit, now) {
+            if row(ui, event, units, now) {
                 wanted = Some(event);
             }
         }
@@ -59,7 +59,7 @@ fn answers(event: &Event, model: &Model) -> impl Iterator<Item = WindowCommand> 
     [TimeAction::Seek(event.time_s).into()].into_iter().chain(inspect)
 }
 
-fn row(ui: &mut Ui, event: &Event, unit: ForceUnit, now: bool) -> bool {
+fn row(ui: &mut Ui, event: &Event, units: Units, now: bool) -> bool {
     let palette = Theme::palette_of(ui);
     let line = ui.horizontal(|ui| {
         let time = RichText::new(format!("{:.2} s", event.time_s));
@@ -68,17 +68,20 @@ fn row(ui: &mut Ui, event: &Event, unit: ForceUnit, now: bool) -> bool {
             RichText::new(words::event(event.kind)).color(words::event_colour(event.kind, palette)),
         );
         ui.label(event.subject.replace('_', " "));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value(event, unit)));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value(event, units)));
     });
     line.response.interact(Sense::click()).on_hover_text("Click to see this moment").clicked()
 }
 
-/// An event's number with its unit; forces in the unit chosen.
-fn value(event: &Event, unit: ForceUnit) -> String {
-    match event.kind.unit() {
-        "N" => unit.text(event.value),
+/// What an event's number is, and the number in the units chosen.
+fn value(event: &Event, units: Units) -> String {
+    let number = match event.kind.unit() {
+        "N" => units.force().text(event.value),
+        "m" => units.length(event.value),
+        "m/s" => units.speed(event.value),
         other => format!("{:.2} {other}", event.value),
-    }
+    };
+    format!("{} {number}", words::event_number(event.kind))
 }
 
 #[cfg(test)]
@@ -100,6 +103,10 @@ mod tests {
         let moment: WindowCommand = TimeAction::Seek(4.5).into();
         let caught: Vec<_> = answers(&event(EventKind::CaughtBuoy, "buoy"), &model).collect();
         assert_eq!(caught, [moment.clone(), ViewAction::Inspect(Picked::Body(1)).into()]);
+        let undone = event(EventKind::WrapUndone, "body");
+        assert_eq!(value(&undone, Units::Si), "below 90.00 turns");
+        let dragged = event(EventKind::Dragged, "trap");
+        assert_eq!(value(&dragged, Units::Noaa), "moved 295 ft");
         let wrapped: Vec<_> = answers(&event(EventKind::Wrap, "left_flipper"), &model).collect();
         assert_eq!(wrapped, [moment]);
     }

@@ -137,18 +137,53 @@ fn state(ui: &mut Ui, view: &LiveView) {
     trust(ui, view);
     cost(ui, view);
     let audit = &view.audit;
-    widgets::numbers(
+    let skin = view.model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
+    widgets::explained(
         ui,
         "run",
         &[
-            ("Solver speed", format!("{:.1} × real time", view.times_real_time)),
-            ("Solver steps", audit.solver_steps.to_string()),
-            ("Of these in contact", audit.contact_steps.to_string()),
-            ("Redone, unconverged", format!("{}, {}", audit.halved, audit.unconverged)),
-            ("Tunnelled", audit.tunnelled.to_string()),
-            ("Deepest in skin", format!("{:.1} mm", audit.max_penetration_m * 1000.0)),
-            ("Rope nodes, triangles", size(view)),
-            ("State hash", view.state_hash.clone()),
+            (
+                "Solver speed",
+                format!("{:.1} × real time", view.times_real_time),
+                "Simulated seconds in a second of computing, without waiting",
+            ),
+            ("Solver steps", audit.solver_steps.to_string(), "Steps of time solved so far"),
+            (
+                "Of these in contact",
+                audit.contact_steps.to_string(),
+                "Steps in which rope or gear was near the whale; these cost most",
+            ),
+            (
+                "Steps taken again",
+                audit.halved.to_string(),
+                "Steps that did not converge at once and were taken again, halved",
+            ),
+            (
+                "Not converged",
+                audit.unconverged.to_string(),
+                "Steps kept although they did not converge; a few do no harm, many make a run invalid",
+            ),
+            (
+                "Rope through skin",
+                audit.tunnelled.to_string(),
+                "How often rope passed through the whale; anything but 0 is an error of the program",
+            ),
+            (
+                "Deepest under skin",
+                format!("{:.1} mm", audit.max_penetration_m * 1000.0),
+                "How far the middle of rope was pressed below the surface of the skin",
+            ),
+            (
+                "Rope nodes",
+                view.model.node_count.to_string(),
+                "Points at which rope is computed; more is finer and slower",
+            ),
+            ("Skin triangles", skin.to_string(), "Triangles of the whale that rope can touch"),
+            (
+                "State hash",
+                view.state_hash.clone(),
+                "Two runs with the same hash are in the same state, to the bit",
+            ),
         ],
     );
 }
@@ -192,9 +227,4 @@ fn cost(ui: &mut Ui, view: &LiveView) {
     let parts = shares.iter().map(part).collect::<Vec<_>>().join("\n");
     ui.add(egui::Label::new(RichText::new(text).color(Theme::palette_of(ui).faint)).wrap())
         .on_hover_text(parts);
-}
-
-fn size(view: &LiveView) -> String {
-    let triangles = view.model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
-    format!("{}, {triangles}", view.model.node_count)
 }

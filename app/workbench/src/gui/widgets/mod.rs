@@ -41,6 +41,18 @@ pub fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
     });
 }
 
+/// Names and values in two columns, with what each is on hover.
+pub fn explained(ui: &mut Ui, id: &str, rows: &[(&str, String, &str)]) {
+    let faint = Theme::palette_of(ui).faint;
+    Grid::new(id).num_columns(2).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for (name, value, help) in rows {
+            ui.label(RichText::new(*name).color(faint)).on_hover_text(*help);
+            ui.label(RichText::new(value)).on_hover_text(*help);
+            ui.end_row();
+        }
+    });
+}
+
 /// Names and values in two columns.
 pub fn numbers(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
     let faint = Theme::palette_of(ui).faint;

@@ -28,6 +28,23 @@ pub fn event(kind: EventKind) -> String {
     capital(&spoken(kind.name()))
 }
 
+/// What the number of an event is, in a word or two before it.
+#[must_use]
+pub fn event_number(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Contact | EventKind::Lodged => "pressed by",
+        EventKind::BodyTouched => "pushed by",
+        EventKind::CaughtBuoy | EventKind::CaughtTrap | EventKind::JammedKnot => "at most",
+        EventKind::ContactLost | EventKind::Dislodged | EventKind::Shed => "last at",
+        EventKind::Slip | EventKind::LinkParted | EventKind::LineParted => "at",
+        EventKind::Wrap | EventKind::Hooked => "passed",
+        EventKind::WrapUndone => "below",
+        EventKind::Dragged => "moved",
+        EventKind::PulledUnder | EventKind::AtSurface => "height",
+        EventKind::AtSeabed => "clearance",
+    }
+}
+
 /// The colour of a kind of event.
 pub fn event_colour(kind: EventKind, palette: Palette) -> Color32 {
     match kind {
