@@ -72,6 +72,14 @@ pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf
     Err(format!("there is no file `{name}` and no `{name}.toml` in {}; {help}", items.display()))
 }
 
+/// Whether a scenario is named, by its file or its id, and not a recording.
+#[must_use]
+pub fn is_scenario(file: &Path) -> bool {
+    let extension = file.extension();
+    extension.is_some_and(|extension| extension == "toml")
+        || (extension.is_none() && !file.is_file())
+}
+
 /// Ids of the items in one folder of a library, such as `ropes`, in order.
 ///
 /// # Errors

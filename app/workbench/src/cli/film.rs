@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use endline_sdk::Controls;
+use endline_session::locate;
 use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
 use endline_sim::Frame;
@@ -12,7 +13,6 @@ use endline_sim::Frame;
 use super::args::RenderArgs;
 use super::interrupt::Interrupt;
 use super::progress::Progress;
-use super::render::is_scenario;
 use super::replay::tell_version;
 use super::{Failure, host, output, picture};
 
@@ -79,7 +79,7 @@ struct Player {
 
 impl Player {
     fn open(args: &RenderArgs, library: Option<&Path>) -> Result<Self, Failure> {
-        if is_scenario(&args.file) {
+        if locate::is_scenario(&args.file) {
             let prepared = prepare(&args.file, library, &host::load(), Overrides::default())?;
             let caption = prepared.source.scenario_name.clone();
             let run = Run::new(prepared, RunOptions::default())?;

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use endline_session::locate;
 use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
 use endline_sim::{Frame, Model};
@@ -26,17 +27,13 @@ pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCo
             args.out.display()
         )));
     }
-    let moment =
-        if is_scenario(&args.file) { of_scenario(args, library)? } else { of_recording(args)? };
+    let moment = if locate::is_scenario(&args.file) {
+        of_scenario(args, library)?
+    } else {
+        of_recording(args)?
+    };
     picture::draw(&moment.model, &moment.frame, &shot(args, &moment)?).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// Whether a scenario is named, by its file or its id, and not a recording.
-pub(super) fn is_scenario(file: &Path) -> bool {
-    let extension = file.extension();
-    extension.is_some_and(|extension| extension == "toml")
-        || (extension.is_none() && !file.is_file())
 }
 
 /// Whether two paths lead to one file.
