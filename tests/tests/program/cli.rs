@@ -218,6 +218,21 @@ fn wrong_use_ends_with_2() {
 }
 
 #[test]
+fn shells_complete_every_command_and_each_has_a_manual_page() {
+    let place = Place::new("manual");
+    let bash = place.endline(&["completions", "bash"]).done().stdout;
+    for word in ["settle", "hindcast", "--allow-plugins"] {
+        assert!(bash.contains(word), "{word}");
+    }
+    place.endline(&["completions", "tcsh"]).fails(2, &["tcsh", "bash"]);
+    place.endline(&["man", "--out", "pages"]).done();
+    for page in ["endline.1", "endline-run.1", "endline-study-report.1"] {
+        let text = fs::read_to_string(place.path("pages").join(page)).unwrap();
+        assert!(text.contains(".TH endline"), "{page}");
+    }
+}
+
+#[test]
 fn missing_files_are_named() {
     let place = Place::new("missing");
     place.endline(&["run", "no-such.toml"]).fails(1, &["no-such.toml", "cannot be read"]);

@@ -75,6 +75,17 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: WhaleCommand,
     },
+    /// Print the script by which a shell completes the arguments of this program.
+    Completions {
+        /// Shell that it is for.
+        shell: clap_complete::Shell,
+    },
+    /// Write manual pages of the program and its commands.
+    Man {
+        /// Folder for the pages; it is created if missing.
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
     /// List, check, allow, enable, disable or create plugins.
     Plugins {
         #[command(subcommand)]

@@ -11,6 +11,7 @@ mod harmless;
 mod haul;
 mod host;
 mod interrupt;
+mod manual;
 mod mill;
 mod output;
 mod picture;
@@ -66,6 +67,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Mill(args)) => mill::mill(args),
         Some(Command::Haul(args)) => haul::haul_gear(args, library),
         Some(Command::Sheet(args)) => sheet::sheet(args, library),
+        Some(Command::Completions { shell }) => Ok(manual::completions(*shell)),
+        Some(Command::Man { out }) => manual::man(out),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }
