@@ -85,13 +85,12 @@ impl Mesh {
         // Balls and tubes of the same mesh have none.
         self.grain.resize(self.place.len(), Vec3::Y);
         self.tube(centres, radius_m, colours, sides);
+        let angle = |side: usize| std::f32::consts::TAU * side as f32 / sides as f32;
+        let around: Vec<(f32, f32)> = (0..sides).map(|side| angle(side).sin_cos()).collect();
         let mut along = 0.0;
-        for (index, rings) in centres.iter().enumerate() {
-            along += if index > 0 { rings.distance(centres[index - 1]) } else { 0.0 };
-            for side in 0..sides {
-                let angle = std::f32::consts::TAU * side as f32 / sides as f32;
-                self.grain.push(Vec3::new(along, angle.cos(), angle.sin()));
-            }
+        for (index, centre) in centres.iter().enumerate() {
+            along += if index > 0 { centre.distance(centres[index - 1]) } else { 0.0 };
+            self.grain.extend(around.iter().map(|(sin, cos)| Vec3::new(along, *cos, *sin)));
         }
         self.grain.truncate(self.place.len());
     }
