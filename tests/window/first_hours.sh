@@ -119,6 +119,17 @@ regulator() {
     check "the study runs to its report" "within 300 \"ls '$DATA'/studies/first-hour-*/report.html >/dev/null 2>&1\""
     picture regulator-2-rates 20
     check "every option met the same four encounters" "[ \$(cat '$DATA'/studies/first-hour-*/table.csv | wc -l) -eq 9 ]"
+    command "save the study's bundle"
+    path "$WORK"
+    check "the bundle is saved where a path was typed" "within 60 \"[ -s '$WORK/first-hour/bundle/study.toml' ]\""
+    command "open hello-weak-link"
+    still 20
+    command "weak links on or off"
+    command "add an option from the present design"
+    command "save all"
+    check "the design is an option of the study, and the scenario as it was" \
+        "grep -q 'id = \"design\"' '$WORK/library/studies/first-hour.toml' && ! grep -q '^weak_links = false' '$SCENARIOS/hello-weak-link.toml'"
+    picture regulator-2b-an-option-more
     command "size 150"
     picture regulator-3-projector
     command "size 100"
@@ -142,6 +153,10 @@ scientist() {
     command "run or pause"
     command "reset"
     check "the flight was kept by itself" "within 20 'kept $((before + 1))'"
+    command "show 3-d view"
+    command "save a picture of the view"
+    path "$WORK/view.png"
+    check "the view is saved as a picture" "within 60 \"[ -s '$WORK/view.png' ]\""
     command "show recordings"
     picture scientist-2-recordings
     command "open hello-endline"

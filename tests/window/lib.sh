@@ -10,6 +10,8 @@ cp -r "$ROOT/gear-library" "$WORK/library"
 # Each command that the program performs is a line of its log.
 export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_COMMANDS=1
 DATA="$WORK/data/endline"
+# No desktop portal: the window asks for paths itself, and no dialog opens on somebody's own screen.
+export DBUS_SESSION_BUS_ADDRESS=disabled:
 
 . "$ROOT/tests/window/screen.sh"
 trap 'kill $WINDOW $SCREEN 2>/dev/null; rm -rf "$WORK"' EXIT
@@ -31,6 +33,8 @@ click() { xdotool mousemove "$1" "$2"; still 5; xdotool click 1; still 5; }
 keys() { xdotool key --delay 30 "$@"; }
 typed() { xdotool type --delay 5 "$1"; }
 performed() { grep -c "^command: ${1:-}" "$WORK/log"; }
+# A path typed where the window asks for one.
+path() { still 10; keys ctrl+a; typed "$1"; keys Return; }
 # A command by its name in the palette.
 command() {
     local before

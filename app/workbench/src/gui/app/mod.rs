@@ -167,7 +167,8 @@ impl eframe::App for App {
         }
         self.fly(context);
         self.select();
-        let commands = keys::commands(context, &self.shared);
+        let commands =
+            if self.dialogs.asks() { Vec::new() } else { keys::commands(context, &self.shared) };
         self.perform(context, commands);
     }
 
@@ -207,6 +208,9 @@ impl eframe::App for App {
         questions::newer(ui.ctx(), &mut self.shared);
         self.questions.before_closing(ui.ctx(), &mut self.shared);
         self.questions.before_opening(ui.ctx(), &mut self.shared);
+        let typed = self.dialogs.show(ui.ctx());
+        let answered = typed.and_then(|(command, file)| command.with_file(&self.shared, file));
+        self.shared.commands.extend(answered);
         let commands = std::mem::take(&mut self.shared.commands);
         if !commands.is_empty() {
             self.perform(&ui.ctx().clone(), commands);
