@@ -48,7 +48,7 @@ impl ForceUnit {
     pub fn text(self, force_n: f64) -> String {
         let value = self.of_newtons(force_n);
         let digits = usize::from(value.abs() < 100.0);
-        format!("{value:.digits$} {}", self.symbol())
+        format!("{} {}", rounded(value, digits), self.symbol())
     }
 }
 
@@ -125,7 +125,7 @@ impl Units {
     pub fn length(self, length_m: f64) -> String {
         let value = self.of_metres(length_m);
         let digits = if value.abs() < 10.0 { 2 } else { usize::from(value.abs() < 100.0) };
-        format!("{value:.digits$} {}", self.length_symbol())
+        format!("{} {}", rounded(value, digits), self.length_symbol())
     }
 
     /// A depth of water with its unit.
@@ -159,7 +159,7 @@ impl Units {
     /// A speed with its unit.
     #[must_use]
     pub fn speed(self, speed_m_s: f64) -> String {
-        format!("{:.2} {}", self.of_m_s(speed_m_s), self.speed_symbol())
+        format!("{} {}", rounded(self.of_m_s(speed_m_s), 2), self.speed_symbol())
     }
 
     /// A rope's diameter: to the nearest sixteenth of an inch, or in millimetres.
@@ -177,6 +177,14 @@ impl Units {
     }
 }
 
+/// A number to so many decimals; what rounds to nothing has no sign.
+#[must_use]
+pub fn rounded(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+    if nothing { text.trim_start_matches('-').to_owned() } else { text }
+}
+
 /// Compass bearing of a heading in the world: 0 north, 90 east [degrees, 0 to 360).
 #[must_use]
 pub fn bearing_degrees(east: f64, north: f64) -> f64 {
@@ -192,6 +200,9 @@ mod tests {
         assert_eq!(ForceUnit::Lbf.text(7_561.976_746), "1700 lbf");
         assert_eq!(ForceUnit::Newton.text(7_561.976_746), "7562 N");
         assert_eq!(ForceUnit::Newton.text(12.34), "12.3 N");
+        assert_eq!(ForceUnit::Lbf.text(-0.001), "0.0 lbf", "nothing has no sign");
+        assert_eq!(Units::Si.length(-0.001), "0.00 m");
+        assert_eq!(Units::Si.speed(-0.52), "-0.52 m/s");
     }
 
     #[test]
