@@ -3,15 +3,15 @@
 //! An option is told apart from the baseline where the 95 % interval of their difference in the same encounters leaves out zero. Where
 //! several registered comparisons are made, Holm's probability stands beside it.
 //!
-//! To tell a difference `d` apart takes about `n = z² s / d²` encounters, `s` being the share of them that come out otherwise and `z`
-//! the normal quantile 1.96: 154 for 5 points where one encounter in ten does.
+//! A difference `d` is told apart four times in five from `n = (1.96 + 0.84)² s / d²` encounters, `s` being the share of them that come
+//! out otherwise (Connor 1987, Biometrics 43:207, for small `d`): 314 for 5 points where one encounter in ten does.
 
 use endline_gear::StudyEvent;
 
 use super::{Findings, Paired};
 
 /// Encounters below which a study is called small.
-const SMALL: u64 = 154;
+const SMALL: u64 = 314;
 
 /// What is asked.
 struct Asked<'a> {
@@ -84,7 +84,8 @@ impl Compared<'_> {
                 "; among {comparisons} registered comparisons this may be chance (p = {p:.2} by Holm)"
             ),
             Some(p) if *comparisons > 1 => {
-                format!("; p = {p:.3} among {comparisons} registered comparisons")
+                let p = if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") };
+                format!("; {p} among {comparisons} registered comparisons")
             }
             Some(_) => String::new(),
             None => "; this comparison was not registered beforehand".to_owned(),
@@ -123,7 +124,7 @@ fn undecided(open: &[Compared<'_>], told: &[Compared<'_>]) -> Option<String> {
 fn small(asked: &Asked<'_>) -> Option<String> {
     (asked.encounters < SMALL).then(|| {
         format!(
-            "{} encounters are few: 5 points take about {SMALL} to be told apart where one encounter in ten comes out otherwise.",
+            "{} encounters are few: a difference of 5 points is told apart four times in five from {SMALL}, where one encounter in ten comes out otherwise.",
             asked.encounters
         )
     })
@@ -172,7 +173,7 @@ mod tests {
         assert!(
             told[0].starts_with("With weak, “held” is rarer than with as today by 10.0 points [")
         );
-        assert!(told[0].ends_with("; p = 0.000 among 3 registered comparisons."), "{}", told[0]);
+        assert!(told[0].ends_with("; p < 0.001 among 3 registered comparisons."), "{}", told[0]);
         let by_chance = sentences(&asked(400, 30), vec![compared(&paired, Some(0.2))]);
         assert!(by_chance[0].contains("this may be chance (p = 0.20 by Holm)"), "{}", by_chance[0]);
         let unregistered = sentences(&asked(400, 3), vec![compared(&paired, None)]);
