@@ -37,9 +37,10 @@ pub(super) fn with_unit_before(typed: &str, before: &str) -> Option<String> {
     let typed = typed.trim();
     let is_number = |letter: char| letter.is_ascii_digit() || "+-.,/ ".contains(letter);
     let bare = !typed.is_empty() && typed.chars().all(is_number);
+    let mut measures = Quantity::ALL.into_iter().filter(|quantity| *quantity != Quantity::Ratio);
+    let measured = bare && measures.any(|quantity| units::parse(before, quantity).is_ok());
     let unit = before.trim().trim_start_matches(is_number);
-    let measured = unit.len() < before.trim().len() && unit.starts_with(char::is_alphabetic);
-    (bare && measured).then(|| format!("{typed} {unit}"))
+    measured.then(|| format!("{typed} {unit}"))
 }
 
 /// The kind of a library file by its path.
@@ -149,6 +150,9 @@ mod tests {
             ("1700 N", "2,700 lbf", None),
             ("pp", "12 kN", None),
             ("12", "e7-99", None),
+            ("1700", "1,700 lbf link", None),
+            ("1", "2 cases of 2005", None),
+            ("45", "90 deg", Some("45 deg")),
             ("", "12 kN", None),
         ];
         for (typed, before, expected) in cases {
