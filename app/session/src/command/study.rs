@@ -9,6 +9,7 @@ use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::{Command, Info};
 use crate::edit::Documents;
+use crate::edit::library_table::id_of;
 use crate::locate;
 use crate::workbench::Workbench;
 
@@ -106,11 +107,10 @@ pub static COMMANDS: &[Info] = &[
         "Adds an option to the open study whose gear is another assembly.",
         Make::Choices(|workbench| {
             let files = workbench.project.documents.files("assemblies");
-            let id = |file: &str| file.trim_start_matches("assemblies/").trim_end_matches(".toml").to_owned();
-            let choice = |id: String| {
-                Choice::new(id.clone(), Command::Study(StudyAction::OptionWithAssembly(id)))
+            let choice = |id: &str| {
+                Choice::new(id, Command::Study(StudyAction::OptionWithAssembly(id.to_owned())))
             };
-            files.map(|file| choice(id(file))).collect()
+            files.map(|file| choice(id_of(file))).collect()
         }),
     )
     .only_if(study_opened),

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use endline_gear::{Document, Setting};
 
 use super::documents::Documents;
+use super::library_table::id_of;
 
 /// What an option changes.
 #[derive(Debug, Default, PartialEq)]
@@ -68,8 +69,7 @@ impl Documents {
     fn is_of_the_study(&self) -> Result<(), String> {
         let of = self.field(Self::STUDY, "scenario").ok_or("open a study first")?;
         let open = self.scenario_path().file_stem().unwrap_or_default().to_string_lossy();
-        let named = of.rsplit('/').next().unwrap_or(&of).trim_end_matches(".toml");
-        if named != open {
+        if id_of(&of) != open {
             return Err(format!(
                 "the study is of the scenario {of}, and {open} is open: open {of} and change its gear"
             ));
@@ -81,7 +81,9 @@ impl Documents {
     fn edited_gear(&self) -> Vec<String> {
         let outside = [Self::STUDY, Self::OBSERVATION];
         let edited = self.unsaved().iter().filter(|path| !outside.contains(&path.as_str()));
-        edited.filter(|path| self.saved_text(path).is_some()).cloned().collect()
+        // Entries that are new or deleted stay so.
+        let changed = |path: &&String| self.saved_text(path).is_some() && self.text(path).is_some();
+        edited.filter(changed).cloned().collect()
     }
 
     fn take_changes(&self, path: &str, changes: &mut Changes) -> Result<(), String> {

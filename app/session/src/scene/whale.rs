@@ -37,14 +37,10 @@ pub fn skin_and_eyes(model: &Model, frame: &Frame) -> [Mesh; 2] {
 /// A dark ball in a paler lid in the middle of each side's skin that is marked as an eye.
 fn eyes(skin: &Skin, place: &[Vec3], normal: &[Vec3], length_m: f32) -> Mesh {
     let mut mesh = Mesh::default();
-    for side in [1.0, -1.0] {
-        let of_side = |vertex: &usize| {
-            skin.marks.get(*vertex) == Some(&Mark::Eye) && skin.vertices[*vertex].y * side > 0.0
-        };
-        let own: Vec<usize> = (0..place.len()).filter(of_side).collect();
-        if own.is_empty() {
-            continue;
-        }
+    let marked = skin.marks.iter().take(place.len()).enumerate();
+    let marked = marked.filter(|(_, mark)| **mark == Mark::Eye).map(|(vertex, _)| vertex);
+    let sides: (Vec<usize>, Vec<usize>) = marked.partition(|vertex| skin.vertices[*vertex].y > 0.0);
+    for own in [sides.0, sides.1].into_iter().filter(|own| !own.is_empty()) {
         let middle = own.iter().map(|vertex| place[*vertex]).sum::<Vec3>() / own.len() as f32;
         let out = own.iter().map(|vertex| normal[*vertex]).sum::<Vec3>().normalize_or_zero();
         // Of each ball, less than half stands out of the skin.

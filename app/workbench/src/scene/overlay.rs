@@ -104,14 +104,22 @@ fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
     }
 }
 
-fn gradient(painter: &Painter, bar: Rect) {
+/// The colours of the scale in a bar, from its longer side's foot or left end on.
+pub fn gradient(painter: &Painter, bar: Rect) {
     const STEPS: u32 = 24;
+    let upright = bar.height() > bar.width();
     let mut mesh = Mesh::default();
     for step in 0..=STEPS {
         let share = f64::from(step) / f64::from(STEPS);
-        let y = bar.bottom() - bar.height() * share as f32;
-        for x in [bar.left(), bar.right()] {
-            mesh.colored_vertex(pos2(x, y), ink(tension_colour(share)));
+        let [x, y] =
+            [bar.left() + bar.width() * share as f32, bar.bottom() - bar.height() * share as f32];
+        let across = if upright {
+            [pos2(bar.left(), y), pos2(bar.right(), y)]
+        } else {
+            [pos2(x, bar.top()), pos2(x, bar.bottom())]
+        };
+        for place in across {
+            mesh.colored_vertex(place, scale_colour(share));
         }
         if step > 0 {
             let first = 2 * (step - 1);
@@ -166,9 +174,10 @@ fn thousands(value: f64, places: usize) -> String {
     out
 }
 
-/// A scene colour for egui.
-fn ink(colour: endline_session::scene::mesh::Colour) -> Color32 {
-    let [red, green, blue, _] = colour.map(|part| (part * 255.0).round() as u8);
+/// The colour of a share of the scale's top.
+#[must_use]
+pub fn scale_colour(share: f64) -> Color32 {
+    let [red, green, blue, _] = tension_colour(share).map(|part| (part * 255.0).round() as u8);
     Color32::from_rgb(red, green, blue)
 }
 

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use egui::{Color32, Mesh, Painter, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Color32, Painter, Rect, RichText, Sense, Stroke, Ui, vec2};
 use endline_sdk::{BodyPart, Region};
 use endline_session::figures::Quantity;
 use endline_session::live::LiveView;
 use endline_session::scales::nice_above;
-use endline_session::scene::colour::tension_colour;
 use endline_session::units::Units;
 use endline_sim::metrics::{RegionSummary, WhaleSummary};
 
 use crate::gui::bodymap::{BodyMap, Face};
 use crate::gui::theme::Theme;
 use crate::gui::wraps::turns;
+use crate::scene::overlay::{gradient, scale_colour};
 
 /// What the map is coloured by.
 struct Measure {
@@ -84,7 +84,7 @@ impl SkinMap {
         let plain = BodyMap::plain(ui);
         let colour = |region: Region| {
             let value = values[region.part() as usize];
-            if value > 0.0 { tint(value / top) } else { plain }
+            if value > 0.0 { scale_colour(value / top) } else { plain }
         };
         let error = Theme::palette_of(ui).error;
         let Some(map) = self.map_of(view) else { return };
@@ -185,27 +185,4 @@ fn scale(ui: &mut Ui, measure: &Measure, top: f64, units: Units) {
         ui.label(small(format!("{}{unit}", text(top))));
         ui.label(small("· dots: rope presses there at the moment shown".to_owned()));
     });
-}
-
-fn gradient(painter: &Painter, bar: Rect) {
-    const STEPS: u32 = 12;
-    let mut mesh = Mesh::default();
-    for step in 0..=STEPS {
-        let share = f64::from(step) / f64::from(STEPS);
-        let x = bar.left() + bar.width() * share as f32;
-        for y in [bar.top(), bar.bottom()] {
-            mesh.colored_vertex(pos2(x, y), tint(share));
-        }
-        if step > 0 {
-            let first = 2 * (step - 1);
-            mesh.add_triangle(first, first + 1, first + 3);
-            mesh.add_triangle(first, first + 3, first + 2);
-        }
-    }
-    painter.add(mesh);
-}
-
-fn tint(share: f64) -> Color32 {
-    let [red, green, blue, _] = tension_colour(share).map(|part| (part * 255.0) as u8);
-    Color32::from_rgb(red, green, blue)
 }

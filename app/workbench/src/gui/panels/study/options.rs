@@ -4,6 +4,7 @@ use egui::{Frame, RichText, ScrollArea, Ui};
 use endline_gear::Setting;
 use endline_session::command::StudyAction;
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
 
 use super::Edits;
 use crate::gui::fields::{self, Said};
@@ -67,7 +68,7 @@ fn other_gear(ui: &mut Ui, shared: &mut Shared) {
     ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
         let documents = &shared.workbench.project.documents;
         let names = documents.files("assemblies").map(|file| {
-            let id = file.trim_start_matches("assemblies/").trim_end_matches(".toml").to_owned();
+            let id = id_of(file).to_owned();
             (documents.field(file, "name").unwrap_or_else(|| id.clone()), id)
         });
         let mut names: Vec<(String, String)> = names.collect();
