@@ -107,8 +107,9 @@ impl Dialogs {
             }
             ui.horizontal(|ui| {
                 let ready = problem.is_none();
-                let verb = if waiting.question.purpose == FileUse::Write { "Save" } else { "Open" };
-                taken = primary(ui, ready, verb).clicked() || (entered && ready);
+                let purpose = waiting.question.purpose;
+                let by_enter = entered && ready && !replaces(purpose, path);
+                taken = primary(ui, ready, verb(purpose, path)).clicked() || by_enter;
                 left |= ui.button("Cancel").clicked();
             });
         });
@@ -117,6 +118,20 @@ impl Dialogs {
         }
         let (waiting, path) = self.typed.take()?;
         taken.then(|| (waiting.command, PathBuf::from(path.trim())))
+    }
+}
+
+/// Whether a file that is there would be written over: that takes a click on a button that says so.
+fn replaces(purpose: FileUse, path: &str) -> bool {
+    purpose == FileUse::Write && PathBuf::from(path.trim()).is_file()
+}
+
+/// What is done with a path.
+fn verb(purpose: FileUse, path: &str) -> &'static str {
+    match purpose {
+        FileUse::Read | FileUse::Folder => "Open",
+        FileUse::Write if replaces(purpose, path) => "Replace this file",
+        FileUse::Write => "Save",
     }
 }
 
@@ -167,6 +182,9 @@ mod tests {
         assert_eq!(problem(&write, &text(folder.join("new.csv"))), None);
         assert!(problem(&write, &text(folder.clone())).is_some_and(|why| why.contains("folder")));
         assert!(problem(&write, "/no/such/new.csv").is_some());
+        let there = std::env::current_exe().unwrap();
+        assert_eq!(verb(FileUse::Write, &text(there)), "Replace this file");
+        assert_eq!(verb(FileUse::Write, &text(folder.join("new.csv"))), "Save");
         assert_eq!(problem(&FileQuestion::folder("results"), &text(folder)), None);
     }
 }
