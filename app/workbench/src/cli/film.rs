@@ -24,19 +24,19 @@ pub(super) fn film(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode
     let interrupt = Interrupt::watch();
     let mut player = Player::open(args, library)?;
     let times = times(args, player.end_s).map_err(Failure::usage)?;
+    let film = picture::begin_film(&args.out, args.size, args.fps).map_err(Failure::failed)?;
     let frames = player.frames(&times, &interrupt)?;
     let caption = picture::caption(&player.caption);
     let reel = picture::Reel {
         model: player.run.model(),
         frames: &frames,
-        fps: args.fps,
         view: &args.view,
         size: args.size,
         caption: &caption,
         out: &args.out,
     };
     let progress = Progress::new("drawing");
-    let drawn = picture::film(&reel, |done| {
+    let drawn = picture::film(film, &reel, |done| {
         progress.at(done as u64, frames.len() as u64);
         !interrupt.is_asked()
     });

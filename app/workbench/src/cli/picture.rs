@@ -88,14 +88,31 @@ pub(super) fn is_film(_out: &Path) -> bool {
     false
 }
 
+/// A film file that is begun.
+#[cfg(feature = "scene")]
+pub(super) type Begun = scene::film::Film;
+/// None is ever begun in a build that draws nothing.
+#[cfg(not(feature = "scene"))]
+pub(super) type Begun = std::convert::Infallible;
+
+/// Begins a film file, before anything is run: what is wrong with it is told at once.
+#[cfg(feature = "scene")]
+pub(super) fn begin_film(out: &Path, size: [u32; 2], fps: u32) -> Result<Begun, String> {
+    scene::film::Film::begin(out, size, fps)
+}
+
+/// A build that draws nothing says so.
+#[cfg(not(feature = "scene"))]
+pub(super) fn begin_film(_out: &Path, _size: [u32; 2], _fps: u32) -> Result<Begun, String> {
+    Err(NO_SCENE.into())
+}
+
 /// A film asked for on the command line.
 #[cfg_attr(not(feature = "scene"), allow(dead_code, reason = "as for a picture"))]
 pub(super) struct Reel<'a> {
     pub model: &'a Model,
     /// The moments drawn.
     pub frames: &'a [Arc<Frame>],
-    /// Pictures a second.
-    pub fps: u32,
     /// Name of the view.
     pub view: &'a str,
     /// Width and height [px].
@@ -108,9 +125,12 @@ pub(super) struct Reel<'a> {
 
 /// Draws a film; `go_on` hears of each picture and ends the film there where it answers `false`. Answers how many there are.
 #[cfg(feature = "scene")]
-pub(super) fn film(reel: &Reel<'_>, go_on: impl Fn(usize) -> bool) -> Result<usize, String> {
+pub(super) fn film(
+    mut film: Begun,
+    reel: &Reel<'_>,
+    go_on: impl Fn(usize) -> bool,
+) -> Result<usize, String> {
     let view = scene::View::named(reel.view).unwrap_or_default();
-    let mut film = scene::film::Film::begin(reel.out, reel.size, reel.fps)?;
     let mut renderer = scene::Renderer::new(reel.size)?;
     // One scale and one place of the eye for all, so that nothing jumps that did not move.
     let tensions = reel.frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
@@ -142,8 +162,12 @@ pub(super) fn film(reel: &Reel<'_>, go_on: impl Fn(usize) -> bool) -> Result<usi
 
 /// A build that draws nothing says so.
 #[cfg(not(feature = "scene"))]
-pub(super) fn film(_reel: &Reel<'_>, _go_on: impl Fn(usize) -> bool) -> Result<usize, String> {
-    Err(NO_SCENE.into())
+pub(super) fn film(
+    film: Begun,
+    _reel: &Reel<'_>,
+    _go_on: impl Fn(usize) -> bool,
+) -> Result<usize, String> {
+    match film {}
 }
 
 /// What a picture says besides its time: the scenario's name without its folder.
