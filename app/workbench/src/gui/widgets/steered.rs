@@ -13,7 +13,8 @@ const FEELS: [&str; 2] = ["whale.dynamics", "kinetic"];
 
 /// Draws the warning where it holds, with the button that changes the scenario.
 pub fn warning(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
-    if view.model.spec.whale.as_ref().is_none_or(|whale| whale.kinetic.is_some()) {
+    let whale = view.model.spec.whale.as_ref();
+    if view.model.spec.lines.is_empty() || whale.is_none_or(|whale| whale.kinetic.is_some()) {
         return;
     }
     let text = "This whale does not feel the gear: it goes as it is steered, whatever pulls. \
