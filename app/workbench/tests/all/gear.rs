@@ -441,3 +441,20 @@ fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_brings_it_back() {
     let documents = &harness.state().shared.workbench.project.documents;
     assert_eq!(documents.files("ropes").count(), count);
 }
+
+#[test]
+fn a_right_click_on_a_row_offers_what_can_be_done_with_it() {
+    let folder = Folder::new("row-menu");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
+    harness.run_steps(3);
+    let path = "ropes/sink-3-8.toml";
+    let name = harness.state().shared.workbench.project.documents.field(path, "name").unwrap();
+    harness.get_by_label(&name).click_secondary();
+    harness.run_steps(4);
+    harness.get_by_label("Copy id");
+    harness.get_all_by_label("Duplicate").last().unwrap().click();
+    harness.run_steps(3);
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert_eq!(documents.field("ropes/sink-3-8-2.toml", "name"), Some(format!("{name} (copy)")));
+}

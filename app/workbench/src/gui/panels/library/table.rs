@@ -161,7 +161,7 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &R
     let label =
         Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
     let response = ui.add(label);
-    if response.clicked() || response.secondary_clicked() {
+    if response.clicked() {
         panel.chosen = Some(path.to_owned());
     }
     response.context_menu(|ui| {
