@@ -28,6 +28,7 @@
 //! | [`task`] | work on a thread of its own, taken in without waiting |
 //! | [`plugins`] | plugins found, checked and loaded |
 //! | [`locate`] | where the gear library of a scenario is |
+//! | [`shipped`] | the gear library inside the program, written to the user's data folder where no other is found |
 //!
 //! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
@@ -59,6 +60,7 @@ pub mod scales;
 pub mod scene;
 pub mod search;
 pub mod settled;
+pub mod shipped;
 pub mod source;
 pub mod statics;
 pub mod strength;

@@ -3,14 +3,15 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
-use crate::plugins;
+use crate::{plugins, shipped};
 
 /// Name of the shipped library's folder.
 const LIBRARY: &str = "gear-library";
 
 /// Finds the gear library for a scenario: `given` (`--library`) if set, else the folder around
 /// the scenario that is a library, else `ENDLINE_LIBRARY`, else a `gear-library` beside the
-/// program, above it (a build in a source folder), or in the working folder.
+/// program, above it (a build in a source folder), or in the working folder, else the user's copy of
+/// the one that the program [carries](shipped::carry).
 ///
 /// # Errors
 /// With every place that was looked in, for the user.
@@ -30,7 +31,16 @@ pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf,
         program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))),
     );
     looked.push(PathBuf::from(LIBRARY));
-    looked.iter().find(|folder| is_library(folder)).cloned().ok_or_else(|| no_library(&looked))
+    if let Some(found) = looked.iter().find(|folder| is_library(folder)) {
+        return Ok(found.clone());
+    }
+    match shipped::library() {
+        Some(Ok(folder)) => Ok(folder),
+        Some(Err(reason)) => {
+            Err(format!("{}\nand its own cannot be written: {reason}", no_library(&looked)))
+        }
+        None => Err(no_library(&looked)),
+    }
 }
 
 /// The folders above a scenario, each also with a `gear-library` in it.

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`cli`] | | the command line |
 //! | [`scene`] | `scene` | what a frame looks like, as plain data; drawing it with or without a display |
+//! | [`inside`] | | the gear library and the first-party plugins inside the program |
 //! | [`input`] | `gui` | gamepad and keyboard as the pilot's controls |
 //! | [`gui`] | `gui` | the workbench |
 
@@ -12,5 +13,6 @@ pub mod cli;
 pub mod gui;
 #[cfg(feature = "gui")]
 pub mod input;
+pub mod inside;
 #[cfg(feature = "scene")]
 pub mod scene;

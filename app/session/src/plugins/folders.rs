@@ -11,7 +11,7 @@ static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// (separated as `PATH` is).
 #[must_use]
 pub fn default_folders() -> Vec<PathBuf> {
-    let own = user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins"));
+    let own = data_folder().map(|folder| folder.join("plugins"));
     let named = env::var_os("ENDLINE_PLUGINS");
     let named =
         named.iter().flat_map(env::split_paths).filter(|folder| !folder.as_os_str().is_empty());
@@ -41,7 +41,12 @@ pub fn program() -> std::io::Result<PathBuf> {
 /// File in the user's data folder that holds what the user has decided about plugins.
 #[must_use]
 pub fn chosen_file() -> Option<PathBuf> {
-    user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins-chosen"))
+    data_folder().map(|folder| folder.join("plugins-chosen"))
+}
+
+/// Folder of what the user keeps for Endline; none where the system names no home.
+pub(crate) fn data_folder() -> Option<PathBuf> {
+    user_folder("XDG_DATA_HOME", ".local/share")
 }
 
 /// Folder that libraries are copied to as they are opened, where the system opens none from memory; none without a home, for a

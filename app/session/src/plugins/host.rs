@@ -119,6 +119,21 @@ impl PluginHost {
         }
     }
 
+    /// Adds plugins that are linked into the program, where no file serves their ids.
+    pub(super) fn add_linked(
+        &mut self,
+        linked: &[Hook],
+        choices: &Choices,
+        problems: &mut Vec<PluginProblem>,
+    ) {
+        for hook in linked {
+            if self.knows(&hook.descriptor().id).is_none() {
+                let added = self.insert(hook.clone(), None, choices);
+                problems.extend(added.err().map(|refusal| refusal.at("(linked)")));
+            }
+        }
+    }
+
     /// Adds a plugin without code: its gear types, and its acts to those of the gear library.
     pub(super) fn add_text(
         &mut self,
@@ -196,7 +211,7 @@ impl PluginHost {
 
     /// Lists a plugin whose id is free; false where its user has switched it off.
     fn admit(&mut self, info: PluginInfo, choices: &Choices) -> Result<bool, Refusal> {
-        if let Some(first) = self.infos.iter().chain(&self.off).find(|known| known.id == info.id) {
+        if let Some(first) = self.knows(&info.id) {
             let place = first
                 .file
                 .as_ref()
@@ -214,5 +229,10 @@ impl PluginHost {
             self.off.push(info)
         }
         Ok(on)
+    }
+
+    /// The plugin listed under an id, on or off.
+    fn knows(&self, id: &str) -> Option<&PluginInfo> {
+        self.infos.iter().chain(&self.off).find(|known| known.id == id)
     }
 }

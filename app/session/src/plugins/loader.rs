@@ -16,7 +16,7 @@ use super::choices::{Change, Choices};
 use super::copy::with_copy;
 use super::cut_short;
 use super::host::PluginHost;
-use super::info::{Checker, PluginProblem, Refusal, Standing};
+use super::info::{Checker, Hook, PluginProblem, Refusal, Standing};
 use super::library::{self, Opened};
 
 /// Finds, asks about, checks and opens plugins.
@@ -25,6 +25,7 @@ pub struct Loader {
     pub folders: Vec<PathBuf>,
     /// What the user has decided.
     pub choices: Choices,
+    linked: Vec<Hook>,
     opened: BTreeMap<(PathBuf, String), Opened>,
 }
 
@@ -32,7 +33,13 @@ impl Loader {
     /// A loader of these folders.
     #[must_use]
     pub fn new(folders: &[PathBuf], choices: Choices) -> Self {
-        Self { folders: folders.to_vec(), choices, opened: BTreeMap::new() }
+        Self { folders: folders.to_vec(), choices, linked: Vec::new(), opened: BTreeMap::new() }
+    }
+
+    /// The same with plugins that are linked into the program: each serves where no folder has a usable one of its id.
+    #[must_use]
+    pub fn with_linked(self, linked: Vec<Hook>) -> Self {
+        Self { linked, ..self }
     }
 
     /// Every usable plugin of the folders as they are now, and why each other file is not used. The checker sees each file that the
@@ -53,6 +60,7 @@ impl Loader {
                 Err(found) => problems.push(refusal(&found).at(folder)),
             }
         }
+        host.add_linked(&self.linked, &self.choices, &mut problems);
         (host, problems)
     }
 

@@ -25,6 +25,7 @@ mod used;
 pub use check::trial::Finding;
 pub use check::{Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
 pub use choices::{Ask, Change, Choices};
+pub(crate) use folders::data_folder;
 pub use folders::{chosen_file, default_folders, known_file, program, program_folder, stands_for};
 pub use host::PluginHost;
 pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, Standing};

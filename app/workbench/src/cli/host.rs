@@ -4,9 +4,10 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use endline_session::plugins::{Loader, PluginProblem, Standing, default_folders};
-use endline_session::{PluginHost, load_with, plugin_loader};
+use endline_session::{PluginHost, load_with};
 
 use super::output;
+use crate::inside;
 
 /// Whether the command line allows what is new or has changed.
 static ALLOW: OnceLock<bool> = OnceLock::new();
@@ -52,7 +53,7 @@ fn allow_waiting(loader: &mut Loader, problems: &[PluginProblem]) -> bool {
 
 /// A loader of the folders searched.
 pub(super) fn loader() -> Loader {
-    plugin_loader(&folders())
+    inside::plugin_loader(&folders())
 }
 
 /// The folders searched.

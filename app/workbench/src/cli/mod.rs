@@ -35,6 +35,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
+use endline_session::shipped;
+
+use crate::inside;
 
 pub use args::Args;
 use args::Command;
@@ -51,6 +54,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
     };
     let library = args.library.as_deref();
     host::allow(args.allow_plugins);
+    shipped::carry(inside::GEAR_LIBRARY, output::note);
     match &args.command {
         None => workbench::open(library),
         Some(Command::Run(args)) => run::run(args, library),

@@ -34,9 +34,10 @@ use std::sync::Arc;
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
 use endline_session::task::Waker;
-use endline_session::{live, load_with, locate, plugin_loader};
+use endline_session::{live, load_with, locate};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
+use crate::inside;
 use app::App;
 use shared::Shared;
 
@@ -61,7 +62,7 @@ pub fn open(options: Options) -> Result<(), String> {
     let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
     let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
     let documents = Documents::open(&root, &scenario)?;
-    let mut loader = plugin_loader(&options.plugins);
+    let mut loader = inside::plugin_loader(&options.plugins);
     let (host, refused) = load_with(&mut loader);
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

@@ -125,6 +125,21 @@ impl Place {
     /// The program with these arguments, no display, and no plugins but its own.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let program = endline_tests::program().unwrap_or_else(|error| panic!("{error}"));
+        self.command_of(&program, arguments)
+    }
+
+    /// A call of the program's file alone: copied here, with no gear library and no plugins beside it.
+    pub fn alone(&self, arguments: &[&str]) -> Called {
+        let program = self.path(&format!("bin/endline{}", std::env::consts::EXE_SUFFIX));
+        if !program.exists() {
+            let built = endline_tests::program().unwrap_or_else(|error| panic!("{error}"));
+            fs::create_dir_all(program.parent().unwrap()).unwrap();
+            fs::copy(built, &program).unwrap();
+        }
+        called(&mut self.command_of(&program, arguments))
+    }
+
+    fn command_of(&self, program: &Path, arguments: &[&str]) -> Command {
         let mut command = Command::new(program);
         command.args(arguments).current_dir(&self.folder).stdin(Stdio::null());
         command.env("XDG_DATA_HOME", self.path("data")).env("XDG_CACHE_HOME", self.path("cache"));

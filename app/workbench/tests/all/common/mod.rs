@@ -199,11 +199,7 @@ pub fn on_disk(folder: &Folder, path: &str) -> String {
 /// The first-party plugins, linked.
 pub fn linked() -> Arc<PluginHost> {
     let mut host = PluginHost::empty();
-    let motion = Hook::Motion(Arc::new(endline_whale_motions::Swim::default()));
-    let friction = Hook::Friction(Arc::new(endline_friction_models::Coulomb::default()));
-    for hook in
-        [motion, friction].into_iter().chain(endline_gear_types::all().into_iter().map(Hook::Gear))
-    {
+    for hook in endline_workbench::inside::first_party() {
         host.add(hook).unwrap();
     }
     Arc::new(host)

@@ -1,0 +1,211 @@
+//! What the library holds to begin from: scenarios, studies and observations, by what they are about.
+
+use std::path::{Path, PathBuf};
+
+use endline_gear::Document;
+use endline_session::locate;
+
+use super::sketch::Sketch;
+use crate::gui::files;
+
+/// What a file is, and so where it opens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum What {
+    /// A run.
+    Scenario,
+    /// Many runs of options.
+    Study,
+    /// What was seen on a whale.
+    Observation,
+}
+
+/// What an item is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    /// A whale meets gear.
+    Encounter,
+    /// Studies.
+    Study,
+    /// Scenarios that re-create a real case.
+    Case,
+    /// Observations.
+    Observation,
+    /// Gear without a whale.
+    Gear,
+    /// Whales without gear.
+    Whale,
+    /// Neither gear of a fishery nor a whale.
+    Physics,
+    /// Scenarios that studies and searches draw theirs from.
+    Base,
+}
+
+impl Group {
+    /// Every group, in the order of the page.
+    pub(super) const ALL: [Self; 8] = [
+        Self::Encounter,
+        Self::Study,
+        Self::Case,
+        Self::Observation,
+        Self::Gear,
+        Self::Whale,
+        Self::Physics,
+        Self::Base,
+    ];
+
+    /// Its heading.
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Encounter => "Whales meeting gear",
+            Self::Study => "Studies: options compared",
+            Self::Case => "Real cases, played",
+            Self::Observation => "Whales seen entangled, to be explained",
+            Self::Gear => "Gear alone",
+            Self::Whale => "Whales alone",
+            Self::Physics => "Checks of the physics",
+            Self::Base => "What studies and searches draw from",
+        }
+    }
+
+    /// Whether it is open at first.
+    pub(super) fn opens(self) -> bool {
+        !matches!(self, Self::Physics | Self::Base | Self::Whale)
+    }
+
+    /// The group of a scenario: by its id where that says that it serves studies or a case, else by what is in it.
+    fn of_scenario(id: &str, sketch: &Sketch) -> Self {
+        let starts = |begins: &[&str]| begins.iter().any(|begin| id.starts_with(begin));
+        if starts(&["study-", "search-"]) {
+            Self::Base
+        } else if starts(&["case-", "eg-"]) {
+            Self::Case
+        } else if starts(&["reference-", "energy-", "tow-", "part-", "answer-", "weak-link-"]) {
+            Self::Physics
+        } else {
+            match (sketch.whale, sketch.has_gear()) {
+                (true, true) => Self::Encounter,
+                (true, false) => Self::Whale,
+                (false, true) => Self::Gear,
+                (false, false) => Self::Physics,
+            }
+        }
+    }
+}
+
+/// Something to begin from.
+#[derive(Clone, Debug)]
+pub(super) struct Item {
+    pub what: What,
+    pub group: Group,
+    pub path: PathBuf,
+    pub name: String,
+    pub notes: String,
+    pub sketch: Sketch,
+}
+
+impl Item {
+    /// Whether it has every word of a search, in any case.
+    pub(super) fn has(&self, sought: &str) -> bool {
+        let text = format!("{} {} {}", files::stem(&self.path), self.name, self.notes).to_lowercase();
+        sought.to_lowercase().split_whitespace().all(|word| text.contains(word))
+    }
+
+    /// The notes up to the end of their first sentence, or so many letters of it.
+    pub(super) fn first_words(&self) -> String {
+        const MOST: usize = 120;
+        let notes = self.notes.split_whitespace().collect::<Vec<_>>().join(" ");
+        let sentence = notes.split_inclusive(". ").next().unwrap_or_default().trim_end();
+        if sentence.chars().count() <= MOST {
+            return sentence.to_owned();
+        }
+        let cut: String = sentence.chars().take(MOST).collect();
+        let words = cut.rsplit_once(' ').map_or(cut.as_str(), |(words, _)| words);
+        format!("{} …", words.trim_end_matches([',', ';', ':']))
+    }
+}
+
+/// How many files there are to begin from.
+pub(super) fn count(root: &Path) -> usize {
+    locate::scenarios(root).len() + locate::studies(root).len() + locate::observations(root).len()
+}
+
+/// Everything to begin from, in order of names; files that cannot be read are told of elsewhere.
+pub(super) fn all(root: &Path) -> Vec<Item> {
+    let of = |what, paths: Vec<PathBuf>| {
+        paths.into_iter().filter_map(move |path| read(root, what, path))
+    };
+    let mut items: Vec<Item> = of(What::Scenario, locate::scenarios(root))
+        .chain(of(What::Study, locate::studies(root)))
+        .chain(of(What::Observation, locate::observations(root)))
+        .collect();
+    // Whoever is new begins with the plainest.
+    items.sort_by_key(|item| !files::stem(&item.path).starts_with("hello-"));
+    items
+}
+
+fn read(root: &Path, what: What, path: PathBuf) -> Option<Item> {
+    let document = Document::parse(&endline_gear::read::text(&path).ok()?).ok()?;
+    let text = |field: &str| document.get(field).unwrap_or_default();
+    let sketch = match what {
+        What::Scenario => Sketch::of_scenario(root, &document),
+        What::Study => Sketch::of_study(&document),
+        What::Observation => Sketch { whale: true, ..Sketch::default() },
+    };
+    let group = match what {
+        What::Scenario => Group::of_scenario(&files::stem(&path), &sketch),
+        What::Study => Group::Study,
+        What::Observation => Group::Observation,
+    };
+    let name = document.get("name").unwrap_or_else(|| files::stem(&path));
+    Some(Item { what, group, name, notes: text("notes"), sketch, path })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shipped() -> Vec<Item> {
+        all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library"))
+    }
+
+    #[test]
+    fn every_shipped_item_is_in_the_group_of_what_it_is_about() {
+        let items = shipped();
+        let group = |id: &str| items.iter().find(|item| files::stem(&item.path) == id).unwrap().group;
+        for (id, wanted) in [
+            ("hello-endline", Group::Encounter),
+            ("trawl-10", Group::Gear),
+            ("portrait", Group::Whale),
+            ("reference-c2-snap", Group::Physics),
+            ("study-endline", Group::Base),
+            ("case-e25-05-roll", Group::Case),
+            ("weak-links", Group::Study),
+            ("eg-1140", Group::Observation),
+        ] {
+            assert_eq!(group(id), wanted, "{id}");
+        }
+        assert_eq!(files::stem(&items[0].path), "hello-endline");
+        assert!(items.iter().all(|item| !item.name.is_empty()));
+    }
+
+    #[test]
+    fn a_search_finds_what_has_all_its_words() {
+        let found = |sought: &str| {
+            shipped().into_iter().filter(|item| item.has(sought)).count()
+        };
+        assert_eq!(found(""), shipped().len());
+        let both = found("trawl offshore");
+        assert!(both > 0 && both < found("trawl"), "{both}");
+        assert_eq!(found("trawl zeppelin"), 0);
+    }
+
+    #[test]
+    fn notes_are_cut_at_a_sentence_or_a_word() {
+        let mut item = shipped().remove(0);
+        item.notes = "One trap.\nA second sentence.".into();
+        assert_eq!(item.first_words(), "One trap.");
+        item.notes = "word, ".repeat(40);
+        let words = item.first_words();
+        assert!(words.ends_with("word …") && words.chars().count() <= 123, "{words}");
+    }
+}

@@ -1,0 +1,155 @@
+//! Where a user begins: three doors, what was open last, and everything in the library, with a search over it.
+
+mod doors;
+mod item;
+mod sketch;
+
+use std::path::{Path, PathBuf};
+
+use egui::{CollapsingHeader, Label, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
+use endline_session::command::{EditAction, SearchAction, StudyAction};
+use endline_session::units::Units;
+
+use crate::gui::command::action::PanelAction;
+use crate::gui::files;
+use crate::gui::layout::Layout;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+use item::{Group, Item, What};
+
+/// Breadth of a column of items, in points.
+const COLUMN: f32 = 400.0;
+
+/// Where a user begins; the library is read when the page is first shown, and again when files came or went.
+#[derive(Debug, Default)]
+pub struct StartPanel {
+    items: Option<(usize, Vec<Item>)>,
+    sought: String,
+}
+
+impl Panel for StartPanel {
+    fn id(&self) -> PanelId {
+        PanelId::START
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let root = shared.workbench.project.documents.root().to_owned();
+        let files = item::count(&root);
+        if self.items.as_ref().is_none_or(|(seen, _)| *seen != files) {
+            self.items = Some((files, item::all(&root)));
+        }
+        let items = self.items.as_ref().map_or(&[][..], |(_, items)| items);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            head(ui, shared);
+            doors::show(ui, shared, &root);
+            recent(ui, shared);
+            ui.add_space(10.0);
+            let hint = "Search scenarios, studies and cases";
+            ui.add(TextEdit::singleline(&mut self.sought).hint_text(hint).desired_width(COLUMN));
+            listed(ui, shared, items, &self.sought);
+        });
+    }
+}
+
+fn head(ui: &mut Ui, shared: &mut Shared) {
+    ui.heading("Endline");
+    ui.label("Fishing gear, and whales that get out of it alive.");
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
+        for units in Units::ALL {
+            ui.radio_value(&mut shared.workbench.preferences.units, units, units.name())
+                .on_hover_text(units.help());
+        }
+    });
+    ui.add_space(6.0);
+}
+
+fn recent(ui: &mut Ui, shared: &mut Shared) {
+    let recent: Vec<PathBuf> =
+        shared.workbench.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+    if recent.is_empty() {
+        return;
+    }
+    widgets::caption(ui, "Last open");
+    ui.horizontal_wrapped(|ui| {
+        for path in recent {
+            let place = path.display().to_string();
+            if ui.link(files::stem(&path)).on_hover_text(place).clicked() {
+                open(shared, What::Scenario, &path);
+            }
+        }
+    });
+}
+
+/// Opens an item where it is worked on.
+fn open(shared: &mut Shared, what: What, path: &Path) {
+    let path = path.to_owned();
+    match what {
+        What::Scenario => {
+            shared.give(EditAction::OpenScenario(path));
+            shared.give(PanelAction::Show(PanelId::VIEW));
+        }
+        What::Study => {
+            shared.give(StudyAction::Open(path));
+            shared.give(PanelAction::Arrange(Layout::Study));
+        }
+        What::Observation => {
+            shared.give(SearchAction::Open(path));
+            shared.give(PanelAction::Arrange(Layout::Search));
+        }
+    }
+}
+
+/// The items by group; while something is sought, only what has every word of it, all groups open.
+fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], sought: &str) {
+    let mut any = false;
+    for group in Group::ALL {
+        let of: Vec<&Item> =
+            items.iter().filter(|item| item.group == group && item.has(sought)).collect();
+        if of.is_empty() {
+            continue;
+        }
+        any = true;
+        let title = RichText::new(format!("{}  ({})", group.title(), of.len())).strong();
+        CollapsingHeader::new(title)
+            .id_salt(group.title())
+            .default_open(group.opens())
+            .open((!sought.trim().is_empty()).then_some(true))
+            .show_unindented(ui, |ui| cards(ui, shared, &of));
+    }
+    if !any {
+        widgets::nothing(ui, "Nothing in the library has all of these words.");
+    }
+}
+
+fn cards(ui: &mut Ui, shared: &mut Shared, items: &[&Item]) {
+    let columns = ((ui.available_width() / COLUMN) as usize).max(1);
+    for row in items.chunks(columns) {
+        ui.columns(columns, |columns| {
+            for (ui, item) in columns.iter_mut().zip(row) {
+                card(ui, shared, item);
+            }
+        });
+        ui.add_space(4.0);
+    }
+}
+
+/// A picture of what is in it, the name to click, and the first of the notes.
+fn card(ui: &mut Ui, shared: &mut Shared, item: &Item) {
+    let palette = Theme::palette_of(ui);
+    ui.horizontal_top(|ui| {
+        let (picture, response) = ui.allocate_exact_size(vec2(84.0, 50.0), Sense::click());
+        sketch::draw(&ui.painter_at(picture), picture, &item.sketch, palette);
+        ui.vertical(|ui| {
+            let named = ui.link(&item.name).on_hover_text(item.path.display().to_string());
+            if named.clicked() || response.clicked() {
+                open(shared, item.what, &item.path);
+            }
+            let notes = RichText::new(item.first_words()).size(12.0).color(palette.faint);
+            ui.add(Label::new(notes).wrap()).on_hover_text(&item.notes);
+        });
+    });
+}

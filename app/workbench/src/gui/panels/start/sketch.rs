@@ -1,0 +1,208 @@
+//! A small picture of what a file is about, drawn from what stands in it: traps, endlines, a net, a whale.
+
+use std::path::Path;
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use endline_gear::Document;
+
+use crate::gui::theme::Palette;
+
+/// Traps drawn at most: more would be specks.
+const MOST_TRAPS: usize = 12;
+
+/// What a file is about.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sketch {
+    pub traps: usize,
+    pub endlines: usize,
+    pub net: bool,
+    /// The endline lies stowed at the trap.
+    pub stowed: bool,
+    pub whale: bool,
+    /// Options that a study compares.
+    pub options: usize,
+}
+
+impl Sketch {
+    /// Of a scenario and the assembly it names.
+    pub(super) fn of_scenario(root: &Path, scenario: &Document) -> Self {
+        let whale = scenario.has("whale");
+        let id = scenario.get("gear.0.assembly");
+        let assembly = id.and_then(|id| read(&root.join(format!("assemblies/{id}.toml"))));
+        let gear = assembly.map(|assembly| Self::of_assembly(&assembly)).unwrap_or_default();
+        Self { whale, ..gear }
+    }
+
+    fn of_assembly(assembly: &Document) -> Self {
+        let number = |field: &str| assembly.get(field).and_then(|text| text.parse().ok());
+        let gear_type = assembly.get("gear_type").unwrap_or_default();
+        let kind = gear_type.rsplit('.').next().unwrap_or_default();
+        let (traps, endlines) = match kind {
+            "" => bodies(assembly),
+            "pair" => (2, 1),
+            "trawl" => (10, 2),
+            "gillnet" => (2, 2),
+            _ => (1, 1),
+        };
+        Self {
+            traps: number("attributes.traps").unwrap_or(traps),
+            endlines: number("attributes.endlines").unwrap_or(endlines),
+            net: kind == "gillnet",
+            stowed: kind == "on-demand",
+            ..Self::default()
+        }
+    }
+
+    /// Of a study.
+    pub(super) fn of_study(study: &Document) -> Self {
+        let options = (0..MOST_TRAPS).take_while(|index| study.has(&format!("option.{index}")));
+        Self { options: options.count().max(2), ..Self::default() }
+    }
+
+    /// Whether there is gear to see.
+    pub(super) fn has_gear(&self) -> bool {
+        self.traps > 0 || self.endlines > 0
+    }
+}
+
+/// Traps and endlines of an assembly that lists its parts: what lies on the seabed, and what floats.
+fn bodies(assembly: &Document) -> (usize, usize) {
+    let items = (0..).map_while(|index| assembly.get(&format!("body.{index}.item")));
+    items.fold((0, 0), |(traps, floats), item| {
+        let floats_up = ["buoy", "ball", "flyer", "float"].iter().any(|word| item.contains(word));
+        if floats_up { (traps, floats + 1) } else { (traps + 1, floats) }
+    })
+}
+
+fn read(path: &Path) -> Option<Document> {
+    Document::parse(&endline_gear::read::text(path).ok()?).ok()
+}
+
+/// Draws the sketch in a rectangle.
+pub(super) fn draw(painter: &Painter, place: Rect, sketch: &Sketch, palette: Palette) {
+    let ink = Stroke::new(1.4, palette.text.gamma_multiply(0.8));
+    painter.rect_filled(place, 4.0, palette.field);
+    if sketch.options > 0 {
+        return options(painter, place, sketch.options, palette);
+    }
+    let (surface, seabed) = (place.top() + 11.0, place.bottom() - 6.0);
+    let water = Rect::from_min_max(pos2(place.left(), surface), place.max);
+    painter.rect_filled(water, 4.0, palette.accent.gamma_multiply(0.16));
+    let across = |y: f32, colour: Color32| {
+        painter.hline(place.x_range(), y, Stroke::new(1.0, colour));
+    };
+    across(surface, palette.accent.gamma_multiply(0.6));
+    across(seabed, palette.line);
+    gear(painter, place, (surface, seabed), sketch, ink, palette);
+    if sketch.whale {
+        let middle = if sketch.has_gear() { 0.34 } else { 0.5 };
+        whale(painter, pos2(place.left() + place.width() * middle, (surface + seabed) / 2.0), ink.color);
+    }
+}
+
+/// Traps along the seabed, a net between its ends, and an endline with a buoy up from each end that has one.
+fn gear(
+    painter: &Painter,
+    place: Rect,
+    (surface, seabed): (f32, f32),
+    sketch: &Sketch,
+    ink: Stroke,
+    palette: Palette,
+) {
+    let traps = sketch.traps.min(MOST_TRAPS);
+    let (from, to) = match (traps, sketch.whale) {
+        (..=1, _) => (place.left() + place.width() * 0.7, place.left() + place.width() * 0.7),
+        (_, true) => (place.left() + place.width() * 0.45, place.right() - 12.0),
+        (_, false) => (place.left() + 12.0, place.right() - 16.0),
+    };
+    let at = |index: usize| from + (to - from) * index as f32 / traps.saturating_sub(1).max(1) as f32;
+    for trap in (0..traps).map(at) {
+        let shape = Rect::from_center_size(pos2(trap, seabed - 2.5), vec2(5.0, 4.0));
+        painter.rect_filled(shape, 0.5, ink.color);
+    }
+    if traps > 1 {
+        painter.hline(from..=to, seabed - 1.5, Stroke::new(1.0, ink.color));
+    }
+    if sketch.net {
+        let panel = Rect::from_x_y_ranges(from..=to, seabed - 13.0..=seabed - 2.0);
+        painter.rect_filled(panel, 0.0, ink.color.gamma_multiply(0.25));
+    }
+    let ends = [(sketch.endlines >= 1, from), (sketch.endlines >= 2 && traps > 1, to)];
+    for (_, foot) in ends.into_iter().filter(|(is_there, _)| *is_there) {
+        let top = if sketch.stowed { seabed - 9.0 } else { surface };
+        endline(painter, pos2(foot, seabed - 4.0), top, ink, palette);
+    }
+}
+
+/// A rope that leans with the tide, and the buoy at its top.
+fn endline(painter: &Painter, foot: Pos2, top: f32, ink: Stroke, palette: Palette) {
+    let lean = (foot.y - top) * 0.35;
+    let points = (0..=8).map(|step| {
+        let up = step as f32 / 8.0;
+        pos2(foot.x + lean * up * up, foot.y + (top - foot.y) * up)
+    });
+    painter.add(Shape::line(points.collect(), ink));
+    painter.circle_filled(pos2(foot.x + lean, top), 2.6, palette.warning);
+}
+
+/// A whale from the side, its head to the right.
+fn whale(painter: &Painter, middle: Pos2, colour: Color32) {
+    const OUTLINE: [(f32, f32); 14] = [
+        (16.0, 1.0),
+        (14.0, -3.5),
+        (7.0, -5.5),
+        (0.0, -5.0),
+        (-8.0, -2.5),
+        (-14.0, -1.0),
+        (-19.0, -4.0),
+        (-18.0, 0.0),
+        (-19.0, 3.0),
+        (-14.0, 0.8),
+        (-7.0, 3.0),
+        (1.0, 5.5),
+        (9.0, 5.5),
+        (14.5, 4.0),
+    ];
+    let points: Vec<Pos2> = OUTLINE.iter().map(|(x, y)| middle + vec2(*x, *y)).collect();
+    // The outline is not convex at the flukes: drawn as a fan about the middle, each piece is.
+    for index in 0..points.len() {
+        let next = points[(index + 1) % points.len()];
+        painter.add(Shape::convex_polygon(vec![middle, points[index], next], colour, Stroke::NONE));
+    }
+    let flipper = [(6.0, 4.0), (1.0, 9.0), (3.5, 4.5)].map(|(x, y)| middle + vec2(x, y));
+    painter.add(Shape::convex_polygon(flipper.to_vec(), colour, Stroke::NONE));
+}
+
+/// Options of a study: a row of intervals beside a line.
+fn options(painter: &Painter, place: Rect, count: usize, palette: Palette) {
+    let rows = count.clamp(2, 5);
+    let zero = place.left() + place.width() * 0.45;
+    painter.vline(zero, place.shrink(6.0).y_range(), Stroke::new(1.0, palette.line));
+    for row in 0..rows {
+        let y = place.top() + place.height() * (row as f32 + 1.0) / (rows as f32 + 1.0);
+        let middle = zero + place.width() * (0.02 + 0.06 * row as f32);
+        let half = place.width() * (0.2 - 0.02 * row as f32);
+        painter.hline(middle - half..=middle + half, y, Stroke::new(1.2, palette.faint));
+        painter.circle_filled(pos2(middle, y), 2.5, palette.accent);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sketch_shows_what_the_files_say() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+        let of = |id: &str| {
+            let scenario = read(&root.join(format!("scenarios/{id}.toml"))).unwrap();
+            Sketch::of_scenario(&root, &scenario)
+        };
+        let single = of("hello-endline");
+        assert_eq!((single.traps, single.endlines, single.whale), (1, 1, true));
+        assert_eq!(of("trawl-45").traps, 45);
+        assert!(of("gillnet").net);
+        assert!(of("on-demand-release").stowed);
+        assert!(!of("portrait").has_gear());
+    }
+}
