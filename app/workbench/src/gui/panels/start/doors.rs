@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Frame, RichText, Ui};
+use egui::{Align, Frame, Layout as Flow, RichText, Ui};
 use endline_session::command::SearchAction;
 
 use super::item::What;
@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, root: &Path) {
     for row in DOORS.chunks(columns) {
         ui.columns(columns, |columns| {
             for (ui, door) in columns.iter_mut().zip(row) {
-                one(ui, shared, root, door);
+                ui.with_layout(Flow::top_down(Align::Min), |ui| one(ui, shared, root, door));
             }
         });
     }

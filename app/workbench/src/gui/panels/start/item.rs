@@ -106,7 +106,8 @@ pub(super) struct Item {
 impl Item {
     /// Whether it has every word of a search, in any case.
     pub(super) fn has(&self, sought: &str) -> bool {
-        let text = format!("{} {} {}", files::stem(&self.path), self.name, self.notes).to_lowercase();
+        let text =
+            format!("{} {} {}", files::stem(&self.path), self.name, self.notes).to_lowercase();
         sought.to_lowercase().split_whitespace().all(|word| text.contains(word))
     }
 
@@ -171,7 +172,8 @@ mod tests {
     #[test]
     fn every_shipped_item_is_in_the_group_of_what_it_is_about() {
         let items = shipped();
-        let group = |id: &str| items.iter().find(|item| files::stem(&item.path) == id).unwrap().group;
+        let group =
+            |id: &str| items.iter().find(|item| files::stem(&item.path) == id).unwrap().group;
         for (id, wanted) in [
             ("hello-endline", Group::Encounter),
             ("trawl-10", Group::Gear),
@@ -190,9 +192,7 @@ mod tests {
 
     #[test]
     fn a_search_finds_what_has_all_its_words() {
-        let found = |sought: &str| {
-            shipped().into_iter().filter(|item| item.has(sought)).count()
-        };
+        let found = |sought: &str| shipped().into_iter().filter(|item| item.has(sought)).count();
         assert_eq!(found(""), shipped().len());
         let both = found("trawl offshore");
         assert!(both > 0 && both < found("trawl"), "{both}");

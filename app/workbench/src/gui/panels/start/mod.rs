@@ -6,7 +6,9 @@ mod sketch;
 
 use std::path::{Path, PathBuf};
 
-use egui::{CollapsingHeader, Label, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
+use egui::{
+    Align, CollapsingHeader, Label, Layout as Flow, RichText, ScrollArea, Sense, TextEdit, Ui, vec2,
+};
 use endline_session::command::{EditAction, SearchAction, StudyAction};
 use endline_session::units::Units;
 
@@ -130,7 +132,7 @@ fn cards(ui: &mut Ui, shared: &mut Shared, items: &[&Item]) {
     for row in items.chunks(columns) {
         ui.columns(columns, |columns| {
             for (ui, item) in columns.iter_mut().zip(row) {
-                card(ui, shared, item);
+                ui.with_layout(Flow::top_down(Align::Min), |ui| card(ui, shared, item));
             }
         });
         ui.add_space(4.0);

@@ -96,7 +96,11 @@ pub(super) fn draw(painter: &Painter, place: Rect, sketch: &Sketch, palette: Pal
     gear(painter, place, (surface, seabed), sketch, ink, palette);
     if sketch.whale {
         let middle = if sketch.has_gear() { 0.34 } else { 0.5 };
-        whale(painter, pos2(place.left() + place.width() * middle, (surface + seabed) / 2.0), ink.color);
+        whale(
+            painter,
+            pos2(place.left() + place.width() * middle, (surface + seabed) / 2.0),
+            ink.color,
+        );
     }
 }
 
@@ -115,7 +119,8 @@ fn gear(
         (_, true) => (place.left() + place.width() * 0.45, place.right() - 12.0),
         (_, false) => (place.left() + 12.0, place.right() - 16.0),
     };
-    let at = |index: usize| from + (to - from) * index as f32 / traps.saturating_sub(1).max(1) as f32;
+    let at =
+        |index: usize| from + (to - from) * index as f32 / traps.saturating_sub(1).max(1) as f32;
     for trap in (0..traps).map(at) {
         let shape = Rect::from_center_size(pos2(trap, seabed - 2.5), vec2(5.0, 4.0));
         painter.rect_filled(shape, 0.5, ink.color);
@@ -153,11 +158,11 @@ fn whale(painter: &Painter, middle: Pos2, colour: Color32) {
         (7.0, -5.5),
         (0.0, -5.0),
         (-8.0, -2.5),
-        (-14.0, -1.0),
-        (-19.0, -4.0),
-        (-18.0, 0.0),
-        (-19.0, 3.0),
-        (-14.0, 0.8),
+        (-14.0, -1.2),
+        (-20.0, -2.6),
+        (-17.5, 0.2),
+        (-19.5, 1.8),
+        (-14.0, 0.6),
         (-7.0, 3.0),
         (1.0, 5.5),
         (9.0, 5.5),
