@@ -47,6 +47,22 @@ pub enum RunAction {
     EndComparison,
     /// Run a recording again and show it.
     OpenRecording(PathBuf),
+    /// Give a kept recording another name.
+    RenameRecording {
+        /// Its file.
+        file: PathBuf,
+        /// The name without its ending.
+        name: String,
+    },
+    /// Say something of a kept recording.
+    NoteRecording {
+        /// Its file.
+        file: PathBuf,
+        /// What is said.
+        note: String,
+    },
+    /// Take a kept recording out of the list.
+    DeleteRecording(PathBuf),
     /// Steer the whale: these controls hold until the next.
     Steer(Controls),
     /// Let the scenario's pilot program steer.
@@ -73,6 +89,9 @@ impl RunAction {
             Self::CompareWith(_) => "run.compare",
             Self::EndComparison => "run.end-comparison",
             Self::OpenRecording(_) => "run.open-recording",
+            Self::RenameRecording { .. } => "run.rename-recording",
+            Self::NoteRecording { .. } => "run.note-recording",
+            Self::DeleteRecording(_) => "run.delete-recording",
             Self::Steer(_) => "run.steer",
             Self::Autopilot => "run.autopilot",
         }
@@ -199,6 +218,24 @@ pub static COMMANDS: &[Info] = &[
         },
     ),
     Info::new(
+        "run.rename-recording",
+        "Rename a recording",
+        "Gives the file of a kept recording another name.",
+        Make::Values("its file and the name"),
+    ),
+    Info::new(
+        "run.note-recording",
+        "Note on a recording",
+        "Writes what you say of a recording beside it.",
+        Make::Values("its file and the note"),
+    ),
+    Info::new(
+        "run.delete-recording",
+        "Delete a recording",
+        "Moves a kept recording to the folder `deleted` beside it.",
+        Make::Values("its file"),
+    ),
+    Info::new(
         "run.steer",
         "Steer the whale",
         "Sets the controls of the whale until the next are set.",
@@ -248,6 +285,9 @@ pub(super) fn perform(workbench: &mut Workbench, action: RunAction) -> Result<()
         RunAction::CompareWith(file) => workbench.compare_with(&file),
         RunAction::EndComparison => workbench.end_comparison(),
         RunAction::OpenRecording(file) => workbench.open_recording(&file),
+        RunAction::RenameRecording { file, name } => workbench.rename_recording(&file, &name),
+        RunAction::NoteRecording { file, note } => workbench.note_recording(&file, note),
+        RunAction::DeleteRecording(file) => workbench.delete_recording(&file),
         RunAction::Steer(controls) => workbench.steer(controls),
         RunAction::Autopilot => workbench.autopilot(),
     }

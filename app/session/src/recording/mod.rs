@@ -4,6 +4,7 @@
 //! same bits ([`replay`]). The file format is described in `docs/recording.md`.
 
 mod file;
+pub mod kept;
 pub mod program;
 pub mod replay;
 pub mod take_over;

@@ -31,13 +31,22 @@ pub(super) enum Then {
     Rerun,
 }
 
+/// What a run is of that is not of the texts.
+#[derive(Clone, Debug)]
+pub(super) struct Guest {
+    /// What it is, for the user: a recording, an encounter of a study, a story.
+    name: String,
+    /// Version of the texts as it was loaded.
+    version: u64,
+}
+
 /// A model in the making.
 #[derive(Default)]
 pub(super) struct Pending {
     /// The texts it is made of; empty where it is made of something else.
     texts: Texts,
-    /// Version of the texts where it is made of something else.
-    guest: Option<u64>,
+    /// What it is made of, where that is something else.
+    guest: Option<Guest>,
     then: Then,
 }
 
@@ -46,8 +55,8 @@ pub(super) struct Pending {
 pub(super) struct Made {
     /// The texts; `None` before the first model, and where plugins have changed since.
     texts: Option<Texts>,
-    /// Version of the texts when the run was loaded, where it was made of something else.
-    guest: Option<u64>,
+    /// What it was made of, where that is something else.
+    guest: Option<Guest>,
     /// Whether the texts differ from those, found for a version of the texts.
     stale: std::cell::Cell<Option<(u64, bool)>>,
 }
@@ -88,7 +97,14 @@ impl Workbench {
     /// Whether the run shown is of something else than the texts, and these are as they were when it was loaded.
     #[must_use]
     pub fn shows_guest(&self) -> bool {
-        self.run.made.guest == Some(self.project.documents.version())
+        let version = self.project.documents.version();
+        self.run.made.guest.as_ref().is_some_and(|guest| guest.version == version)
+    }
+
+    /// What the run shown is of, where that is not the scenario: a recording, an encounter of a study, a story.
+    #[must_use]
+    pub fn guest(&self) -> Option<&str> {
+        self.run.made.guest.as_ref().map(|guest| guest.name.as_str())
     }
 
     /// Makes the model of the texts as they stand.
@@ -116,13 +132,14 @@ impl Workbench {
         self.make(move || source.prepare(&host))
     }
 
-    /// Makes a model of something else than the texts.
+    /// Makes a model of something else than the texts, which has a name for the user.
     pub(super) fn make_guest(
         &mut self,
+        name: String,
         then: Then,
         make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static,
     ) -> Result<(), String> {
-        let guest = Some(self.project.documents.version());
+        let guest = Some(Guest { name, version: self.project.documents.version() });
         self.run.pending = Pending { texts: Texts::new(), guest, then };
         self.make(make)
     }

@@ -5,8 +5,11 @@ use std::sync::Arc;
 
 use super::Workbench;
 use super::model::Then;
+use super::notice::Notice;
+use crate::error::Error;
 use crate::live::RunCommand;
 use crate::recording::Recording;
+use crate::recording::kept::{self, Kept};
 
 /// Shortest run that is kept [s].
 const WORTH_KEEPING_S: f64 = 0.5;
@@ -23,8 +26,14 @@ impl Workbench {
         let Some(path) = (1..10_000).map(named).find(|path| !path.exists()) else { return };
         // Where the folder cannot be made, saving reports it.
         let _ = std::fs::create_dir_all(&folder);
-        if self.send(RunCommand::SaveRecording(path)).is_ok() {
+        let Some(view) = self.view() else { return };
+        let of = self.guest().map_or(stem, str::to_owned);
+        let known = Kept::of_run(of, view.newest_s, view.summary.as_ref());
+        if self.send(RunCommand::SaveRecording(path.clone())).is_ok() {
             self.run.kept += 1;
+            if let Err(error) = known.save(&path) {
+                self.notice = Some(Notice::fault(error.to_string()));
+            }
         }
     }
 
@@ -44,6 +53,34 @@ impl Workbench {
         self.run.kept
     }
 
+    /// Times that kept runs came, went or changed since the start: what lists them reads them again.
+    #[must_use]
+    pub fn recordings_version(&self) -> u64 {
+        self.run.kept + self.run.kept_changes
+    }
+
+    pub(crate) fn rename_recording(&mut self, file: &Path, name: &str) -> Result<(), String> {
+        self.change_kept(kept::rename(file, name).map(drop))
+    }
+
+    pub(crate) fn note_recording(&mut self, file: &Path, note: String) -> Result<(), String> {
+        let known = Kept::beside(file).unwrap_or_default();
+        self.change_kept(Kept { note, ..known }.save(file))
+    }
+
+    pub(crate) fn delete_recording(&mut self, file: &Path) -> Result<(), String> {
+        let moved = kept::delete(file);
+        if let Ok(to) = &moved {
+            self.notice = Some(Notice::done(format!("moved to {}", to.display())));
+        }
+        self.change_kept(moved.map(drop))
+    }
+
+    fn change_kept(&mut self, changed: Result<(), Error>) -> Result<(), String> {
+        self.run.kept_changes += 1;
+        changed.map_err(|error| error.to_string())
+    }
+
     pub(crate) fn save_recording(&mut self, file: PathBuf) -> Result<(), String> {
         self.send(RunCommand::SaveRecording(file))
     }
@@ -53,6 +90,7 @@ impl Workbench {
         let recording = Recording::load(file).map_err(|error| error.to_string())?;
         let (source, host) = (recording.source, Arc::clone(&self.plugins.host));
         let then = Then::Inputs(recording.inputs, recording.header.plugins);
-        self.make_guest(then, move || source.prepare(&host))
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        self.make_guest(format!("recording {name}"), then, move || source.prepare(&host))
     }
 }

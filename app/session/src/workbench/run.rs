@@ -71,6 +71,8 @@ pub struct CurrentRun {
     pub(super) is_kept: bool,
     /// Runs kept since the start.
     pub(super) kept: u64,
+    /// Times that kept runs were renamed, noted on or deleted since the start.
+    pub(super) kept_changes: u64,
     /// Whether plugins were loaded again since the run's thread began.
     pub(super) other_plugins: bool,
 }
@@ -90,6 +92,7 @@ impl CurrentRun {
             comparison: None,
             is_kept: false,
             kept: 0,
+            kept_changes: 0,
             other_plugins: false,
         }
     }

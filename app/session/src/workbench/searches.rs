@@ -204,10 +204,11 @@ impl Workbench {
 
     /// Runs a story, to its ending in the search or to the end of its scenario.
     pub(crate) fn run_story(&mut self, story: usize, length: Length) -> Result<(), String> {
-        let (question, story) = self.story(story)?;
+        let (question, found) = self.story(story)?;
         self.keep_run();
         let host = Arc::clone(&self.plugins.host);
-        self.make_guest(Then::Start, move || question.prepare(&story, length, &host))
+        let name = format!("{}, story {}", question.observation.name, story + 1);
+        self.make_guest(name, Then::Start, move || question.prepare(&found, length, &host))
     }
 
     /// Writes a story as a scenario of the library.

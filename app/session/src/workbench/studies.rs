@@ -207,12 +207,14 @@ impl Workbench {
             return Err("no results of a study are shown".to_owned());
         };
         let encounters = shown.opened.study.encounters;
-        if option >= shown.opened.options.len() || u64::from(encounter) >= encounters {
+        let plan = shown.opened.options.get(option);
+        let Some(plan) = plan.filter(|_| u64::from(encounter) < encounters) else {
             return Err("the study shown has no such run".to_owned());
-        }
+        };
+        let name = format!("{}, encounter {encounter}, {}", shown.opened.study.name, plan.name);
         self.keep_run();
         let host = Arc::clone(&self.plugins.host);
-        self.make_guest(Then::Start, move || shown.prepare(option, encounter, &host))
+        self.make_guest(name, Then::Start, move || shown.prepare(option, encounter, &host))
     }
 
     /// The command lines that run the open study and report it; `None` where none is open.

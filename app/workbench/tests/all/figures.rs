@@ -19,13 +19,7 @@ use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, flown, give, opened, wait};
-
-/// Shows one panel alone.
-fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
-    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
-    harness.run_steps(3);
-}
+use crate::common::{Folder, flown, give, only, opened, wait};
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
     harness.state().shared.workbench.view().cloned().unwrap()

@@ -17,7 +17,7 @@ use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel_id::PanelId;
 
-use crate::common::{Folder, drag, flown, give, wait};
+use crate::common::{Folder, drag, flown, give, only, wait};
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
     harness.state().shared.workbench.view().cloned().unwrap()
@@ -33,12 +33,6 @@ fn seek(harness: &mut Harness<'static, App>, time_s: f64) -> Arc<LiveView> {
 /// Whether rope and whale are at the same places, to the bit.
 fn same(one: &LiveView, other: &LiveView) -> bool {
     one.frame.nodes == other.frame.nodes && one.frame.whale == other.frame.whale
-}
-
-/// Shows one panel alone.
-fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
-    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
-    harness.run_steps(3);
 }
 
 /// Runs again from the moment shown, to the end.

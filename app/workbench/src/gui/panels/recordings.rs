@@ -6,14 +6,16 @@ use endline_session::command::RunAction;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use egui::{RichText, ScrollArea, Ui};
+use egui::{Frame, RichText, ScrollArea, TextEdit, Ui};
+use endline_session::recording::{self, kept::Kept};
+use endline_sim::metrics::Outcome;
 
 use crate::gui::files;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets;
+use crate::gui::widgets::{self, words};
 
 /// The list of recordings, read again when a run was kept.
 #[derive(Debug, Default)]
@@ -24,8 +26,11 @@ pub struct RecordingsPanel {
 #[derive(Clone, Debug)]
 struct Recorded {
     path: PathBuf,
+    /// Name and note as they are typed.
+    name: String,
+    note: String,
     age: String,
-    kilobytes: u64,
+    kept: Option<Kept>,
 }
 
 impl Panel for RecordingsPanel {
@@ -40,11 +45,11 @@ impl Panel for RecordingsPanel {
                 "No folder to keep recordings in: there is no user data folder here.",
             );
         };
-        let kept = shared.workbench.kept_runs();
-        if self.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
-            self.files = Some((kept, list(&folder)));
+        let version = shared.workbench.recordings_version();
+        if self.files.as_ref().is_none_or(|(seen, _)| *seen != version) {
+            self.files = Some((version, list(&folder)));
         }
-        let files = self.files.as_ref().map_or(&[][..], |(_, files)| files);
+        let files = self.files.as_mut().map_or(&mut [][..], |(_, files)| files);
         ui.horizontal_wrapped(|ui| {
             ui.label(
                 RichText::new("Every run is kept here when it ends or another begins.")
@@ -63,12 +68,17 @@ impl Panel for RecordingsPanel {
     }
 }
 
-fn row(ui: &mut Ui, shared: &mut Shared, file: &Recorded) {
-    let faint = Theme::palette_of(ui).faint;
-    let name = files::stem(&file.path);
+/// How it ended and what can be done with it, above its note.
+fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(name);
-        ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));
+        let name = TextEdit::singleline(&mut file.name).desired_width(190.0);
+        if ui.add(name).on_hover_text("Type another name").lost_focus()
+            && file.name != files::stem(&file.path)
+        {
+            let (file, name) = (file.path.clone(), file.name.clone());
+            shared.give(RunAction::RenameRecording { file, name });
+        }
+        ended(ui, shared, file);
         if ui
             .button("Open")
             .on_hover_text("Run it again, to the bit, and look at any moment")
@@ -82,23 +92,48 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &Recorded) {
         if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
             ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));
         }
+        if ui.button("Delete").on_hover_text("Moves it to the folder `deleted` beside it").clicked()
+        {
+            shared.give(RunAction::DeleteRecording(file.path.clone()));
+        }
     });
+    let note = TextEdit::singleline(&mut file.note).hint_text("Note").desired_width(f32::INFINITY);
+    let known = file.kept.as_ref().map_or("", |kept| kept.note.as_str());
+    if ui.add(note.frame(Frame::NONE)).lost_focus() && file.note != known {
+        let (file, note) = (file.path.clone(), file.note.clone());
+        shared.give(RunAction::NoteRecording { file, note });
+    }
+    ui.separator();
+}
+
+/// Outcome, greatest tension, length and age, as far as they are known.
+fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
+    let palette = Theme::palette_of(ui);
+    let Some(kept) = &file.kept else {
+        ui.label(RichText::new(&file.age).color(palette.faint));
+        return;
+    };
+    let named = |outcome: &Outcome| kept.outcome.as_deref() == Some(outcome.name());
+    if let Some(outcome) = Outcome::ALL.into_iter().find(named) {
+        let (words, help, colour) = words::outcome(outcome, palette);
+        ui.label(RichText::new(words).color(colour)).on_hover_text(help);
+    }
+    let force = shared.workbench.preferences.units.force().text(kept.greatest_tension_n);
+    let facts = format!("peak {force}, {:.0} s, {}", kept.simulated_s, file.age);
+    ui.label(RichText::new(facts).color(palette.faint)).on_hover_text(format!("of {}", kept.of));
 }
 
 fn list(folder: &std::path::Path) -> Vec<Recorded> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut found: Vec<(SystemTime, PathBuf, u64)> = files
-        .filter(|path| path.extension().is_some_and(|ending| ending == "endline"))
-        .filter_map(|path| {
-            let data = std::fs::metadata(&path).ok()?;
-            Some((data.modified().ok()?, path, data.len()))
-        })
+    let mut found: Vec<(SystemTime, PathBuf)> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == recording::EXTENSION))
+        .filter_map(|path| Some((std::fs::metadata(&path).ok()?.modified().ok()?, path)))
         .collect();
-    found.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.cmp(&a.1)));
-    let recorded = |(at, path, bytes): (SystemTime, PathBuf, u64)| Recorded {
-        path,
-        age: age(at),
-        kilobytes: bytes.div_ceil(1024),
+    found.sort_by(|a, b| b.cmp(a));
+    let recorded = |(at, path): (SystemTime, PathBuf)| {
+        let kept = Kept::beside(&path);
+        let note = kept.as_ref().map(|kept| kept.note.clone()).unwrap_or_default();
+        Recorded { name: files::stem(&path), note, age: age(at), kept, path }
     };
     found.into_iter().map(recorded).collect()
 }

@@ -38,12 +38,12 @@ impl Panel for RunPanel {
 fn show(ui: &mut Ui, shared: &mut Shared) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         buttons(ui, shared);
-        if shared.workbench.stale() {
-            stale(ui, shared);
-        }
         let Some(view) = shared.workbench.view().cloned() else { return };
         progress(ui, &view);
         speeds(ui, shared, &view);
+        if shared.workbench.stale() {
+            stale(ui, shared);
+        }
         fly(ui, shared);
         command(ui, shared, "Copy as command line", WindowAction::CopyCommandLine);
         state(ui, &view);
@@ -76,10 +76,11 @@ fn stale(ui: &mut Ui, shared: &mut Shared) {
         let text = "The gear has errors. The run shown is from before them.";
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {
-        ui.horizontal(|ui| {
-            let guest = shared.workbench.shows_guest();
-            let text =
-                if guest { "Not a run of the scenario." } else { "Gear or scenario changed." };
+        ui.horizontal_wrapped(|ui| {
+            let text = match shared.workbench.guest() {
+                Some(guest) => format!("This is {guest}; the scenario is another."),
+                None => "Gear or scenario changed.".to_owned(),
+            };
             ui.label(RichText::new(text).color(palette.warning));
             command(ui, shared, "Apply", RunAction::Apply);
         });

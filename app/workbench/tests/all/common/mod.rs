@@ -19,9 +19,9 @@ use endline_session::PluginHost;
 use endline_session::edit::Documents;
 use endline_session::live::engine::{Engine, Launch, live};
 use endline_session::live::{LiveView, RunCommand, Status};
-use endline_session::plugins::Hook;
 use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
 
@@ -160,6 +160,12 @@ pub fn opened_with(
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
     wait(&mut harness, |app| app.shared.workbench.view().is_some());
     harness
+}
+
+/// One panel and no other.
+pub fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
+    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
+    harness.run_steps(3);
 }
 
 /// Draws until something is so.

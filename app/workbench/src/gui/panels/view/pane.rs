@@ -157,9 +157,10 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     let run = if shared.workbench.comparison().is_some() { ["A", "B"][pane.run] } else { "" };
     let named = if panel.eyes.len() > 1 { spoken(eye.named) } else { String::new() };
     let roomy = pane.rect.width() > ROOMY;
-    let standing = match (view.sought && pane.run == 0, shared.workbench.stale() && pane.run == 0) {
+    let of = shared.workbench.guest().filter(|_| pane.run == 0 && roomy).unwrap_or_default();
+    let edited = shared.workbench.stale() && shared.workbench.guest().is_none();
+    let standing = match (view.sought && pane.run == 0, edited && pane.run == 0) {
         (true, _) => "looking back",
-        (false, true) if shared.workbench.shows_guest() => "not of the scenario",
         (false, true) => "before the last edits",
         (false, false) => "",
     };
@@ -169,7 +170,7 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     } else {
         String::new()
     };
-    [run, named.as_str(), standing, arrows.as_str()]
+    [run, named.as_str(), of, standing, arrows.as_str()]
         .into_iter()
         .filter(|words| !words.is_empty())
         .collect::<Vec<_>>()
