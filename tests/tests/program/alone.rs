@@ -1,7 +1,5 @@
 //! The program's file alone: no gear library and no plugins beside it, an empty home.
 
-use std::fs;
-
 use crate::common::{Called, Place, edit, text};
 
 #[test]

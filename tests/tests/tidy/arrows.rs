@@ -49,9 +49,18 @@ const WALLS: [Wall; 9] = [
         ours: &["endline-sdk", "endline-sim", "endline-gear"],
         outside: None,
     },
+    // The plugins are linked for `inside.rs` alone, so that the program's file works by itself.
     Wall {
         folder: "app/workbench",
-        ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"],
+        ours: &[
+            "endline-sdk",
+            "endline-sim",
+            "endline-gear",
+            "endline-session",
+            PLUGINS[0],
+            PLUGINS[1],
+            PLUGINS[2],
+        ],
         outside: None,
     },
     // Above the workbench for its pictures alone.
@@ -158,6 +167,25 @@ fn outside_crates_stay_where_they_belong() {
         }
     }
     none(&complaints, "each outside crate that brings the world in has one home");
+}
+
+/// What the program brings with it is listed in one file; all else knows plugins by their hooks.
+#[test]
+fn one_file_of_the_program_names_its_plugins() {
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs"]) {
+        let is_inside = source.path == "app/workbench/src/inside.rs";
+        if is_inside || !source.path.starts_with("app/") || !source.path.contains("/src/") {
+            continue;
+        }
+        for (number, line) in source.text.lines().enumerate() {
+            let code = line.split("//").next().unwrap_or_default();
+            if PLUGINS.iter().any(|plugin| code.contains(&plugin.replace('-', "_"))) {
+                complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
+            }
+        }
+    }
+    none(&complaints, "plugins are named in app/workbench/src/inside.rs alone");
 }
 
 /// The window's toolkit, in code, not in comments. Whoever drives Endline without a window, from a script or the command

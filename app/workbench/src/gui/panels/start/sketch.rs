@@ -80,74 +80,91 @@ fn read(path: &Path) -> Option<Document> {
 
 /// Draws the sketch in a rectangle.
 pub(super) fn draw(painter: &Painter, place: Rect, sketch: &Sketch, palette: Palette) {
-    let ink = Stroke::new(1.4, palette.text.gamma_multiply(0.8));
     painter.rect_filled(place, 4.0, palette.field);
     if sketch.options > 0 {
         return options(painter, place, sketch.options, palette);
     }
-    let (surface, seabed) = (place.top() + 11.0, place.bottom() - 6.0);
-    let water = Rect::from_min_max(pos2(place.left(), surface), place.max);
-    painter.rect_filled(water, 4.0, palette.accent.gamma_multiply(0.16));
-    let across = |y: f32, colour: Color32| {
-        painter.hline(place.x_range(), y, Stroke::new(1.0, colour));
+    let sea = Sea {
+        painter,
+        place,
+        surface: place.top() + 11.0,
+        seabed: place.bottom() - 6.0,
+        ink: palette.text.gamma_multiply(0.8),
+        palette,
     };
-    across(surface, palette.accent.gamma_multiply(0.6));
-    across(seabed, palette.line);
-    gear(painter, place, (surface, seabed), sketch, ink, palette);
+    sea.water();
+    sea.gear(sketch);
     if sketch.whale {
-        let middle = if sketch.has_gear() { 0.34 } else { 0.5 };
-        whale(
-            painter,
-            pos2(place.left() + place.width() * middle, (surface + seabed) / 2.0),
-            ink.color,
-        );
+        let across = if sketch.has_gear() { 0.34 } else { 0.5 };
+        let x = place.left() + place.width() * across;
+        whale(painter, pos2(x, (sea.surface + sea.seabed) / 2.0), sea.ink);
     }
 }
 
-/// Traps along the seabed, a net between its ends, and an endline with a buoy up from each end that has one.
-fn gear(
-    painter: &Painter,
+/// Where gear is drawn, from the surface to the seabed.
+struct Sea<'a> {
+    painter: &'a Painter,
     place: Rect,
-    (surface, seabed): (f32, f32),
-    sketch: &Sketch,
-    ink: Stroke,
+    surface: f32,
+    seabed: f32,
+    ink: Color32,
     palette: Palette,
-) {
-    let traps = sketch.traps.min(MOST_TRAPS);
-    let (from, to) = match (traps, sketch.whale) {
-        (..=1, _) => (place.left() + place.width() * 0.7, place.left() + place.width() * 0.7),
-        (_, true) => (place.left() + place.width() * 0.45, place.right() - 12.0),
-        (_, false) => (place.left() + 12.0, place.right() - 16.0),
-    };
-    let at =
-        |index: usize| from + (to - from) * index as f32 / traps.saturating_sub(1).max(1) as f32;
-    for trap in (0..traps).map(at) {
-        let shape = Rect::from_center_size(pos2(trap, seabed - 2.5), vec2(5.0, 4.0));
-        painter.rect_filled(shape, 0.5, ink.color);
-    }
-    if traps > 1 {
-        painter.hline(from..=to, seabed - 1.5, Stroke::new(1.0, ink.color));
-    }
-    if sketch.net {
-        let panel = Rect::from_x_y_ranges(from..=to, seabed - 13.0..=seabed - 2.0);
-        painter.rect_filled(panel, 0.0, ink.color.gamma_multiply(0.25));
-    }
-    let ends = [(sketch.endlines >= 1, from), (sketch.endlines >= 2 && traps > 1, to)];
-    for (_, foot) in ends.into_iter().filter(|(is_there, _)| *is_there) {
-        let top = if sketch.stowed { seabed - 9.0 } else { surface };
-        endline(painter, pos2(foot, seabed - 4.0), top, ink, palette);
-    }
 }
 
-/// A rope that leans with the tide, and the buoy at its top.
-fn endline(painter: &Painter, foot: Pos2, top: f32, ink: Stroke, palette: Palette) {
-    let lean = (foot.y - top) * 0.35;
-    let points = (0..=8).map(|step| {
-        let up = step as f32 / 8.0;
-        pos2(foot.x + lean * up * up, foot.y + (top - foot.y) * up)
-    });
-    painter.add(Shape::line(points.collect(), ink));
-    painter.circle_filled(pos2(foot.x + lean, top), 2.6, palette.warning);
+impl Sea<'_> {
+    fn water(&self) {
+        let (place, accent) = (self.place, self.palette.accent);
+        let water = Rect::from_min_max(pos2(place.left(), self.surface), place.max);
+        self.painter.rect_filled(water, 4.0, accent.gamma_multiply(0.16));
+        let surface = Stroke::new(1.0, accent.gamma_multiply(0.6));
+        self.painter.hline(place.x_range(), self.surface, surface);
+        self.painter.hline(place.x_range(), self.seabed, Stroke::new(1.0, self.palette.line));
+    }
+
+    /// Traps along the seabed, a net between its ends, and an endline with a buoy up from each end that has one.
+    fn gear(&self, sketch: &Sketch) {
+        let traps = sketch.traps.min(MOST_TRAPS);
+        let (from, to) = self.ends(traps, sketch.whale);
+        let step = (to - from) / traps.saturating_sub(1).max(1) as f32;
+        for trap in 0..traps {
+            let middle = pos2(from + step * trap as f32, self.seabed - 2.5);
+            let shape = Rect::from_center_size(middle, vec2(5.0, 4.0));
+            self.painter.rect_filled(shape, 0.5, self.ink);
+        }
+        if traps > 1 {
+            self.painter.hline(from..=to, self.seabed - 1.5, Stroke::new(1.0, self.ink));
+        }
+        if sketch.net {
+            let panel = Rect::from_x_y_ranges(from..=to, self.seabed - 13.0..=self.seabed - 2.0);
+            self.painter.rect_filled(panel, 0.0, self.ink.gamma_multiply(0.25));
+        }
+        let ends = [(sketch.endlines >= 1, from), (sketch.endlines >= 2 && traps > 1, to)];
+        for (_, foot) in ends.into_iter().filter(|(is_there, _)| *is_there) {
+            self.endline(foot, if sketch.stowed { self.seabed - 9.0 } else { self.surface });
+        }
+    }
+
+    /// Where the first trap lies and where the last.
+    fn ends(&self, traps: usize, whale: bool) -> (f32, f32) {
+        let across = |share: f32| self.place.left() + self.place.width() * share;
+        match (traps, whale) {
+            (..=1, _) => (across(0.7), across(0.7)),
+            (_, true) => (across(0.45), across(0.86)),
+            (_, false) => (across(0.14), across(0.81)),
+        }
+    }
+
+    /// A rope that leans with the tide, and the buoy at its top.
+    fn endline(&self, foot: f32, top: f32) {
+        let bottom = self.seabed - 4.0;
+        let lean = (bottom - top) * 0.35;
+        let points = (0..=8).map(|step| {
+            let up = step as f32 / 8.0;
+            pos2(foot + lean * up * up, bottom + (top - bottom) * up)
+        });
+        self.painter.add(Shape::line(points.collect(), Stroke::new(1.4, self.ink)));
+        self.painter.circle_filled(pos2(foot + lean, top), 2.6, self.palette.warning);
+    }
 }
 
 /// A whale from the side, its head to the right.
