@@ -60,7 +60,7 @@ pub(crate) mod tests;
 pub mod threat;
 
 pub use control::Control;
-pub use open::Opened;
+pub use open::{Files, Opened};
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
 pub use reader::ResultsReader;

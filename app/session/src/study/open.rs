@@ -35,6 +35,16 @@ pub struct Opened {
     pub(super) families: Vec<usize>,
 }
 
+/// Files that a study is read with.
+pub struct Files {
+    /// Folder of the gear library.
+    pub root: PathBuf,
+    /// Its files.
+    pub sources: Sources,
+    /// File and text of a scenario that is open and may differ from what stands in its file.
+    pub scenario: Option<(PathBuf, String)>,
+}
+
 impl Opened {
     /// Reads a study, its scenario and library, and checks every option by assembling it.
     ///
@@ -56,10 +66,29 @@ impl Opened {
         library: Option<&Path>,
         host: &PluginHost,
     ) -> Result<Self, Error> {
-        let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
         let root = locate::library(Some(path), library).map_err(Error::Replay)?;
-        let sources = host.with_clips(Sources::from_folder(&root).map_err(Error::Diagnostics)?);
-        let (scenario_path, scenario_text) = scenario(&study, path, &root)?;
+        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        Self::of_sources(text, path, Files { root, sources, scenario: None }, host)
+    }
+
+    /// The same with the library's files as they are edited.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn of_sources(
+        text: String,
+        path: &Path,
+        files: Files,
+        host: &PluginHost,
+    ) -> Result<Self, Error> {
+        let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
+        let sources = host.with_clips(files.sources);
+        let named = scenario_path(&study, path, &files.root);
+        let open = files.scenario.filter(|(open, _)| *open == named);
+        let (scenario_path, scenario_text) = match open {
+            Some(scenario) => scenario,
+            None => scenario(&study, named, &files.root)?,
+        };
         let base = Base {
             study: &study,
             name: scenario_path.display().to_string(),
@@ -151,12 +180,17 @@ fn families(study: &Study, options: &[OptionPlan]) -> Vec<usize> {
 }
 
 /// The file of the baseline scenario: of the library by its id, or beside the study by its path.
-fn scenario(study: &Study, path: &Path, root: &Path) -> Result<(PathBuf, String), Error> {
+fn scenario_path(study: &Study, path: &Path, root: &Path) -> PathBuf {
     let named = &study.scenario.value;
-    let file = match named.ends_with(".toml") {
+    match named.ends_with(".toml") {
         true => path.parent().unwrap_or(Path::new("")).join(named),
         false => root.join("scenarios").join(format!("{named}.toml")),
-    };
+    }
+}
+
+/// The baseline scenario, read.
+fn scenario(study: &Study, file: PathBuf, root: &Path) -> Result<(PathBuf, String), Error> {
+    let named = &study.scenario.value;
     let text = std::fs::read_to_string(&file).map_err(|error| {
         let folder = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
         let mut ids: Vec<String> = folder

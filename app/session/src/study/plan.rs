@@ -180,25 +180,38 @@ impl Base<'_> {
         })
     }
 
+    /// A problem of an option's texts, told at what the study sets. What stands in these texts stands in no file, so their lines
+    /// would lead nowhere: where no setting is to blame, the option is.
     fn relocate(&self, option: &StudyOption, problem: Diagnostic) -> Diagnostic {
-        let leads_to = |field: &str| {
-            !problem.field.is_empty()
-                && (field == problem.field || field.starts_with(&format!("{}.", problem.field)))
-        };
-        let by_option = option.settings.iter().find(|setting| {
-            let field =
-                setting.library_field().map_or(setting.field.value.as_str(), |(_, field)| field);
-            leads_to(field)
+        let by_option = option.settings.iter().find(|setting| match setting.library_field() {
+            Some((file, field)) => problem.file == file && meet(field, &problem.field),
+            None => problem.file == self.name && meet(&setting.field.value, &problem.field),
         });
-        let by_prior = self.study.priors.iter().find(|prior| leads_to(field_of(prior)));
+        let by_prior =
+            || self.study.priors.iter().find(|prior| meet(field_of(prior), &problem.field));
+        let is_changed = || !option.settings.is_empty() || !option.removes.is_empty();
         let place = by_option
             .map(|setting| &setting.field.place)
-            .or(by_prior.map(|prior| &prior.name.place));
-        place.map_or(problem.clone(), |place| {
-            place.error(
-                format!("option `{}`: {}", option.id.value, problem.message),
-                problem.help.clone(),
-            )
-        })
+            .or_else(|| Some(&by_prior()?.name.place))
+            .or_else(|| is_changed().then_some(&option.id.place));
+        place.map_or_else(
+            || problem.clone(),
+            |place| {
+                let at = match problem.field.is_empty() {
+                    true => problem.file.clone(),
+                    false => format!("{}, {}", problem.file, problem.field),
+                };
+                let told = format!("option `{}`: {} ({at})", option.id.value, problem.message);
+                place.error(told, problem.help.clone())
+            },
+        )
     }
+}
+
+/// Whether one of two dotted paths leads to the other, or into it.
+fn meet(one: &str, other: &str) -> bool {
+    let within = |outer: &str, inner: &str| {
+        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    !one.is_empty() && !other.is_empty() && (within(one, other) || within(other, one))
 }

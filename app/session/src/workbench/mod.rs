@@ -28,6 +28,7 @@ pub mod rules;
 pub mod run;
 pub mod searches;
 pub mod studies;
+pub mod study_check;
 
 use std::path::PathBuf;
 use std::sync::Arc;

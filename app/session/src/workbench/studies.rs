@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
+use super::study_check::StudyCheck;
 use crate::edit::Documents;
 use crate::locate;
 use crate::save::copy_tree;
@@ -21,6 +22,8 @@ pub struct Studies {
     pub results: ResultsReader,
     /// Folder that results are kept in; `results` where the program was started, without one.
     pub folder: Option<PathBuf>,
+    /// The open study checked as it is edited.
+    pub check: StudyCheck,
     /// Ids of the library's scenarios when the study was opened.
     pub scenarios: Vec<String>,
 }

@@ -21,6 +21,7 @@ pub mod panel_id;
 pub mod panels;
 pub mod preferences;
 pub mod questions;
+pub mod scenario_fields;
 pub mod shared;
 pub mod status;
 pub mod tables;

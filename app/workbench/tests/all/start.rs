@@ -49,7 +49,7 @@ fn a_recording_tells_how_it_ended_and_takes_a_name_and_a_note() {
     harness.run_steps(2);
     retype(&mut harness, "", "too far to starboard");
     wait(&mut harness, |_| Kept::beside(&renamed).unwrap().note == "too far to starboard");
-    assert_eq!(Kept::beside(&renamed).unwrap().simulated_s, known.simulated_s);
+    assert_eq!(Kept::beside(&renamed).unwrap().of, known.of);
 
     harness.get_by_label("Delete").click();
     wait(&mut harness, |_| !renamed.exists());

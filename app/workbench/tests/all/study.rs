@@ -345,3 +345,40 @@ fn a_design_becomes_an_option_its_results_are_said_in_words_and_its_bundle_is_sa
     let refused = harness.state().shared.workbench.notice.clone().unwrap();
     assert!(refused.text.contains("is there already"), "{}", refused.text);
 }
+
+#[test]
+fn a_field_is_found_by_its_meaning_and_a_wrong_value_is_told_before_anything_is_run() {
+    let folder = Folder::new("settable");
+    let mut harness = studying(&folder);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::STUDY.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_all_by_label_contains("Set a field").next().unwrap().click();
+    harness.run_steps(4);
+    harness.event(egui::Event::Text("surface speed".to_owned()));
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Sea: Depth").is_none(), "a search leaves out the rest");
+    harness.get_by_label("Sea: Current").click();
+    harness.run_steps(2);
+    let set = "option.0.set.\"current.speed\"";
+    let value = |harness: &Harness<'static, App>| {
+        harness.state().shared.workbench.project.documents.field(Documents::STUDY, set)
+    };
+    assert_eq!(value(&harness).as_deref(), Some("0.25 m/s"), "it begins as the scenario has it");
+
+    let clean = |app: &App| app.shared.workbench.studies.check.is_clean();
+    give(&mut harness, change(set, "1,700 lbf every 60 ft"));
+    wait(&mut harness, |app| !clean(app));
+    let problem = harness.state().shared.workbench.studies.check.problems()[0].clone();
+    assert!(problem.message.contains("option `strong`"), "{problem}");
+    assert!(problem.excerpt.contains("every 60 ft"), "told at the setting: {problem}");
+    give(&mut harness, EditAction::Undo);
+    wait(&mut harness, clean);
+}
+
+fn change(field: &str, value: &str) -> EditAction {
+    EditAction::Set {
+        path: Documents::STUDY.to_owned(),
+        field: field.to_owned(),
+        value: value.to_owned(),
+    }
+}

@@ -5,9 +5,9 @@ use endline_gear::{Document, Kind};
 use endline_sdk::AttributeKind;
 use endline_session::edit::{Documents, assembly};
 
-use super::rows::{LINKS_PART, Row};
 use super::{Edit, flag, name, problem, rows};
 use crate::gui::fields;
+use crate::gui::scenario_fields::{LINKS_PART, Row};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};

@@ -3,7 +3,6 @@
 mod attributes;
 mod friction;
 mod links;
-mod rows;
 
 use crate::gui::command::action::{PanelAction, ViewAction};
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
@@ -16,10 +15,10 @@ use crate::gui::fields;
 use crate::gui::files;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::scenario_fields::{FLAGS, Flag, RUN, Row, SEA, SWIMS, TIDE, WAVES, WHALE};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets;
-use rows::{FLAGS, Flag, RUN, Row, SEA, TIDE, WAVES, WHALE};
 
 /// What is typed into a field of the scenario.
 type Edit = (String, String);
@@ -148,7 +147,7 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     animal(ui, shared, dead, edits);
     rows(ui, shared, "whale", WHALE, edits);
     if !dead {
-        rows(ui, shared, "swims", rows::SWIMS, edits);
+        rows(ui, shared, "swims", SWIMS, edits);
         if let Some(motion) = motion {
             attributes::show(
                 ui,

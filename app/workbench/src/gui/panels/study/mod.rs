@@ -3,6 +3,7 @@
 mod options;
 mod priors;
 mod queue;
+mod settable;
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command::command;
@@ -116,7 +117,8 @@ fn pick(ui: &mut Ui, shared: &mut Shared) {
 /// The one thing to do next, and the same as text.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    let ready = shared.workbench.study_is_sound();
+    shared.workbench.check_study();
+    let ready = shared.workbench.study_is_sound() && shared.workbench.studies.check.is_clean();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
             .on_hover_text("Save, and run what is missing behind everything else; it can be left off and goes on")
@@ -271,7 +273,7 @@ fn option_ids(documents: &Documents) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong with the study's text.
+/// What is wrong with the study's text, and with its options as they are assembled.
 fn problems(ui: &mut Ui, shared: &Shared) {
     let file = shared.workbench.project.documents.shown_name(Documents::STUDY);
     let own: Vec<Diagnostic> = shared
@@ -283,7 +285,11 @@ fn problems(ui: &mut Ui, shared: &Shared) {
         .filter(|problem| problem.file == file)
         .cloned()
         .collect();
-    for problem in &own {
+    let check = &shared.workbench.studies.check;
+    for problem in own.iter().chain(check.problems()) {
         problem::entry(ui, problem);
+    }
+    if let Some(fault) = check.fault() {
+        ui.label(RichText::new(fault).color(Theme::palette_of(ui).error));
     }
 }

@@ -6,7 +6,7 @@ use endline_session::command::StudyAction;
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 
-use super::Edits;
+use super::{Edits, settable};
 use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -155,10 +155,13 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
     ui.horizontal(|ui| {
         let id = ui.id().with(("fresh setting", index));
         let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
+        if let Some((path, now)) = settable::menu(ui, shared, index) {
+            edits.push((format!("{table}.\"{path}\""), Some(Setting::plain(&now))));
+        }
         let width = ui.available_width() - 70.0;
         let editor = egui::TextEdit::singleline(&mut typed)
             .desired_width(width)
-            .hint_text("field to set, such as current.speed");
+            .hint_text("or its path, such as current.speed");
         let response = ui.add(editor).on_hover_text(SUCH_AS);
         let entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));

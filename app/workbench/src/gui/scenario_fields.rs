@@ -1,27 +1,29 @@
-//! The fields of the scenario panel: what each is called, where it stands, what it means.
+//! The fields of a scenario: what each is called, where it stands, what it means.
 
 /// A field of the scenario's file that is typed.
-pub(super) struct Row<'a> {
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a> {
     /// Its name on screen.
-    pub(super) label: &'a str,
+    pub label: &'a str,
     /// Where it stands in the file.
-    pub(super) field: &'a str,
+    pub field: &'a str,
     /// What holds where it is empty.
-    pub(super) usual: &'a str,
+    pub usual: &'a str,
     /// What it means, with an example.
-    pub(super) help: &'a str,
+    pub help: &'a str,
 }
 
 /// A field that is on or off.
-pub(super) struct Flag {
+#[derive(Clone, Copy, Debug)]
+pub struct Flag {
     /// Its name on screen.
-    pub(super) label: &'static str,
+    pub label: &'static str,
     /// Where it stands in the file.
-    pub(super) field: &'static str,
+    pub field: &'static str,
     /// What holds where it is not there.
-    pub(super) usual: bool,
+    pub usual: bool,
     /// What it means.
-    pub(super) help: &'static str,
+    pub help: &'static str,
 }
 
 const fn row(
@@ -37,7 +39,8 @@ const fn flag(label: &'static str, field: &'static str, usual: bool, help: &'sta
     Flag { label, field, usual, help }
 }
 
-pub(super) const SEA: &[Row<'static>] = &[
+/// Of the sea.
+pub const SEA: &[Row<'static>] = &[
     row("Depth", "site.depth", "", "Water depth, over the site's, such as 40 fathom"),
     row("Current", "current.speed", "", "Surface speed of the current, such as 0.5 m/s or 1 kn"),
     row(
@@ -48,7 +51,8 @@ pub(super) const SEA: &[Row<'static>] = &[
     ),
 ];
 
-pub(super) const TIDE: &[Row<'static>] = &[
+/// Of a tide that turns.
+pub const TIDE: &[Row<'static>] = &[
     row(
         "Period",
         "current.tide.period",
@@ -69,7 +73,8 @@ pub(super) const TIDE: &[Row<'static>] = &[
     ),
 ];
 
-pub(super) const WAVES: &[Row<'static>] = &[
+/// Of waves.
+pub const WAVES: &[Row<'static>] = &[
     row(
         "Height",
         "waves.height",
@@ -86,7 +91,8 @@ pub(super) const WAVES: &[Row<'static>] = &[
     ),
 ];
 
-pub(super) const WHALE: &[Row<'static>] = &[
+/// Of a whale.
+pub const WHALE: &[Row<'static>] = &[
     row(
         "Length",
         "whale.length",
@@ -114,10 +120,11 @@ pub(super) const WHALE: &[Row<'static>] = &[
 ];
 
 /// Of a living whale.
-pub(super) const SWIMS: &[Row<'static>] =
+pub const SWIMS: &[Row<'static>] =
     &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
 
-pub(super) const RUN: &[Row<'static>] = &[
+/// Of the run as a whole.
+pub const RUN: &[Row<'static>] = &[
     row("Duration", "duration", "", "Length of the run, such as 60 s"),
     row("Seed", "seed", "0", "Seed of everything drawn at random"),
     row(
@@ -128,14 +135,16 @@ pub(super) const RUN: &[Row<'static>] = &[
     ),
 ];
 
-pub(super) const LINKS_PART: Flag = flag(
+/// Whether weak links part.
+pub const LINKS_PART: Flag = flag(
     "Weak links part",
     "weak_links",
     true,
     "Off: links hold whatever they are rated (K when flying)",
 );
 
-pub(super) const FLAGS: &[Flag] = &[
+/// What is on or off.
+pub const FLAGS: &[Flag] = &[
     flag(
         "Strengths are drawn at random",
         "strength_scatter",
@@ -167,3 +176,35 @@ pub(super) const FLAGS: &[Flag] = &[
         "Rope lies on traps, buoys and anchors; off: it passes through them",
     ),
 ];
+
+/// What an option of a study may set besides, where no row or flag stands for it.
+const BESIDE: &[Row<'static>] = &[
+    row("Assembly", "gear.0.assembly", "", "The gear, by its id in the library"),
+    row("Site", "site.item", "", "The place at sea, by its id in the library"),
+    row("Animal", "whale.item", "", "The species or animal, by its id in the library"),
+    row(
+        "Feels gear",
+        "whale.dynamics",
+        "",
+        "kinetic: gear holds the whale; kinematic: it goes as it is steered",
+    ),
+    row("Friction", "friction.model", "", "The law of friction, by its plugin's id"),
+];
+
+/// Every field by the heading it stands under.
+pub fn all() -> impl Iterator<Item = (&'static str, Row<'static>)> {
+    let headed = [
+        ("Gear, place and animal", BESIDE),
+        ("Sea", SEA),
+        ("Tide", TIDE),
+        ("Waves", WAVES),
+        ("Whale", WHALE),
+        ("Whale", SWIMS),
+        ("Run", RUN),
+    ];
+    let rows =
+        headed.into_iter().flat_map(|(heading, rows)| rows.iter().map(move |row| (heading, *row)));
+    let flags = std::iter::once(&LINKS_PART).chain(FLAGS);
+    let usual = |flag: &Flag| if flag.usual { "true" } else { "false" };
+    rows.chain(flags.map(move |flag| ("Run", row(flag.label, flag.field, usual(flag), flag.help))))
+}

@@ -1,0 +1,82 @@
+//! The open study checked as it is edited: every option assembled, in the background, before anything is run.
+
+use std::path::Path;
+
+use endline_gear::Diagnostic;
+
+use super::Workbench;
+use crate::edit::Documents;
+use crate::error::Error;
+use crate::study::{Files, Opened};
+use crate::task::Task;
+
+/// What checking the open study found, for one version of the texts.
+#[derive(Default)]
+pub struct StudyCheck {
+    task: Task<Result<(), Error>>,
+    /// Version of the texts that are checked, or were.
+    version: Option<u64>,
+    problems: Vec<Diagnostic>,
+    fault: Option<String>,
+}
+
+impl StudyCheck {
+    /// Problems of options, found by assembling each.
+    #[must_use]
+    pub fn problems(&self) -> &[Diagnostic] {
+        &self.problems
+    }
+
+    /// Why the study cannot be opened for another reason.
+    #[must_use]
+    pub fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+
+    /// Whether nothing wrong is known.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.problems.is_empty() && self.fault.is_none()
+    }
+
+    fn take(&mut self) {
+        let Some(found) = self.task.poll() else { return };
+        (self.problems, self.fault) = match found {
+            Ok(Ok(())) => (Vec::new(), None),
+            Ok(Err(Error::Diagnostics(problems))) => (problems, None),
+            Ok(Err(error)) => (Vec::new(), Some(error.to_string())),
+            Err(_) => {
+                (Vec::new(), Some("the study could not be checked: a fault in the program".into()))
+            }
+        };
+    }
+}
+
+impl Workbench {
+    /// Checks the open study where it or its gear has changed since; call it while the study is on screen.
+    pub fn check_study(&mut self) {
+        self.studies.check.take();
+        let documents = &self.project.documents;
+        let version = documents.version();
+        let check = &self.studies.check;
+        // What is wrong with a text is told without assembling anything.
+        if check.task.busy() || check.version == Some(version) || !self.study_is_sound() {
+            return;
+        }
+        let Some(path) = documents.study_path().map(Path::to_owned) else { return };
+        let text = documents.text(Documents::STUDY).unwrap_or_default().to_owned();
+        let scenario = documents.text(Documents::SCENARIO).map(str::to_owned);
+        let files = Files {
+            root: documents.root().to_owned(),
+            sources: documents.sources(),
+            scenario: scenario.map(|text| (documents.scenario_path().to_owned(), text)),
+        };
+        let (host, waker) = self.helpers();
+        let work = move || Opened::of_sources(text, &path, files, &host).map(drop);
+        let check = &mut self.studies.check;
+        check.version = Some(version);
+        if let Err(error) = check.task.start("endline-study-check", work, waker) {
+            check.fault = Some(format!("the study cannot be checked: {error}"));
+        }
+    }
+}
