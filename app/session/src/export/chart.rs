@@ -219,21 +219,29 @@ impl Chart {
             .map(|[_, y]| *y)
             .fold(f64::NEG_INFINITY, f64::max)
     }
+}
 
-    /// As CSV: curve, x, y; one row a point.
-    #[must_use]
-    pub fn csv(&self) -> String {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        let head = [format!("curve of {}", self.kind.title()), self.x.clone(), self.y.clone()];
-        let rows = self.curves.iter().flat_map(|curve| {
-            curve.points.iter().map(|[x, y]| [curve.name.clone(), x.to_string(), y.to_string()])
-        });
-        // Writing to memory cannot fail.
-        let written =
-            std::iter::once(head).chain(rows).try_for_each(|row| writer.write_record(row));
-        let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
-        String::from_utf8(bytes).unwrap_or_default()
-    }
+/// Charts as one table of CSV, a row for each point: figure, curve, x and what it is, y and what it is, and the origin.
+#[must_use]
+pub fn csv(charts: &[Chart], origin: &str) -> String {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let head = ["figure", "curve", "x", "x_is", "y", "y_is", "origin"].map(str::to_owned);
+    let rows = charts.iter().flat_map(|chart| {
+        let points = |curve: &Curve| {
+            let row = |[x, y]: &[f64; 2]| {
+                let figure = chart.kind.title().to_owned();
+                let [x, y] = [x.to_string(), y.to_string()];
+                let (x_is, y_is) = (chart.x.clone(), chart.y.clone());
+                [figure, curve.name.clone(), x, x_is, y, y_is, origin.to_owned()]
+            };
+            curve.points.iter().map(row).collect::<Vec<_>>()
+        };
+        chart.curves.iter().flat_map(points)
+    });
+    // Writing to memory cannot fail.
+    let written = std::iter::once(head).chain(rows).try_for_each(|row| writer.write_record(row));
+    let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// A channel of a series as a curve: least and greatest of each span.
@@ -396,10 +404,13 @@ mod tests {
             levels: Vec::new(),
             end_x: 1.0,
         };
-        assert_eq!(
-            chart.csv(),
-            "curve of Tension of each line,Time [s],lbf\n\"endline, top\",0,1\n\"endline, top\",0.5,2\n"
-        );
+        let text = csv(&[chart.clone(), chart.clone()], "hello");
+        let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+        let rows: Vec<::csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), 4, "one head, whatever the number of figures: {text}");
+        let second =
+            ["Tension of each line", "endline, top", "0.5", "Time [s]", "2", "lbf", "hello"];
+        assert_eq!(rows[1].iter().collect::<Vec<_>>(), second);
         assert!((chart.top() - 2.0).abs() < 1e-12);
     }
 

@@ -27,15 +27,15 @@ pub const CHART_ENDINGS: [&str; 3] = ["svg", "png", "csv"];
 /// Endings of files that 3-D models are written to.
 pub const MODEL_ENDINGS: [&str; 2] = ["stl", "glb"];
 
-/// Writes charts to a file in the format of its ending, one of [`CHART_ENDINGS`].
+/// Writes charts to a file in the format of its ending, one of [`CHART_ENDINGS`]; `origin` says of which run, by which program.
 ///
 /// # Errors
 /// An ending that is not known, charts that cannot be drawn, or a file that cannot be written.
-pub fn charts(path: &Path, charts: &[Chart]) -> Result<(), String> {
+pub fn charts(path: &Path, charts: &[Chart], origin: &str) -> Result<(), String> {
     let bytes = match ending(path, &CHART_ENDINGS)? {
-        "csv" => charts.iter().map(Chart::csv).collect::<String>().into_bytes(),
-        "png" => picture::png(charts)?,
-        _ => picture::svg(charts)?.into_bytes(),
+        "csv" => chart::csv(charts, origin).into_bytes(),
+        "png" => picture::png(charts, origin)?,
+        _ => picture::svg(charts, origin)?.into_bytes(),
     };
     write(path, &bytes)
 }
@@ -80,7 +80,7 @@ mod tests {
             let error = known(name).unwrap_err();
             assert!(error.contains(".stl or .glb"), "{name}: {error}");
         }
-        let error = charts(Path::new("plots.jpg"), &[]).unwrap_err();
+        let error = charts(Path::new("plots.jpg"), &[], "").unwrap_err();
         assert!(error.contains(".svg or .png or .csv"), "{error}");
         assert!(!Path::new("plots.jpg").exists());
     }

@@ -11,36 +11,42 @@ use super::font;
 /// Width and height of one chart [px].
 const SIZE: (u32, u32) = (800, 280);
 
+/// Height of the line below that says where the charts are from [px].
+const FOOT: u32 = 22;
+
 /// Pixels of a PNG for each pixel of an SVG, so that text stays sharp in print.
 const SCALE: u32 = 2;
 
 /// What drawing can fail with.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-/// The charts as one SVG.
+/// The charts as one SVG, with its origin below.
 ///
 /// # Errors
 /// Where there is no chart, or drawing fails.
-pub fn svg(charts: &[Chart]) -> Result<String, String> {
+pub fn svg(charts: &[Chart], origin: &str) -> Result<String, String> {
     let size = size(charts, 1)?;
     let mut text = String::new();
     let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-    draw(area, charts, 1).map_err(|error| error.to_string())?;
+    draw(area, charts, origin, 1).map_err(|error| error.to_string())?;
     Ok(text)
 }
 
-/// The charts as one PNG of 8-bit RGB.
+/// The charts as one PNG of 8-bit RGB, with its origin below and in its description.
 ///
 /// # Errors
 /// Where there is no chart, or drawing fails.
-pub fn png(charts: &[Chart]) -> Result<Vec<u8>, String> {
+pub fn png(charts: &[Chart], origin: &str) -> Result<Vec<u8>, String> {
     let (width, height) = size(charts, SCALE)?;
     let mut pixels = vec![0; 3 * width as usize * height as usize];
     let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-    draw(area, charts, SCALE).map_err(|error| error.to_string())?;
+    draw(area, charts, origin, SCALE).map_err(|error| error.to_string())?;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
+    encoder
+        .add_itxt_chunk("Description".to_owned(), origin.to_owned())
+        .map_err(|error| error.to_string())?;
     let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
     writer.write_image_data(&pixels).map_err(|error| error.to_string())?;
     writer.finish().map_err(|error| error.to_string())?;
@@ -54,17 +60,22 @@ fn size(charts: &[Chart], scale: u32) -> Result<(u32, u32), String> {
     }
     font::register()?;
     let count = u32::try_from(charts.len()).unwrap_or(1);
-    Ok((scale * SIZE.0, scale * SIZE.1 * count))
+    Ok((scale * SIZE.0, scale * (SIZE.1 * count + FOOT)))
 }
 
 /// Draws the charts; taking the area by value ends the borrow of what it draws into.
-fn draw<B>(whole: DrawingArea<B, Shift>, charts: &[Chart], scale: u32) -> Drawn
+fn draw<B>(whole: DrawingArea<B, Shift>, charts: &[Chart], origin: &str, scale: u32) -> Drawn
 where
     B: DrawingBackend,
     B::ErrorType: 'static,
 {
     whole.fill(&WHITE)?;
-    for (chart, area) in charts.iter().zip(whole.split_evenly((charts.len(), 1))) {
+    let (_, height) = whole.dim_in_pixel();
+    let (above, foot) = whole.split_vertically(height.saturating_sub(scale * FOOT));
+    let style = ("sans-serif", 11 * scale).into_font().color(&BLACK.mix(0.6));
+    let at = (8 * scale.cast_signed(), 2 * scale.cast_signed());
+    foot.draw_text(origin, &style, at)?;
+    for (chart, area) in charts.iter().zip(above.split_evenly((charts.len(), 1))) {
         one(&area, chart, scale)?;
     }
     whole.present()?;
@@ -113,6 +124,7 @@ where
     }
     drawn
         .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .label_font(label)
@@ -182,17 +194,21 @@ mod tests {
 
     #[test]
     fn an_svg_names_axes_and_curves() {
-        let text = svg(&[chart(), chart()]).unwrap();
-        for part in ["Time [s]", "lbf", "endline", "groundline", "height=\"560\""] {
+        let text = svg(&[chart(), chart()], "hello, Endline 1.0").unwrap();
+        for part in
+            ["Time [s]", "lbf", "endline", "groundline", "height=\"582\"", "hello, Endline 1.0"]
+        {
             assert!(text.contains(part), "{part} is missing");
         }
-        assert!(svg(&[]).is_err());
+        assert!(svg(&[], "").is_err());
     }
 
     /// Width, height and pixels of charts drawn as PNG.
     fn drawn(charts: &[Chart]) -> (u32, u32, Vec<u8>) {
-        let bytes = png(charts).unwrap();
+        let bytes = png(charts, "hello").unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
+        let described = &reader.info().utf8_text;
+        assert!(described.iter().any(|text| text.get_text().unwrap() == "hello"));
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut pixels).unwrap();
         (info.width, info.height, pixels)
@@ -201,7 +217,7 @@ mod tests {
     #[test]
     fn a_png_has_the_curves_in_their_colours() {
         let (width, height, pixels) = drawn(&[chart()]);
-        assert_eq!((width, height), (1600, 560));
+        assert_eq!((width, height), (1600, 604));
         for curve in &chart().curves {
             let rgb = curve.rgb();
             let count = pixels.chunks_exact(3).filter(|pixel| *pixel == rgb.as_slice()).count();

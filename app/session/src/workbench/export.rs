@@ -6,6 +6,7 @@ use endline_gear::Kind;
 
 use super::Workbench;
 use super::notice::Notice;
+use crate::VERSION;
 use crate::edit::library_table;
 use crate::export::{self, Chart, chart};
 use crate::save::atomically;
@@ -44,7 +45,9 @@ impl Workbench {
         kinds: &[chart::Kind],
         file: &Path,
     ) -> Result<(), String> {
-        let written = export::charts(file, &self.charts(kinds));
+        let of = self.guest().map_or_else(|| self.scenario_stem(), str::to_owned);
+        let origin = format!("{of}, Endline {VERSION}");
+        let written = export::charts(file, &self.charts(kinds), &origin);
         self.report_written(file, written)
     }
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use egui::{Color32, RichText, Ui};
 use egui_plot::{
-    AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
+    AxisHints, GridMark, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi,
+    Points,
 };
 use endline_session::scales::SERIES;
 use endline_session::study::StudyResults;
@@ -77,18 +78,16 @@ pub(super) fn show(
 
 /// Axes: tension on a logarithmic scale, share of runs.
 fn frame(unit: ForceUnit) -> Plot<'static> {
-    let tension = |value: f64| {
-        let tension = 10.0_f64.powf(value) - 1.0;
-        format!("{tension:.*}", usize::from(tension < 10.0))
-    };
     let x = AxisHints::new_x()
         .label(format!("greatest tension [{}]", unit.symbol()))
-        .formatter(move |mark, _| tension(mark.value));
+        .formatter(move |mark, _| format!("{:.0}", 10.0_f64.powf(mark.value) - 1.0));
     let y = AxisHints::new_y()
         .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
         .min_thickness(46.0);
     Plot::new("tensions of runs")
-        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
+        // Shares rise to the right: below them there is room.
+        .legend(Legend::default().position(egui_plot::Corner::RightBottom).background_alpha(0.6))
+        .x_grid_spacer(|input| marks(input.bounds))
         .include_x(0.0)
         .include_y(0.0)
         .include_y(1.0)
@@ -98,12 +97,22 @@ fn frame(unit: ForceUnit) -> Plot<'static> {
         .show_background(false)
 }
 
+/// Marks of the axis of tensions: 0, then 1 and 3 times powers of ten.
+fn marks((least, most): (f64, f64)) -> Vec<GridMark> {
+    let round = (0..8).flat_map(|power| [1.0, 3.0].map(|lead| lead * 10.0_f64.powi(power)));
+    let places = std::iter::once(0.0).chain(round).map(|tension| (1.0 + tension).log10());
+    let within = places.filter(|place| (least..=most).contains(place));
+    within.map(|value| GridMark { value, step_size: 0.5 }).collect()
+}
+
 /// The runs of an option: a line, and a mark for each run in the option's own shape.
 fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>) {
     let [red, green, blue] = SERIES[index % SERIES.len()];
     let colour = Color32::from_rgb(red, green, blue);
     let line = Line::new(name, PlotPoints::Owned(points.clone()));
-    plot.line(line.color(colour).width(1.3));
+    // Colours come again after seven; lines do not.
+    let style = if index < SERIES.len() { LineStyle::Solid } else { LineStyle::dashed_dense() };
+    plot.line(line.color(colour).width(1.3).style(style));
     let shapes = [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Diamond, MarkerShape::Up];
     let marks = Points::new(name, PlotPoints::Owned(points)).color(colour).radius(2.6);
     plot.points(marks.shape(shapes[index % shapes.len()]).allow_hover(false));
@@ -150,4 +159,18 @@ fn dots(shown: &StudyResults, unit: ForceUnit) -> Vec<Dot> {
         all.extend(dots);
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_stand_at_round_tensions() {
+        let tensions = |marks: Vec<GridMark>| -> Vec<f64> {
+            marks.iter().map(|mark| (10.0_f64.powf(mark.value) - 1.0).round()).collect()
+        };
+        assert_eq!(tensions(marks((0.0, 2.01))), [0.0, 1.0, 3.0, 10.0, 30.0, 100.0]);
+        assert_eq!(tensions(marks((1.4, 3.5))), [30.0, 100.0, 300.0, 1000.0, 3000.0]);
+    }
 }
