@@ -1,6 +1,7 @@
 //! The program as its users call it: the command line, recordings, studies and cases.
 
 mod alone;
+mod animation;
 mod cases;
 mod cli;
 mod common;

@@ -4,17 +4,23 @@
 //! |---|---|---|
 //! | [`chart`] | what is plotted of a run, as data; as a table of points | `csv` |
 //! | [`picture`] | charts drawn | `svg`, `png` |
+//! | [`animation`] | a run in motion | `glb` |
 //! | [`model`] | gear and whale as 3-D models | `stl`, `glb` |
 //! | [`font`] | the font of all of them | |
 //!
 //! Tables of the library are read and written by [`edit::library_table`](crate::edit::library_table).
 
+pub mod animation;
 pub mod chart;
 pub mod font;
 pub mod model;
 pub mod picture;
+mod tube;
 
 use std::path::Path;
+use std::sync::Arc;
+
+use endline_sim::{Frame, Model};
 
 use crate::save;
 use crate::scene::Scene;
@@ -51,6 +57,20 @@ pub fn model(path: &Path, scene: &Scene) -> Result<(), String> {
         _ => model::glb(scene),
     };
     write(path, &bytes)
+}
+
+/// Writes frames of a run, `step_s` apart, as an animated 3-D model to a file that ends in `.glb`.
+///
+/// # Errors
+/// Without frames, where they are more than glTF can hold, or where the file cannot be written.
+pub fn animation(
+    path: &Path,
+    model: &Model,
+    frames: &[Arc<Frame>],
+    step_s: f64,
+) -> Result<(), String> {
+    let bytes = animation::glb(model, frames, step_s)?;
+    write(path, &bytes).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Writes a file whole or not at all.

@@ -27,6 +27,13 @@ pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
     mesh
 }
 
+/// A body by itself, about its middle.
+pub fn one(body: &Body) -> Mesh {
+    let mut mesh = Mesh::default();
+    draw(&mut mesh, body, &DAffine3::IDENTITY);
+    mesh
+}
+
 /// A small block wherever a line ends at a fixture, where that end is now.
 fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
     let held = |joint: usize| {

@@ -212,7 +212,8 @@ pub(super) struct RenderArgs {
     /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
-    /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg.
+    /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg; .glb is an animated 3-D
+    /// model for Blender and others.
     #[arg(long, value_name = "FILE")]
     pub(super) out: PathBuf,
     /// Width and height in pixels, each from 16 to 8192.

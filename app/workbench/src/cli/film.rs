@@ -1,13 +1,13 @@
-//! `endline render --out FILE.gif`: a stretch of a recording, or of a scenario, as a film.
+//! `endline render --out FILE.gif`: a stretch of a recording, or of a scenario, as a film; `FILE.glb`: as an animated 3-D model.
 
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use endline_sdk::Controls;
-use endline_session::locate;
 use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
+use endline_session::{export, locate};
 use endline_sim::Frame;
 
 use super::args::RenderArgs;
@@ -18,6 +18,17 @@ use super::{Failure, host, output, picture};
 
 /// Pictures of a film at most: they are kept until the greatest tension is known, by which rope is coloured.
 const MOST: usize = 4000;
+
+/// Runs what is to be seen in motion, and writes it as an animated 3-D model.
+pub(super) fn animate(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let interrupt = Interrupt::watch();
+    let mut player = Player::open(args, library)?;
+    let times = times(args, player.end_s).map_err(Failure::usage)?;
+    let frames = player.frames(&times, &interrupt)?;
+    let step_s = 1.0 / f64::from(args.fps);
+    export::animation(&args.out, player.run.model(), &frames, step_s).map_err(Failure::failed)?;
+    Ok(interrupt.exit_code().unwrap_or(ExitCode::SUCCESS))
+}
 
 /// Runs what is filmed, then draws it.
 pub(super) fn film(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {

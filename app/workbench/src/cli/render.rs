@@ -21,9 +21,12 @@ pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCo
     if picture::is_film(&args.out) {
         return film::film(args, library);
     }
+    if args.out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) {
+        return film::animate(args, library);
+    }
     if args.from.is_some() || args.to.is_some() {
         return Err(Failure::usage(format!(
-            "{} is no film: --from and --to need --out with .gif, .mp4 or .webm",
+            "{} is no film: --from and --to need --out with .gif, .mp4, .webm or .glb",
             args.out.display()
         )));
     }

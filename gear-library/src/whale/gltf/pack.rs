@@ -60,6 +60,12 @@ impl Pack {
         self.accessor(F32, rows.len(), "MAT4")
     }
 
+    /// Adds rows of floats that are no vertices, such as those of an animation.
+    pub fn numbers<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
+        self.add(le(rows.iter().flatten().map(|number| number.to_le_bytes())), None);
+        self.accessor(F32, rows.len(), kind(N))
+    }
+
     fn add(&mut self, data: Vec<u8>, target: Option<u32>) {
         let offset = self.bytes.len().next_multiple_of(4);
         self.bytes.resize(offset, 0);
