@@ -1,8 +1,11 @@
 //! What the thread of a run is asked to do.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
 
 use endline_sdk::Controls;
+use endline_sim::Frame;
 
 use crate::source::Prepared;
 
@@ -39,4 +42,6 @@ pub enum RunCommand {
     Program(f64),
     /// Save the run so far as a recording.
     SaveRecording(PathBuf),
+    /// Hand over the moments that are kept, in order.
+    KeptFrames(Sender<Vec<Arc<Frame>>>),
 }

@@ -36,6 +36,11 @@ impl FrameHistory {
         }
     }
 
+    /// Every kept frame, in order.
+    pub(super) fn all(&self) -> &[Arc<Frame>] {
+        &self.frames
+    }
+
     /// The kept frame nearest to a time.
     pub(super) fn nearest(&self, time_s: f64) -> Option<Arc<Frame>> {
         let after = self.frames.partition_point(|frame| frame.time_s < time_s);

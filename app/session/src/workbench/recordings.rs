@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+
+use endline_sim::Frame;
 
 use super::Workbench;
 use super::model::Then;
@@ -51,6 +54,16 @@ impl Workbench {
     #[must_use]
     pub fn kept_runs(&self) -> u64 {
         self.run.kept
+    }
+
+    /// Asks for the moments of the run that are kept, which come without waiting for them here.
+    ///
+    /// # Errors
+    /// Where there is no run.
+    pub fn kept_frames(&mut self) -> Result<Receiver<Vec<Arc<Frame>>>, String> {
+        let (sender, receiver) = channel();
+        self.send(RunCommand::KeptFrames(sender))?;
+        Ok(receiver)
     }
 
     /// Times that kept runs came, went or changed since the start: what lists them reads them again.

@@ -11,6 +11,7 @@ pub mod command;
 pub mod dialogs;
 pub mod fields;
 pub mod files;
+pub mod film;
 pub mod inspector;
 pub mod keys;
 pub mod layout;

@@ -11,6 +11,7 @@ use endline_session::task::Waker;
 use endline_session::workbench::{Notice, Workbench};
 
 use super::command::action::WindowCommand;
+use super::film::FilmJob;
 use super::panel_id::PanelId;
 use super::preferences::Preferences;
 use crate::input::{Pilot, Rumble};
@@ -31,6 +32,8 @@ pub struct Shared {
     pub posing: bool,
     /// What is chosen in the panels.
     pub selection: Selection,
+    /// The film that is being made.
+    pub film: Option<FilmJob>,
     /// Commands given by panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
@@ -83,6 +86,7 @@ impl Shared {
             rumble: Rumble::default(),
             posing: false,
             selection: Selection::default(),
+            film: None,
             commands: Vec::new(),
         }
     }
@@ -96,6 +100,13 @@ impl Shared {
     pub fn perform(&mut self, command: impl Into<Command>) {
         // The reason stands in the notice.
         let _ = self.workbench.perform(command.into());
+    }
+
+    /// Takes in a film that has ended.
+    pub fn refresh_film(&mut self) {
+        if let Some(notice) = self.film.as_mut().and_then(FilmJob::ended) {
+            (self.film, self.workbench.notice) = (None, Some(notice));
+        }
     }
 
     /// Says that something failed, and why.

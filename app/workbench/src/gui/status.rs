@@ -1,6 +1,6 @@
 //! The bar at the foot of the window.
 
-use crate::gui::command::action::PanelAction;
+use crate::gui::command::action::{PanelAction, ViewAction};
 use egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 use endline_session::live::Status;
 use endline_session::workbench::{Notice, NoticeKind};
@@ -46,8 +46,21 @@ pub fn show(ui: &mut Ui, shared: &mut Shared) {
                 ui.label(RichText::new("piloted").color(palette.accent));
             }
         }
+        film(ui, shared);
         right(ui, shared);
     });
+}
+
+/// How far a film is, with a way to end it; nothing where none is made.
+fn film(ui: &mut Ui, shared: &mut Shared) {
+    let Some(job) = &shared.film else { return };
+    let (drawn, of) = job.counted();
+    let text = RichText::new(format!("film: {drawn} of {of} pictures"));
+    ui.label(text.color(Theme::palette_of(ui).accent))
+        .on_hover_text(job.out().display().to_string());
+    if ui.small_button("Cancel").on_hover_text("Ends the film where it is").clicked() {
+        shared.give(ViewAction::CancelFilm);
+    }
 }
 
 fn right(ui: &mut Ui, shared: &mut Shared) {

@@ -24,7 +24,7 @@ use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
 
-use crate::common::{Folder, give, linked, opened_with, wait};
+use crate::common::{Folder, flown, give, linked, opened_with, wait};
 
 /// The single's endline at rest beside its whale, with the 3-D view alone.
 fn settled(folder: &Folder) -> Harness<'static, App> {
@@ -338,4 +338,42 @@ fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
     let warmest = near.map(|[red, _, blue]| red - blue).max().unwrap();
     let [red, _, blue] = pixel(at.x + 60.0, at.y);
     assert!(warmest > 0 && red < blue, "rope {warmest}, water {red} {blue}");
+}
+
+#[test]
+fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() {
+    let folder = Folder::new("view-film");
+    let mut harness = flown(&folder);
+    let file = folder.0.join("run.gif");
+    give(&mut harness, ViewAction::SaveFilm(file.clone()));
+    assert!(harness.state().shared.film.is_some(), "the window goes on meanwhile");
+    let steps = harness.state().shared.workbench.view().unwrap().frame.step;
+    wait(&mut harness, |app| app.shared.film.is_none());
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert_eq!(notice.text, format!("saved {}", file.display()));
+    assert_eq!(harness.state().shared.workbench.view().unwrap().frame.step, steps);
+
+    let mut decoder = gif::DecodeOptions::new();
+    decoder.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = decoder.read_info(std::fs::File::open(&file).unwrap()).unwrap();
+    let mut pictures = Vec::new();
+    while let Some(picture) = decoder.read_next_frame().unwrap() {
+        pictures.push(picture.buffer.to_vec());
+    }
+    // Two seconds at twenty a second, up to the last moment kept; and the whale has moved.
+    assert_eq!((decoder.width(), decoder.height()), (1280, 720));
+    assert!((40..=41).contains(&pictures.len()), "{}", pictures.len());
+    assert!(pictures.first() != pictures.last());
+
+    let cut = folder.0.join("cut.gif");
+    give(&mut harness, ViewAction::SaveFilm(cut.clone()));
+    give(&mut harness, ViewAction::CancelFilm);
+    wait(&mut harness, |app| app.shared.film.is_none());
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(notice.text.contains(" of "), "{}", notice.text);
+
+    give(&mut harness, ViewAction::SaveFilm(folder.0.join("no-such-folder/run.gif")));
+    assert!(harness.state().shared.film.is_none());
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert!(notice.text.contains("no-such-folder"), "{}", notice.text);
 }

@@ -204,6 +204,10 @@ impl<'a> Worker<'a> {
             RunCommand::Program(thin) => self.make_program(thin),
             RunCommand::Branch => self.branch(),
             RunCommand::SaveRecording(path) => self.save(&path),
+            RunCommand::KeptFrames(to) => {
+                // Who asked may have gone.
+                let _ = to.send(self.frames.all().to_vec());
+            }
         }
     }
 

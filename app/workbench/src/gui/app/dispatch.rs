@@ -109,6 +109,13 @@ impl App {
             ViewAction::Ruler => view.picks.toggle_ruler(),
             ViewAction::Inspect(picked) => view.picks.read = Some(picked),
             ViewAction::LetGo => view.picks.let_go(),
+            ViewAction::SaveFilm(file) => {
+                let film = view.film(&mut self.shared, file)?;
+                self.shared.film = Some(film);
+            }
+            ViewAction::CancelFilm => {
+                self.shared.film.as_ref().ok_or("no film is being made")?.cancel();
+            }
             ViewAction::SavePicture(file) => {
                 view.save_picture(&self.shared, &file)?;
                 let said = format!("saved {}", file.display());

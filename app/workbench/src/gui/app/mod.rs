@@ -157,6 +157,7 @@ impl eframe::App for App {
     fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
         self.tell(context);
         self.shared.workbench.refresh();
+        self.shared.refresh_film();
         self.take_events();
         let answered = self.answered();
         self.shared.commands.extend(answered);

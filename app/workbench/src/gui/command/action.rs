@@ -48,6 +48,10 @@ pub enum ViewAction {
     LetGo,
     /// Write what the chosen pane shows as a PNG file.
     SavePicture(PathBuf),
+    /// Write the run as the chosen pane shows it as a film: GIF, MP4 or WebM by the file's extension.
+    SaveFilm(PathBuf),
+    /// End the film that is being made.
+    CancelFilm,
 }
 
 /// An action of the pilot.
@@ -158,6 +162,8 @@ impl ViewAction {
             Self::Inspect(_) => "view.inspect",
             Self::LetGo => "view.let-go",
             Self::SavePicture(_) => "view.save-picture",
+            Self::SaveFilm(_) => "view.save-film",
+            Self::CancelFilm => "view.cancel-film",
         }
     }
 }

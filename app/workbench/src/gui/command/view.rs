@@ -85,6 +85,26 @@ pub static COMMANDS: &[WindowInfo] = &[
     )
     .only_if(shown),
     WindowInfo::new(
+        "view.save-film",
+        "Save a film of the run",
+        "Draws the run from its start as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window goes on meanwhile.",
+        Make::File {
+            question: |shared| {
+                let scenario = stem(shared.workbench.project.documents.scenario_path());
+                FileQuestion::write("film", &["mp4", "webm", "gif"], format!("{scenario}.mp4"))
+            },
+            command: |_, file| ViewAction::SaveFilm(file).into(),
+        },
+    )
+    .only_if(can_film),
+    WindowInfo::new(
+        "view.cancel-film",
+        "Cancel the film",
+        "Ends the film that is being made; the pictures drawn so far stay.",
+        Make::Plain(|| ViewAction::CancelFilm.into()),
+    )
+    .only_if(films),
+    WindowInfo::new(
         "view.pose",
         "Drag the whale's start",
         "Shows handles that move where the whale starts, how deep, and where it heads; or hides them.",
@@ -115,6 +135,21 @@ pub static COMMANDS: &[WindowInfo] = &[
         false => Err("nothing is inspected or measured".to_owned()),
     }),
 ];
+
+/// A run has moments to film, and no film is being made.
+fn can_film(shared: &Shared) -> Result<(), String> {
+    shown(shared)?;
+    let has_run = shared.workbench.view().is_some_and(|view| view.newest_s > 0.0);
+    match (&shared.film, has_run) {
+        (Some(_), _) => Err("a film is being made".to_owned()),
+        (None, false) => Err("nothing has been run yet".to_owned()),
+        (None, true) => Ok(()),
+    }
+}
+
+fn films(shared: &Shared) -> Result<(), String> {
+    shared.film.as_ref().map(drop).ok_or_else(|| "no film is being made".to_owned())
+}
 
 /// Whether there is something to see.
 pub(super) fn shown(shared: &Shared) -> Result<(), String> {

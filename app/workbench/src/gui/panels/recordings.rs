@@ -6,7 +6,7 @@ use endline_session::command::RunAction;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use egui::{Frame, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Frame, Label, RichText, ScrollArea, TextEdit, Ui};
 use endline_session::recording::{self, kept::Kept};
 use endline_sim::metrics::Outcome;
 
@@ -120,7 +120,8 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
     }
     let force = shared.workbench.preferences.units.force().text(kept.greatest_tension_n);
     let facts = format!("peak {force}, {:.0} s, {}", kept.simulated_s, file.age);
-    ui.label(RichText::new(facts).color(palette.faint)).on_hover_text(format!("of {}", kept.of));
+    ui.add(Label::new(RichText::new(facts).color(palette.faint)).extend())
+        .on_hover_text(format!("of {}", kept.of));
 }
 
 fn list(folder: &std::path::Path) -> Vec<Recorded> {

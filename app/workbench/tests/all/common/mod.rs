@@ -70,6 +70,10 @@ impl Engine for FakeEngine {
             }
             RunCommand::Program(thin) => format!("program {thin}"),
             RunCommand::SaveRecording(path) => format!("save {}", path.display()),
+            RunCommand::KeptFrames(to) => {
+                to.send(vec![Arc::clone(&view.frame)]).unwrap();
+                "kept frames".to_owned()
+            }
         };
         self.told.borrow_mut().push(words);
         true

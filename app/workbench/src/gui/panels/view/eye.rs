@@ -3,6 +3,7 @@
 use egui::{PointerButton, Rect, Response, Ui};
 use endline_session::live::LiveView;
 use endline_session::scene::Scene;
+use endline_sim::{Frame, Model};
 use glam::DVec2;
 
 use crate::scene::{Camera, View};
@@ -83,10 +84,15 @@ impl Eye {
     /// Where it stands for a run's moment, drawn in a rectangle.
     #[must_use]
     pub fn placed(&self, view: &LiveView, rect: Rect) -> Camera {
+        self.at_moment(&view.model, &view.frame, f64::from(rect.width() / rect.height().max(1.0)))
+    }
+
+    /// Where it stands for a moment, in a picture so many times as wide as it is high.
+    #[must_use]
+    pub fn at_moment(&self, model: &Model, frame: &Frame, aspect: f64) -> Camera {
         let mut camera = self.camera.clone();
-        let aspect = f64::from(rect.width() / rect.height().max(1.0));
-        let length_m = view.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
-        if let (true, Some(whale)) = (self.follow, &view.frame.whale) {
+        let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
+        if let (true, Some(whale)) = (self.follow, &frame.whale) {
             camera.go_with(self.named, whale, length_m, aspect);
             if self.named != View::FirstPerson {
                 camera.azimuth += self.turned[0];
@@ -94,7 +100,7 @@ impl Eye {
                 camera.zoom(self.turned[2]);
             }
         } else if self.frame_again {
-            let places = Scene::places_of(&view.model, &view.frame);
+            let places = Scene::places_of(model, frame);
             camera = Camera::of_view(self.named, &places, None, length_m, aspect);
         }
         camera

@@ -133,6 +133,7 @@ impl ViewPanel {
             self.frame();
         }
         command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
+        command(ui, shared, "Film …", WindowAction::Ask("view.save-film"));
         let several =
             if count == 1 { "1 view ⏷".to_owned() } else { format!("{count} views ⏷") };
         ui.menu_button(several, |ui| {

@@ -1,4 +1,4 @@
-//! The view as a picture in a file, drawn anew at full size: not a crop of the screen.
+//! The view as a picture or film in a file, drawn anew at full size: not a crop of the screen.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,6 +6,7 @@ use std::sync::Arc;
 use endline_session::scene::Show;
 
 use super::ViewPanel;
+use crate::gui::film::{FilmJob, Reel};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::{RenderRequest, Renderer, Water, write_png};
@@ -14,6 +15,28 @@ use crate::scene::{RenderRequest, Renderer, Water, write_png};
 const SIZE: [u32; 2] = [1920, 1080];
 
 impl ViewPanel {
+    /// Begins a film of the run as the chosen pane shows it.
+    ///
+    /// # Errors
+    /// Without a run, while another film is made, or where the file cannot be begun.
+    pub fn film(&mut self, shared: &mut Shared, out: PathBuf) -> Result<FilmJob, String> {
+        if shared.film.is_some() {
+            return Err("a film is being made; wait for it, or cancel it".to_owned());
+        }
+        let view = shared.workbench.view().cloned().ok_or("there is no run to film")?;
+        let reel = Reel {
+            model: Arc::clone(&view.model),
+            frames: shared.workbench.kept_frames()?,
+            eye: self.eye().clone(),
+            show: self.show,
+            water: water(shared),
+            caption: caption(shared),
+            units: shared.workbench.preferences.units,
+            out,
+        };
+        FilmJob::begin(reel, shared.workbench.helpers().1)
+    }
+
     /// Writes what the chosen pane shows of the run as a PNG.
     ///
     /// # Errors
@@ -23,10 +46,7 @@ impl ViewPanel {
         let (model, frame) = (Arc::clone(&view.model), Arc::clone(&view.frame));
         let show = Show { scale_n: Some(self.scale_n), ..self.show };
         let camera = self.eye().camera.clone();
-        let water =
-            if shared.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
-        let name = shared.workbench.project.documents.scenario_path().file_stem();
-        let caption = name.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let (water, caption) = (water(shared), caption(shared));
         let (units, file) = (shared.workbench.preferences.units, PathBuf::from(file));
         // A thread of its own: the window's OpenGL stays current on this one.
         let drawing = std::thread::spawn(move || {
@@ -46,4 +66,14 @@ impl ViewPanel {
         });
         drawing.join().map_err(|_| "the picture could not be drawn".to_owned())?
     }
+}
+
+fn water(shared: &Shared) -> Water {
+    if shared.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT }
+}
+
+/// What is shown: the scenario, or what else the run is of.
+fn caption(shared: &Shared) -> String {
+    let of = shared.workbench.guest().map(str::to_owned);
+    of.unwrap_or_else(|| shared.workbench.scenario_stem())
 }

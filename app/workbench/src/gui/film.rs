@@ -1,0 +1,175 @@
+//! A film of the run shown, made on a thread of its own from the moments that are kept: nothing is run again.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::Receiver;
+use std::time::Duration;
+
+use endline_session::scene::Show;
+use endline_session::task::{Task, Waker};
+use endline_session::units::Units;
+use endline_session::workbench::Notice;
+use endline_sim::{Frame, Model};
+
+use super::panels::view::Eye;
+use crate::scene::film::Film;
+use crate::scene::{RenderRequest, Renderer, Water};
+
+/// Width and height [px], and pictures a second.
+const SIZE: [u32; 2] = [1280, 720];
+const FPS: u32 = 20;
+
+/// How long the run may take to hand over what it keeps.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What a film shows, and where it goes.
+pub struct Reel {
+    /// The gear, sea and whale.
+    pub model: Arc<Model>,
+    /// Brings the moments that the run keeps.
+    pub frames: Receiver<Vec<Arc<Frame>>>,
+    /// Where it is seen from; an eye that goes with the whale does so.
+    pub eye: Eye,
+    /// What is drawn.
+    pub show: Show,
+    /// Dark or light.
+    pub water: Water,
+    /// Line of text at the top left.
+    pub caption: String,
+    /// Units of the scale bar.
+    pub units: Units,
+    /// The file: GIF, MP4 or WebM by its ending.
+    pub out: PathBuf,
+}
+
+/// A film in the making.
+pub struct FilmJob {
+    out: PathBuf,
+    progress: Arc<Progress>,
+    task: Task<Result<(), String>>,
+}
+
+/// Pictures drawn and to be drawn, and whether the rest is wanted.
+#[derive(Default)]
+struct Progress {
+    drawn: AtomicUsize,
+    of: AtomicUsize,
+    stop: AtomicBool,
+}
+
+impl FilmJob {
+    /// Begins a film; what is wrong with its file is told at once.
+    ///
+    /// # Errors
+    /// A file that cannot be begun, or no thread.
+    pub fn begin(reel: Reel, waker: Waker) -> Result<Self, String> {
+        let film = Film::begin(&reel.out, SIZE, FPS)?;
+        let (progress, mut task) = (Arc::new(Progress::default()), Task::default());
+        let (out, told) = (reel.out.clone(), Arc::clone(&progress));
+        let awake = Arc::clone(&waker);
+        task.start("endline-film", move || reel.draw(film, &told, &awake), waker)
+            .map_err(|error| format!("the film cannot be begun: {error}"))?;
+        Ok(Self { out, progress, task })
+    }
+
+    /// Ends it at the picture that is being drawn.
+    pub fn cancel(&self) {
+        self.progress.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn out(&self) -> &Path {
+        &self.out
+    }
+
+    /// Pictures drawn, and how many there will be.
+    #[must_use]
+    pub fn counted(&self) -> (usize, usize) {
+        let count = |number: &AtomicUsize| number.load(Ordering::Relaxed);
+        (count(&self.progress.drawn), count(&self.progress.of))
+    }
+
+    /// What became of it, once, when it has ended.
+    pub fn ended(&mut self) -> Option<Notice> {
+        let ended = self.task.poll()?;
+        let ((drawn, of), out) = (self.counted(), self.out.display());
+        Some(match ended.unwrap_or_else(|_| Err("a fault in the program".to_owned())) {
+            Ok(()) if drawn < of => Notice::done(format!("saved {out}: {drawn} of {of} pictures")),
+            Ok(()) => Notice::done(format!("saved {out}")),
+            Err(error) => Notice::fault(error),
+        })
+    }
+}
+
+impl Reel {
+    fn draw(&self, mut film: Film, progress: &Progress, waker: &Waker) -> Result<(), String> {
+        let kept = self.frames.recv_timeout(PATIENCE);
+        let frames = paced(&kept.map_err(|_| "the run does not hand over its moments")?);
+        progress.of.store(frames.len(), Ordering::Relaxed);
+        let tensions = frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
+        // One scale for all, so that no colour changes that does not mean it.
+        let scale_n = Some(tensions.fold(0.0, f64::max));
+        let show = Show { scale_n, ..self.show };
+        let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+        let mut renderer = Renderer::new(SIZE)?;
+        for frame in &frames {
+            if progress.stop.load(Ordering::Relaxed) {
+                break;
+            }
+            let request = RenderRequest {
+                model: &self.model,
+                frame,
+                size: SIZE,
+                view: "",
+                scale_n,
+                fit: &[],
+                caption: &self.caption,
+                out: &self.out,
+                units: self.units,
+            };
+            let camera = self.eye.at_moment(&self.model, frame, aspect);
+            film.add(&renderer.seen_by(&request, &show, &camera, self.water))?;
+            progress.drawn.fetch_add(1, Ordering::Relaxed);
+            waker();
+        }
+        film.end()
+    }
+}
+
+/// For each picture the kept moment nearest to its time, from the first to the last.
+fn paced(kept: &[Arc<Frame>]) -> Vec<Arc<Frame>> {
+    let (Some(first), Some(last)) = (kept.first(), kept.last()) else { return Vec::new() };
+    let count = ((last.time_s - first.time_s) * f64::from(FPS) + 1e-6).floor() as usize + 1;
+    let at = |picture: usize| {
+        let time_s = first.time_s + picture as f64 / f64::from(FPS);
+        let after = kept.partition_point(|frame| frame.time_s < time_s).min(kept.len() - 1);
+        let before = after.saturating_sub(1);
+        let off = |index: usize| (kept[index].time_s - time_s).abs();
+        Arc::clone(&kept[if off(before) < off(after) { before } else { after }])
+    };
+    (0..count).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::sample;
+
+    #[test]
+    fn each_picture_has_the_moment_nearest_to_its_time() {
+        let model = sample::model();
+        let frame = |time_s: f64| Arc::new(Frame { time_s, ..sample::frame(&model) });
+        let kept: Vec<Arc<Frame>> = (0..=30).map(|step| frame(f64::from(step) / 30.0)).collect();
+        let times: Vec<f64> = paced(&kept).iter().map(|frame| frame.time_s).collect();
+        assert_eq!(times.len(), 21);
+        for (picture, time_s) in times.iter().enumerate() {
+            assert!(
+                (time_s - picture as f64 / 20.0).abs() <= 1.0 / 60.0 + 1e-9,
+                "{picture}: {time_s}"
+            );
+        }
+        assert!(paced(&[]).is_empty());
+    }
+}
