@@ -92,6 +92,10 @@ pub fn show(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
                 ui.close();
             }
             HELP.iter().for_each(|id| command(ui, shared, id));
+            if ui.button("Documents, version, how to cite").clicked() {
+                shared.give(PanelAction::Show(PanelId::HELP));
+                ui.close();
+            }
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| at_right(ui, shared));
     });

@@ -17,7 +17,7 @@ pub static COMMANDS: &[WindowInfo] = &[
     WindowInfo::new(
         "panel.help",
         "Show Keys and help",
-        "Lists keys, mouse and game controller.",
+        "Lists keys, mouse and game controller; tells version, licence and how to cite; opens the documents.",
         Make::Plain(|| PanelAction::Show(PanelId::HELP).into()),
     )
     .with_keys(&[Shortcut::new("F1", When::Always)]),

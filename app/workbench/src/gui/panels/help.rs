@@ -1,10 +1,11 @@
-//! Keys, mouse and game controller, from the tables that declare them.
+//! Keys, mouse and game controller, from the tables that declare them; which Endline this is, and its documents.
 
 use std::fmt::Write;
 
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_session::command::When;
 
+use super::about;
 use crate::gui::command::{declared, spelled};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
@@ -30,13 +31,14 @@ impl Panel for HelpPanel {
         PanelId::HELP
     }
 
-    fn ui(&mut self, ui: &mut Ui, _shared: &mut Shared) {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             for when in When::ALL {
                 table(ui, when.title(), &keys(when));
             }
             widgets::caption(ui, "Files");
             ui.label("Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".");
+            about::show(ui, shared);
         });
     }
 }

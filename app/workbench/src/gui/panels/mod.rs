@@ -1,5 +1,6 @@
 //! The panels, each in a file or folder of its own that owns its state.
 
+mod about;
 pub mod assembly;
 pub mod compare;
 pub mod entanglement;

@@ -5,17 +5,18 @@ mod priors;
 mod queue;
 mod settable;
 
-use crate::gui::command::action::WindowAction;
+use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command::command;
-use endline_session::command::StudyAction;
+use endline_session::command::{EditAction, StudyAction};
 use std::path::Path;
 
 use egui::{ComboBox, RichText, ScrollArea, Ui};
-use endline_gear::{Diagnostic, Setting, StudyEvent};
+use endline_gear::{Diagnostic, Document, Setting, StudyEvent};
 use endline_session::edit::Documents;
 
 use crate::gui::fields::{self, Said};
 use crate::gui::files;
+use crate::gui::layout::Layout;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
@@ -69,7 +70,7 @@ fn apply(shared: &mut Shared, edits: Edits) {
         return;
     }
     let told = |error: endline_gear::EditError| error.message;
-    let change = |document: &mut endline_gear::Document| {
+    let change = |document: &mut Document| {
         edits.iter().try_for_each(|(path, value)| match value {
             Some(value) => document.put(path, value).map_err(told),
             None if document.has(path) => document.remove(path).map_err(told),
@@ -149,6 +150,7 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     let scenarios = shared.workbench.studies.scenarios.iter();
     let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
     choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);
+    design(ui, shared);
     number(
         ui,
         shared,
@@ -239,6 +241,30 @@ fn number(
                 }
             }
             edits.push((field.to_owned(), value));
+        }
+    });
+}
+
+/// The way from the study to its gear, where another scenario is open: an option is made from what is changed there.
+fn design(ui: &mut Ui, shared: &mut Shared) {
+    let documents = &shared.workbench.project.documents;
+    let Some(id) = documents.field(Documents::STUDY, "scenario") else { return };
+    let file = documents.root().join(format!("scenarios/{id}.toml"));
+    if files::stem(documents.scenario_path()) == id || !file.is_file() {
+        return;
+    }
+    let help = "Opens the scenario: change its gear and do not save, then come back and take \"From the present design\"";
+    ui.horizontal(|ui| {
+        widgets::name(ui, "");
+        if ui.button("Open its design").on_hover_text(help).clicked() {
+            // Gear that stands in the scenario itself is edited there.
+            let text = endline_gear::read::text(&file).unwrap_or_default();
+            let has_assembly = Document::parse(&text).is_ok_and(|scenario| scenario.has("gear"));
+            shared.give(EditAction::OpenScenario(file));
+            shared.give(PanelAction::Arrange(Layout::Design));
+            if has_assembly {
+                shared.give(PanelAction::Show(PanelId::ASSEMBLY));
+            }
         }
     });
 }
