@@ -63,6 +63,7 @@ pub static MENUS: [(&str, &[Item]); 4] = [
             Command("window.light"),
             Separator,
             Command("window.size"),
+            Command("window.units"),
             Separator,
             Command("panel.layout"),
         ],
@@ -101,11 +102,20 @@ pub fn show(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
     });
 }
 
-/// Units and layouts, at the right.
+/// Units and layouts, at the right: as much of them as there is room for. All are in the menus too.
 fn at_right(ui: &mut Ui, shared: &mut Shared) {
+    const UNITS: f32 = 170.0;
+    const LAYOUTS: f32 = 300.0;
+    let room = ui.available_width();
+    if room < UNITS {
+        return;
+    }
     for units in Units::ALL.into_iter().rev() {
         ui.selectable_value(&mut shared.workbench.preferences.units, units, units.name())
             .on_hover_text(units.help());
+    }
+    if room < UNITS + LAYOUTS {
+        return;
     }
     ui.separator();
     for layout in Layout::ALL.into_iter().rev() {

@@ -64,6 +64,9 @@ impl Default for LibraryPanel {
     }
 }
 
+/// Breadth at which the names of the tables, the search and the buttons fit beside one another, in points.
+const TOOLBAR: f32 = 1130.0;
+
 impl Panel for LibraryPanel {
     fn id(&self) -> PanelId {
         PanelId::LIBRARY
@@ -121,7 +124,8 @@ impl LibraryPanel {
     }
 
     fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        ui.horizontal(|ui| {
+        let is_broad = ui.available_width() > TOOLBAR;
+        ui.horizontal_wrapped(|ui| {
             for (kind, title) in KINDS {
                 if ui.selectable_label(self.kind == kind, title).clicked() {
                     self.turn_to(kind);
@@ -129,11 +133,16 @@ impl LibraryPanel {
             }
             ui.separator();
             ui.add(TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(150.0));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.buttons(ui, shared));
+            if is_broad {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.buttons(ui, shared));
+            }
         });
+        if !is_broad {
+            ui.horizontal_wrapped(|ui| self.buttons(ui, shared));
+        }
     }
 
-    /// What is done with the files, from the right.
+    /// What is done with the files, from the right where there is room beside the tables' names.
     fn buttons(&self, ui: &mut Ui, shared: &mut Shared) {
         let unsaved = shared.workbench.project.documents.unsaved().len();
         if primary(ui, unsaved > 0, "Save")
