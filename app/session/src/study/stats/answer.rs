@@ -54,7 +54,14 @@ fn sentences(asked: &Asked<'_>, compared: Vec<Compared<'_>>) -> Vec<String> {
     let (told, open): (Vec<_>, Vec<_>) = compared.into_iter().partition(Compared::is_told_apart);
     let nothing = told.is_empty().then(|| {
         let Asked { event, baseline, encounters, .. } = asked;
-        format!("{encounters} encounters tell no option apart from {baseline} in “{event}”.")
+        match encounters {
+            1 => format!("1 encounter tells no option apart from {baseline} in “{event}”."),
+            _ => {
+                format!(
+                    "{encounters} encounters tell no option apart from {baseline} in “{event}”."
+                )
+            }
+        }
     });
     let apart = told.iter().map(|option| option.apart(asked));
     nothing.into_iter().chain(apart).chain(undecided(&open, &told)).chain(small(asked)).collect()
@@ -123,9 +130,12 @@ fn undecided(open: &[Compared<'_>], told: &[Compared<'_>]) -> Option<String> {
 /// That there are few encounters.
 fn small(asked: &Asked<'_>) -> Option<String> {
     (asked.encounters < SMALL).then(|| {
+        let few = match asked.encounters {
+            1 => "1 encounter is".to_owned(),
+            count => format!("{count} encounters are"),
+        };
         format!(
-            "{} encounters are few: a difference of 5 points is told apart four times in five from {SMALL}, where one encounter in ten comes out otherwise.",
-            asked.encounters
+            "{few} few: a difference of 5 points is told apart four times in five from {SMALL}, where one encounter in ten comes out otherwise."
         )
     })
 }

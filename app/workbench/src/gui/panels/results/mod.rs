@@ -143,8 +143,9 @@ impl ResultsPanel {
             let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
             let state = if shown.whole { "" } else { ", so far" };
             let text = format!(
-                "{} encounters{state}; {invalid} invalid runs left out",
-                findings.encounters
+                "{} {}{state}; {invalid} invalid runs left out",
+                findings.encounters,
+                if findings.encounters == 1 { "encounter" } else { "encounters" }
             );
             ui.label(RichText::new(text).color(if shown.whole {
                 palette.faint
