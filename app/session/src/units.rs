@@ -1,5 +1,6 @@
 //! Units that values are displayed in, numbers formatted with them, and compass bearings.
 
+use endline_gear::units::{Quantity, find, parse};
 use serde::{Deserialize, Serialize};
 
 /// Newtons in a pound-force, exact by definition.
@@ -59,6 +60,12 @@ pub(crate) const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
 pub(crate) const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
 /// Pascals in a pound-force on a square inch.
 const PASCALS_PER_PSI: f64 = 6_894.757;
+/// Kilograms in a pound, exact by definition.
+const KG_PER_POUND: f64 = 0.453_592_37;
+/// Lengths below this are told as diameters are [m].
+const THIN_M: f64 = 0.06;
+/// Metric units of length, speed, force and mass, as files have them.
+const METRIC: [&str; 9] = ["m", "cm", "mm", "km", "m/s", "N", "kN", "kg", "g"];
 /// A nautical mile an hour [m/s].
 const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
 
@@ -177,6 +184,32 @@ impl Units {
     }
 }
 
+impl Units {
+    /// A value as a file has it, such as `25 m`, in the unit that this profile shows it in; `None` where it has that kind of unit
+    /// already, or none that is known.
+    #[must_use]
+    pub fn instead_of(self, text: &str) -> Option<String> {
+        let unit = text.trim().trim_start_matches(|letter: char| !letter.is_alphabetic());
+        let known = [Quantity::Length, Quantity::Speed, Quantity::Force, Quantity::Mass];
+        let quantity = known.into_iter().find(|quantity| find(unit, *quantity).is_some())?;
+        let is_metric = METRIC.contains(&unit);
+        let wants_metric =
+            if quantity == Quantity::Force { self == Self::Si } else { !self.trade() };
+        if is_metric == wants_metric {
+            return None;
+        }
+        let value = parse(text, quantity).ok()?;
+        Some(match quantity {
+            Quantity::Length if value.abs() < THIN_M => self.diameter(value),
+            Quantity::Length => self.length(value),
+            Quantity::Speed => self.speed(value),
+            Quantity::Force => self.force().text(value),
+            _ if wants_metric => format!("{} kg", rounded(value, 1)),
+            _ => format!("{} lb", rounded(value / KG_PER_POUND, 1)),
+        })
+    }
+}
+
 /// A number to so many decimals; what rounds to nothing has no sign.
 #[must_use]
 pub fn rounded(value: f64, digits: usize) -> String {
@@ -194,6 +227,30 @@ pub fn bearing_degrees(east: f64, north: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_of_a_file_is_told_in_the_unit_of_the_profile_where_that_is_another() {
+        for (units, text, told) in [
+            (Units::Noaa, "25 m", Some("82.0 ft")),
+            (Units::Noaa, "0.25 m/s", Some("0.49 kn")),
+            (Units::Noaa, "9.5 mm", Some("3/8 in")),
+            (Units::Noaa, "130 N", Some("29.2 lbf")),
+            (Units::Noaa, "6.6 kg", Some("14.6 lb")),
+            (Units::Noaa, "40 fathom", None),
+            (Units::Noaa, "1,700 lbf", None),
+            (Units::Mixed, "25 m", None),
+            (Units::Mixed, "130 N", Some("29.2 lbf")),
+            (Units::Mixed, "3/8 in", Some("9.5 mm")),
+            (Units::Si, "1700 lbf", Some("7562 N")),
+            (Units::Si, "40 lb", Some("18.1 kg")),
+            (Units::Si, "0.5", None),
+            (Units::Noaa, "90 deg", None),
+            (Units::Noaa, "pp", None),
+            (Units::Noaa, "", None),
+        ] {
+            assert_eq!(units.instead_of(text).as_deref(), told, "{units:?} {text}");
+        }
+    }
 
     #[test]
     fn seventeen_hundred_pounds_are_the_newtons_of_the_weak_rope_rule() {

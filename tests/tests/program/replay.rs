@@ -126,7 +126,7 @@ fn a_stretch_of_a_recording_is_a_film_and_what_is_no_stretch_is_refused() {
     // Each picture is told by a graphic control extension of its own.
     let pictures = bytes.windows(3).filter(|bytes| *bytes == [0x21, 0xf9, 0x04]).count();
     assert_eq!(pictures, 3, "at 0, 0.1 and 0.2 s");
-    call("run.png", &film).fails(2, &["run.png is no film", ".gif, .mp4 or .webm"]);
+    call("run.png", &film).fails(2, &["run.png is no film", ".gif, .mp4, .webm or .glb"]);
     call("late.gif", &["--from", "0.1", "--to", "99"])
         .fails(2, &["--to 99", "no stretch of a run"]);
     call("both.gif", &["--from", "0", "--at", "1"]).fails(2, &["--at"]);

@@ -1,10 +1,11 @@
 //! A field of a text as it is typed: committed on Enter or when left, red where it is wrong.
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{Context, Id, Key, Response, Stroke, TextEdit, Ui};
+use egui::{Context, FontId, Id, Key, Rect, Response, Stroke, TextEdit, Ui, vec2};
 use endline_gear::Diagnostic;
 use endline_session::edit::Documents;
 use endline_session::edit::problems::message;
+use endline_session::units::Units;
 
 use super::theme::Theme;
 
@@ -79,17 +80,54 @@ fn edit_as(
         select_all(ui.ctx(), edit_id, &typed);
     }
     outline(ui, &response, problem);
+    let instead = if problem.is_none() && !response.has_focus() {
+        units_shown(ui).instead_of(&stored)
+    } else {
+        None
+    };
+    if let Some(instead) = &instead {
+        beside(ui, response.rect, &stored, instead);
+    }
     if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, typed.clone()));
     }
     let left = response.lost_focus();
-    hover(response, problem, said.help);
+    let converted = instead.map(|instead| format!("{stored} is {instead}"));
+    let help = [Some(said.help).filter(|help| !help.is_empty()), converted.as_deref()];
+    hover(response, problem, &help.into_iter().flatten().collect::<Vec<_>>().join("\n"));
     if !left {
         return None;
     }
     ui.data_mut(|data| data.remove_temp::<String>(id));
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
     (!escaped && typed != stored).then_some(typed)
+}
+
+/// Says once a frame in which units values are shown.
+pub fn show_in(context: &Context, units: Units) {
+    context.data_mut(|data| data.insert_temp(units_id(), units));
+}
+
+fn units_shown(ui: &Ui) -> Units {
+    ui.data(|data| data.get_temp(units_id())).unwrap_or_default()
+}
+
+fn units_id() -> Id {
+    Id::new("units that values are shown in")
+}
+
+/// Writes the value in the unit shown at the right of its field, where both fit: the file keeps its own.
+fn beside(ui: &Ui, rect: Rect, stored: &str, instead: &str) {
+    /// Margins, the room between the two, and that of a letter of confidence at the right.
+    const ROOM: f32 = 40.0;
+    let (colour, font) = (Theme::palette_of(ui).faint, FontId::proportional(11.5));
+    let painter = ui.painter();
+    let own = painter.layout_no_wrap(stored.to_owned(), FontId::proportional(13.5), colour);
+    let text = painter.layout_no_wrap(instead.to_owned(), font, colour);
+    if own.size().x + text.size().x + ROOM < rect.width() {
+        let right = rect.right_center() - vec2(6.0 + text.size().x, 0.5 * text.size().y);
+        painter.galley(right, text, colour);
+    }
 }
 
 /// Selects what stands in a text box that was reached by keys, so that typing replaces it.

@@ -8,6 +8,7 @@ use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::live::engine;
+use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::panel_id::PanelId;
@@ -16,7 +17,7 @@ use endline_workbench::gui::wraps::wraps;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::View;
 
-use crate::common::{Folder, drag, give, linked, opened_with, retype, wait};
+use crate::common::{Folder, drag, give, linked, only, opened_with, retype, wait};
 
 /// A scenario settled, with one panel alone.
 fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, App> {
@@ -305,4 +306,18 @@ fn click(harness: &mut Harness<'static, App>, label: &str) {
     harness.run_steps(3);
     harness.get_by_label(label).click();
     harness.run_steps(3);
+}
+
+#[test]
+fn a_field_tells_its_value_in_the_units_shown_and_keeps_its_own() {
+    let folder = Folder::new("field-units");
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    harness.state_mut().shared.workbench.preferences.units = Units::Noaa;
+    only(&mut harness, PanelId::SCENARIO);
+    harness.get_all_by_value("0.25 m/s").next().unwrap().hover();
+    harness.run_steps(60);
+    harness.get_by_label_contains("0.25 m/s is 0.49 kn");
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert_eq!(documents.field(Documents::SCENARIO, "current.speed").as_deref(), Some("0.25 m/s"));
 }

@@ -262,6 +262,8 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
 fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     let folder = Folder::new("designer");
     let mut harness = studying(&folder);
+    // All of the panel is in sight.
+    harness.set_size(egui::vec2(1500.0, 1400.0));
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::STUDY.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("Add option").click();

@@ -19,7 +19,7 @@ use crate::gui::panels::Panels;
 use crate::gui::preferences::Kept;
 use crate::gui::questions::{self, Questions};
 use crate::gui::shared::Shared;
-use crate::gui::{keys, menus, status};
+use crate::gui::{fields, keys, menus, status};
 use crate::input::{HeldKeys, PilotAction};
 use tabs::Tabs;
 
@@ -174,6 +174,7 @@ impl eframe::App for App {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        fields::show_in(ui.ctx(), self.shared.workbench.preferences.units);
         let theme = self.shared.preferences.theme;
         if self.dressed.replace(theme) != Some(theme) {
             theme.apply(ui.ctx());
