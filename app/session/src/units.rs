@@ -189,6 +189,9 @@ impl Units {
     /// already, or none that is known.
     #[must_use]
     pub fn instead_of(self, text: &str) -> Option<String> {
+        if !text.starts_with(|first: char| first.is_ascii_digit() || first == '-') {
+            return None;
+        }
         let unit = text.trim().trim_start_matches(|letter: char| !letter.is_alphabetic());
         let known = [Quantity::Length, Quantity::Speed, Quantity::Force, Quantity::Mass];
         let quantity = known.into_iter().find(|quantity| find(unit, *quantity).is_some())?;

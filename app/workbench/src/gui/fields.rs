@@ -9,6 +9,9 @@ use endline_session::units::Units;
 
 use super::theme::Theme;
 
+/// Least breadth of a field beside whose value there is room for another, in points.
+const BROAD: f32 = 110.0;
+
 /// What is said of a field: a hint shown while it is empty, and help on hover.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Said<'a> {
@@ -80,7 +83,9 @@ fn edit_as(
         select_all(ui.ctx(), edit_id, &typed);
     }
     outline(ui, &response, problem);
-    let instead = if problem.is_none() && !response.has_focus() {
+    // A table's hundreds of narrow fields have no room for it.
+    let wanted = response.rect.width() > BROAD || response.contains_pointer();
+    let instead = if wanted && problem.is_none() && !response.has_focus() {
         units_shown(ui).instead_of(&stored)
     } else {
         None
