@@ -17,6 +17,7 @@ use endline_sim::{DQuat, DVec3, Frame, Model};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
+use super::model::{self, turned};
 use super::tube::{Piece, pieces};
 use crate::scene::mesh::{Colour, Mesh};
 use crate::scene::{bodies, obstacles, whale};
@@ -89,17 +90,7 @@ impl Clip {
 
     /// Adds a mesh with morph targets, which are differences from its places, and its node.
     fn mesh(&mut self, name: &str, mesh: &Mesh, targets: &[Vec<[f32; 3]>]) -> usize {
-        let places: Vec<[f32; 3]> =
-            (0..mesh.vertices()).map(|vertex| turned(mesh.surface(vertex))).collect();
-        let normals: Vec<[f32; 3]> =
-            mesh.normal.iter().map(|normal| turned(normal.normalize_or(Vec3::Z))).collect();
-        let attributes = json!({
-            "POSITION": self.pack.places(&places),
-            "NORMAL": self.pack.vertices(&normals),
-            "COLOR_0": self.pack.vertices(&mesh.colour),
-        });
-        let indices = self.pack.indices(mesh.triangles.as_flattened());
-        let mut primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
+        let mut primitive = model::primitive(&mut self.pack, mesh);
         if !targets.is_empty() {
             let morphs: Vec<Value> = targets
                 .iter()
@@ -239,11 +230,6 @@ impl Clip {
     }
 
     fn written(self) -> Vec<u8> {
-        let material = json!({
-            "name": "gear",
-            "doubleSided": true,
-            "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 },
-        });
         let of_scene: Vec<usize> = (0..self.nodes.len()).collect();
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "Endline" },
@@ -251,7 +237,7 @@ impl Clip {
             "scenes": [{ "nodes": of_scene }],
             "nodes": self.nodes,
             "meshes": self.meshes,
-            "materials": [material],
+            "materials": [model::material()],
             "accessors": self.pack.accessors,
             "bufferViews": self.pack.views,
         });
@@ -261,11 +247,6 @@ impl Clip {
         }
         pack::binary(document, self.pack.bytes)
     }
-}
-
-/// A place or direction with y up.
-fn turned(place: Vec3) -> [f32; 3] {
-    [place.x, place.z, -place.y]
 }
 
 /// A turn about the same axis, which is given with y up.

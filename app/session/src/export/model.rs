@@ -5,7 +5,7 @@
 
 use endline_gear::whale::gltf::pack::{self, Pack};
 use glam::Vec3;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::scene::Scene;
 use crate::scene::mesh::Mesh;
@@ -55,37 +55,50 @@ pub fn glb(scene: &Scene) -> Vec<u8> {
     let mut pack = Pack::default();
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     for (name, mesh) in solid(scene) {
-        let turned = |place: Vec3| Vec3::new(place.x, place.z, -place.y);
-        let places: Vec<[f32; 3]> = places(mesh).map(|place| turned(place).to_array()).collect();
-        let unit = |normal: &Vec3| turned(*normal).normalize_or(Vec3::Y).to_array();
-        let normals: Vec<[f32; 3]> = mesh.normal.iter().map(unit).collect();
-        let attributes = json!({
-            "POSITION": pack.places(&places),
-            "NORMAL": pack.vertices(&normals),
-            "COLOR_0": pack.vertices(&mesh.colour),
-        });
-        let indices = pack.indices(mesh.triangles.as_flattened());
         nodes.push(json!({ "name": name, "mesh": meshes.len() }));
-        let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
+        let primitive = primitive(&mut pack, mesh);
         meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
     let of_scene: Vec<usize> = (0..nodes.len()).collect();
-    let material = json!({
-        "name": "gear",
-        "doubleSided": true,
-        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 },
-    });
     let document = json!({
         "asset": { "version": "2.0", "generator": "Endline" },
         "scene": 0,
         "scenes": [{ "nodes": of_scene }],
         "nodes": nodes,
         "meshes": meshes,
-        "materials": [material],
+        "materials": [material()],
         "accessors": pack.accessors,
         "bufferViews": pack.views,
     });
     pack::binary(document, pack.bytes)
+}
+
+/// A mesh in the first material, with its colours.
+pub(super) fn primitive(pack: &mut Pack, mesh: &Mesh) -> Value {
+    let places: Vec<[f32; 3]> = places(mesh).map(turned).collect();
+    let unit = |normal: &Vec3| turned(normal.normalize_or(Vec3::Z));
+    let normals: Vec<[f32; 3]> = mesh.normal.iter().map(unit).collect();
+    let attributes = json!({
+        "POSITION": pack.places(&places),
+        "NORMAL": pack.vertices(&normals),
+        "COLOR_0": pack.vertices(&mesh.colour),
+    });
+    let indices = pack.indices(mesh.triangles.as_flattened());
+    json!({ "attributes": attributes, "indices": indices, "material": 0 })
+}
+
+/// The material of all parts: dull, in the colours of the vertices.
+pub(super) fn material() -> Value {
+    json!({
+        "name": "gear",
+        "doubleSided": true,
+        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 },
+    })
+}
+
+/// A place or direction with y up.
+pub(super) fn turned(place: Vec3) -> [f32; 3] {
+    [place.x, place.z, -place.y]
 }
 
 #[cfg(test)]
@@ -141,9 +154,9 @@ mod tests {
             [0x4654_6C67, 2, u32::try_from(bytes.len()).unwrap()]
         );
         let length = word(12) as usize;
-        let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+        let document: Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
         assert_eq!(document["meshes"].as_array().unwrap().len(), 1);
-        let accessor = |index: &serde_json::Value| {
+        let accessor = |index: &Value| {
             &document["accessors"][usize::try_from(index.as_u64().unwrap()).unwrap()]
         };
         let primitive = &document["meshes"][0]["primitives"][0];

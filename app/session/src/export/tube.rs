@@ -79,9 +79,8 @@ impl Piece {
         let line = model.segment_line[knot.segment];
         let lengths = Lengths::of(model, frame, line);
         let segment = knot.segment - model.line_segments[line].start;
-        let length = lengths.ends.get(segment).copied().unwrap_or_default()
-            - segment.checked_sub(1).map_or(0.0, |before| lengths.ends[before]);
-        let start = lengths.ends.get(segment).copied().unwrap_or_default() - length;
+        let start = lengths.start(segment);
+        let length = lengths.start(segment + 1) - start;
         (start + knot.fraction(length) * length) / lengths.whole_m()
     }
 }
@@ -115,14 +114,17 @@ impl<'a> Lengths<'a> {
         self.ends.last().copied().unwrap_or_default().max(1e-9)
     }
 
+    /// Length from the line's start to that of a segment, or to the line's end [m].
+    fn start(&self, segment: usize) -> f64 {
+        let before = segment.checked_sub(1).and_then(|before| self.ends.get(before));
+        before.copied().unwrap_or_default()
+    }
+
     /// Middles of the segments that are cut, as shares of the length.
     fn cut_middles(&self) -> Vec<f64> {
         let cut = (0..self.cut.len()).filter(|segment| self.cut[*segment]);
-        cut.map(|segment| {
-            let start = segment.checked_sub(1).map_or(0.0, |before| self.ends[before]);
-            0.5 * (start + self.ends[segment]) / self.whole_m()
-        })
-        .collect()
+        cut.map(|segment| 0.5 * (self.start(segment) + self.ends[segment]) / self.whole_m())
+            .collect()
     }
 
     /// The place of a share of the length. In a segment that is cut it is the node that the piece still has: the further one
@@ -137,7 +139,7 @@ impl<'a> Lengths<'a> {
         if self.cut[segment] {
             return (if at_start { *to } else { *from }).as_vec3();
         }
-        let start = segment.checked_sub(1).map_or(0.0, |before| self.ends[before]);
+        let start = self.start(segment);
         let length = (self.ends[segment] - start).max(1e-9);
         from.lerp(*to, (wanted - start) / length).as_vec3()
     }
@@ -176,14 +178,8 @@ fn mesh_of(rings: &[(Vec3, Vec3)], colour: Colour) -> Mesh {
     for (place, normal) in rings {
         mesh.vertex(*place, *normal, 0.0, colour);
     }
-    let sides = SIDES as u32;
-    for ring in 1..(rings.len() / SIDES) as u32 {
-        let (before, own) = ((ring - 1) * sides, ring * sides);
-        for corner in 0..sides {
-            let next = (corner + 1) % sides;
-            let [a, b, c, d] = [before + corner, before + next, own + next, own + corner];
-            mesh.triangles.extend([[a, b, c], [a, c, d]]);
-        }
+    for first in (SIDES..rings.len()).step_by(SIDES) {
+        mesh.band((first - SIDES) as u32, first as u32, SIDES);
     }
     mesh
 }

@@ -115,7 +115,7 @@ impl Mesh {
     }
 
     /// Triangles between two rings, of which the second lies above the first where both turn anticlockwise as seen from above.
-    pub(super) fn band(&mut self, before: u32, after: u32, sides: usize) {
+    pub(crate) fn band(&mut self, before: u32, after: u32, sides: usize) {
         let sides = u32::try_from(sides).unwrap_or(3);
         for side in 0..sides {
             let next = (side + 1) % sides;

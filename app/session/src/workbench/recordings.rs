@@ -33,7 +33,7 @@ impl Workbench {
         let of = self.guest().map_or(stem, str::to_owned);
         let known = Kept::of_run(of, view.newest_s, view.summary.as_ref());
         if self.send(RunCommand::SaveRecording(path.clone())).is_ok() {
-            self.run.kept += 1;
+            self.run.kept_changes += 1;
             if let Err(error) = known.save(&path) {
                 self.notice = Some(Notice::fault(error.to_string()));
             }
@@ -50,12 +50,6 @@ impl Workbench {
         }
     }
 
-    /// Runs kept since the start.
-    #[must_use]
-    pub fn kept_runs(&self) -> u64 {
-        self.run.kept
-    }
-
     /// Asks for the moments of the run that are kept, which come without waiting for them here.
     ///
     /// # Errors
@@ -69,7 +63,7 @@ impl Workbench {
     /// Times that kept runs came, went or changed since the start: what lists them reads them again.
     #[must_use]
     pub fn recordings_version(&self) -> u64 {
-        self.run.kept + self.run.kept_changes
+        self.run.kept_changes
     }
 
     pub(crate) fn rename_recording(&mut self, file: &Path, name: &str) -> Result<(), String> {

@@ -69,9 +69,7 @@ pub struct CurrentRun {
     pub(super) comparison: Option<Comparison>,
     /// Whether the run was kept as it stands.
     pub(super) is_kept: bool,
-    /// Runs kept since the start.
-    pub(super) kept: u64,
-    /// Times that kept runs were renamed, noted on or deleted since the start.
+    /// Times that a run was kept, or a kept one renamed, noted on or deleted since the start.
     pub(super) kept_changes: u64,
     /// Whether plugins were loaded again since the run's thread began.
     pub(super) other_plugins: bool,
@@ -91,7 +89,6 @@ impl CurrentRun {
             program: ProgramRequest::default(),
             comparison: None,
             is_kept: false,
-            kept: 0,
             kept_changes: 0,
             other_plugins: false,
         }

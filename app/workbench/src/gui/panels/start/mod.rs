@@ -5,6 +5,7 @@ mod item;
 mod sketch;
 
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use egui::{
     Align, CollapsingHeader, Label, Layout as Flow, RichText, ScrollArea, Sense, TextEdit, Ui, vec2,
@@ -25,10 +26,14 @@ use item::{Group, Item, What};
 /// Breadth of a column of items, in points.
 const COLUMN: f32 = 400.0;
 
+/// How often it is looked whether files came or went.
+const LOOK: Duration = Duration::from_secs(1);
+
 /// Where a user begins; the library is read when the page is first shown, and again when files came or went.
 #[derive(Debug, Default)]
 pub struct StartPanel {
     items: Option<(usize, Vec<Item>)>,
+    looked: Option<Instant>,
     sought: String,
 }
 
@@ -39,9 +44,12 @@ impl Panel for StartPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let root = shared.workbench.project.documents.root().to_owned();
-        let files = item::count(&root);
-        if self.items.as_ref().is_none_or(|(seen, _)| *seen != files) {
-            self.items = Some((files, item::all(&root)));
+        if self.looked.is_none_or(|looked| looked.elapsed() > LOOK) {
+            self.looked = Some(Instant::now());
+            let files = item::count(&root);
+            if self.items.as_ref().is_none_or(|(seen, _)| *seen != files) {
+                self.items = Some((files, item::all(&root)));
+            }
         }
         let items = self.items.as_ref().map_or(&[][..], |(_, items)| items);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
