@@ -1,6 +1,7 @@
 //! What is known of a kept recording without running it again: how it ended, and what its user says of it.
 //!
-//! It stands beside the recording, `NAME.kept.json` for `NAME.endline`; a recording without it is as good.
+//! It stands beside the recording, `NAME.kept.json` for `NAME.endline`, with a picture of its end, `NAME.kept.png`; a recording
+//! without them is as good.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -111,9 +112,16 @@ fn relocate(from: &Path, to: &Path) -> Result<(), Error> {
         return Err(Error::at(to, "is there already; choose another name"));
     }
     fs::rename(from, to).map_err(|error| Error::at(from, format!("cannot be moved: {error}")))?;
-    // A recording without it is as good.
+    // A recording without them is as good.
     let _ = fs::rename(place(from), place(to));
+    let _ = fs::rename(picture(from), picture(to));
     Ok(())
+}
+
+/// Where the picture of a recording's end stands.
+#[must_use]
+pub fn picture(recording: &Path) -> PathBuf {
+    recording.with_extension("kept.png")
 }
 
 fn place(recording: &Path) -> PathBuf {
@@ -134,6 +142,7 @@ mod tests {
             fs::write(file, "bytes").unwrap();
         }
         kept.save(&first).unwrap();
+        fs::write(picture(&first), "pixels").unwrap();
 
         let renamed = rename(&first, " flipper, v2.1 ").unwrap();
         assert_eq!(renamed, folder.join("flipper, v2.1.endline"));
@@ -152,6 +161,7 @@ mod tests {
         let deleted = delete(&renamed).unwrap();
         assert_eq!(deleted, folder.join("deleted/flipper, v2.1.endline"));
         assert_eq!(Kept::beside(&deleted), Some(kept));
+        assert!(picture(&deleted).exists() && !picture(&first).exists());
         fs::write(&renamed, "another").unwrap();
         assert_eq!(delete(&renamed).unwrap(), folder.join("deleted/flipper, v2.1 (1).endline"));
         fs::remove_dir_all(&folder).unwrap();

@@ -44,6 +44,8 @@ pub enum Event {
     ProgramWritten,
     /// The pilot program has a new entry at this place.
     EntryAdded(usize),
+    /// The run shown is kept as this recording.
+    RunKept(std::path::PathBuf),
     /// An entry of the library was copied.
     Duplicated {
         /// The entry.

@@ -8,7 +8,7 @@ use endline_sim::Frame;
 
 use super::Workbench;
 use super::model::Then;
-use super::notice::Notice;
+use super::notice::{Event, Notice};
 use crate::error::Error;
 use crate::live::RunCommand;
 use crate::recording::Recording;
@@ -37,6 +37,7 @@ impl Workbench {
             if let Err(error) = known.save(&path) {
                 self.notice = Some(Notice::fault(error.to_string()));
             }
+            self.events.push(Event::RunKept(path));
         }
     }
 
@@ -64,6 +65,11 @@ impl Workbench {
     #[must_use]
     pub fn recordings_version(&self) -> u64 {
         self.run.kept_changes
+    }
+
+    /// Tells whoever lists kept runs that something about them has changed.
+    pub fn recordings_changed(&mut self) {
+        self.run.kept_changes += 1;
     }
 
     pub(crate) fn rename_recording(&mut self, file: &Path, name: &str) -> Result<(), String> {

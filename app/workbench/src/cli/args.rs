@@ -209,7 +209,8 @@ pub(super) struct RenderArgs {
     /// Bodies and lines to fit into the picture, such as trap-1,endline-top [default: all].
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
-    /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front.
+    /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front. For a film also views with
+    /// the seconds at which the camera stands there, such as side@0,whale@10,whale-side@14.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
     /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg; .glb is an animated 3-D

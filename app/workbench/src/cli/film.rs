@@ -44,7 +44,6 @@ pub(super) fn film(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode
         view: &args.view,
         size: args.size,
         caption: &caption,
-        out: &args.out,
     };
     let progress = Progress::new("drawing");
     let drawn = picture::film(film, &reel, |done| {

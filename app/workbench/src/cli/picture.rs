@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 #[cfg(feature = "scene")]
-use endline_session::scene::Scene;
+use endline_session::scene::{Scene, Show};
 #[cfg(feature = "scene")]
 use endline_session::units::Units;
 use endline_session::{Report, Run};
@@ -17,18 +17,21 @@ use super::output;
 
 /// Refuses a view that does not exist, before anything is run.
 #[cfg(feature = "scene")]
-pub(super) fn check_view(view: &str) -> Result<(), String> {
-    let known = scene::View::named(view).is_some();
-    if known {
+pub(super) fn check_view(view: &str, film: bool) -> Result<(), String> {
+    let path = scene::CameraPath::read(view)?;
+    if film || path.single().is_some() {
         Ok(())
     } else {
-        Err(format!("there is no view `{view}`; expected one of {}", scene::View::names()))
+        Err(format!(
+            "`{view}` is a way through a film; a picture has one view, one of {}",
+            scene::View::names()
+        ))
     }
 }
 
 /// A build that draws nothing refuses every view.
 #[cfg(not(feature = "scene"))]
-pub(super) fn check_view(_view: &str) -> Result<(), String> {
+pub(super) fn check_view(_view: &str, _film: bool) -> Result<(), String> {
     Err(NO_SCENE.into())
 }
 
@@ -113,51 +116,43 @@ pub(super) struct Reel<'a> {
     pub model: &'a Model,
     /// The moments drawn.
     pub frames: &'a [Arc<Frame>],
-    /// Name of the view.
+    /// Name of the view, or views with the times at which the camera stands there.
     pub view: &'a str,
     /// Width and height [px].
     pub size: [u32; 2],
     /// Line of text at the top left.
     pub caption: &'a str,
-    /// File to write.
-    pub out: &'a Path,
 }
 
 /// Draws a film; `go_on` hears of each picture and ends the film there where it answers `false`. Answers how many there are.
 #[cfg(feature = "scene")]
 pub(super) fn film(
-    mut film: Begun,
+    film: Begun,
     reel: &Reel<'_>,
     go_on: impl Fn(usize) -> bool,
 ) -> Result<usize, String> {
-    let view = scene::View::named(reel.view).unwrap_or_default();
-    let mut renderer = scene::Renderer::new(reel.size)?;
-    // One scale and one place of the eye for all, so that nothing jumps that did not move.
-    let tensions = reel.frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
-    let scale_n = Some(tensions.fold(0.0, f64::max));
+    let path = scene::CameraPath::read(reel.view)?;
+    // A view of everything holds all that is to come, so that nothing jumps that did not move.
     let some = reel.frames.iter().step_by((reel.frames.len() / 20).max(1));
     let places: Vec<DVec3> = some.flat_map(|frame| Scene::places_of(reel.model, frame)).collect();
-    let mut drawn = 0;
-    for frame in reel.frames {
-        let request = scene::RenderRequest {
-            model: reel.model,
-            frame,
-            size: reel.size,
-            view: reel.view,
-            scale_n,
-            fit: &places,
-            caption: reel.caption,
-            out: reel.out,
-            units: Units::Mixed,
-        };
-        film.add(&renderer.picture(&request, view)?)?;
-        drawn += 1;
-        if !go_on(drawn) {
-            break;
-        }
-    }
-    film.end()?;
-    Ok(drawn)
+    let length_m = reel.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
+    let aspect = f64::from(reel.size[0]) / f64::from(reel.size[1]);
+    let seen = |view: scene::View, frame: &Frame| {
+        scene::Camera::of_view(view, &places, frame.whale.as_ref(), length_m, aspect)
+    };
+    let camera =
+        |frame: &Frame| path.camera(frame.time_s, |view| seen(*view, frame)).unwrap_or_default();
+    let drawing = scene::Reel {
+        model: reel.model,
+        frames: reel.frames,
+        size: reel.size,
+        camera: &camera,
+        show: Show::default(),
+        water: scene::Water::DARK,
+        caption: reel.caption,
+        units: Units::Mixed,
+    };
+    drawing.draw(film, go_on)
 }
 
 /// A build that draws nothing says so.

@@ -14,7 +14,7 @@ use super::replay::tell_version;
 use super::{Failure, film, host, output, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
-    picture::check_view(&args.view).map_err(Failure::usage)?;
+    picture::check_view(&args.view, picture::is_film(&args.out)).map_err(Failure::usage)?;
     if is_same(&args.file, &args.out) {
         return Err(Failure::usage("--out is the file that is drawn; name another"));
     }

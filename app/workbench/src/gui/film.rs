@@ -14,7 +14,7 @@ use endline_sim::{Frame, Model};
 
 use super::panels::view::Eye;
 use crate::scene::film::Film;
-use crate::scene::{RenderRequest, Renderer, Water};
+use crate::scene::{CameraPath, Reel, Water};
 
 /// Width and height [px], and pictures a second.
 const SIZE: [u32; 2] = [1280, 720];
@@ -24,13 +24,15 @@ const FPS: u32 = 20;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// What a film shows, and where it goes.
-pub struct Reel {
+pub struct FilmOrder {
     /// The gear, sea and whale.
     pub model: Arc<Model>,
     /// Brings the moments that the run keeps.
     pub frames: Receiver<Vec<Arc<Frame>>>,
     /// Where it is seen from; an eye that goes with the whale does so.
     pub eye: Eye,
+    /// The keys of its camera, which come before the eye where there are any.
+    pub path: CameraPath<Eye>,
     /// What is drawn.
     pub show: Show,
     /// Dark or light.
@@ -63,12 +65,12 @@ impl FilmJob {
     ///
     /// # Errors
     /// A file that cannot be begun, or no thread.
-    pub fn begin(reel: Reel, waker: Waker) -> Result<Self, String> {
-        let film = Film::begin(&reel.out, SIZE, FPS)?;
+    pub fn begin(order: FilmOrder, waker: Waker) -> Result<Self, String> {
+        let film = Film::begin(&order.out, SIZE, FPS)?;
         let (progress, mut task) = (Arc::new(Progress::default()), Task::default());
-        let (out, told) = (reel.out.clone(), Arc::clone(&progress));
+        let (out, told) = (order.out.clone(), Arc::clone(&progress));
         let awake = Arc::clone(&waker);
-        task.start("endline-film", move || reel.draw(film, &told, &awake), waker)
+        task.start("endline-film", move || order.draw(film, &told, &awake), waker)
             .map_err(|error| format!("the film cannot be begun: {error}"))?;
         Ok(Self { out, progress, task })
     }
@@ -103,38 +105,32 @@ impl FilmJob {
     }
 }
 
-impl Reel {
-    fn draw(&self, mut film: Film, progress: &Progress, waker: &Waker) -> Result<(), String> {
+impl FilmOrder {
+    fn draw(&self, film: Film, progress: &Progress, waker: &Waker) -> Result<(), String> {
         let kept = self.frames.recv_timeout(PATIENCE);
         let frames = paced(&kept.map_err(|_| "the run does not hand over its moments")?);
         progress.of.store(frames.len(), Ordering::Relaxed);
-        let tensions = frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
-        // One scale for all, so that no colour changes that does not mean it.
-        let scale_n = Some(tensions.fold(0.0, f64::max));
-        let show = Show { scale_n, ..self.show };
         let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
-        let mut renderer = Renderer::new(SIZE)?;
-        for frame in &frames {
-            if progress.stop.load(Ordering::Relaxed) {
-                break;
-            }
-            let request = RenderRequest {
-                model: &self.model,
-                frame,
-                size: SIZE,
-                view: "",
-                scale_n,
-                fit: &[],
-                caption: &self.caption,
-                out: &self.out,
-                units: self.units,
-            };
-            let camera = self.eye.at_moment(&self.model, frame, aspect);
-            film.add(&renderer.seen_by(&request, &show, &camera, self.water))?;
-            progress.drawn.fetch_add(1, Ordering::Relaxed);
+        let camera = |frame: &Frame| {
+            let placed = |eye: &Eye| eye.at_moment(&self.model, frame, aspect);
+            self.path.camera(frame.time_s, placed).unwrap_or_else(|| placed(&self.eye))
+        };
+        let reel = Reel {
+            model: &self.model,
+            frames: &frames,
+            size: SIZE,
+            camera: &camera,
+            show: self.show,
+            water: self.water,
+            caption: &self.caption,
+            units: self.units,
+        };
+        let drawn = reel.draw(film, |drawn| {
+            progress.drawn.store(drawn, Ordering::Relaxed);
             waker();
-        }
-        film.end()
+            !progress.stop.load(Ordering::Relaxed)
+        });
+        drawn.map(drop)
     }
 }
 

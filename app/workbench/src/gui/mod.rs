@@ -13,6 +13,7 @@ pub mod fields;
 pub mod files;
 pub mod film;
 pub mod inspector;
+pub mod kept_picture;
 pub mod keys;
 pub mod layout;
 pub mod menus;

@@ -12,6 +12,7 @@ use endline_session::workbench::{Notice, Workbench};
 
 use super::command::action::WindowCommand;
 use super::film::FilmJob;
+use super::kept_picture::KeptPicture;
 use super::panel_id::PanelId;
 use super::preferences::Preferences;
 use crate::input::{Pilot, Rumble};
@@ -28,12 +29,16 @@ pub struct Shared {
     pub flying: bool,
     /// What the pilot feels.
     pub rumble: Rumble,
+    /// While the 3-D view is presented alone: the size of everything on screen before.
+    pub presented_from: Option<f32>,
     /// Whether handles in the 3-D view drag the whale's start.
     pub posing: bool,
     /// What is chosen in the panels.
     pub selection: Selection,
     /// The film that is being made.
     pub film: Option<FilmJob>,
+    /// The picture of a kept run that is being drawn.
+    pub kept_picture: KeptPicture,
     /// Commands given by panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
@@ -51,6 +56,8 @@ pub struct Selection {
     pub gear_at_rest: bool,
     /// Whether something is inspected or measured in the 3-D view.
     pub inspects: bool,
+    /// How many keys the camera has.
+    pub camera_keys: usize,
     /// Panels that are open.
     pub open: Vec<PanelId>,
 }
@@ -63,6 +70,7 @@ impl Default for Selection {
             program_entry: None,
             gear_at_rest: false,
             inspects: false,
+            camera_keys: 0,
             open: Vec::new(),
         }
     }
@@ -84,11 +92,19 @@ impl Shared {
             pilot,
             flying: false,
             rumble: Rumble::default(),
+            presented_from: None,
             posing: false,
             selection: Selection::default(),
             film: None,
+            kept_picture: KeptPicture::default(),
             commands: Vec::new(),
         }
+    }
+
+    /// Whether the 3-D view is presented alone.
+    #[must_use]
+    pub fn presents(&self) -> bool {
+        self.presented_from.is_some()
     }
 
     /// Gives a command, to be performed after drawing.
@@ -102,8 +118,11 @@ impl Shared {
         let _ = self.workbench.perform(command.into());
     }
 
-    /// Takes in a film that has ended.
-    pub fn refresh_film(&mut self) {
+    /// Takes in a film and a picture that have ended.
+    pub fn refresh_pictures(&mut self) {
+        if self.kept_picture.ended() {
+            self.workbench.recordings_changed();
+        }
         if let Some(notice) = self.film.as_mut().and_then(FilmJob::ended) {
             (self.film, self.workbench.notice) = (None, Some(notice));
         }

@@ -1,6 +1,6 @@
 //! The eye: an orbit about a target, the named views, and following the whale.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use endline_sim::frame::WhaleFrame;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -293,6 +293,21 @@ impl Camera {
         self.distance_m = (self.distance_m * 0.88_f64.powf(notches)).clamp(0.5, 20_000.0);
     }
 
+    /// This camera moved towards another by a share, 0 to 1: angles by the shorter way, the distance by equal factors.
+    #[must_use]
+    pub fn towards(&self, other: &Self, share: f64) -> Self {
+        let even = |from: f64, to: f64| from + (to - from) * share;
+        let turned = |from: f64, to: f64| from + ((to - from + PI).rem_euclid(TAU) - PI) * share;
+        Self {
+            target: self.target.lerp(other.target, share),
+            distance_m: self.distance_m * (other.distance_m / self.distance_m).powf(share),
+            azimuth: turned(self.azimuth, other.azimuth),
+            elevation: even(self.elevation, other.elevation),
+            field_of_view: even(self.field_of_view, other.field_of_view),
+            roll: turned(self.roll, other.roll),
+        }
+    }
+
     /// Length that one point of the picture spans at the target [m].
     #[must_use]
     pub fn metres_a_point(&self, height: f64) -> f64 {
@@ -437,6 +452,14 @@ mod tests {
         camera.pan(DVec2::new(30.0, -20.0), SIZE.y);
         let at = camera.project(place, SIZE).unwrap();
         assert!((at - (SIZE / 2.0 + DVec2::new(30.0, -20.0))).length() < 0.5, "{at}");
+    }
+
+    #[test]
+    fn a_passage_turns_by_the_shorter_way() {
+        let [from, to] = [3.0, -3.0].map(|azimuth| Camera { azimuth, ..Camera::default() });
+        let middle = from.towards(&to, 0.5);
+        assert!((middle.azimuth - PI).abs() < 1e-12, "{}", middle.azimuth);
+        assert!((from.towards(&to, 1.0).eye() - to.eye()).length() < 1e-9);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! tests.
 
 pub mod camera;
+pub mod camera_path;
 pub mod draw;
 pub mod film;
 pub mod labels;
@@ -12,13 +13,16 @@ pub mod offscreen;
 pub mod overlay;
 pub mod pick;
 pub mod picture;
+pub mod reel;
 pub mod silhouette;
 
 pub use camera::{Camera, View};
+pub use camera_path::CameraPath;
 pub use draw::{Drawer, Water};
 pub use overlay::Overlay;
 pub use pick::Picked;
 pub use picture::{RenderRequest, Renderer, render, render_png, write_png};
+pub use reel::Reel;
 
 #[cfg(test)]
 pub(crate) mod sample;

@@ -125,11 +125,7 @@ impl Renderer {
         water: Water,
     ) -> Vec<[u8; 4]> {
         let [width, height] = self.size;
-        let scene = Scene::of(request.model, request.frame, show);
-        self.drawer.load(&scene);
-        self.drawer.draw(0, camera, self.size, water);
-        let clip = ScissorBox::new_at_origo(width, height);
-        self.drawer.show(0, self.size, Viewport::new_at_origo(width, height), clip);
+        let scene = self.draw(request, show, camera, water);
         let overlay = Overlay {
             caption: request.caption,
             time_s: scene.time_s,
@@ -144,6 +140,35 @@ impl Renderer {
             overlay::paint(painter, rect, &overlay);
         });
         RenderTarget::screen(&self.context, width, height).read_color()
+    }
+
+    /// A picture without any letters, for a list of small ones.
+    pub fn bare(
+        &mut self,
+        request: &RenderRequest<'_>,
+        show: &Show,
+        camera: &Camera,
+        water: Water,
+    ) -> Vec<[u8; 4]> {
+        let [width, height] = self.size;
+        self.draw(request, show, camera, water);
+        RenderTarget::screen(&self.context, width, height).read_color()
+    }
+
+    fn draw(
+        &mut self,
+        request: &RenderRequest<'_>,
+        show: &Show,
+        camera: &Camera,
+        water: Water,
+    ) -> Scene {
+        let [width, height] = self.size;
+        let scene = Scene::of(request.model, request.frame, show);
+        self.drawer.load(&scene);
+        self.drawer.draw(0, camera, self.size, water);
+        let clip = ScissorBox::new_at_origo(width, height);
+        self.drawer.show(0, self.size, Viewport::new_at_origo(width, height), clip);
+        scene
     }
 
     /// Paints onto the surface with egui.

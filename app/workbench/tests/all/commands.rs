@@ -32,7 +32,8 @@ fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
     let work =
         (search, workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
     let eyes: Vec<_> = panels.view.eyes.iter().map(|eye| (eye.named, eye.follow)).collect();
-    let picks = (&panels.view.picks, panels.view.eyes.iter().any(|eye| eye.frame_again));
+    let keys: Vec<f64> = panels.view.path.times().collect();
+    let picks = (&panels.view.picks, keys, panels.view.eyes.iter().any(|eye| eye.frame_again));
     let flight = (shared.flying, shared.posing, shared.pilot.act(), shared.pilot.mouth_open());
     let chosen = (panels.library.kind(), &panels.library.chosen, panels.program.chosen);
     let dock = serde_json::to_string(&app.dock).unwrap();

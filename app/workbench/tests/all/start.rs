@@ -1,11 +1,13 @@
 //! Where a user begins, and what is kept: the start page and the list of recordings.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use egui_kittest::kittest::Queryable;
 use endline_session::command::RunAction;
 use endline_session::live::engine;
 use endline_session::recording::kept::Kept;
+use endline_workbench::gui::kept_picture;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 
@@ -39,13 +41,23 @@ fn a_recording_tells_how_it_ended_and_takes_a_name_and_a_note() {
     wait(&mut harness, |_| kept.exists());
     only(&mut harness, PanelId::RECORDINGS);
     harness.get_by_label("No contact");
+    // How it ended, drawn meanwhile.
+    wait(&mut harness, |_| kept_picture::read(&kept).is_some());
+    let picture = kept_picture::read(&kept).unwrap();
+    let colours: BTreeSet<[u8; 4]> = picture.pixels.iter().map(|pixel| pixel.to_array()).collect();
+    assert!(
+        picture.size == [256, 144] && colours.len() > 100,
+        "{:?} {}",
+        picture.size,
+        colours.len()
+    );
     let known = Kept::beside(&kept).unwrap();
     assert!((known.simulated_s - 2.0).abs() < 1e-9 && known.of == "hello-endline", "{known:?}");
 
     retype(&mut harness, "hello-endline 0001", "first flight");
     let renamed = kept.with_file_name("first flight.endline");
     wait(&mut harness, |_| renamed.exists());
-    assert!(!kept.exists());
+    assert!(!kept.exists() && kept_picture::read(&renamed).is_some());
     harness.run_steps(2);
     retype(&mut harness, "", "too far to starboard");
     wait(&mut harness, |_| Kept::beside(&renamed).unwrap().note == "too far to starboard");

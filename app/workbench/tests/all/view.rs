@@ -7,6 +7,7 @@ use std::sync::Arc;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_sdk::{BodyPart, Region};
+use endline_session::command::TimeAction;
 use endline_session::live::engine;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
@@ -20,6 +21,7 @@ use endline_workbench::gui::command::action::WindowCommand;
 use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::offers;
 use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panels::view::Eye;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
@@ -376,4 +378,74 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
     assert!(harness.state().shared.film.is_none());
     let notice = harness.state().shared.workbench.notice.clone().unwrap();
     assert!(notice.text.contains("no-such-folder"), "{}", notice.text);
+}
+
+#[test]
+fn a_film_goes_from_key_to_key_of_the_camera() {
+    let folder = Folder::new("view-keys");
+    let mut harness = flown(&folder);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
+    harness.run_steps(3);
+    give(&mut harness, ViewAction::ClearKeys);
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert_eq!(notice.text, "the camera has no keys");
+    for (time_s, from) in [(0.0, View::Side), (2.0, View::Top)] {
+        harness.state_mut().shared.perform(TimeAction::Seek(time_s));
+        wait(&mut harness, |app| {
+            let view = app.shared.workbench.view().unwrap();
+            (view.frame.time_s - time_s).abs() < 0.1
+        });
+        give(&mut harness, ViewAction::Look(from));
+        harness.run_steps(2);
+        harness.key_press(egui::Key::I);
+        harness.run_steps(2);
+    }
+    harness.get_by_label("2 camera keys ⏷");
+    let app = harness.state();
+    let view = app.shared.workbench.view().unwrap();
+    let seen = |time_s: f64| {
+        let placed = |eye: &Eye| eye.at_moment(&view.model, &view.frame, 16.0 / 9.0);
+        app.panels.view.path.camera(time_s, placed).unwrap()
+    };
+    // From the south to straight above, half way in between.
+    let up = |time_s: f64| {
+        let camera = seen(time_s);
+        (camera.eye() - camera.target).normalize().z
+    };
+    assert!(
+        up(0.0).abs() < 0.1 && up(5.0) > 0.99 && (0.6..0.8).contains(&up(1.0)),
+        "{} {} {}",
+        up(0.0),
+        up(1.0),
+        up(5.0)
+    );
+
+    let file = folder.0.join("keyed.gif");
+    give(&mut harness, ViewAction::SaveFilm(file.clone()));
+    wait(&mut harness, |app| app.shared.film.is_none());
+    assert!(std::fs::metadata(&file).unwrap().len() > 10_000);
+    give(&mut harness, ViewAction::ClearKeys);
+    harness.run_steps(2);
+    harness.get_by_label("Camera ⏷");
+}
+
+#[test]
+fn the_view_is_presented_alone_and_esc_brings_the_panels_back_at_their_size() {
+    let folder = Folder::new("view-presented");
+    let mut harness = settled(&folder);
+    harness.get_by_label("Ruler");
+    let size = harness.ctx.zoom_factor();
+    harness.key_press(egui::Key::F11);
+    harness.run_steps(3);
+    assert!(
+        harness.query_by_label("Ruler").is_none() && harness.query_by_label("Window").is_none()
+    );
+    assert!(harness.ctx.zoom_factor() > 1.4 * size);
+    // What is kept of the window for the next time is its usual size.
+    assert!((harness.state().shared.preferences.scale.0 - size).abs() < 1e-6);
+    harness.get_by_label("▶ Play");
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(3);
+    harness.get_by_label("Ruler");
+    assert!((harness.ctx.zoom_factor() - size).abs() < 1e-6);
 }

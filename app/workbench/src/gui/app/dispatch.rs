@@ -23,6 +23,8 @@ use crate::gui::shared::Selection;
 
 /// Simulated seconds in a real one while a hand steers.
 const REAL_TIME: f64 = 1.0;
+/// How much larger everything is while the 3-D view is presented alone.
+const PRESENTED: f32 = 1.5;
 
 impl App {
     /// Performs commands, one after the other.
@@ -109,6 +111,11 @@ impl App {
             ViewAction::Ruler => view.picks.toggle_ruler(),
             ViewAction::Inspect(picked) => view.picks.read = Some(picked),
             ViewAction::LetGo => view.picks.let_go(),
+            ViewAction::SetKey => {
+                let shown = self.shared.workbench.view().ok_or("no run is there yet")?;
+                view.set_key(shown.frame.time_s);
+            }
+            ViewAction::ClearKeys => view.clear_keys(),
             ViewAction::SaveFilm(file) => {
                 let film = view.film(&mut self.shared, file)?;
                 self.shared.film = Some(film);
@@ -234,9 +241,23 @@ impl App {
             }
             WindowAction::OpenFolder(folder) => open_folder(&folder)?,
             WindowAction::Ask(id) => self.ask(id)?,
+            WindowAction::Present => self.present(context),
             WindowAction::Quit => context.send_viewport_cmd(ViewportCommand::Close),
         }
         Ok(())
+    }
+
+    /// The 3-D view alone on the whole screen, or back.
+    pub(super) fn present(&mut self, context: &Context) {
+        let before = self.shared.presented_from.take();
+        context.send_viewport_cmd(ViewportCommand::Fullscreen(before.is_none()));
+        if let Some(size) = before {
+            context.set_zoom_factor(size);
+        } else {
+            let size = context.zoom_factor();
+            self.shared.presented_from = Some(size);
+            context.set_zoom_factor(PRESENTED * size);
+        }
     }
 
     fn copy(&mut self, context: &Context, line: String, what: &str) {
@@ -273,6 +294,7 @@ impl App {
             program_entry: panels.program.chosen,
             gear_at_rest: running.is_some_and(|answer| answer.is_ok()),
             inspects: panels.view.picks.holds(),
+            camera_keys: panels.view.path.times().len(),
             open: PanelId::ALL.into_iter().filter(|panel| layout::is_open(dock, *panel)).collect(),
         };
     }
@@ -287,6 +309,12 @@ impl App {
                     layout::open(&mut self.dock, PanelId::PROGRAM);
                 }
                 Event::EntryAdded(index) => self.panels.program.chosen = Some(index),
+                Event::RunKept(recording) => {
+                    let (_, waker) = self.shared.workbench.helpers();
+                    if let Some(view) = self.shared.workbench.view().cloned() {
+                        self.shared.kept_picture.begin(view, &recording, waker);
+                    }
+                }
                 Event::Duplicated { from, to } => self.panels.library.compare(from, to),
             }
         }

@@ -127,60 +127,9 @@ impl App {
         context.request_repaint();
     }
 
-    /// Reports the commands whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
-    fn tell(&mut self, context: &Context) {
-        let Some([now, drawn]) = &mut self.told else { return };
-        drawn.drain(..).for_each(|command| eprintln!("command: {command}"));
-        std::mem::swap(now, drawn);
-        if !drawn.is_empty() {
-            context.request_repaint();
-        }
-    }
-
-    /// Keeps unsaved edits where it is time.
-    fn keep(&mut self, context: &Context) {
-        let now_s = context.input(|input| input.time);
-        if let Some(after_s) = self
-            .shared
-            .workbench
-            .project
-            .autosave
-            .keep(&self.shared.workbench.project.documents, now_s)
-        {
-            context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
-        }
-        self.shared.preferences.scale.0 = context.zoom_factor();
-    }
-}
-
-impl eframe::App for App {
-    fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
-        self.tell(context);
-        self.shared.workbench.refresh();
-        self.shared.refresh_film();
-        self.take_events();
-        let answered = self.answered();
-        self.shared.commands.extend(answered);
-        self.keep(context);
-        if self.shared.workbench.replaying() {
-            self.shared.workbench.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
-            context.request_repaint();
-        }
-        self.fly(context);
-        self.select();
-        let commands =
-            if self.dialogs.asks() { Vec::new() } else { keys::commands(context, &self.shared) };
-        self.perform(context, commands);
-    }
-
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        fields::show_in(ui.ctx(), self.shared.workbench.preferences.units);
+    /// Menus, panels in the dock, status bar.
+    fn panels_in_place(&mut self, ui: &mut Ui) {
         let theme = self.shared.preferences.theme;
-        if self.dressed.replace(theme) != Some(theme) {
-            theme.apply(ui.ctx());
-            // This frame was begun in the other one's colours.
-            ui.ctx().request_repaint();
-        }
         let bar =
             Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
         Bar::top("menus")
@@ -205,6 +154,24 @@ impl eframe::App for App {
                 .show_leaf_close_all_buttons(false)
                 .show_inside(ui, &mut tabs);
         });
+    }
+
+    /// The 3-D view alone; Esc goes back.
+    fn presentation(&mut self, ui: &mut Ui) {
+        let ground = self.shared.preferences.theme.palette().ground;
+        let Self { panels, shared, .. } = self;
+        CentralPanel::default()
+            .frame(Margins::new().fill(ground).inner_margin(6))
+            .show(ui, |ui| panels.view.presented(ui, shared));
+        let context = ui.ctx().clone();
+        let free = !self.shared.flying && !self.palette.is_open();
+        if free && context.input(|input| input.key_pressed(egui::Key::Escape)) {
+            self.present(&context);
+        }
+    }
+
+    /// What lies over everything, then the commands given while drawing.
+    fn over_all(&mut self, ui: &Ui) {
         self.palette.show(ui.ctx(), &mut self.shared);
         questions::plugin(ui.ctx(), &mut self.shared);
         questions::newer(ui.ctx(), &mut self.shared);
@@ -218,6 +185,69 @@ impl eframe::App for App {
             self.perform(&ui.ctx().clone(), commands);
             ui.ctx().request_repaint();
         }
+    }
+
+    /// Reports the commands whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
+    fn tell(&mut self, context: &Context) {
+        let Some([now, drawn]) = &mut self.told else { return };
+        drawn.drain(..).for_each(|command| eprintln!("command: {command}"));
+        std::mem::swap(now, drawn);
+        if !drawn.is_empty() {
+            context.request_repaint();
+        }
+    }
+
+    /// Keeps unsaved edits where it is time.
+    fn keep(&mut self, context: &Context) {
+        let now_s = context.input(|input| input.time);
+        if let Some(after_s) = self
+            .shared
+            .workbench
+            .project
+            .autosave
+            .keep(&self.shared.workbench.project.documents, now_s)
+        {
+            context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
+        }
+        let size = self.shared.presented_from.unwrap_or_else(|| context.zoom_factor());
+        self.shared.preferences.scale.0 = size;
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
+        self.tell(context);
+        self.shared.workbench.refresh();
+        self.shared.refresh_pictures();
+        self.take_events();
+        let answered = self.answered();
+        self.shared.commands.extend(answered);
+        self.keep(context);
+        if self.shared.workbench.replaying() {
+            self.shared.workbench.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
+            context.request_repaint();
+        }
+        self.fly(context);
+        self.select();
+        let commands =
+            if self.dialogs.asks() { Vec::new() } else { keys::commands(context, &self.shared) };
+        self.perform(context, commands);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        fields::show_in(ui.ctx(), self.shared.workbench.preferences.units);
+        let theme = self.shared.preferences.theme;
+        if self.dressed.replace(theme) != Some(theme) {
+            theme.apply(ui.ctx());
+            // This frame was begun in the other one's colours.
+            ui.ctx().request_repaint();
+        }
+        if self.shared.presents() {
+            self.presentation(ui);
+        } else {
+            self.panels_in_place(ui);
+        }
+        self.over_all(ui);
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {

@@ -52,6 +52,10 @@ pub enum ViewAction {
     SaveFilm(PathBuf),
     /// End the film that is being made.
     CancelFilm,
+    /// Set a key of the camera: what the chosen pane shows, at the moment shown.
+    SetKey,
+    /// Take the keys of the camera away.
+    ClearKeys,
 }
 
 /// An action of the pilot.
@@ -123,6 +127,8 @@ pub enum WindowAction {
     OpenFolder(PathBuf),
     /// Ask for the file of the command of this identity.
     Ask(&'static str),
+    /// The 3-D view alone on the whole screen, in large letters; or back.
+    Present,
     /// Close the window.
     Quit,
 }
@@ -164,6 +170,8 @@ impl ViewAction {
             Self::SavePicture(_) => "view.save-picture",
             Self::SaveFilm(_) => "view.save-film",
             Self::CancelFilm => "view.cancel-film",
+            Self::SetKey => "view.set-key",
+            Self::ClearKeys => "view.clear-keys",
         }
     }
 }
@@ -218,6 +226,7 @@ impl WindowAction {
             Self::OpenReport => "window.open-report",
             Self::OpenFolder(_) => "window.open-folder",
             Self::Ask(id) => id,
+            Self::Present => "window.present",
             Self::Quit => "window.quit",
         }
     }

@@ -87,7 +87,7 @@ pub static COMMANDS: &[WindowInfo] = &[
     WindowInfo::new(
         "view.save-film",
         "Save a film of the run",
-        "Draws the run from its start as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window goes on meanwhile.",
+        "Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window goes on meanwhile.",
         Make::File {
             question: |shared| {
                 let scenario = stem(shared.workbench.project.documents.scenario_path());
@@ -104,6 +104,24 @@ pub static COMMANDS: &[WindowInfo] = &[
         Make::Plain(|| ViewAction::CancelFilm.into()),
     )
     .only_if(films),
+    WindowInfo::new(
+        "view.set-key",
+        "Set a camera key",
+        "Notes what the chosen view shows at this moment: a film goes from key to key.",
+        Make::Plain(|| ViewAction::SetKey.into()),
+    )
+    .with_keys(&[Shortcut::new("I", When::Looking)])
+    .only_if(shown),
+    WindowInfo::new(
+        "view.clear-keys",
+        "Clear the camera keys",
+        "Takes the keys of the camera away: a film is seen as the view is now.",
+        Make::Plain(|| ViewAction::ClearKeys.into()),
+    )
+    .only_if(|shared| match shared.selection.camera_keys {
+        0 => Err("the camera has no keys".to_owned()),
+        _ => Ok(()),
+    }),
     WindowInfo::new(
         "view.pose",
         "Drag the whale's start",

@@ -93,6 +93,13 @@ pub static COMMANDS: &[WindowInfo] = &[
         Make::Values("folder"),
     ),
     WindowInfo::new(
+        "window.present",
+        "Present",
+        "Shows the 3-D view alone on the whole screen, in large letters, for a talk; F11 or Esc goes back.",
+        Make::Plain(|| WindowAction::Present.into()),
+    )
+    .with_keys(&[Shortcut::new("F11", When::Always)]),
+    WindowInfo::new(
         "window.quit",
         "Quit",
         "Closes the window; unsaved edits are asked about first.",

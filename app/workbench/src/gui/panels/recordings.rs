@@ -6,11 +6,15 @@ use endline_session::command::RunAction;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use egui::{Frame, Label, RichText, ScrollArea, TextEdit, Ui};
+use egui::{
+    Color32, Frame, Label, Rect, RichText, ScrollArea, Sense, TextEdit, TextureHandle,
+    TextureOptions, Ui, Vec2, pos2, vec2,
+};
 use endline_session::recording::{self, kept::Kept};
 use endline_sim::metrics::Outcome;
 
 use crate::gui::files;
+use crate::gui::kept_picture;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
@@ -18,12 +22,11 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
 /// The list of recordings, read again when a run was kept.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct RecordingsPanel {
     files: Option<(u64, Vec<Recorded>)>,
 }
 
-#[derive(Clone, Debug)]
 struct Recorded {
     path: PathBuf,
     /// Name and note as they are typed.
@@ -31,7 +34,12 @@ struct Recorded {
     note: String,
     age: String,
     kept: Option<Kept>,
+    /// Its picture, read when it comes into sight; inside none where there is none.
+    picture: Option<Option<TextureHandle>>,
 }
+
+/// Width and height of the pictures [points].
+const PICTURE: Vec2 = vec2(96.0, 54.0);
 
 impl Panel for RecordingsPanel {
     fn id(&self) -> PanelId {
@@ -68,8 +76,40 @@ impl Panel for RecordingsPanel {
     }
 }
 
-/// How it ended and what can be done with it, above its note.
+/// A recording's picture, and beside it what is known of it.
 fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
+    ui.horizontal_top(|ui| {
+        let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
+        if ui.is_rect_visible(rect) {
+            picture(ui, rect, file);
+        }
+        if response.on_hover_text("How it ended. A click opens it").clicked() {
+            shared.give(RunAction::OpenRecording(file.path.clone()));
+        }
+        ui.vertical(|ui| about(ui, shared, file));
+    });
+    ui.separator();
+}
+
+fn picture(ui: &Ui, rect: Rect, file: &mut Recorded) {
+    let shown = file.picture.get_or_insert_with(|| {
+        let image = kept_picture::read(&file.path)?;
+        let name = file.path.display().to_string();
+        Some(ui.ctx().load_texture(name, image, TextureOptions::LINEAR))
+    });
+    match shown {
+        Some(texture) => {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+        }
+        None => {
+            ui.painter().rect_filled(rect, 2.0, Theme::palette_of(ui).field);
+        }
+    }
+}
+
+/// How it ended and what can be done with it, above its note.
+fn about(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
     ui.horizontal_wrapped(|ui| {
         let name = TextEdit::singleline(&mut file.name).desired_width(190.0);
         if ui.add(name).on_hover_text("Type another name").lost_focus()
@@ -103,7 +143,6 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
         let (file, note) = (file.path.clone(), file.note.clone());
         shared.give(RunAction::NoteRecording { file, note });
     }
-    ui.separator();
 }
 
 /// Outcome, greatest tension, length and age, as far as they are known.
@@ -134,7 +173,7 @@ fn list(folder: &std::path::Path) -> Vec<Recorded> {
     let recorded = |(at, path): (SystemTime, PathBuf)| {
         let kept = Kept::beside(&path);
         let note = kept.as_ref().map(|kept| kept.note.clone()).unwrap_or_default();
-        Recorded { name: files::stem(&path), note, age: age(at), kept, path }
+        Recorded { name: files::stem(&path), note, age: age(at), kept, path, picture: None }
     };
     found.into_iter().map(recorded).collect()
 }

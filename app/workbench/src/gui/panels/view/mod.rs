@@ -8,6 +8,7 @@ mod pane;
 pub mod picking;
 mod picture;
 pub mod pose;
+mod presented;
 mod split;
 mod state;
 mod transport;
@@ -39,10 +40,12 @@ impl Panel for ViewPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.follow(shared);
-        self.toolbar(ui, shared);
+        if !shared.presents() {
+            self.toolbar(ui, shared);
+        }
         let size = ui.available_size() - egui::vec2(0.0, transport::HEIGHT);
         let (rect, _) = ui.allocate_exact_size(size.max(egui::Vec2::ZERO), egui::Sense::hover());
-        transport::show(ui, shared);
+        transport::show(ui, shared, &self.path);
         let Some(view) = shared.workbench.view().cloned() else { return waiting(ui, rect, shared) };
         let views = [Some(view), shared.workbench.compared_view()];
         self.load(&views);
@@ -134,6 +137,7 @@ impl ViewPanel {
         }
         command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
         command(ui, shared, "Film …", WindowAction::Ask("view.save-film"));
+        self.keys(ui, shared);
         let several =
             if count == 1 { "1 view ⏷".to_owned() } else { format!("{count} views ⏷") };
         ui.menu_button(several, |ui| {
@@ -149,6 +153,24 @@ impl ViewPanel {
                 }
             }
         });
+    }
+
+    /// Keys of the camera for a film.
+    fn keys(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let keys = match self.path.times().len() {
+            0 => "Camera ⏷".to_owned(),
+            1 => "1 camera key ⏷".to_owned(),
+            count => format!("{count} camera keys ⏷"),
+        };
+        let help = "A film goes from key to key: look from somewhere at a moment, set a key, go on to the next moment.";
+        let menu = ui.menu_button(keys, |ui| {
+            command(ui, shared, "Set a key here", ViewAction::SetKey);
+            command(ui, shared, "Clear the keys", ViewAction::ClearKeys);
+            let any = self.path.times().len() > 0;
+            ui.add_enabled(any, egui::Checkbox::new(&mut self.along, "Look by the keys"))
+                .on_hover_text("The chosen pane shows what a film would show");
+        });
+        menu.response.on_hover_text(help);
     }
 
     fn shown(&mut self, ui: &mut Ui) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use endline_session::scene::Show;
 
 use super::ViewPanel;
-use crate::gui::film::{FilmJob, Reel};
+use crate::gui::film::{FilmJob, FilmOrder};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::{RenderRequest, Renderer, Water, write_png};
@@ -24,17 +24,18 @@ impl ViewPanel {
             return Err("a film is being made; wait for it, or cancel it".to_owned());
         }
         let view = shared.workbench.view().cloned().ok_or("there is no run to film")?;
-        let reel = Reel {
+        let order = FilmOrder {
             model: Arc::clone(&view.model),
             frames: shared.workbench.kept_frames()?,
             eye: self.eye().clone(),
+            path: self.path.clone(),
             show: self.show,
             water: water(shared),
             caption: caption(shared),
             units: shared.workbench.preferences.units,
             out,
         };
-        FilmJob::begin(reel, shared.workbench.helpers().1)
+        FilmJob::begin(order, shared.workbench.helpers().1)
     }
 
     /// Writes what the chosen pane shows of the run as a PNG.

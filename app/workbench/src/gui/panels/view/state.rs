@@ -11,7 +11,7 @@ use super::picking::Picks;
 use super::pose::Start;
 use crate::gui::canvas::{Canvas, MOST_PANES};
 use crate::gui::shared::Shared;
-use crate::scene::View;
+use crate::scene::{CameraPath, View};
 
 /// What the top of the tension scale is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,6 +41,10 @@ pub struct ViewPanel {
     pub show: Show,
     /// Top of the tension scale.
     pub scale: ScaleTop,
+    /// Keys of the camera, by which a film goes.
+    pub path: CameraPath<Eye>,
+    /// Whether the chosen pane looks by the keys of the camera.
+    pub along: bool,
     /// What is read and measured.
     pub picks: Picks,
     /// The drawings of the run and of the one it is compared with.
@@ -68,6 +72,8 @@ impl Default for ViewPanel {
             chosen: 0,
             show: Show { forces: true, ..Show::default() },
             scale: ScaleTop::default(),
+            path: CameraPath::default(),
+            along: false,
             picks: Picks::default(),
             drawn: <[Drawn; 2]>::default(),
             scale_n: 1.0,
@@ -138,6 +144,19 @@ impl ViewPanel {
     fn go_with_whale(&mut self) {
         let named = self.eye().named;
         self.look(if named.is_of_whale() { named } else { View::Whale });
+    }
+
+    /// Sets a key of the camera: what the chosen pane shows, at the moment shown.
+    pub fn set_key(&mut self, time_s: f64) {
+        let mut eye = self.eye().clone();
+        eye.frame_again = false;
+        self.path.set(time_s, eye);
+    }
+
+    /// Takes every key of the camera away.
+    pub fn clear_keys(&mut self) {
+        self.path.clear();
+        self.along = false;
     }
 
     /// From third person to first and back.

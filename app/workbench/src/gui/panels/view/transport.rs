@@ -1,15 +1,17 @@
 //! The transport bar: the run's time under the hand, with what happened marked on it.
 
-use egui::{Button, Color32, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Button, Color32, Rect, RichText, Sense, Shape, Stroke, Ui, pos2, vec2};
 use endline_session::command::{RunAction, TimeAction};
 use endline_session::live::LiveView;
 use endline_sim::metrics::EventKind;
 
+use super::Eye;
 use crate::gui::command::action::WindowCommand;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::command::styled;
 use crate::gui::widgets::words;
+use crate::scene::CameraPath;
 
 /// Height of the bar with the space above it.
 pub const HEIGHT: f32 = 34.0;
@@ -17,7 +19,7 @@ pub const HEIGHT: f32 = 34.0;
 const NEAR: f32 = 5.0;
 
 /// Draws the bar.
-pub fn show(ui: &mut Ui, shared: &mut Shared) {
+pub fn show(ui: &mut Ui, shared: &mut Shared, path: &CameraPath<Eye>) {
     let Some(view) = shared.workbench.view().cloned() else { return };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -28,6 +30,7 @@ pub fn show(ui: &mut Ui, shared: &mut Shared) {
         response.widget_info(|| egui::WidgetInfo::slider(true, view.frame.time_s, "Time"));
         let end_s = view.model.spec.settings.duration_s.max(view.newest_s).max(1e-9);
         track(ui, rect, &view, end_s);
+        keys(ui, rect, path, end_s);
         scrub(ui, shared, rect, &response, &view, end_s);
         ui.label(RichText::new(text).monospace());
     });
@@ -85,6 +88,17 @@ fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
         6.0,
         Stroke::new(1.5, if ui.visuals().dark_mode { Color32::BLACK } else { Color32::WHITE }),
     );
+}
+
+/// Keys of the camera, as diamonds at the foot of the bar.
+fn keys(ui: &Ui, rect: Rect, path: &CameraPath<Eye>, end_s: f64) {
+    let palette = Theme::palette_of(ui);
+    for time_s in path.times() {
+        let at = pos2(rect.left() + (time_s / end_s) as f32 * rect.width(), rect.bottom() - 4.0);
+        let corners = [vec2(-4.0, 0.0), vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0)];
+        let corners = corners.map(|corner| at + corner).to_vec();
+        ui.painter().add(Shape::convex_polygon(corners, palette.text, Stroke::NONE));
+    }
 }
 
 /// Pressing or dragging shows that moment; over a mark it says what happened.
