@@ -66,7 +66,9 @@ fn edit_as(
     let stored = documents.field(path, field).unwrap_or_default();
     let problem = documents.problem_at(path, field);
     let id = typed_id(edit_id);
-    let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
+    let typing = ui.memory(|memory| memory.has_focus(edit_id));
+    let shown = || if typing { stored.clone() } else { shortened(&stored) };
+    let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(shown);
     let palette = Theme::palette_of(ui);
     let colour =
         if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
@@ -75,12 +77,13 @@ fn edit_as(
         .desired_width(width)
         .text_color(colour)
         .clip_text(true);
-    let editor = editor.hint_text(said.hint);
+    let hint = units_shown(ui).instead_of(said.hint);
+    let editor = editor.hint_text(hint.as_deref().unwrap_or(said.hint));
     let response = ui.add(editor);
     if response.gained_focus()
         && !ui.input(|input| input.pointer.any_down() || input.pointer.any_released())
     {
-        select_all(ui.ctx(), edit_id, &typed);
+        select_all(ui.ctx(), edit_id, &stored);
     }
     outline(ui, &response, problem);
     // A table's hundreds of narrow fields have no room for it.
@@ -105,7 +108,17 @@ fn edit_as(
     }
     ui.data_mut(|data| data.remove_temp::<String>(id));
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
-    (!escaped && typed != stored).then_some(typed)
+    (!escaped && typed != stored && typed != shortened(&stored)).then_some(typed)
+}
+
+/// A plain number of many digits to four decimals, for a field that is not typed in; every other text as it stands.
+fn shortened(stored: &str) -> String {
+    const MOST: usize = 8;
+    let plain = stored.len() > MOST && stored.contains('.');
+    match stored.parse::<f64>().ok().filter(|value| plain && (1e-3..1e6).contains(&value.abs())) {
+        Some(value) => format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+        None => stored.to_owned(),
+    }
 }
 
 /// Says once a frame in which units values are shown.
@@ -226,4 +239,24 @@ pub fn choose(
         response.response.on_hover_text(shown);
     }
     taken.filter(|id| *id != stored)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shortened;
+
+    #[test]
+    fn only_plain_numbers_of_many_digits_are_shortened() {
+        for (stored, shown) in [
+            ("0.3333333333333333", "0.3333"),
+            ("12.500000001", "12.5"),
+            ("0.5", "0.5"),
+            ("123456789", "123456789"),
+            ("0.00012345678", "0.00012345678"),
+            ("0.3333333333 m", "0.3333333333 m"),
+            ("sink-3-8.rope", "sink-3-8.rope"),
+        ] {
+            assert_eq!(shortened(stored), shown);
+        }
+    }
 }

@@ -37,10 +37,12 @@ impl KeptPicture {
     }
 }
 
-/// The whale from its side where rope or gear touches it, else everything.
+/// The whale from its side where rope or gear has touched it, else everything.
 fn draw(view: &LiveView, file: &PathBuf) -> Result<(), String> {
     let (model, frame) = (&view.model, &view.frame);
-    let touched = !frame.contacts.is_empty() || !frame.body_contacts.is_empty();
+    let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
+    let touched =
+        whale.is_some_and(|whale| whale.first_contact_s.is_some() || whale.peak_body_push_n > 0.0);
     let from = if touched { View::WhaleSide } else { View::Orbit };
     let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
     let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);

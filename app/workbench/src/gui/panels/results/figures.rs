@@ -11,10 +11,12 @@ use crate::gui::widgets;
 
 /// Height of a row.
 const ROW: f32 = 26.0;
+/// Room for the axis above the rows.
+const HEAD: f32 = 20.0;
 /// Room for names at the left.
 const NAMES: f32 = 190.0;
 
-/// A figure being drawn: rows below one another over an axis of values.
+/// A figure being drawn: rows below one another between two axes of values, of which one is in sight however the figure is scrolled.
 struct Figure {
     painter: Painter,
     rect: Rect,
@@ -23,9 +25,9 @@ struct Figure {
 }
 
 impl Figure {
-    /// Room for so many rows, with an axis below.
+    /// Room for so many rows, with an axis above and below.
     fn new(ui: &mut Ui, rows: usize, values: [f64; 2]) -> Self {
-        let size = vec2(ui.available_width().max(420.0), ROW * rows as f32 + 34.0);
+        let size = vec2(ui.available_width().max(420.0), HEAD + ROW * rows as f32 + 34.0);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         Self { painter: ui.painter_at(rect), rect, values, palette: Theme::palette_of(ui) }
     }
@@ -37,7 +39,7 @@ impl Figure {
     }
 
     fn y(&self, row: usize) -> f32 {
-        self.rect.top() + ROW * (row as f32 + 0.5)
+        self.rect.top() + HEAD + ROW * (row as f32 + 0.5)
     }
 
     fn text(&self, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
@@ -56,20 +58,22 @@ impl Figure {
     }
 
     fn axis(&self, words: impl Fn(f64) -> String) {
-        let (top, bottom) = (self.rect.top(), self.rect.bottom() - 30.0);
+        let (top, bottom) = (self.rect.top() + HEAD, self.rect.bottom() - 30.0);
         let [least, most] = self.values;
         for tick in ticks(least, most, 5) {
             let x = self.x(tick);
             self.painter
                 .line_segment([pos2(x, top), pos2(x, bottom)], Stroke::new(1.0, self.palette.line));
-            self.text(pos2(x, bottom + 6.0), Align2::CENTER_TOP, &words(tick), self.palette.faint);
+            let (words, colour) = (words(tick), self.palette.faint);
+            self.text(pos2(x, bottom + 6.0), Align2::CENTER_TOP, &words, colour);
+            self.text(pos2(x, top - 4.0), Align2::CENTER_BOTTOM, &words, colour);
         }
     }
 
     /// A line where there is no difference.
     fn zero(&self) {
         let (x, bottom) = (self.x(0.0), self.rect.bottom() - 30.0);
-        let line = [pos2(x, self.rect.top()), pos2(x, bottom)];
+        let line = [pos2(x, self.rect.top() + HEAD), pos2(x, bottom)];
         self.painter.line_segment(line, Stroke::new(1.0, self.palette.faint));
     }
 

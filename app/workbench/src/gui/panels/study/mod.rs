@@ -186,8 +186,8 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     number(
         ui,
         shared,
-        ("Enough below", "enough.narrower"),
-        "Stop once the interval of every option's rate is narrower than this, such as 0.05; empty: run all encounters",
+        ("Stop when as sure as", "enough.narrower"),
+        "The study stops once the interval of every option's rate is narrower than this share, such as 0.05 for 5 points of a hundred; empty: it runs all encounters",
         edits,
     );
 }

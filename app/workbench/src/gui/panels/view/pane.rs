@@ -39,11 +39,10 @@ pub(super) fn look(
     }
     let eye = &mut panel.eyes[slot];
     eye.turn(ui, &response, shared.flying);
-    if panel.along && slot == panel.chosen {
-        if let Some(camera) = panel.path.camera(view.frame.time_s, |eye| eye.placed(view, rect)) {
-            pick(panel, view, &camera, &response, run);
-            return Look { camera, response };
-        }
+    let by_keys = panel.path.camera(view.frame.time_s, |eye| eye.placed(view, rect));
+    if let Some(camera) = by_keys.filter(|_| panel.along && slot == panel.chosen) {
+        pick(panel, view, &camera, &response, run);
+        return Look { camera, response };
     }
     let camera = eye.placed(view, rect);
     if run == 0 {
