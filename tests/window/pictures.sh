@@ -12,7 +12,7 @@ sed -i 's/^duration = .*/duration = "20 s"/; s/^rope_nodes.*/rope_nodes = 200/' 
 
 flown() {
     command "run or pause"
-    within 300 "[ \$(ls '$DATA/recordings' 2>/dev/null | wc -l) -ge $1 ]"
+    within 300 "[ \$(ls '$DATA/recordings' 2>/dev/null | grep -c 'endline$') -ge $1 ]"
 }
 # Names of pictures begin with the theme.
 layouts() {

@@ -1,6 +1,6 @@
 //! What happened when; a click shows that moment, and reads the body that it happened to.
 
-use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
+use egui::{Align, Layout, RichText, ScrollArea, Sense, TextStyle, Ui};
 use endline_session::command::TimeAction;
 use endline_session::units::Units;
 use endline_sim::Model;
@@ -61,14 +61,22 @@ fn answers(event: &Event, model: &Model) -> impl Iterator<Item = WindowCommand> 
 
 fn row(ui: &mut Ui, event: &Event, units: Units, now: bool) -> bool {
     let palette = Theme::palette_of(ui);
-    let line = ui.horizontal(|ui| {
+    let line = ui.horizontal_wrapped(|ui| {
         let time = RichText::new(format!("{:.2} s", event.time_s));
         ui.label(time.color(if now { palette.accent } else { palette.faint }));
         ui.label(
             RichText::new(words::event(event.kind)).color(words::event_colour(event.kind, palette)),
         );
         ui.label(event.subject.replace('_', " "));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value(event, units)));
+        let told = value(event, units);
+        let font = TextStyle::Body.resolve(ui.style());
+        let breadth = ui.painter().layout_no_wrap(told.clone(), font, palette.text).size().x;
+        // In a narrow panel it goes to the next line.
+        if breadth < ui.available_size_before_wrap().x {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(told));
+        } else {
+            ui.label(told);
+        }
     });
     line.response.interact(Sense::click()).on_hover_text("Click to see this moment").clicked()
 }

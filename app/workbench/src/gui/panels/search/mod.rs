@@ -106,8 +106,8 @@ impl SearchPanel {
             || "Choose an observation".to_owned(),
             |path| format!("{mark}{}", name.unwrap_or_else(|| files::stem(path))),
         );
-        ui.horizontal(|ui| {
-            let width = (ui.available_width() - 206.0).max(120.0);
+        ui.horizontal_wrapped(|ui| {
+            let width = (ui.available_width() - 224.0).max(120.0);
             let combo = ComboBox::from_id_salt("observation").width(width).truncate();
             let open = combo.selected_text(shown).show_ui(ui, |ui| {
                 let root = shared.workbench.project.documents.root();

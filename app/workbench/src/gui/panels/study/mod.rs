@@ -186,7 +186,7 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     number(
         ui,
         shared,
-        ("Stop when as sure as", "enough.narrower"),
+        ("Stop at width", "enough.narrower"),
         "The study stops once the interval of every option's rate is narrower than this share, such as 0.05 for 5 points of a hundred; empty: it runs all encounters",
         edits,
     );

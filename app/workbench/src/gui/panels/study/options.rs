@@ -30,6 +30,14 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     let baseline =
         shared.workbench.project.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
     let mut act = None;
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked()
+        {
+            act = Some(Act::Copy(count.saturating_sub(1)));
+        }
+        command(ui, shared, "From the present design", StudyAction::OptionFromEdits);
+        ui.menu_button("With other gear ⏷", |ui| other_gear(ui, shared));
+    });
     for index in 0..count {
         Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(
             ui,
@@ -40,14 +48,6 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         );
         ui.add_space(4.0);
     }
-    ui.horizontal_wrapped(|ui| {
-        if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked()
-        {
-            act = Some(Act::Copy(count.saturating_sub(1)));
-        }
-        command(ui, shared, "From the present design", StudyAction::OptionFromEdits);
-        ui.menu_button("With other gear ⏷", |ui| other_gear(ui, shared));
-    });
     match act {
         Some(Act::Copy(index)) => copy(shared, index),
         Some(Act::Drop(index)) => {
@@ -90,12 +90,12 @@ fn head(
     edits: &mut Edits,
 ) -> Option<Act> {
     let mut act = None;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let id = format!("option.{index}.id");
         let is_baseline = shared.workbench.project.documents.field(Documents::STUDY, &id).as_deref() == Some(baseline);
         let fields = [
             (id, 84.0, "id", "Id, unique among the options"),
-            (format!("option.{index}.name"), (ui.available_width() - 292.0).max(90.0), "name", "Name in tables and figures"),
+            (format!("option.{index}.name"), (ui.available_size_before_wrap().x - 292.0).max(90.0), "name", "Name in tables and figures"),
             (
                 format!("option.{index}.strength"),
                 84.0,
@@ -132,11 +132,11 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
         ui.label(RichText::new("the scenario as it stands").color(faint));
     }
     for path in leaves {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let shown = path.trim_start_matches(&table).trim_start_matches('.').replace('"', "");
             ui.label(RichText::new(&shown).monospace())
                 .on_hover_text("A field of the scenario, or of a library item, by its dotted path");
-            let width = (ui.available_width() - 40.0).max(60.0);
+            let width = (ui.available_size_before_wrap().x - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,
                 &shared.workbench.project.documents,
@@ -152,13 +152,13 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
             }
         });
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let id = ui.id().with(("fresh setting", index));
         let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
         if let Some((path, now)) = settable::menu(ui, shared, index) {
             edits.push((format!("{table}.\"{path}\""), Some(Setting::plain(&now))));
         }
-        let width = ui.available_width() - 70.0;
+        let width = (ui.available_size_before_wrap().x - 70.0).max(60.0);
         let editor = egui::TextEdit::singleline(&mut typed)
             .desired_width(width)
             .hint_text("or its path, such as current.speed");
