@@ -1,9 +1,12 @@
 //! Saving a file so that a crash or a full disk leaves the old one whole.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, SystemTime};
 
 use crate::error::Error;
 
@@ -12,6 +15,9 @@ use crate::error::Error;
 /// # Errors
 /// Where the folder cannot be written; the old file is then untouched.
 pub fn atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if let Some(folder) = path.parent() {
+        sweep_once(folder);
+    }
     let beside = beside(path);
     let written = write_synced(&beside, bytes).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
@@ -58,6 +64,39 @@ fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.sync_all()
 }
 
+/// How old a file of a save must be to have been left by a program that was killed: a save takes seconds.
+const LEFT_BEHIND: Duration = Duration::from_secs(3600);
+
+/// Removes what killed programs left of saves in a folder, the first time that this program saves there.
+fn sweep_once(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+        sweep(folder, SystemTime::now());
+    }
+}
+
+fn sweep(folder: &Path, now: SystemTime) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let modified = entry.metadata().and_then(|data| data.modified());
+        let age = modified.ok().and_then(|modified| now.duration_since(modified).ok());
+        let old = age.is_some_and(|age| age > LEFT_BEHIND);
+        if old && is_part(&entry.file_name().to_string_lossy()) {
+            // Another program may have removed it just now.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a file has a name that [`beside`] gives: `.NAME.PID-NUMBER.part`.
+fn is_part(name: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let own = name.strip_prefix('.').and_then(|name| name.strip_suffix(".part"));
+    let numbers = own.and_then(|name| name.rsplit_once('.')).map(|(_, numbers)| numbers);
+    numbers
+        .and_then(|numbers| numbers.split_once('-'))
+        .is_some_and(|(pid, number)| digits(pid) && digits(number))
+}
+
 /// A name in the same folder, so that the rename stays on one disk. The process id keeps two programs apart, and the number two
 /// saves of one program.
 fn beside(path: &Path) -> PathBuf {
@@ -70,6 +109,23 @@ fn beside(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_killed_programs_left_is_removed_and_nothing_else() {
+        let folder = std::env::temp_dir().join(format!("endline-sweep-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let left = beside(&folder.join("block-00001.parquet"));
+        let others = [".a.part", "b.1-2.part", ".c.1-x.part", ".d.1-2.parts", "block.parquet"];
+        for file in others.map(|name| folder.join(name)).iter().chain([&left]) {
+            fs::write(file, "half a save").unwrap();
+        }
+        sweep(&folder, SystemTime::now());
+        assert!(left.exists(), "another program may be saving");
+        sweep(&folder, SystemTime::now() + 2 * LEFT_BEHIND);
+        assert!(!left.exists());
+        assert!(others.iter().all(|name| folder.join(name).exists()));
+        fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn a_save_replaces_the_file_and_leaves_nothing_beside_it() {

@@ -1,9 +1,11 @@
 //! Unsaved edits written to a file every few seconds, and offered back after a crash.
 //!
-//! Each running program has a file of its own. A file whose program no longer runs was left by a
-//! crash.
+//! Each running program has a file of its own, `recovery-NAME.json`, and holds a lock on `recovery-NAME.lock` beside it for as
+//! long as it runs. A file whose lock nobody holds was left by a crash. Numbers of processes would not tell: a container gives
+//! the same ones again.
 
 use std::collections::BTreeMap;
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 
@@ -39,6 +41,8 @@ pub struct Autosave {
     /// Version of the texts written last, and the time of writing [s].
     kept: Option<(u64, f64)>,
     writing: Option<JoinHandle<()>>,
+    /// This program's file, with the lock that says so; taken when there is something to write first.
+    own: Option<(PathBuf, File)>,
 }
 
 impl Autosave {
@@ -48,14 +52,28 @@ impl Autosave {
         Self { folder: Some(folder), ..Self::default() }
     }
 
-    fn file(&self) -> Option<PathBuf> {
-        Some(self.folder.as_ref()?.join(name_of(std::process::id())))
+    /// This program's file: one that no other program has or has left behind.
+    fn file(&mut self) -> Option<PathBuf> {
+        if self.own.is_none() {
+            let folder = self.folder.as_ref()?;
+            // Where the folder cannot be made, saving by hand reports the reason.
+            std::fs::create_dir_all(folder).ok()?;
+            let pid = std::process::id();
+            let names = (0..100).map(|number| match number {
+                0 => folder.join(format!("recovery-{pid}.json")),
+                number => folder.join(format!("recovery-{pid}-{number}.json")),
+            });
+            self.own = names
+                .filter(|file| !file.exists())
+                .find_map(|file| Some((file.clone(), lock(&file, true)?)));
+        }
+        self.own.as_ref().map(|(file, _)| file.clone())
     }
 
     /// Writes the edits where they changed and enough time has passed. Returns the time after which
     /// to call again [s]; `None` where nothing is left to write.
     pub fn keep(&mut self, documents: &Documents, now_s: f64) -> Option<f64> {
-        let file = self.file()?;
+        self.folder.as_ref()?;
         let (version, at_s) = self.kept.unwrap_or((0, f64::NEG_INFINITY));
         if version == documents.version() {
             return None;
@@ -67,10 +85,10 @@ impl Autosave {
         self.kept = Some((documents.version(), now_s));
         let unsaved = documents.unsaved();
         if unsaved.is_empty() {
-            // A file that does not exist needs no removing.
-            let _ = std::fs::remove_file(file);
+            self.clear();
             return None;
         }
+        let file = self.file()?;
         let texts = unsaved
             .iter()
             .map(|path| (path.clone(), documents.text(path).map(str::to_owned)))
@@ -84,7 +102,6 @@ impl Autosave {
         };
         let write = move || {
             // Where this file cannot be written, saving by hand reports the reason.
-            let _ = file.parent().map(std::fs::create_dir_all);
             let _ = serde_json::to_vec(&kept).map(|bytes| atomically(&file, &bytes));
         };
         self.writing = std::thread::Builder::new().name("endline-keep".into()).spawn(write).ok();
@@ -97,8 +114,8 @@ impl Autosave {
             // The thread writes one file and ends.
             let _ = writing.join();
         }
-        if let Some(file) = self.file() {
-            let _ = std::fs::remove_file(file);
+        if let Some((file, _)) = self.own.take() {
+            forget(&file);
         }
     }
 
@@ -108,8 +125,7 @@ impl Autosave {
         let Some(folder) = &self.folder else { return Vec::new() };
         let files =
             std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let mut left: Vec<PathBuf> =
-            files.filter(|file| pid_of(file).is_some_and(|pid| !runs(pid))).collect();
+        let mut left: Vec<PathBuf> = files.filter(|file| is_one(file) && !is_held(file)).collect();
         left.sort_by_key(|file| {
             std::cmp::Reverse(std::fs::metadata(file).and_then(|data| data.modified()).ok())
         });
@@ -123,17 +139,28 @@ impl Autosave {
     }
 }
 
-fn name_of(pid: u32) -> String {
-    format!("recovery-{pid}.json")
+/// Removes a file of unsaved edits, with its lock.
+pub fn forget(file: &Path) {
+    // A file that is gone already needs no removing.
+    let _ = std::fs::remove_file(file);
+    let _ = std::fs::remove_file(file.with_extension("lock"));
 }
 
-fn pid_of(file: &Path) -> Option<u32> {
-    file.file_name()?.to_str()?.strip_prefix("recovery-")?.strip_suffix(".json")?.parse().ok()
+fn is_one(file: &Path) -> bool {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    name.starts_with("recovery-") && name.ends_with(".json")
 }
 
-/// Whether a process of this number runs. Where the system does not say, the answer is no.
-fn runs(pid: u32) -> bool {
-    pid == std::process::id() || Path::new("/proc").join(pid.to_string()).exists()
+/// The lock of a file of unsaved edits; `None` where another program holds it, or where it is not there and is not wanted.
+fn lock(file: &Path, wanted: bool) -> Option<File> {
+    let lock = File::options().write(true).create(wanted).open(file.with_extension("lock")).ok()?;
+    // A file system without locks cannot tell; then the file is this program's.
+    (!matches!(lock.try_lock(), Err(TryLockError::WouldBlock))).then_some(lock)
+}
+
+/// Whether a program that runs holds the lock of a file.
+fn is_held(file: &Path) -> bool {
+    file.with_extension("lock").exists() && lock(file, false).is_none()
 }
 
 #[cfg(test)]
@@ -141,18 +168,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_files_of_programs_that_run_no_more_were_left_behind() {
+    fn only_files_whose_lock_nobody_holds_were_left_behind() {
         let folder = std::env::temp_dir().join(format!("endline-recovery-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let kept = UnsavedEdits { root: "root".into(), ..UnsavedEdits::default() };
         let bytes = serde_json::to_vec(&kept).unwrap();
-        // Process numbers stay below 2^22 on Linux.
-        for name in [name_of(std::process::id()), name_of(u32::MAX), "recovery-x.json".to_owned()] {
-            std::fs::write(folder.join(name), &bytes).unwrap();
+        let autosave = || Autosave::in_folder(folder.clone());
+
+        // Two windows of one program, or of two with one number, have a file each; neither is offered to the other.
+        let (mut one, mut other) = (autosave(), autosave());
+        let files = [one.file().unwrap(), other.file().unwrap()];
+        assert_ne!(files[0], files[1]);
+        for file in &files {
+            std::fs::write(file, &bytes).unwrap();
         }
-        std::fs::write(folder.join(name_of(u32::MAX - 1)), "half a fi").unwrap();
-        let left = Autosave::in_folder(folder.clone()).left_behind();
-        assert_eq!(left, [(folder.join(name_of(u32::MAX)), kept)]);
+        assert_eq!(autosave().left_behind(), []);
+
+        // One ends as by a crash; a program of the same number offers its file, and takes another for its own.
+        drop(one);
+        std::fs::write(folder.join("recovery-9.json"), "half a fi").unwrap();
+        let mut next = autosave();
+        assert_eq!(next.left_behind(), [(files[0].clone(), kept)]);
+        let own = next.file().unwrap();
+        assert!(!files.contains(&own), "{own:?}");
+
+        forget(&files[0]);
+        other.clear();
+        next.clear();
+        assert_eq!(autosave().left_behind(), []);
+        let rest: Vec<_> = std::fs::read_dir(&folder).unwrap().flatten().collect();
+        assert_eq!(rest.len(), 1, "only what is no file of edits stays: {rest:?}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -68,6 +68,17 @@ impl Choices {
         choices
     }
 
+    /// Whether decisions outlive this program.
+    ///
+    /// # Errors
+    /// Where there is no folder to keep them in.
+    pub fn keeps(&self) -> Result<(), String> {
+        if self.list.is_some() {
+            return Ok(());
+        }
+        Err("nothing is changed: there is no folder to keep this choice in; set HOME or XDG_DATA_HOME".to_owned())
+    }
+
     /// What must be asked before a file of this hash is opened.
     #[must_use]
     pub fn ask(&self, file: &Path, hash: &str) -> Option<Ask> {

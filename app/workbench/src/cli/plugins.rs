@@ -68,6 +68,7 @@ fn allow(files: &[PathBuf]) -> Result<ExitCode, Failure> {
     let mut loader = host::loader();
     for file in files {
         let hash = file_hash(file).map_err(Failure::failed)?;
+        loader.choices.keeps().map_err(Failure::failed)?;
         loader.choices.allow(file, &hash).map_err(Failure::failed)?;
         output::print(&format!("{}: allowed, hash {hash}\n", file.display()))?;
     }
@@ -77,6 +78,7 @@ fn allow(files: &[PathBuf]) -> Result<ExitCode, Failure> {
 fn forget(files: &[PathBuf]) -> Result<ExitCode, Failure> {
     let mut loader = host::loader();
     for file in files {
+        loader.choices.keeps().map_err(Failure::failed)?;
         let known = loader.choices.forget(file).map_err(Failure::failed)?;
         output::print(&format!(
             "{}: {}\n",
@@ -98,6 +100,7 @@ fn switch(id: &str, on: bool) -> Result<ExitCode, Failure> {
             endline_gear::hint(id, ids.iter().map(String::as_str))
         )));
     }
+    loader.choices.keeps().map_err(Failure::failed)?;
     loader.choices.switch(id, on).map_err(Failure::failed)?;
     output::print(&format!("{id}: {}\n", if on { "on" } else { "off" }))?;
     Ok(ExitCode::SUCCESS)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
 use endline_session::edit::Documents;
-use endline_session::edit::recovery::UnsavedEdits;
+use endline_session::edit::recovery::{self, UnsavedEdits};
 use endline_session::edit::saving::Keep;
 use endline_session::plugins::Change;
 
@@ -66,7 +66,7 @@ impl Questions {
     /// Drops edits that a crash left.
     fn drop_left_behind(&mut self, file: &Path) {
         // A file that cannot be removed is offered again next time.
-        let _ = std::fs::remove_file(file);
+        recovery::forget(file);
         self.left_behind.retain(|(known, _)| known != file);
     }
 
