@@ -174,7 +174,8 @@ pub fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
 
 /// Draws until something is so.
 pub fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
-    let patience = Instant::now() + Duration::from_secs(30);
+    // A film is drawn by software beside the other tests.
+    let patience = Instant::now() + Duration::from_secs(120);
     while !so(harness.state()) {
         let shared = &harness.state().shared;
         assert!(
