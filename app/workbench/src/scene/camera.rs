@@ -293,17 +293,21 @@ impl Camera {
         self.distance_m = (self.distance_m * 0.88_f64.powf(notches)).clamp(0.5, 20_000.0);
     }
 
-    /// This camera moved towards another by a share, 0 to 1: angles by the shorter way, the distance by equal factors.
+    /// This camera moved towards another by a share, 0 to 1: angles by the shorter way, and what the picture spans at the
+    /// target by equal factors, so that coming nearer looks even also from a flat view to a wide one.
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         let even = |from: f64, to: f64| from + (to - from) * share;
         let turned = |from: f64, to: f64| from + ((to - from + PI).rem_euclid(TAU) - PI) * share;
+        let span_m = |camera: &Self| camera.distance_m * (camera.field_of_view / 2.0).tan();
+        let field_of_view = even(self.field_of_view, other.field_of_view);
+        let spanned_m = span_m(self) * (span_m(other) / span_m(self)).powf(share);
         Self {
             target: self.target.lerp(other.target, share),
-            distance_m: self.distance_m * (other.distance_m / self.distance_m).powf(share),
+            distance_m: spanned_m / (field_of_view / 2.0).tan(),
             azimuth: turned(self.azimuth, other.azimuth),
             elevation: even(self.elevation, other.elevation),
-            field_of_view: even(self.field_of_view, other.field_of_view),
+            field_of_view,
             roll: turned(self.roll, other.roll),
         }
     }
@@ -460,6 +464,20 @@ mod tests {
         let middle = from.towards(&to, 0.5);
         assert!((middle.azimuth - PI).abs() < 1e-12, "{}", middle.azimuth);
         assert!((from.towards(&to, 1.0).eye() - to.eye()).length() < 1e-9);
+    }
+
+    #[test]
+    fn a_passage_from_a_flat_view_to_a_wide_one_keeps_what_the_picture_spans() {
+        let flat = Camera { field_of_view: FLAT_ANGLE, distance_m: 500.0, ..Camera::default() };
+        let mut wide = flat.clone();
+        wide.widen();
+        for share in [0.0, 0.3, 0.7, 1.0] {
+            let spans_m = flat.towards(&wide, share).metres_a_point(100.0);
+            assert!(
+                (spans_m / flat.metres_a_point(100.0) - 1.0).abs() < 1e-9,
+                "{share}: {spans_m}"
+            );
+        }
     }
 
     #[test]

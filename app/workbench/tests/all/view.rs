@@ -381,7 +381,7 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
 }
 
 #[test]
-fn a_film_goes_from_key_to_key_of_the_camera() {
+fn the_camera_of_a_film_passes_from_key_to_key() {
     let folder = Folder::new("view-keys");
     let mut harness = flown(&folder);
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
