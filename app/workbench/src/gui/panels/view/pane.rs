@@ -39,8 +39,10 @@ pub(super) fn look(
     }
     let eye = &mut panel.eyes[slot];
     eye.turn(ui, &response, shared.flying);
-    let by_keys = panel.path.camera(view.frame.time_s, |eye| eye.placed(view, rect));
-    if let Some(camera) = by_keys.filter(|_| panel.along && slot == panel.chosen) {
+    if panel.along
+        && slot == panel.chosen
+        && let Some(camera) = panel.path.camera(view.frame.time_s, |eye| eye.placed(view, rect))
+    {
         pick(panel, view, &camera, &response, run);
         return Look { camera, response };
     }
