@@ -23,6 +23,7 @@
 //! | [`scene`] | what a frame looks like, as triangles |
 //! | [`export`] | charts and 3-D models written to files |
 //! | [`scales`] | round values for axes, colours of series |
+//! | [`shell`] | words of a command line as a shell takes them |
 //! | [`units`] | display units and number formatting |
 //! | [`live`] | a run on a thread of its own, for the workbench |
 //! | [`task`] | work on a thread of its own, taken in without waiting |
@@ -60,6 +61,7 @@ pub mod scales;
 pub mod scene;
 pub mod search;
 pub mod settled;
+pub mod shell;
 pub mod shipped;
 pub mod source;
 pub mod statics;

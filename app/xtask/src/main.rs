@@ -2,6 +2,7 @@
 //!
 //! Standard library only: this is the first thing a newcomer compiles, before any system package is there.
 
+mod driven;
 mod fuzz;
 mod packages;
 mod plugins;
@@ -9,7 +10,6 @@ mod python;
 mod run;
 mod shape;
 mod test;
-mod window;
 mod workspace;
 
 use std::process::ExitCode;
@@ -33,6 +33,7 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
                                          N hours at low priority; print inputs, panics, hangs and memory
        cargo xtask window                only drive the window that was built
+       cargo xtask slurm                 run a study on a Slurm of one node, begun for it, where Debian's Slurm is and as root
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
                                          run its tests
@@ -71,7 +72,8 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
             let hours: f64 = hours.parse().ok().filter(|hours| *hours > 0.0)?;
             Box::new(move |workspace| fuzz::for_hours(workspace, hours))
         }
-        ["window"] => Box::new(window::drive),
+        ["window"] => Box::new(driven::window),
+        ["slurm"] => Box::new(driven::slurm),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {
             Box::new(|workspace| plugins::build(workspace, Profile::Release))

@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 
 use crate::workspace::{Profile, Workspace, announce};
-use crate::{Outcome, packages, plugins, run, window};
+use crate::{Outcome, driven, packages, plugins, run};
 
 /// Programs of the quick tier: the rules of the workspace and the golden states.
 const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
@@ -11,7 +11,7 @@ const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
 /// Tests of the quick tier that call the program, by the start of their names.
 const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
 
-/// Formatting, lints, every test of the workspace, the bundled encounter from start to picture, and the window in use.
+/// Formatting, lints, every test of the workspace, the bundled encounter from start to picture, the window in use, and a study on Slurm where that is.
 ///
 /// # Errors
 /// When any of them fails; the first failure ends it.
@@ -25,7 +25,8 @@ pub fn test(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["test", "--workspace", "--tests", "--no-run"])?;
     workspace.cargo(&["test", "--workspace", "--tests", "--no-fail-fast"])?;
     run::show_encounter(workspace, Profile::Dev)?;
-    window::drive(workspace)
+    driven::window(workspace)?;
+    driven::slurm(workspace)
 }
 
 /// What everyday work runs: formatting, lints, the tests inside the crates, the rules of the workspace, the golden states,

@@ -15,5 +15,6 @@ mod mill;
 mod replay;
 mod rules;
 mod search;
+mod shared;
 mod studies;
 mod threat;

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
+use crate::shell;
 use crate::study::Shard;
 use crate::study::control::{Control, Progress};
 use crate::task::{Waker, run_job};
@@ -251,9 +252,8 @@ fn effort(request: &Request, reads: bool) -> Effort {
 /// The command line that searches as asked for, in a folder.
 #[must_use]
 pub fn command_line(request: &Request, folder: &Path) -> String {
-    let quoted = |path: &Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
     let Request { file, library, root, trials, neighbours, .. } = request;
-    let [file, library, folder, net] = [file, library, folder, &root.join(NET)].map(quoted);
+    let [file, library, folder, net] = [file, library, folder, &root.join(NET)].map(shell::path);
     format!(
         "endline search {file} --library {library} --trials {trials} --neighbours {neighbours} --out {folder} --net-folder {net}"
     )

@@ -1,19 +1,27 @@
-//! Running a study: blocks of encounters on several threads, each written as soon as it is done.
+//! Running a study: blocks of encounters on several threads of any number of processes, each written as soon as it is done.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::collections::BTreeSet;
+use std::sync::mpsc::channel;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crate::error::Error;
 
 use super::control::{Control, Count, Progress};
-use super::folder::Folder;
+use super::folder::{BLOCK, Folder};
+use super::leases::{Lease, Leases, Next};
 use super::merge;
 use super::open::Opened;
 use super::shard::Shard;
 use super::table::Table;
 
-/// Runs the missing blocks of a shard; fewer where the study has seen enough. The control pauses
-/// it between two encounters, cancels it within one, and receives its progress.
+/// How often a process that has nothing left to run looks whether others have run theirs.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// Runs the missing blocks of a shard; fewer where the study has seen enough. Other processes on the
+/// same folder share the work, and the blocks of one that has ended are run here; at the end, all
+/// blocks are there. The control pauses it between two encounters, cancels it within one, and
+/// receives its progress.
 ///
 /// A cancelled study is no error: blocks that are written stay, encounters of unfinished blocks are
 /// dropped, and a second call continues from the blocks.
@@ -29,30 +37,52 @@ pub fn run(
     control: &Control,
 ) -> Result<Progress, Error> {
     let own: Vec<u32> = (0..folder.blocks()).filter(|block| shard.holds(*block)).collect();
-    let missing: Vec<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
-    let encounters = |blocks: &[u32]| {
-        blocks.iter().map(|block| folder.encounters_of(*block).len()).sum::<usize>()
+    let missing: BTreeSet<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
+    let encounters = |blocks: &mut dyn Iterator<Item = &u32>| {
+        blocks.map(|block| folder.encounters_of(*block).len()).sum::<usize>()
     };
-    control.begin(count(encounters(&own), encounters(&missing)), count(own.len(), missing.len()));
+    control.begin(
+        count(encounters(&mut own.iter()), encounters(&mut missing.iter())),
+        count(own.len(), missing.len()),
+    );
+    let failure =
+        if missing.is_empty() { None } else { work(opened, folder, control, missing, threads)? };
+    control.end();
+    failure.map_or_else(|| Ok(control.progress()), Err)
+}
+
+/// Runs blocks on threads, and shows other processes that this one is at work; the first failure.
+fn work(
+    opened: &Opened,
+    folder: &Folder,
+    control: &Control,
+    missing: BTreeSet<u32>,
+    threads: usize,
+) -> Result<Option<Error>, Error> {
+    let leases = Leases::join(&folder.path)?;
+    let damaged = missing.iter().copied().filter(|block| folder.file_of(*block).is_file());
     let work = Work {
         opened,
         folder,
         control,
-        missing,
-        next: AtomicUsize::new(0),
+        leases: &leases,
+        damaged: damaged.collect(),
+        left: Mutex::new(missing),
         failure: Mutex::default(),
     };
     std::thread::scope(|scope| {
-        for _ in 1..threads.max(1) {
-            scope.spawn(|| work.blocks());
-        }
-        work.blocks();
+        let (end, told) = channel::<()>();
+        let leases = &leases;
+        scope.spawn(move || leases.beat_until_told(&told));
+        std::thread::scope(|scope| {
+            for _ in 1..threads.max(1) {
+                scope.spawn(|| work.blocks());
+            }
+            work.blocks();
+        });
+        drop(end);
     });
-    control.end();
-    match work.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        None => Ok(control.progress()),
-    }
+    Ok(work.failure.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
 /// A count of which all but the missing ones are done.
@@ -66,9 +96,11 @@ struct Work<'a> {
     opened: &'a Opened,
     folder: &'a Folder,
     control: &'a Control,
-    missing: Vec<u32>,
-    /// Place of the next block in the list of missing ones.
-    next: AtomicUsize,
+    leases: &'a Leases,
+    /// Blocks whose files are there and cannot be read.
+    damaged: BTreeSet<u32>,
+    /// Blocks that nobody has run so far, and that no thread here runs.
+    left: Mutex<BTreeSet<u32>>,
     /// The first failure; it ends all threads.
     failure: Mutex<Option<Error>>,
 }
@@ -76,28 +108,68 @@ struct Work<'a> {
 impl Work<'_> {
     /// The work of one thread: block after block.
     fn blocks(&self) {
-        while let Some(block) = self.next_block() {
-            match self.block(block) {
-                Ok(true) => self.control.block_done(),
+        let one = || -> Result<bool, Error> {
+            let Some(lease) = self.next()? else { return Ok(false) };
+            let done = self.block(lease.block)?;
+            if done {
+                self.control.block_done();
+            }
+            Ok(done)
+        };
+        loop {
+            match one() {
+                Ok(true) => {}
                 Ok(false) => break,
                 Err(error) => {
-                    self.failure().get_or_insert(error);
+                    lock(&self.failure).get_or_insert(error);
                 }
             }
         }
     }
 
-    fn failure(&self) -> std::sync::MutexGuard<'_, Option<Error>> {
-        self.failure.lock().unwrap_or_else(PoisonError::into_inner)
+    /// The next block to run; none where all are run, a thread failed, or the study has seen enough.
+    fn next(&self) -> Result<Option<Lease<'_>>, Error> {
+        loop {
+            let over = lock(&self.failure).is_some() || !self.control.goes_on();
+            if over || merge::is_enough(self.opened, self.folder) {
+                return Ok(None);
+            }
+            match self.leases.next(&self.left()?)? {
+                Next::Run(lease) => {
+                    let is_here = lock(&self.left).remove(&lease.block);
+                    if is_here && !self.folder.has(lease.block) {
+                        return Ok(Some(lease));
+                    }
+                    // Another process, or thread, was faster.
+                    self.run_elsewhere(u32::from(is_here));
+                }
+                Next::Wait(others) => {
+                    self.control.waits_for(others);
+                    std::thread::sleep(LOOK);
+                }
+                Next::Nothing => return Ok(None),
+            }
+        }
     }
 
-    /// The next block to run; none where all are taken, one failed, or the study has seen enough.
-    fn next_block(&self) -> Option<u32> {
-        if self.failure().is_some() {
-            return None;
+    /// Blocks that are not there, now that other processes may have run some.
+    fn left(&self) -> Result<Vec<u32>, Error> {
+        let written = self.folder.written()?;
+        let mut left = lock(&self.left);
+        let before = left.len();
+        left.retain(|block| !written.contains(block) || self.damaged.contains(block));
+        let gone = u32::try_from(before - left.len()).unwrap_or(u32::MAX);
+        let all = left.iter().copied().collect();
+        drop(left);
+        self.run_elsewhere(gone);
+        Ok(all)
+    }
+
+    /// Counts blocks that other processes have run.
+    fn run_elsewhere(&self, blocks: u32) {
+        if blocks > 0 {
+            self.control.blocks_found(blocks, blocks * BLOCK);
         }
-        let block = *self.missing.get(self.next.fetch_add(1, Ordering::Relaxed))?;
-        (!merge::is_enough(self.opened, self.folder)).then_some(block)
     }
 
     /// Runs a block and writes it; false where the study was cancelled on the way.
@@ -116,4 +188,8 @@ impl Work<'_> {
         self.folder.write(block, &Table::of(rows))?;
         Ok(true)
     }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -29,6 +29,8 @@ pub struct Progress {
     pub encounters: Count,
     /// Blocks of encounters of the shard; a block counts when it is written.
     pub blocks: Count,
+    /// Blocks of other processes for which it waits, with nothing else left to do.
+    pub elsewhere: u32,
     /// Time at work until the last pause.
     worked: Duration,
     /// When work began or was resumed; `None` while it stands still.
@@ -172,7 +174,7 @@ impl Control {
         let runs = *lock(&self.wish) == Wish::Run;
         let since = runs.then(Instant::now);
         self.note(|progress| {
-            *progress = Progress { encounters, blocks, worked: Duration::ZERO, since };
+            *progress = Progress { encounters, blocks, since, ..Progress::default() };
         });
     }
 
@@ -183,6 +185,23 @@ impl Control {
             progress.encounters.done += count;
             progress.encounters.found += count;
         });
+    }
+
+    /// Counts blocks, with their encounters, that another process has run.
+    pub(super) fn blocks_found(&self, blocks: u32, encounters: u32) {
+        self.note(|progress| {
+            for (count, found) in
+                [(&mut progress.blocks, blocks), (&mut progress.encounters, encounters)]
+            {
+                count.done += found;
+                count.found += found;
+            }
+        });
+    }
+
+    /// Tells that nothing is left here but blocks that other processes run.
+    pub(super) fn waits_for(&self, others: u32) {
+        self.note(|progress| progress.elsewhere = others);
     }
 
     /// Counts an encounter.

@@ -5,7 +5,9 @@
 //! | `study.json` | which study this is: hash, version, size; what it says it will look at (`registration`) |
 //! | `block-00012.parquet` | rows of encounter 12, whole or not there |
 //! | `table.parquet`, `table.csv` | all rows, once merged |
+//! | `leases` | which process runs which block, while some do |
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -125,6 +127,24 @@ impl Folder {
     #[must_use]
     pub fn has(&self, block: u32) -> bool {
         self.file_of(block).is_file() && self.read(block).is_ok()
+    }
+
+    /// Blocks whose files are there, read or not.
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn written(&self) -> Result<BTreeSet<u32>, Error> {
+        let number =
+            |name: &str| name.strip_prefix("block-")?.strip_suffix(".parquet")?.parse::<u32>().ok();
+        let mut written = BTreeSet::new();
+        let read = fs::read_dir(&self.path).and_then(|mut entries| {
+            entries.try_for_each(|entry| {
+                written.extend(number(&entry?.file_name().to_string_lossy()));
+                Ok(())
+            })
+        });
+        read.map_err(|error| Error::at(&self.path, format!("cannot be read: {error}")))?;
+        Ok(written)
     }
 
     /// Writes the rows of a block, whole or not at all.

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::save;
 
 use super::folder::Folder;
+use super::leases;
 use super::open::Opened;
 use super::parquet;
 use super::shard::Shard;
@@ -31,7 +32,7 @@ pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
     Ok(table)
 }
 
-/// Writes `table.parquet` and `table.csv`.
+/// Writes `table.parquet` and `table.csv`, and removes the leases that nobody needs any more.
 ///
 /// # Errors
 /// Where they cannot be written.
@@ -45,6 +46,7 @@ pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error
         save::atomically(&file, &bytes)
             .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
     }
+    leases::clear(&folder.path);
     Ok(())
 }
 

@@ -35,6 +35,7 @@ mod equilibria;
 mod equivalence;
 mod finer;
 pub mod folder;
+mod leases;
 pub mod merge;
 mod open;
 mod parquet;
@@ -60,6 +61,7 @@ pub(crate) mod tests;
 pub mod threat;
 
 pub use control::Control;
+pub use leases::{Worker, workers};
 pub use open::{Files, Opened};
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};

@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
+use crate::shell;
 use crate::task::{Waker, run_job};
 
 use super::batch;
@@ -218,9 +219,8 @@ fn run(
 /// The command lines that run, merge and report a study as the queue does.
 #[must_use]
 pub fn command_line(study: &Path, library: &Path, results: Option<&Path>) -> String {
-    let quoted = |path: &Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
-    let out = results.map_or_else(String::new, |folder| format!(" --out {}", quoted(folder)));
-    let (study, library) = (quoted(study), quoted(library));
+    let out = results.map_or_else(String::new, |folder| format!(" --out {}", shell::path(folder)));
+    let (study, library) = (shell::path(study), shell::path(library));
     let line = |verb: &str| format!("endline study {verb} {study} --library {library}{out}");
     ["run", "merge", "report"].map(line).join(" && ")
 }

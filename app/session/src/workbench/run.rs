@@ -10,6 +10,7 @@ use super::model::{Made, Pending, Then};
 use super::program::ProgramRequest;
 use super::replay::Replay;
 use crate::live::{Engine, Launch, LiveView, Maker, RunCommand, Status};
+use crate::shell;
 
 /// A speed that is offered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,12 +186,7 @@ impl Workbench {
     #[must_use]
     pub fn command_line(&self) -> String {
         let documents = &self.project.documents;
-        let [scenario, library] = [documents.scenario_path(), documents.root()].map(quoted);
+        let [scenario, library] = [documents.scenario_path(), documents.root()].map(shell::path);
         format!("endline run {scenario} --library {library}")
     }
-}
-
-/// A path as a shell takes it.
-pub(super) fn quoted(path: &std::path::Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
 }

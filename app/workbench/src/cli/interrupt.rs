@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
+use endline_session::shell;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -106,22 +107,13 @@ fn with_options(arguments: impl Iterator<Item = String>, options: &[(&str, &str)
             argument.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
         };
         if !options.iter().any(is_new) {
-            words.push(quoted(&argument));
+            words.push(shell::word(&argument));
         } else if !argument.contains('=') {
             arguments.next();
         }
     }
-    words.extend(options.iter().flat_map(|(name, value)| [(*name).to_owned(), quoted(value)]));
+    words.extend(options.iter().flat_map(|(name, value)| [(*name).to_owned(), shell::word(value)]));
     words.join(" ")
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+%@".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 #[cfg(test)]

@@ -44,6 +44,13 @@ impl Called {
         }
     }
 
+    /// Asserts every word on standard output.
+    pub fn prints(&self, words: &[&str]) {
+        for word in words {
+            assert!(self.stdout.contains(word), "`{word}` is not printed; {self}");
+        }
+    }
+
     /// Asserts exit code 0.
     pub fn done(self) -> Self {
         assert_eq!(self.code, Some(0), "{self}");

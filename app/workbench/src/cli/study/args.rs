@@ -9,8 +9,12 @@ use endline_session::study::Shard;
 pub(in crate::cli) enum StudyCommand {
     /// Check a study and print its options, encounters, blocks and the first encounters drawn.
     Plan(PlanArgs),
-    /// Run the blocks of a study that are missing; after an interruption, run the same command again.
+    /// Run the blocks of a study that are missing; after an interruption, run the same command again. Processes that run at the same time share the blocks.
     Run(RunArgs),
+    /// Tell how far a study is and which processes work on it, on this machine or others.
+    Status(StatusArgs),
+    /// Write the jobs that run a study on a cluster, and hand them to its queue.
+    Submit(SubmitArgs),
     /// Merge all blocks into table.parquet and table.csv.
     Merge(StudyArgs),
     /// Print the findings of a merged study and write report.html, report.csv and a bundle.
@@ -76,6 +80,45 @@ pub(in crate::cli) struct RunArgs {
 }
 
 #[derive(Debug, Args)]
+pub(in crate::cli) struct StatusArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Print the result as one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SubmitArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Hand it to Slurm; docs/clusters.md tells how other queues take the same commands.
+    #[arg(long, required = true)]
+    pub(super) slurm: bool,
+    /// Tasks of the job array that runs the encounters; each takes those that nobody runs yet.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) array: u32,
+    /// Threads of each task.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) cpus: u16,
+    /// Memory of each task, as sbatch takes it, such as 2G [default: the cluster's].
+    #[arg(long, value_name = "SIZE", value_parser = word)]
+    pub(super) memory: Option<String>,
+    /// Time limit of each task, as sbatch takes it, such as 04:00:00 [default: the cluster's].
+    #[arg(long, value_name = "TIME", value_parser = word)]
+    pub(super) time: Option<String>,
+    /// Account that is charged [default: the cluster's].
+    #[arg(long, value_name = "NAME", value_parser = word)]
+    pub(super) account: Option<String>,
+    /// Partition of the cluster [default: the cluster's].
+    #[arg(long, value_name = "NAME", value_parser = word)]
+    pub(super) partition: Option<String>,
+    /// Print the scripts and hand over nothing.
+    #[arg(long)]
+    pub(super) dry_run: bool,
+}
+
+#[derive(Debug, Args)]
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
@@ -131,4 +174,13 @@ pub(in crate::cli) fn shard(text: &str) -> Result<Shard, String> {
     let fits = parts.filter(|(part, of)| (1..=*of).contains(part));
     fits.map(|(part, of)| Shard { part: part - 1, of })
         .ok_or_else(|| "expected a part such as 2/7: the second of seven".into())
+}
+
+/// A word of a directive: one that a line of a script takes as it is.
+fn word(text: &str) -> Result<String, String> {
+    let fits = |letter: char| letter.is_ascii_alphanumeric() || "-_.:,+@".contains(letter);
+    if !text.is_empty() && text.chars().all(fits) {
+        return Ok(text.to_owned());
+    }
+    Err("expected letters, digits and - _ . : , + @ alone".into())
 }

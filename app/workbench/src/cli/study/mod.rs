@@ -1,8 +1,10 @@
-//! `endline study`: plan, run, merge, report, hindcast, threat, replay.
+//! `endline study`: plan, run, status, submit, merge, report, hindcast, threat, replay.
 
 pub(super) mod args;
 mod hindcast;
 mod progress;
+mod status;
+mod submit;
 mod threat;
 mod words;
 
@@ -28,6 +30,8 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
     match command {
         StudyCommand::Plan(args) => plan(args, library),
         StudyCommand::Run(args) => run(args, library),
+        StudyCommand::Status(args) => status::status(args, library),
+        StudyCommand::Submit(args) => submit::submit(args, library),
         StudyCommand::Merge(args) => merged(args, library),
         StudyCommand::Report(args) => reported(args, library),
         StudyCommand::Hindcast(args) => hindcast::hindcast(args, library),

@@ -38,6 +38,12 @@ impl Bar {
     pub(super) fn at(&self, progress: &Progress) {
         let Count { done, found, total } = progress.blocks;
         if let Some(bar) = &self.bar {
+            let others = progress.elsewhere;
+            let message = match others {
+                0 => "encounters".to_owned(),
+                _ => format!("encounters, {others} of them run by other processes"),
+            };
+            bar.set_message(message);
             bar.set_length(u64::from(total));
             bar.set_position(u64::from(done));
             return;
@@ -53,7 +59,13 @@ impl Bar {
         } else {
             format!(", {} left", words(self.start.elapsed() / fresh * (total - done)))
         };
-        output::note(&format!("{done} of {total} blocks of encounters{left}"));
+        let waits = match progress.elsewhere {
+            0 => String::new(),
+            others => {
+                format!("; {others} are run by other processes, and none is left for this one")
+            }
+        };
+        output::note(&format!("{done} of {total} blocks of encounters{left}{waits}"));
     }
 }
 

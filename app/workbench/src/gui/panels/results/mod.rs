@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use endline_gear::StudyEvent;
+use endline_session::shell;
 use endline_session::study::ResultsReader;
 use endline_session::study::StudyResults;
 use endline_session::study::stats::answer;
@@ -202,11 +203,10 @@ impl ResultsPanel {
 }
 
 fn report_line(shared: &Shared, shown: &StudyResults) -> String {
-    let quoted = |path: &str| format!("'{}'", path.replace('\'', "'\\''"));
-    let study = quoted(&shown.opened.study.place.source.path);
+    let study = shell::word(&shown.opened.study.place.source.path);
     format!(
         "endline study report {study} --library {} --out {}",
-        quoted(&shared.workbench.project.documents.root().display().to_string()),
-        quoted(&shown.folder.display().to_string())
+        shell::path(shared.workbench.project.documents.root()),
+        shell::path(&shown.folder)
     )
 }

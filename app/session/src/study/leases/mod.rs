@@ -1,0 +1,269 @@
+//! Which process runs which block: any number of processes on one folder share a study's work.
+//!
+//! | file in `leases` | what |
+//! |---|---|
+//! | `process-3f2a…` | a process at work, and where it runs; written anew every 20 s, locked while the process lives |
+//! | `00012-0` | block 12 is run by the process whose id it holds |
+//! | `00012-1` | the same block, leased anew because that process has ended |
+//!
+//! A lease is a file that is made only where there is none, which one process alone can do. The lease of a process that has ended is
+//! not taken away, which two could try at once, but followed by one of the next number. A process has ended where it has been silent
+//! for three minutes, by the clock of the folder's own machine; on the same machine, where its lock is free. One that slept for
+//! longer and goes on runs a block for the second time, to the same bytes.
+//!
+//! Reference: Gray and Cheriton 1989, Leases: an efficient fault-tolerant mechanism for distributed file cache consistency.
+
+mod process;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, SystemTime};
+
+use crate::error::Error;
+
+use process::{BEAT, Place, Process, SILENCE, Told};
+
+/// The leases of a study's folder, as one process of several takes them.
+#[derive(Debug)]
+pub(super) struct Leases {
+    folder: PathBuf,
+    process: Process,
+}
+
+/// A block that this process alone runs, until this is dropped.
+pub(super) struct Lease<'a> {
+    /// The block.
+    pub(super) block: u32,
+    number: u32,
+    leases: &'a Leases,
+}
+
+/// What a process may do next.
+pub(super) enum Next<'a> {
+    /// Run a block.
+    Run(Lease<'a>),
+    /// Wait: so many blocks are run by other processes, and one of these may end.
+    Wait(u32),
+    /// Nothing is left but what this process runs already.
+    Nothing,
+}
+
+/// A process that others see at work on a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Worker {
+    /// Name of its machine.
+    pub machine: String,
+    /// Its number there.
+    pub pid: u32,
+    /// How long ago it was last seen at work.
+    pub silent: Duration,
+    /// Whether it has ended without a word, so that others run its blocks.
+    pub has_ended: bool,
+    /// Blocks that it runs.
+    pub blocks: BTreeSet<u32>,
+}
+
+impl Leases {
+    /// Joins those who work on a folder of results.
+    ///
+    /// # Errors
+    /// A folder that cannot be written.
+    pub(super) fn join(results: &Path) -> Result<Self, Error> {
+        Self::join_from(results, Place::here())
+    }
+
+    fn join_from(results: &Path, place: Place) -> Result<Self, Error> {
+        let folder = folder_of(results);
+        let joined = fs::create_dir_all(&folder).and_then(|()| Process::begin(&folder, place));
+        let process = joined
+            .map_err(|error| Error::at(&folder, format!("cannot be written: {error}; each process on a study notes there which encounters it runs")))?;
+        Ok(Self { folder, process })
+    }
+
+    /// Shows that this process works, now and then, until the other end of the channel is gone.
+    pub(super) fn beat_until_told(&self, end: &Receiver<()>) {
+        while end.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {
+            // Who cannot write counts as ended, and whoever can goes on with its blocks.
+            let _ = self.process.beat();
+        }
+    }
+
+    /// Leases one of the blocks that are wanted: one that nobody runs, else one whose process has ended.
+    ///
+    /// # Errors
+    /// A folder that cannot be read or written.
+    pub(super) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
+        self.look(wanted)
+            .map_err(|error| Error::at(&self.folder, format!("cannot be used: {error}")))
+    }
+
+    fn look(&self, wanted: &[u32]) -> io::Result<Next<'_>> {
+        let standing = standing(&self.folder)?;
+        let free: Vec<u32> =
+            wanted.iter().copied().filter(|block| !standing.contains_key(block)).collect();
+        let mut taken = 0;
+        for block in spread(&free) {
+            if let Some(lease) = self.lease(block, 0)? {
+                return Ok(Next::Run(lease));
+            }
+            taken += 1;
+        }
+        let mut ended: BTreeMap<String, bool> = BTreeMap::new();
+        for block in wanted {
+            let Some(number) = standing.get(block) else { continue };
+            let holder = self.holder(*block, *number)?;
+            if holder.as_ref() == Some(&self.process.id) {
+                continue;
+            }
+            if self.has_ended(holder, &mut ended)?
+                && let Some(lease) = self.lease(*block, number + 1)?
+            {
+                return Ok(Next::Run(lease));
+            }
+            taken += 1;
+        }
+        Ok(if taken > 0 { Next::Wait(taken) } else { Next::Nothing })
+    }
+
+    /// Whether the holder of a lease has ended; each is looked at once.
+    fn has_ended(
+        &self,
+        holder: Option<String>,
+        known: &mut BTreeMap<String, bool>,
+    ) -> io::Result<bool> {
+        let Some(holder) = holder else { return Ok(false) };
+        if let Some(has_ended) = known.get(&holder) {
+            return Ok(*has_ended);
+        }
+        let has_ended = self.process.has_ended(&holder)?;
+        known.insert(holder, has_ended);
+        Ok(has_ended)
+    }
+
+    /// Makes a lease; `None` where another process has made it.
+    fn lease(&self, block: u32, number: u32) -> io::Result<Option<Lease<'_>>> {
+        let path = path_of(&self.folder, block, number);
+        match File::options().write(true).create_new(true).open(path) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(None),
+            file => {
+                let lease = Lease { block, number, leases: self };
+                file?.write_all(self.process.id.as_bytes())?;
+                Ok(Some(lease))
+            }
+        }
+    }
+
+    /// The process that holds a lease; `None` where it was given back, or is being made.
+    fn holder(&self, block: u32, number: u32) -> io::Result<Option<String>> {
+        let path = path_of(&self.folder, block, number);
+        match fs::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Ok(holder) if holder.is_empty() && is_fresh(&path) => Ok(None),
+            holder => holder.map(Some),
+        }
+    }
+}
+
+impl Drop for Leases {
+    fn drop(&mut self) {
+        self.process.end();
+        // Others may be at work, and then it stays.
+        let _ = fs::remove_dir(&self.folder);
+    }
+}
+
+impl Drop for Lease<'_> {
+    /// Gives it back, with those of ended processes before it.
+    fn drop(&mut self) {
+        for number in 0..=self.number {
+            // One that is gone already needs no removing; one that stays is that of an ended process.
+            let _ = fs::remove_file(path_of(&self.leases.folder, self.block, number));
+        }
+    }
+}
+
+/// The processes at work on a folder of results, by machine.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
+    let folder = folder_of(results);
+    let read = || -> io::Result<Vec<Worker>> {
+        let (here, now) = (Place::here(), SystemTime::now());
+        let worker = |told: &Told| Worker {
+            machine: told.place.machine.clone(),
+            pid: told.place.pid,
+            silent: told.silent(now),
+            has_ended: told.silent(now) > SILENCE || told.has_left(&here),
+            blocks: BTreeSet::new(),
+        };
+        let all = Told::all(&folder)?;
+        let mut workers: BTreeMap<String, Worker> =
+            all.iter().map(|(id, told)| (id.clone(), worker(told))).collect();
+        for (block, number) in standing(&folder)? {
+            let holder = fs::read_to_string(path_of(&folder, block, number)).unwrap_or_default();
+            if let Some(worker) = workers.get_mut(&holder) {
+                worker.blocks.insert(block);
+            }
+        }
+        let mut workers: Vec<Worker> = workers.into_values().collect();
+        workers.sort_by(|one, other| (&one.machine, one.pid).cmp(&(&other.machine, other.pid)));
+        Ok(workers)
+    };
+    match read() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        read => read.map_err(|error| Error::at(&folder, format!("cannot be read: {error}"))),
+    }
+}
+
+/// Removes what ended processes left, unless others are at work.
+pub(super) fn clear(results: &Path) {
+    if workers(results).is_ok_and(|workers| workers.iter().all(|worker| worker.has_ended)) {
+        // A folder that is not there, or stays, does no harm.
+        let _ = fs::remove_dir_all(folder_of(results));
+    }
+}
+
+fn folder_of(results: &Path) -> PathBuf {
+    results.join("leases")
+}
+
+fn path_of(folder: &Path, block: u32, number: u32) -> PathBuf {
+    folder.join(format!("{block:05}-{number}"))
+}
+
+/// The last lease of every block that has one.
+fn standing(folder: &Path) -> io::Result<BTreeMap<u32, u32>> {
+    let mut standing = BTreeMap::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name();
+        let numbers = name.to_str().and_then(|name| name.split_once('-'));
+        let lease = numbers
+            .and_then(|(block, number)| Some((block.parse().ok()?, number.parse::<u32>().ok()?)));
+        if let Some((block, number)) = lease {
+            standing
+                .entry(block)
+                .and_modify(|last: &mut u32| *last = number.max(*last))
+                .or_insert(number);
+        }
+    }
+    Ok(standing)
+}
+
+/// Whether a file was made so lately that its process may still be writing it.
+fn is_fresh(path: &Path) -> bool {
+    let modified = fs::metadata(path).and_then(|data| data.modified());
+    modified.is_ok_and(|modified| modified.elapsed().is_ok_and(|age| age < SILENCE))
+}
+
+/// The blocks from the first on, with ever longer steps, so that processes that begin together part at once.
+fn spread(free: &[u32]) -> impl Iterator<Item = u32> {
+    let stride = usize::try_from(std::process::id() % 7).unwrap_or(0) + 1;
+    let place = move |tries: usize| tries * (tries + 1) / 2 * stride;
+    (0..).map(place).map_while(|place| free.get(place).copied())
+}
