@@ -60,13 +60,12 @@ fn work(
     threads: usize,
 ) -> Result<Option<Error>, Error> {
     let leases = Leases::join(&folder.path)?;
-    let damaged = missing.iter().copied().filter(|block| folder.file_of(*block).is_file());
     let work = Work {
         opened,
         folder,
         control,
         leases: &leases,
-        damaged: damaged.collect(),
+        damaged: folder.written()?.intersection(&missing).copied().collect(),
         left: Mutex::new(missing),
         failure: Mutex::default(),
     };
