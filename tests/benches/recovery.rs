@@ -1,7 +1,7 @@
 //! Blind recovery in numbers: how many hidden encounters a search finds again.
 //!
 //! ```text
-//! cargo bench -p endline-tests --bench recovery -- 20 1300 1000 --folder=results/recovery
+//! cargo bench -p endline-tests --bench recovery -- 20 2000 2000 --folder=results/recovery
 //! # hidden encounters, runs of each search, draws of its net; the same call goes on from what the folder holds
 //! # a fourth number leaves out so many of the first, told elsewhere; --only=7,13 searches for these alone
 //! ```
@@ -20,7 +20,7 @@ fn main() {
         std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let number = |place: usize, usual| numbers.get(place).copied().unwrap_or(usual);
     let (count, trials, net, told) =
-        (number(0, 20), number(1, 1300), number(2, 1000), number(3, 0));
+        (number(0, 20), number(1, 2000), number(2, 2000), number(3, 0));
     let folder =
         std::env::args().find_map(|argument| Some(argument.strip_prefix("--folder=")?.into()));
     let only: Option<Vec<usize>> = std::env::args().find_map(|argument| {
