@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::Outcome;
-use crate::packages::on_path;
+use crate::system_packages::on_path;
 use crate::workspace::{Profile, Workspace, announce};
 
 /// A script that takes the program and a folder of its own.

@@ -4,11 +4,12 @@
 
 mod driven;
 mod fuzz;
-mod packages;
+mod package;
 mod plugins;
 mod python;
 mod run;
 mod shape;
+mod system_packages;
 mod test;
 mod workspace;
 
@@ -33,8 +34,9 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
                                          N hours at low priority; print inputs, panics, hangs and memory
        cargo xtask window                only drive the window that was built
-       cargo xtask slurm                 run a study on a Slurm of one node, begun for it, where Debian's Slurm is and as root
+       cargo xtask slurm                 run a study on a Slurm of one node begun for it, as root, where Slurm is installed
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
+       cargo xtask package               build a portable archive and a Debian package of the release
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
                                          run its tests
        cargo xtask shape [all | sizes | circles] [PACKAGE]
@@ -73,6 +75,7 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
             Box::new(move |workspace| fuzz::for_hours(workspace, hours))
         }
         ["window"] => Box::new(driven::window),
+        ["package"] => Box::new(package::package),
         ["slurm"] => Box::new(driven::slurm),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {

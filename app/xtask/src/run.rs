@@ -3,7 +3,7 @@
 use std::process::ExitStatus;
 
 use crate::workspace::{Profile, Workspace};
-use crate::{Outcome, packages, plugins};
+use crate::{Outcome, plugins, system_packages};
 
 /// The encounter that a machine without a display shows.
 const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
@@ -33,7 +33,7 @@ pub fn run_with(workspace: &Workspace, arguments: &[&str]) -> Outcome {
 }
 
 fn make_ready(workspace: &Workspace) -> Outcome {
-    packages::ensure_for_run()?;
+    system_packages::ensure_for_run()?;
     workspace.cargo(&["build", Profile::Release.flag(), "--package", "endline"])?;
     plugins::build(workspace, Profile::Release)
 }

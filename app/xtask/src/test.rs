@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 
 use crate::workspace::{Profile, Workspace, announce};
-use crate::{Outcome, driven, packages, plugins, run};
+use crate::{Outcome, driven, plugins, run, system_packages};
 
 /// Programs of the quick tier: the rules of the workspace and the golden states.
 const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
@@ -56,7 +56,7 @@ pub fn write_golden(workspace: &Workspace) -> Outcome {
 }
 
 fn check_sources(workspace: &Workspace) -> Outcome {
-    packages::ensure_for_test()?;
+    system_packages::ensure_for_test()?;
     ensure_components(workspace)?;
     workspace.cargo(&["fmt", "--all", "--check"])?;
     workspace.cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
