@@ -132,3 +132,44 @@ def test_errors_have_file_line_and_field(tmp_path):
     assert error.file == str(file) and error.field == "whale.length"
     assert error.line == 1 + text.splitlines().index('length = "13.7 m"')
     assert error.problems[0]["message"] in str(error)
+
+
+def test_exported_tables_are_read_by_other_libraries(hello, command, tmp_path):
+    """Parquet by pyarrow, polars and duckdb: types, units, counts, and the numbers of the arrays."""
+    import duckdb
+    import polars
+    import pyarrow as arrow
+    import pyarrow.parquet
+
+    scenario = library_file("scenarios/hello-endline.toml")
+    command("export", scenario, "--out", tmp_path, "--rate", 10)
+    moments, nodes = hello.node_position_m.shape[:2]
+
+    file = arrow.parquet.ParquetFile(tmp_path / "nodes.parquet")
+    assert file.metadata.num_rows == moments * nodes
+    types = {field.name: field.type for field in file.schema_arrow}
+    assert types == {
+        "time_s": arrow.float64(),
+        "line": arrow.string(),
+        "node": arrow.int64(),
+        "x_m": arrow.float64(),
+        "y_m": arrow.float64(),
+        "z_m": arrow.float64(),
+    }
+    about = file.schema_arrow.metadata
+    assert about[b"x_m.unit"] == b"m" and about[b"x_m.meaning"] == b"east"
+    group = file.metadata.row_group(0)
+    lines = group.column([group.column(i).path_in_schema for i in range(6)].index("line"))
+    assert any("DICTIONARY" in encoding for encoding in lines.encodings)
+
+    table = polars.read_parquet(tmp_path / "nodes.parquet")
+    places = table.select("x_m", "y_m", "z_m").to_numpy().reshape(moments, nodes, 3)
+    assert np.array_equal(places, hello.node_position_m)
+    tension = polars.read_parquet(tmp_path / "segments.parquet")["tension_N"].to_numpy()
+    assert np.array_equal(tension.reshape(hello.tension_N.shape), hello.tension_N)
+
+    contacts = str(tmp_path / "contacts.parquet")
+    count, most = duckdb.sql(f"select count(*), max(normal_force_N) from '{contacts}'").fetchone()
+    assert count == len(hello.contacts) and most == hello.contacts.normal_force_N.max()
+    told = duckdb.sql(f"select unit from '{tmp_path / 'columns.parquet'}' where \"column\" = 'tension_N'").fetchall()
+    assert told == [("N",)]

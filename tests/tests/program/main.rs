@@ -8,6 +8,7 @@ mod common;
 mod cost;
 mod crossing;
 mod determinism;
+mod exported;
 mod haul;
 mod hostile;
 mod interrupts;

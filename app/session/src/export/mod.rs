@@ -6,6 +6,7 @@
 //! | [`picture`] | charts drawn | `svg`, `png` |
 //! | [`animation`] | a run in motion | `glb` |
 //! | [`model`] | gear and whale as 3-D models | `stl`, `glb` |
+//! | [`tables`] | the moments of a run as tables | `parquet`, `csv` |
 //! | [`font`] | the font of all of them | |
 //!
 //! Tables of the library are read and written by [`edit::library_table`](crate::edit::library_table).
@@ -15,6 +16,7 @@ pub mod chart;
 pub mod font;
 pub mod model;
 pub mod picture;
+pub mod tables;
 mod tube;
 
 use std::path::Path;

@@ -38,7 +38,7 @@ pub mod folder;
 mod leases;
 pub mod merge;
 mod open;
-mod parquet;
+pub(crate) mod parquet;
 mod plan;
 mod planned;
 mod play;

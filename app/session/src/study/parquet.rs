@@ -19,7 +19,7 @@ use super::table::{Column, Table};
 pub(super) type Tagged = (Table, Vec<(String, String)>);
 
 /// The bytes of a file.
-pub(super) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>> {
+pub(crate) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>> {
     let fields = table
         .columns
         .iter()

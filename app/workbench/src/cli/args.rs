@@ -48,6 +48,8 @@ pub(super) enum Command {
     Pilot(PilotArgs),
     /// Draw a moment of a recording or a scenario as a picture, or a stretch of it as a film, without a display.
     Render(RenderArgs),
+    /// Write the moments of a recording or a scenario as tables for programs that analyse data: nodes, tensions, whale, contacts.
+    Export(ExportArgs),
     /// Run validation cases and compare results with expected values.
     Validate(ValidateArgs),
     /// Compare options of gear on the same encounters.
@@ -223,6 +225,40 @@ pub(super) struct RenderArgs {
     /// Accept plugins whose version or file differs from the recorded ones.
     #[arg(long)]
     pub(super) other_plugins: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ExportArgs {
+    /// Recording file, scenario file, or a scenario of the gear library by its id, which is run.
+    #[arg(value_name = "RECORDING|SCENARIO")]
+    pub(super) file: PathBuf,
+    /// Format of the tables.
+    #[arg(long, value_enum, default_value_t = TableFormat::Parquet)]
+    pub(super) format: TableFormat,
+    /// Moments a second, 1 to 1000.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) rate: u32,
+    /// First moment in seconds [default: 0].
+    #[arg(long, value_name = "T")]
+    pub(super) from: Option<f64>,
+    /// Last moment in seconds [default: the end of the run].
+    #[arg(long, value_name = "T")]
+    pub(super) to: Option<f64>,
+    /// Folder for the tables; it is created if missing.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+    /// Accept plugins whose version or file differs from the recorded ones.
+    #[arg(long)]
+    pub(super) other_plugins: bool,
+}
+
+/// Format of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum TableFormat {
+    /// Apache Parquet, with units and meanings of the columns in its metadata.
+    Parquet,
+    /// Comma-separated values.
+    Csv,
 }
 
 #[derive(Debug, clap::Args)]

@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod export;
 mod failure;
 mod film;
 mod harmless;
@@ -16,6 +17,7 @@ mod mill;
 mod output;
 mod picture;
 mod pilot;
+mod player;
 mod plugins;
 mod progress;
 mod render;
@@ -62,6 +64,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Replay(args)) => replay::replay(args),
         Some(Command::Pilot(args)) => pilot::pilot(args),
         Some(Command::Render(args)) => render::render(args, library),
+        Some(Command::Export(args)) => export::export(args, library),
         Some(Command::Validate(args)) => validate::validate(args, library),
         Some(Command::Check(args)) => check::check(args, library),
         Some(Command::Whale { what }) => whale::whale(what, library),

@@ -1,0 +1,291 @@
+//! The moments of a run as tables for programs that analyse data: each a file, as Parquet or as comma-separated values.
+//!
+//! | table | rows |
+//! |---|---|
+//! | `nodes` | every node of every line, at every moment |
+//! | `segments` | every segment of every line |
+//! | `bodies` | every body: traps, buoys, anchors |
+//! | `whale` | the whale, where the scenario has one |
+//! | `contacts` | every place where rope presses on skin |
+//! | `columns` | what every column of the others is: its unit and meaning |
+//!
+//! Units are SI and stand in the names. x points east, y north, z up; z = 0 is the mean sea surface.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
+
+use crate::save;
+use crate::study::table::{Column, Table};
+use crate::study::{parquet, table};
+
+/// In what format tables are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// Apache Parquet; texts by dictionary, zstd inside.
+    Parquet,
+    /// Comma-separated values, RFC 4180.
+    Csv,
+}
+
+/// A table that is written, with the unit and meaning of its columns.
+struct Told {
+    name: &'static str,
+    columns: Vec<(&'static str, &'static str, &'static str, Column)>,
+}
+
+/// Writes all tables of a run's moments into a folder; `about` tells of which run, by which program. The number of rows of each.
+///
+/// # Errors
+/// A folder that cannot be written.
+pub fn write(
+    folder: &Path,
+    format: TableFormat,
+    model: &Model,
+    frames: &[Arc<Frame>],
+    about: &[(String, String)],
+) -> Result<Vec<(&'static str, usize)>, String> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
+    let told = [
+        nodes(model, frames),
+        segments(model, frames),
+        bodies(model, frames),
+        whale(frames),
+        contacts(model, frames),
+    ];
+    let mut rows = Vec::new();
+    for table in told.iter().map(Told::table).chain([("columns", columns(&told))]) {
+        let (name, table) = table;
+        let (ending, bytes) = match format {
+            TableFormat::Csv => ("csv", table.csv().into_bytes()),
+            TableFormat::Parquet => {
+                let tags: Vec<_> = about.iter().cloned().chain(units(&told, name)).collect();
+                let bytes = parquet::write(&table, &tags);
+                ("parquet", bytes.map_err(|error| format!("{name}: {error}"))?)
+            }
+        };
+        let file = folder.join(format!("{name}.{ending}"));
+        save::atomically(&file, &bytes)
+            .map_err(|error| format!("{}: cannot be written: {error}", file.display()))?;
+        rows.push((name, table.rows()));
+    }
+    Ok(rows)
+}
+
+impl Told {
+    fn table(&self) -> (&'static str, Table) {
+        let columns = self.columns.iter();
+        let columns = columns.map(|(name, _, _, column)| ((*name).to_owned(), column.clone()));
+        (self.name, Table { columns: columns.collect() })
+    }
+}
+
+/// Units of a table's columns, for the file's own metadata.
+fn units(told: &[Told], name: &str) -> Vec<(String, String)> {
+    let own = told.iter().filter(|table| table.name == name).flat_map(|table| &table.columns);
+    own.flat_map(|(column, unit, meaning, _)| {
+        [("unit", unit), ("meaning", meaning)]
+            .map(|(what, text)| (format!("{column}.{what}"), (*text).to_owned()))
+    })
+    .collect()
+}
+
+/// What every column is.
+fn columns(told: &[Told]) -> Table {
+    let text = table::Cell::Text;
+    let row = |table: &Told, (column, unit, meaning, _): &(&str, &str, &str, Column)| {
+        [("table", table.name), ("column", column), ("unit", unit), ("meaning", meaning)]
+            .map(|(name, value)| (name.to_owned(), text(value.to_owned())))
+            .to_vec()
+    };
+    let rows = told.iter().flat_map(|table| table.columns.iter().map(|column| row(table, column)));
+    Table::of(rows.collect())
+}
+
+fn nodes(model: &Model, frames: &[Arc<Frame>]) -> Told {
+    let at = of_lines(model, &model.line_nodes);
+    let places = || frames.iter().flat_map(|frame| frame.nodes.iter().copied());
+    let [x, y, z] = axes(places);
+    Told {
+        name: "nodes",
+        columns: vec![
+            time(frames, |_| at.len()),
+            ("line", "", "id of the line", texts(frames, &at, |(line, _)| line.clone())),
+            (
+                "node",
+                "",
+                "place along the line, 0 at its beginning",
+                wholes(frames, &at, |(_, place)| *place),
+            ),
+            ("x_m", "m", "east", x),
+            ("y_m", "m", "north", y),
+            ("z_m", "m", "up, from the mean sea surface", z),
+        ],
+    }
+}
+
+fn segments(model: &Model, frames: &[Arc<Frame>]) -> Told {
+    let at = of_lines(model, &model.line_segments);
+    let all = || frames.iter();
+    Told {
+        name: "segments",
+        columns: vec![
+            time(frames, |_| at.len()),
+            ("line", "", "id of the line", texts(frames, &at, |(line, _)| line.clone())),
+            (
+                "segment",
+                "",
+                "place along the line, from node of the same number to the next",
+                wholes(frames, &at, |(_, place)| *place),
+            ),
+            (
+                "tension_N",
+                "N",
+                "tension; none in slack rope",
+                reals(all().flat_map(|frame| frame.tension_n.iter().copied())),
+            ),
+            (
+                "length_m",
+                "m",
+                "unstretched length",
+                reals(all().flat_map(|frame| frame.segment_length_m.iter().copied())),
+            ),
+            (
+                "is_cut",
+                "",
+                "whether it has parted",
+                Column::Flag(all().flat_map(|frame| frame.cut.iter().copied()).collect()),
+            ),
+        ],
+    }
+}
+
+fn bodies(model: &Model, frames: &[Arc<Frame>]) -> Told {
+    let ids: Vec<String> = model.spec.bodies.iter().map(|body| body.id.clone()).collect();
+    let all = || frames.iter().flat_map(|frame| frame.bodies.iter());
+    let [x, y, z] = axes(|| all().map(|body| body.0));
+    let turned = turns(|| all().map(|body| body.1));
+    let mut columns = vec![
+        time(frames, |_| ids.len()),
+        ("body", "", "id of the body", texts(frames, &ids, String::clone)),
+        ("x_m", "m", "east", x),
+        ("y_m", "m", "north", y),
+        ("z_m", "m", "up, from the mean sea surface", z),
+    ];
+    columns.extend(turned);
+    Told { name: "bodies", columns }
+}
+
+fn whale(frames: &[Arc<Frame>]) -> Told {
+    let all = || frames.iter().filter_map(|frame| frame.whale.as_ref());
+    let [x, y, z] = axes(|| all().map(|whale| whale.position));
+    let turned = turns(|| all().map(|whale| whale.orientation));
+    let mut columns = vec![
+        time(frames, |frame| usize::from(frame.whale.is_some())),
+        ("x_m", "m", "east, of the origin of the whale's axes", x),
+        ("y_m", "m", "north", y),
+        ("z_m", "m", "up, from the mean sea surface", z),
+        ("speed_m_s", "m/s", "speed through the water", reals(all().map(|whale| whale.speed_m_s))),
+    ];
+    columns.extend(turned);
+    Told { name: "whale", columns }
+}
+
+fn contacts(model: &Model, frames: &[Arc<Frame>]) -> Told {
+    let all = || frames.iter().flat_map(|frame| &frame.contacts);
+    let [x, y, z] = axes(|| all().map(|at| at.position));
+    let [nx, ny, nz] = axes(|| all().map(|at| at.normal));
+    let [fx, fy, fz] = axes(|| all().map(|at| at.friction_n));
+    let line = |at: &ContactPoint| model.spec.lines[at.line].id.clone();
+    let place = |at: &ContactPoint| whole(at.segment - model.line_segments[at.line].start);
+    Told {
+        name: "contacts",
+        columns: vec![
+            time(frames, |frame| frame.contacts.len()),
+            ("line", "", "id of the line", Column::Text(all().map(line).collect())),
+            (
+                "segment",
+                "",
+                "place of the segment along the line",
+                Column::Whole(all().map(place).collect()),
+            ),
+            (
+                "region",
+                "",
+                "region of the skin",
+                Column::Text(all().map(|at| at.region.name().to_owned()).collect()),
+            ),
+            ("x_m", "m", "east", x),
+            ("y_m", "m", "north", y),
+            ("z_m", "m", "up, from the mean sea surface", z),
+            ("normal_x", "", "unit vector from skin to rope", nx),
+            ("normal_y", "", "unit vector from skin to rope", ny),
+            ("normal_z", "", "unit vector from skin to rope", nz),
+            (
+                "normal_force_N",
+                "N",
+                "force of skin on rope along the normal",
+                reals(all().map(|at| at.normal_force_n)),
+            ),
+            ("friction_x_N", "N", "friction force of skin on rope", fx),
+            ("friction_y_N", "N", "friction force of skin on rope", fy),
+            ("friction_z_N", "N", "friction force of skin on rope", fz),
+            (
+                "length_m",
+                "m",
+                "length of rope that it stands for",
+                reals(all().map(|at| at.length_m)),
+            ),
+        ],
+    }
+}
+
+/// Line and place along it of every node, or segment, in the order of a frame.
+fn of_lines(model: &Model, ranges: &[Range<usize>]) -> Vec<(String, i64)> {
+    let lines = model.spec.lines.iter().zip(ranges);
+    lines
+        .flat_map(|(line, range)| (0..range.len()).map(|place| (line.id.clone(), whole(place))))
+        .collect()
+}
+
+/// The time of every row; `rows` of each moment.
+fn time(
+    frames: &[Arc<Frame>],
+    rows: impl Fn(&Frame) -> usize,
+) -> (&'static str, &'static str, &'static str, Column) {
+    let times = frames.iter().flat_map(|frame| std::iter::repeat_n(frame.time_s, rows(frame)));
+    ("time_s", "s", "simulated time", reals(times))
+}
+
+fn texts<T>(frames: &[Arc<Frame>], of: &[T], text: impl Fn(&T) -> String) -> Column {
+    Column::Text(frames.iter().flat_map(|_| of.iter().map(&text)).collect())
+}
+
+fn wholes<T>(frames: &[Arc<Frame>], of: &[T], number: impl Fn(&T) -> i64) -> Column {
+    Column::Whole(frames.iter().flat_map(|_| of.iter().map(&number)).collect())
+}
+
+fn reals(numbers: impl Iterator<Item = f64>) -> Column {
+    Column::Real(numbers.map(Some).collect())
+}
+
+fn axes<I: Iterator<Item = DVec3>>(all: impl Fn() -> I) -> [Column; 3] {
+    [0, 1, 2].map(|axis| reals(all().map(move |at| at[axis])))
+}
+
+/// Columns of the quaternion that turns a body's axes to those of the world.
+fn turns<I: Iterator<Item = DQuat>>(
+    all: impl Fn() -> I,
+) -> [(&'static str, &'static str, &'static str, Column); 4] {
+    let meaning = "quaternion from the body's axes to the world's";
+    let part = |part: usize| reals(all().map(move |turn| turn.to_array()[part]));
+    [("qx", 0), ("qy", 1), ("qz", 2), ("qw", 3)]
+        .map(|(name, place)| (name, "", meaning, part(place)))
+}
+
+fn whole(number: usize) -> i64 {
+    i64::try_from(number).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,103 @@
+//! A recording, or a scenario, run again to look at its moments.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use endline_sdk::Controls;
+use endline_session::locate;
+use endline_session::recording::replay::{self, ReplayOptions};
+use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
+use endline_sim::Frame;
+
+use super::interrupt::Interrupt;
+use super::progress::Progress;
+use super::replay::tell_version;
+use super::{Failure, host};
+
+/// A run that is played again.
+pub(super) struct Player {
+    pub(super) run: Run,
+    /// Inputs of a recording; the pilot program's without.
+    inputs: Option<Vec<Controls>>,
+    /// Name of the scenario.
+    pub(super) scenario: String,
+    pub(super) end_s: f64,
+}
+
+impl Player {
+    /// Opens a recording or a scenario.
+    ///
+    /// # Errors
+    /// A file that cannot be read or run; plugins that differ from those recorded, unless others are accepted.
+    pub(super) fn open(
+        file: &Path,
+        other_plugins: bool,
+        library: Option<&Path>,
+    ) -> Result<Self, Failure> {
+        if locate::is_scenario(file) {
+            let prepared = prepare(file, library, &host::load(), Overrides::default())?;
+            let scenario = prepared.source.scenario_name.clone();
+            let run = Run::new(prepared, RunOptions::default())?;
+            let end_s = run.model().spec.settings.duration_s;
+            return Ok(Self { run, inputs: None, scenario, end_s });
+        }
+        let recording = Recording::load(file)?;
+        tell_version(&recording);
+        let options = ReplayOptions { other_plugins, frames_hz: 0.0 };
+        let run = replay::start(&recording, &host::load(), options)?;
+        let scenario = recording.source.scenario_name.clone();
+        let end_s = recording.duration_s();
+        Ok(Self { run, inputs: Some(recording.inputs), scenario, end_s })
+    }
+
+    /// Moments of a stretch of the run, so many a second [s].
+    ///
+    /// # Errors
+    /// A stretch that is none of this run.
+    pub(super) fn times(
+        &self,
+        from: Option<f64>,
+        to: Option<f64>,
+        each_s: u32,
+    ) -> Result<Vec<f64>, Failure> {
+        let (from_s, to_s) = (from.unwrap_or(0.0), to.unwrap_or(self.end_s));
+        if !(from_s >= 0.0 && from_s < to_s && to_s <= self.end_s + 1e-6) {
+            return Err(Failure::usage(format!(
+                "--from {from_s} --to {to_s} is no stretch of a run from 0 to {:.2} s",
+                self.end_s
+            )));
+        }
+        let count = ((to_s - from_s) * f64::from(each_s) + 1e-6).floor() as usize + 1;
+        Ok((0..count).map(|number| from_s + number as f64 / f64::from(each_s)).collect())
+    }
+
+    /// The frames of these moments, up to where the run ends.
+    pub(super) fn frames(
+        &mut self,
+        times: &[f64],
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Arc<Frame>>, Failure> {
+        let progress = Progress::new("running");
+        let mut frames = Vec::with_capacity(times.len());
+        for (number, time_s) in times.iter().enumerate() {
+            while self.run.state().time_s < time_s - 0.5 * self.run.step_s() {
+                if interrupt.is_asked() || !self.step() {
+                    return Ok(frames);
+                }
+            }
+            frames.push(self.run.frame());
+            progress.at(number as u64 + 1, times.len() as u64);
+        }
+        Ok(frames)
+    }
+
+    /// One step; `false` where the run is over.
+    fn step(&mut self) -> bool {
+        let controls = match &self.inputs {
+            None if self.run.finished() => None,
+            None => Some(self.run.pilot()),
+            Some(inputs) => inputs.get(self.run.state().step as usize).copied(),
+        };
+        controls.is_some_and(|controls| self.run.step(controls).is_ok())
+    }
+}

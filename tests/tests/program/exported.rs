@@ -1,0 +1,94 @@
+//! `endline export`: tables of a run's moments, held against the run's own summary. `app/python/tests` reads them as Parquet.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::common::Place;
+
+/// A table of comma-separated values without quotation marks: the names of its columns, and its rows.
+fn table(place: &Place, name: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = std::fs::read_to_string(place.path(&format!("tables/{name}.csv"))).unwrap();
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let mut lines = text.lines();
+    let names = cells(lines.next().unwrap());
+    (names, lines.map(cells).collect())
+}
+
+/// The greatest number of a column, by what stands in another.
+fn greatest(place: &Place, name: &str, of: &str, column: &str) -> BTreeMap<String, f64> {
+    let (names, rows) = table(place, name);
+    let at = |wanted: &str| names.iter().position(|name| name == wanted).unwrap();
+    let mut greatest = BTreeMap::new();
+    for row in rows {
+        let number: f64 = row[at(column)].parse().unwrap();
+        let most = greatest.entry(row[at(of)].clone()).or_insert(number);
+        *most = most.max(number);
+    }
+    greatest
+}
+
+#[test]
+fn tables_of_a_recording_hold_its_moments() {
+    let place = Place::new("exported");
+    let scenario = place.encounter();
+    let out = place.path("run").display().to_string();
+    let run = place.endline(&["run", &scenario, "--out", &out, "--json"]).done().json();
+    let recording = place.path("run/recording.endline").display().to_string();
+    let tables = place.path("tables").display().to_string();
+    // A moment for every step of 0.005 s or more, so that the peaks of every step are nearly among them.
+    let export = ["export", &recording, "--out", &tables, "--format", "csv", "--rate", "200"];
+    place.endline(&export).done().prints(&["nodes", "segments", "contacts"]);
+
+    let (_, told) = table(&place, "columns");
+    let told: BTreeSet<(String, String)> =
+        told.into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
+    for name in ["nodes", "segments", "bodies", "whale", "contacts"] {
+        let (names, rows) = table(&place, name);
+        assert!(!rows.is_empty(), "{name}");
+        let own = names.into_iter().map(|column| (name.to_owned(), column));
+        assert!(own.collect::<BTreeSet<_>>().is_subset(&told), "{name}");
+    }
+
+    let tension = greatest(&place, "segments", "line", "tension_N");
+    for line in run["lines"].as_array().unwrap() {
+        let peak = line["peak_tension_N"].as_f64().unwrap();
+        let seen = tension[line["id"].as_str().unwrap()];
+        assert!(seen <= peak * (1.0 + 1e-9) && seen > 0.9 * peak, "{seen} N, peak {peak} N");
+    }
+    let (names, rows) = table(&place, "bodies");
+    let last: BTreeMap<&str, Vec<f64>> = rows
+        .iter()
+        .map(|row| (row[1].as_str(), row[2..5].iter().map(|cell| cell.parse().unwrap()).collect()))
+        .collect();
+    assert_eq!(names[2..5], ["x_m", "y_m", "z_m"]);
+    for body in run["bodies"].as_array().unwrap() {
+        let place = body["position_m"].as_array().unwrap();
+        for (axis, at) in place.iter().enumerate() {
+            let off = (last[body["id"].as_str().unwrap()][axis] - at.as_f64().unwrap()).abs();
+            assert!(off < 1e-9, "{} is {off} m off", body["id"]);
+        }
+    }
+    let (_, contacts) = table(&place, "contacts");
+    let first: f64 = contacts[0][0].parse().unwrap();
+    let told = run["whale"]["first_contact_s"].as_f64().unwrap();
+    assert!((first - told).abs() < 0.01, "{first} s, {told} s");
+}
+
+#[test]
+fn a_stretch_that_is_none_and_too_many_rows_are_refused() {
+    let place = Place::new("exported-wrong");
+    let scenario = place.encounter();
+    let tables = place.path("tables").display().to_string();
+    let export = |rest: &[&str]| {
+        place.endline(&[&["export", scenario.as_str(), "--out", tables.as_str()], rest].concat())
+    };
+    export(&["--from", "5", "--to", "2"]).fails(2, &["no stretch of a run"]);
+    export(&["--rate", "0"]).fails(2, &["--rate"]);
+    export(&["--format", "arrow"]).fails(2, &["parquet", "csv"]);
+    assert!(!place.path("tables").exists());
+}
