@@ -136,6 +136,7 @@ impl Work<'_> {
             match self.leases.next(&self.left()?)? {
                 Next::Run(lease) => {
                     let is_here = lock(&self.left).remove(&lease.block);
+                    self.control.waits_for(0);
                     if is_here && !self.folder.has(lease.block) {
                         return Ok(Some(lease));
                     }

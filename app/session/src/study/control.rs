@@ -199,9 +199,11 @@ impl Control {
         });
     }
 
-    /// Tells that nothing is left here but blocks that other processes run.
+    /// Tells that nothing is left here but blocks that other processes run; of none, that it waits no more.
     pub(super) fn waits_for(&self, others: u32) {
-        self.note(|progress| progress.elsewhere = others);
+        if self.progress().elsewhere != others {
+            self.note(|progress| progress.elsewhere = others);
+        }
     }
 
     /// Counts an encounter.

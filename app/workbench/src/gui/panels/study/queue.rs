@@ -56,6 +56,10 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
         let (words, colour) = match &state {
             State::Waiting => ("waiting".to_owned(), palette.faint),
             State::Opening => ("opening".to_owned(), palette.warning),
+            State::Running if progress.elsewhere > 0 => (
+                format!("waits for {} that other programs run", progress.elsewhere),
+                palette.warning,
+            ),
             State::Running => (
                 progress
                     .left()
