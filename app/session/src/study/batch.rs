@@ -37,16 +37,13 @@ pub fn run(
     control: &Control,
 ) -> Result<Progress, Error> {
     let own: Vec<u32> = (0..folder.blocks()).filter(|block| shard.holds(*block)).collect();
-    let missing: BTreeSet<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
-    let encounters = |blocks: &mut dyn Iterator<Item = &u32>| {
-        blocks.map(|block| folder.encounters_of(*block).len()).sum::<usize>()
+    let missing: Vec<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
+    let encounters = |blocks: &[u32]| {
+        blocks.iter().map(|block| folder.encounters_of(*block).len()).sum::<usize>()
     };
-    control.begin(
-        count(encounters(&mut own.iter()), encounters(&mut missing.iter())),
-        count(own.len(), missing.len()),
-    );
+    control.begin(count(encounters(&own), encounters(&missing)), count(own.len(), missing.len()));
     let failure =
-        if missing.is_empty() { None } else { work(opened, folder, control, missing, threads)? };
+        if missing.is_empty() { None } else { work(opened, folder, control, &missing, threads)? };
     control.end();
     failure.map_or_else(|| Ok(control.progress()), Err)
 }
@@ -56,17 +53,18 @@ fn work(
     opened: &Opened,
     folder: &Folder,
     control: &Control,
-    missing: BTreeSet<u32>,
+    missing: &[u32],
     threads: usize,
 ) -> Result<Option<Error>, Error> {
     let leases = Leases::join(&folder.path)?;
+    let left: BTreeSet<u32> = missing.iter().copied().collect();
     let work = Work {
         opened,
         folder,
         control,
         leases: &leases,
-        damaged: folder.written()?.intersection(&missing).copied().collect(),
-        left: Mutex::new(missing),
+        damaged: folder.written()?.intersection(&left).copied().collect(),
+        left: Mutex::new(left),
         failure: Mutex::default(),
     };
     std::thread::scope(|scope| {

@@ -126,8 +126,10 @@ impl Told {
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         let file = File::open(path)?;
         let modified = file.metadata()?.modified()?;
-        // A file that is being written is that of a process at work.
-        let place = serde_json::from_str(&io::read_to_string(&file)?).unwrap_or_default();
+        // One that is being written is that of a process at work; so is one that cannot be read, as some systems lock files against
+        // readers too.
+        let text = io::read_to_string(&file).unwrap_or_default();
+        let place = serde_json::from_str(&text).unwrap_or_default();
         Ok(Self { place, modified, file })
     }
 

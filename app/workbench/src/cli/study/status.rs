@@ -54,8 +54,8 @@ impl From<Worker> for Process {
 pub(super) fn status(args: &StatusArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     let path = folder_of(&args.at, &opened);
-    // To look must not make a folder.
-    let (done, processes) = if path.is_dir() {
+    // To look must not begin a study.
+    let (done, processes) = if path.join("study.json").is_file() {
         let folder = Folder::open(&path, &opened)?;
         (folder.written()?.range(..folder.blocks()).count(), workers(&path)?)
     } else {
