@@ -31,10 +31,13 @@ pub enum TableFormat {
 }
 
 /// A table that is written, with the unit and meaning of its columns.
-struct Told {
+struct RunTable {
     name: &'static str,
-    columns: Vec<(&'static str, &'static str, &'static str, Column)>,
+    columns: Vec<TableColumn>,
 }
+
+/// Name, unit, meaning and values of a column.
+type TableColumn = (&'static str, &'static str, &'static str, Column);
 
 /// Writes all tables of a run's moments into a folder; `about` tells of which run, by which program. The number of rows of each.
 ///
@@ -56,13 +59,13 @@ pub fn write(
         whale(frames),
         contacts(model, frames),
     ];
+    let columns = ("columns", columns(&told), about.to_vec());
+    let told = told.into_iter().map(|table| table.with_tags(about));
     let mut rows = Vec::new();
-    for table in told.iter().map(Told::table).chain([("columns", columns(&told))]) {
-        let (name, table) = table;
+    for (name, table, tags) in told.chain([columns]) {
         let (ending, bytes) = match format {
             TableFormat::Csv => ("csv", table.csv().into_bytes()),
             TableFormat::Parquet => {
-                let tags: Vec<_> = about.iter().cloned().chain(units(&told, name)).collect();
                 let bytes = parquet::write(&table, &tags);
                 ("parquet", bytes.map_err(|error| format!("{name}: {error}"))?)
             }
@@ -75,28 +78,23 @@ pub fn write(
     Ok(rows)
 }
 
-impl Told {
-    fn table(&self) -> (&'static str, Table) {
-        let columns = self.columns.iter();
-        let columns = columns.map(|(name, _, _, column)| ((*name).to_owned(), column.clone()));
-        (self.name, Table { columns: columns.collect() })
+impl RunTable {
+    /// Name, table, and what is told of it in the file's own metadata: the run, and the units and meanings of its columns.
+    fn with_tags(self, about: &[(String, String)]) -> (&'static str, Table, Vec<(String, String)>) {
+        let (mut columns, mut tags) = (Vec::new(), about.to_vec());
+        for (name, unit, meaning, column) in self.columns {
+            tags.push((format!("{name}.unit"), unit.to_owned()));
+            tags.push((format!("{name}.meaning"), meaning.to_owned()));
+            columns.push((name.to_owned(), column));
+        }
+        (self.name, Table { columns }, tags)
     }
 }
 
-/// Units of a table's columns, for the file's own metadata.
-fn units(told: &[Told], name: &str) -> Vec<(String, String)> {
-    let own = told.iter().filter(|table| table.name == name).flat_map(|table| &table.columns);
-    own.flat_map(|(column, unit, meaning, _)| {
-        [("unit", unit), ("meaning", meaning)]
-            .map(|(what, text)| (format!("{column}.{what}"), (*text).to_owned()))
-    })
-    .collect()
-}
-
 /// What every column is.
-fn columns(told: &[Told]) -> Table {
+fn columns(told: &[RunTable]) -> Table {
     let text = table::Cell::Text;
-    let row = |table: &Told, (column, unit, meaning, _): &(&str, &str, &str, Column)| {
+    let row = |table: &RunTable, (column, unit, meaning, _): &TableColumn| {
         [("table", table.name), ("column", column), ("unit", unit), ("meaning", meaning)]
             .map(|(name, value)| (name.to_owned(), text(value.to_owned())))
             .to_vec()
@@ -105,11 +103,11 @@ fn columns(told: &[Told]) -> Table {
     Table::of(rows.collect())
 }
 
-fn nodes(model: &Model, frames: &[Arc<Frame>]) -> Told {
+fn nodes(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let at = of_lines(model, &model.line_nodes);
     let places = || frames.iter().flat_map(|frame| frame.nodes.iter().copied());
     let [x, y, z] = axes(places);
-    Told {
+    RunTable {
         name: "nodes",
         columns: vec![
             time(frames, |_| at.len()),
@@ -127,10 +125,10 @@ fn nodes(model: &Model, frames: &[Arc<Frame>]) -> Told {
     }
 }
 
-fn segments(model: &Model, frames: &[Arc<Frame>]) -> Told {
+fn segments(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let at = of_lines(model, &model.line_segments);
     let all = || frames.iter();
-    Told {
+    RunTable {
         name: "segments",
         columns: vec![
             time(frames, |_| at.len()),
@@ -163,7 +161,7 @@ fn segments(model: &Model, frames: &[Arc<Frame>]) -> Told {
     }
 }
 
-fn bodies(model: &Model, frames: &[Arc<Frame>]) -> Told {
+fn bodies(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let ids: Vec<String> = model.spec.bodies.iter().map(|body| body.id.clone()).collect();
     let all = || frames.iter().flat_map(|frame| frame.bodies.iter());
     let [x, y, z] = axes(|| all().map(|body| body.0));
@@ -176,10 +174,10 @@ fn bodies(model: &Model, frames: &[Arc<Frame>]) -> Told {
         ("z_m", "m", "up, from the mean sea surface", z),
     ];
     columns.extend(turned);
-    Told { name: "bodies", columns }
+    RunTable { name: "bodies", columns }
 }
 
-fn whale(frames: &[Arc<Frame>]) -> Told {
+fn whale(frames: &[Arc<Frame>]) -> RunTable {
     let all = || frames.iter().filter_map(|frame| frame.whale.as_ref());
     let [x, y, z] = axes(|| all().map(|whale| whale.position));
     let turned = turns(|| all().map(|whale| whale.orientation));
@@ -191,17 +189,17 @@ fn whale(frames: &[Arc<Frame>]) -> Told {
         ("speed_m_s", "m/s", "speed through the water", reals(all().map(|whale| whale.speed_m_s))),
     ];
     columns.extend(turned);
-    Told { name: "whale", columns }
+    RunTable { name: "whale", columns }
 }
 
-fn contacts(model: &Model, frames: &[Arc<Frame>]) -> Told {
+fn contacts(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let all = || frames.iter().flat_map(|frame| &frame.contacts);
     let [x, y, z] = axes(|| all().map(|at| at.position));
     let [nx, ny, nz] = axes(|| all().map(|at| at.normal));
     let [fx, fy, fz] = axes(|| all().map(|at| at.friction_n));
     let line = |at: &ContactPoint| model.spec.lines[at.line].id.clone();
     let place = |at: &ContactPoint| whole(at.segment - model.line_segments[at.line].start);
-    Told {
+    RunTable {
         name: "contacts",
         columns: vec![
             time(frames, |frame| frame.contacts.len()),
@@ -252,10 +250,7 @@ fn of_lines(model: &Model, ranges: &[Range<usize>]) -> Vec<(String, i64)> {
 }
 
 /// The time of every row; `rows` of each moment.
-fn time(
-    frames: &[Arc<Frame>],
-    rows: impl Fn(&Frame) -> usize,
-) -> (&'static str, &'static str, &'static str, Column) {
+fn time(frames: &[Arc<Frame>], rows: impl Fn(&Frame) -> usize) -> TableColumn {
     let times = frames.iter().flat_map(|frame| std::iter::repeat_n(frame.time_s, rows(frame)));
     ("time_s", "s", "simulated time", reals(times))
 }
@@ -277,9 +272,7 @@ fn axes<I: Iterator<Item = DVec3>>(all: impl Fn() -> I) -> [Column; 3] {
 }
 
 /// Columns of the quaternion that turns a body's axes to those of the world.
-fn turns<I: Iterator<Item = DQuat>>(
-    all: impl Fn() -> I,
-) -> [(&'static str, &'static str, &'static str, Column); 4] {
+fn turns<I: Iterator<Item = DQuat>>(all: impl Fn() -> I) -> [TableColumn; 4] {
     let meaning = "quaternion from the body's axes to the world's";
     let part = |part: usize| reals(all().map(move |turn| turn.to_array()[part]));
     [("qx", 0), ("qy", 1), ("qz", 2), ("qw", 3)]
