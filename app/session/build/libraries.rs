@@ -30,6 +30,7 @@ pub const REPORTING: &[&str] = &[
     "plotters",
     "png",
     "postcard",
+    "schemars",
     "serde",
     "serde_json",
 ];
