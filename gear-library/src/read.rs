@@ -13,8 +13,15 @@ use crate::limits::{MESH_FILE_BYTES, TEXT_FILE_BYTES};
 /// # Errors
 /// A file that cannot be read, is no regular file, is longer than [`TEXT_FILE_BYTES`] or is not UTF-8.
 pub fn text(path: &Path) -> Result<String> {
-    let bytes = at_most(path, TEXT_FILE_BYTES)?;
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8"))
+    utf8(at_most(path, TEXT_FILE_BYTES)?)
+}
+
+/// The text of a stream, such as standard input, to its end.
+///
+/// # Errors
+/// A stream that cannot be read, is longer than [`TEXT_FILE_BYTES`] or is not UTF-8.
+pub fn stream(stream: impl Read) -> Result<String> {
+    utf8(to_its_end(stream, TEXT_FILE_BYTES)?)
 }
 
 /// The bytes of a mesh or an animation.
@@ -34,8 +41,16 @@ pub fn at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
     regular(&file.metadata()?)?;
+    to_its_end(file, most)
+}
+
+fn utf8(bytes: Vec<u8>) -> Result<String> {
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8"))
+}
+
+fn to_its_end(stream: impl Read, most: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    file.take(most + 1).read_to_end(&mut bytes)?;
+    stream.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let mebibytes = most >> 20;
         let message = format!("it is longer than {mebibytes} MiB, the most that is read");

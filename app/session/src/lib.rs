@@ -9,6 +9,7 @@
 //! | [`report`] | the summary of a run |
 //! | [`touching`] | what a body does to the whale at the moment shown |
 //! | [`figures`] | every figure of a run, declared once; comparison of two runs |
+//! | [`forms`] | the JSON forms that commands print, with their schemas |
 //! | [`settled`] | the gear at rest as JSON |
 //! | [`statics`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
@@ -45,6 +46,7 @@ pub mod edit;
 pub mod error;
 pub mod export;
 pub mod figures;
+pub mod forms;
 pub mod hash;
 pub mod haul;
 mod hooks;
@@ -83,7 +85,7 @@ pub use plugins::PluginHost;
 pub use recording::Recording;
 pub use report::Report;
 pub use run::{Run, RunOptions};
-pub use source::{Overrides, Prepared, Source, prepare};
+pub use source::{Overrides, Prepared, Source, prepare, prepare_text};
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,7 @@
 use endline_gear::StrengthBudget;
 use endline_sim::metrics::{Metrics, ProbeSummary};
 use endline_sim::{Model, Settled, State};
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use crate::figures::{self, PROBE};
@@ -13,10 +14,11 @@ use crate::strength::PartStrength;
 pub const SCHEMA: &str = "endline.settle/1";
 
 /// Shape, tensions and residual of the gear at rest.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct SettledShape {
-    /// Always [`SCHEMA`].
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// The scenario's file as the user named it.
     pub scenario: String,
@@ -42,11 +44,12 @@ pub struct SettledShape {
     pub bodies: Vec<BodyShape>,
     /// One for each probe.
     #[serde(serialize_with = "as_figures")]
+    #[schemars(schema_with = "figures::schema::probes")]
     pub probes: Vec<ProbeSummary>,
 }
 
 /// A line at rest.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct LineShape {
     /// Id.
@@ -64,7 +67,7 @@ pub struct LineShape {
 }
 
 /// A body at rest.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct BodyShape {
     /// Id.
     pub id: String,

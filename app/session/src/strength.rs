@@ -1,10 +1,11 @@
 //! Budgets of delivered strength as JSON and as lines of text: what [`endline_gear::StrengthBudget`] holds, with units in its keys.
 
 use endline_gear::{StrengthBudget, StrengthFigure};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What a piece of a line, or a weak link, holds, and why.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct PartStrength {
     /// Its id in the model.
@@ -28,7 +29,7 @@ pub struct PartStrength {
 }
 
 /// A factor of a budget.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct PartFactor {
     /// What it is for.
     pub name: String,
@@ -38,7 +39,7 @@ pub struct PartFactor {
 }
 
 /// A number with where it comes from.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Sourced {
     /// The number.
     pub value: f64,

@@ -66,6 +66,40 @@ fn the_summary_has_every_key_of_the_contract() {
 }
 
 #[test]
+fn a_scenario_from_standard_input_runs_as_its_file_does() {
+    let place = Place::new("stream");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    let library = text(&place.path("gear-library"));
+    let from = |file: &str| {
+        let mut command = place.command(&["--library", &library, "run", "-", "--json"]);
+        called(command.stdin(fs::File::open(file).unwrap()))
+    };
+    let streamed = from(&scenario).done().json();
+    let of_file = place.endline(&["run", &scenario, "--json"]).done().json();
+    assert_eq!(streamed["scenario"], "standard input");
+    assert_eq!(streamed["state_hash"], of_file["state_hash"]);
+
+    let mistaken =
+        text(&place.write("mistaken.toml", "format = 1\nkind = \"scenario\"\nnam = 1\n"));
+    from(&mistaken).fails(1, &["standard input:3", "nam"]);
+    place.endline(&["settle", "-"]).fails(1, &["standard input"]);
+}
+
+#[test]
+fn standard_error_tells_as_much_as_is_asked_for() {
+    let place = Place::new("told");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    let told = |flag: &str| place.endline(&[flag, "run", &scenario]).done().stderr;
+    let (library, plugins) = (place.path("gear-library"), "plugin: org.endline.");
+    let details = told("--verbose");
+    assert!(details.contains(&format!("gear library: {}", library.display())), "{details}");
+    assert!(details.contains(plugins), "{details}");
+    assert_eq!(told("--quiet"), "");
+    place.endline(&["--quiet", "run", "nothing"]).fails(1, &["nothing"]);
+    place.endline(&["--quiet", "--verbose", "run", &scenario]).fails(2, &["--verbose"]);
+}
+
+#[test]
 fn out_holds_summary_and_recording() {
     let place = Place::new("out");
     let scenario = place.short_scenario("hello-endline", "0.1 s");

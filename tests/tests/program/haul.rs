@@ -1,6 +1,6 @@
 //! Gear hauled as its users ask for it: loads, probabilities, tables, mistakes.
 
-use crate::common::{Called, Place, library, text};
+use crate::common::{Called, Place, form, library, text};
 
 fn haul(place: &Place, arguments: &[&str]) -> Called {
     let library = text(&library());
@@ -48,7 +48,9 @@ fn a_trap_that_is_stuck_parts_the_line_and_more_depth_and_traps_pull_more() {
     let arguments =
         ["trawl-10", "--table", "--depth", "30 m,60 m", "--traps", "2,4", "--aboard", "1"];
     let rows = haul(&place, &[&arguments[..], &["--sea", "0 m", "--json"]].concat()).done();
-    let rows: Vec<serde_json::Value> = serde_json::from_str(&rows.stdout).unwrap();
+    let rows: serde_json::Value = serde_json::from_str(&rows.stdout).unwrap();
+    form::hold(&rows, "endline.haul_sweep/1");
+    let rows = rows.as_array().unwrap();
     assert_eq!(rows.len(), 4);
     let peak = |row: usize| rows[row]["peak_N"].as_f64().unwrap();
     // Rows go 30 m with 2 and 4 traps, 60 m with 2 and 4. Of two traps both hang in either depth: there depth adds nothing.

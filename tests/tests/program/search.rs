@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{Place, library};
+use crate::common::{Place, form, library};
 
 const OBSERVATION: &str = r#"format = 1
 kind = "observation"
@@ -74,6 +74,7 @@ fn a_search_goes_on_where_it_stood_and_says_plainly_what_it_did_not_find() {
     call("parts", "96", "1");
     let stories = |out: &str| fs::read(place.path(out).join("stories.json")).unwrap();
     assert_eq!(stories("parts"), stories("whole"));
+    form::hold(&serde_json::from_slice(&stories("whole")).unwrap(), "endline.stories/1");
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn processes_on_one_folder_share_the_work_and_go_on_with_that_of_a_killed_one() 
     }
     let status =
         place.endline(&["study", "status", &study, "--out", &shared, "--json"]).done().json();
-    assert_eq!(status["schema"], "endline.study-status/1");
+    assert_eq!(status["schema"], "endline.study_status/1");
     let seen = status["processes"].as_array().unwrap();
     let pids: Vec<u64> = seen.iter().map(|process| process["pid"].as_u64().unwrap()).collect();
     for process in &processes {

@@ -1,12 +1,13 @@
 //! What came of a case, for a table, a plot and JSON (schema `endline.validate/1`).
 
 use endline_gear::{Case, Limit};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::setup::Setup;
 
 /// What came of a case.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Outcome {
     /// Id.
     pub id: String,
@@ -40,7 +41,7 @@ pub struct Outcome {
 }
 
 /// A comparison.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Verdict {
     /// What is compared.
     pub name: String,
@@ -67,7 +68,7 @@ pub struct Verdict {
 }
 
 /// What halving comes to.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct Convergence {
     /// Error at half.
     pub error_at_half: f64,
@@ -76,7 +77,7 @@ pub struct Convergence {
 }
 
 /// A probe over time, beside what it should be.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Curve {
     /// Id of the probe.
     pub probe: String,
@@ -91,7 +92,7 @@ pub struct Curve {
 }
 
 /// A measurement, and the same simulated.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Point {
     /// Group it belongs to.
     pub group: String,

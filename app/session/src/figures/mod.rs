@@ -37,6 +37,7 @@ mod phases;
 mod plugin;
 mod quantity;
 mod run;
+pub(crate) mod schema;
 mod skin;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -2,6 +2,7 @@
 
 use endline_sim::Settled;
 use endline_sim::haul::Haul;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::strength::PartStrength;
@@ -14,10 +15,11 @@ use super::{HaulRequest, risk};
 pub const SCHEMA: &str = "endline.haul/1";
 
 /// A haul as reported.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct HaulSheet {
-    /// Always [`SCHEMA`].
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Id of the assembly.
     pub assembly: String,
@@ -74,7 +76,7 @@ pub struct HaulSheet {
 }
 
 /// A part of the haul, up to something that came up.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Stage {
     /// What ended it.
@@ -96,7 +98,7 @@ pub struct Stage {
 }
 
 /// Where a part came nearest to what it delivers.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Place {
     /// Id of the piece of rope or link.
@@ -118,7 +120,7 @@ pub struct Place {
 }
 
 /// Tension along the endline through the haul.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Along {
     /// Places from the buoy, by unstretched rope [m].

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -22,7 +23,7 @@ pub struct Sweep {
 }
 
 /// One haul of a table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct SweepRow {
     /// Depth [m].

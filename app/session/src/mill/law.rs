@@ -1,7 +1,11 @@
 //! The law of strength behind breaks, and what approves it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+/// Name and version of the JSON form.
+const SCHEMA: &str = "endline.mill/1";
 
 /// Strength that weak rope is approved for: 1,700 lbf [N].
 const TARGET_N: f64 = 1700.0 * 4.448_221_615_260_5;
@@ -13,9 +17,12 @@ const TESTED: f64 = 10.0;
 const FEWEST: usize = 3;
 
 /// What breaks say of a product.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct StrengthLaw {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
+    pub schema: &'static str,
     /// Number of breaks.
     pub breaks: usize,
     /// Their mean [N].
@@ -31,7 +38,7 @@ pub struct StrengthLaw {
 }
 
 /// One criterion of approval.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Approval {
     /// Where it is published.
@@ -80,6 +87,7 @@ impl StrengthLaw {
         };
         let (least, most) = ((1.0 - BAND) * TARGET_N, (1.0 + BAND) * TARGET_N);
         Ok(Self {
+            schema: SCHEMA,
             breaks: count,
             mean_N: mean,
             mean_interval_N: [mean - away, mean + away],

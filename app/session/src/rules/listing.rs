@@ -1,6 +1,7 @@
 //! The rules and areas of packs as one JSON object.
 
 use endline_gear::{Area, Date, Parameter, Rule, RulePack};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::packs::Packs;
@@ -8,62 +9,103 @@ use super::packs::Packs;
 /// Name and version of the JSON.
 const SCHEMA: &str = "endline.rules.list/1";
 
-#[derive(Serialize)]
-struct Listing<'a> {
+/// All packs.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct Listing<'a> {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     schema: &'static str,
+    /// The packs, in order of id.
     packs: Vec<Pack<'a>>,
 }
 
-#[derive(Serialize)]
+/// A rule pack.
+#[derive(JsonSchema, Serialize)]
 struct Pack<'a> {
+    /// Id.
     id: &'a str,
+    /// Name.
     name: &'a str,
+    /// Whose rules they are.
     jurisdiction: &'a str,
+    /// Notes.
     notes: &'a str,
+    /// Its areas.
     areas: Vec<AreaOf<'a>>,
+    /// Its rules.
     rules: Vec<RuleOf<'a>>,
 }
 
-#[derive(Serialize)]
+/// An area of which rules speak.
+#[derive(JsonSchema, Serialize)]
 struct AreaOf<'a> {
+    /// Id.
     area: &'a str,
+    /// Name.
     name: &'a str,
+    /// Area that it lies in; null where none holds it.
     within: Option<&'a str>,
 }
 
 /// A rule as its pack has it; lengths in metres.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct RuleOf<'a> {
+    /// Id.
     rule: &'a str,
+    /// What it asks, in words.
     asks: &'a str,
+    /// Citation.
     cite: &'a str,
+    /// Source.
     source: &'a str,
+    /// Whether it binds, is voluntary or was replaced, in a word.
     standing: &'static str,
+    /// Whether it binds.
     binding: bool,
+    /// How sure it is.
     confidence: &'static str,
+    /// First day in force.
     from: Option<String>,
+    /// Last day in force; null where it still is.
     until: Option<String>,
+    /// Areas in which it applies; empty for all.
     areas: Vec<&'a str>,
+    /// Least and greatest distance from shore at which it applies [m].
     distance_m: Option<[f64; 2]>,
+    /// Least and greatest depth at which it applies [m].
     depth_m: Option<[f64; 2]>,
+    /// Fewest and most traps of the gear to which it applies.
     traps: Option<[f64; 2]>,
+    /// First and last day of the year on which it applies.
     season: Option<[u16; 2]>,
+    /// What of the gear it looks at.
     subject: &'static str,
+    /// Expression that tells to which of these it applies; null for all.
     when: Option<&'a str>,
+    /// Expression that holds where the rule is kept.
     check: &'a str,
+    /// Numbers of the expressions.
     parameters: Vec<ParameterOf<'a>>,
+    /// How gear is mended, in words.
     mend: &'a str,
+    /// Notes.
     notes: &'a str,
 }
 
 /// A number of a rule: as its pack has it, and in SI units.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ParameterOf<'a> {
+    /// Its name in the expressions.
     parameter: &'a str,
+    /// As the pack has it.
     text: &'a str,
+    /// In its SI unit.
     value: f64,
+    /// SI unit; empty for a number without one.
     unit: &'static str,
+    /// Source.
     source: &'a str,
+    /// How sure it is.
     confidence: &'static str,
 }
 

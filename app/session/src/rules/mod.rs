@@ -19,7 +19,7 @@ mod expression;
 pub mod facts;
 mod fishing;
 mod gear;
-mod listing;
+pub(crate) mod listing;
 mod makeup;
 mod measure;
 pub mod mend;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use endline_gear::{Assembled, Library, Options, Scenario, Setting, assemble_traced};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -33,9 +34,10 @@ pub struct RuleGear {
 const SCHEMA: &str = "endline.rules.check/1";
 
 /// The verdict on every rule.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct RuleSheet {
-    /// Name and version of its JSON.
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Id of the assembly.
     pub assembly: String,
@@ -89,7 +91,7 @@ impl RuleGear {
 }
 
 /// How many rules came to each verdict.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Counts {
     /// Rules that the gear meets.
     pub pass: usize,

@@ -2,6 +2,7 @@
 
 use endline_gear::units::{Quantity, format_si};
 use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::facts::of_subject;
@@ -12,7 +13,7 @@ use super::packs::expression;
 use super::value::{Compared, Value};
 
 /// What a rule says about an assembly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The gear meets it.
@@ -26,7 +27,7 @@ pub enum Verdict {
 }
 
 /// The verdict on a rule.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct RuleResult {
     /// Id of the pack.
     pub pack: String,
@@ -61,7 +62,7 @@ pub struct RuleResult {
 }
 
 /// A measured value beside its limit.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Measured {
     /// The line it was measured on; empty for the gear as a whole.
     pub part: String,

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::draw::Drawn;
@@ -20,7 +21,7 @@ pub const LEAST: usize = 4;
 const WORDS: usize = 4;
 
 /// A quantity among the draws.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Quantity {
     /// Its name; `first touched` for the part that rope touched first.
     pub name: String,

@@ -1,6 +1,7 @@
 //! What a search found: the best trial of every kind of story, its share of the draws that end alike, and whether it hangs on chance
 //! or on the resolution.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -18,6 +19,9 @@ use super::robust::{self, Tried, most_robust};
 use super::rounds::Rounds;
 use super::trial::Trial;
 
+/// Name and version of the JSON form.
+const SCHEMA: &str = "endline.stories/1";
+
 /// Stories told at most.
 const TOLD: usize = 12;
 
@@ -28,8 +32,11 @@ const TRIED: usize = 6;
 pub const FRAGILE: f64 = 0.5;
 
 /// What was found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Stories {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
+    pub schema: &'static str,
     /// Id of the observation.
     pub observation: String,
     /// Id of the study whose encounters were searched.
@@ -50,7 +57,7 @@ pub struct Stories {
 }
 
 /// A story: an encounter, and how it ended.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Story {
     /// The part that rope touched first.
     pub first_part: String,
@@ -194,6 +201,7 @@ pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
     let simulated: f64 = net.iter().map(|(_, trial)| trial.simulated_s).sum();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 trials")]
     Stories {
+        schema: SCHEMA,
         observation: question.observation.id.clone(),
         encounters: question.opened.study.id.clone(),
         stories,

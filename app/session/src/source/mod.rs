@@ -89,9 +89,32 @@ pub fn prepare(
     host: &PluginHost,
     overrides: Overrides,
 ) -> Result<Prepared, Error> {
-    let mut source = Source::read(scenario, library, overrides)?;
+    with_clips(Source::read(scenario, library, overrides)?, host)
+}
+
+/// The same of a scenario that is a text and no file, such as standard input, with the name by which errors and summary call it.
+///
+/// # Errors
+/// No library, or every located error of the texts.
+pub fn prepare_text(
+    (name, text): (&str, String),
+    library: Option<&Path>,
+    host: &PluginHost,
+    overrides: Overrides,
+) -> Result<Prepared, Error> {
+    let library = library_at(None, library)?;
+    let source = Source { scenario_name: name.to_owned(), scenario: text, library, overrides };
+    with_clips(source, host)
+}
+
+fn with_clips(mut source: Source, host: &PluginHost) -> Result<Prepared, Error> {
     source.library = host.with_clips(source.library);
     source.prepare(host)
+}
+
+fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, Error> {
+    let root: PathBuf = locate::library(scenario, given).map_err(Error::Replay)?;
+    Sources::from_folder(&root).map_err(Error::Diagnostics)
 }
 
 impl Source {
@@ -114,8 +137,7 @@ impl Source {
         let scenario = by_id.as_deref().unwrap_or(scenario);
         let text = endline_gear::read::text(scenario)
             .map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
-        let root: PathBuf = locate::library(Some(scenario), library).map_err(Error::Replay)?;
-        let library = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let library = library_at(Some(scenario), library)?;
         Ok(Self {
             scenario_name: scenario.display().to_string(),
             scenario: text,

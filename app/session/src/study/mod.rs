@@ -40,7 +40,7 @@ pub mod merge;
 mod open;
 pub(crate) mod parquet;
 mod plan;
-mod planned;
+pub(crate) mod planned;
 mod play;
 pub(crate) mod prepare;
 pub mod priority;

@@ -1,18 +1,31 @@
 //! What a study will run, as JSON: schema `endline.study_plan/1`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::folder::BLOCK;
 use super::open::Opened;
 
-#[derive(Serialize)]
-struct Plan<'a> {
+/// Name and version of the form.
+const SCHEMA: &str = "endline.study_plan/1";
+
+/// What a study will run.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct Plan<'a> {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     schema: &'static str,
+    /// Id of the study.
     study: &'a str,
+    /// Hash of all that defines its runs.
     hash: &'a str,
+    /// Number of encounters.
     encounters: u64,
+    /// Number of blocks of encounters that are run and kept as one.
     blocks: u64,
+    /// Ids of the options, in order.
     options: Vec<&'a str>,
+    /// Id of the option that the others are compared with.
     baseline: &'a str,
     /// Options that share their runs until something parts.
     families: Vec<Vec<&'a str>>,
@@ -23,7 +36,7 @@ impl Opened {
     #[must_use]
     pub fn plan_json(&self) -> String {
         let plan = Plan {
-            schema: "endline.study_plan/1",
+            schema: SCHEMA,
             study: &self.study.id,
             hash: &self.hash,
             encounters: self.study.encounters,

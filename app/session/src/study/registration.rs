@@ -8,10 +8,11 @@
 use std::collections::BTreeMap;
 
 use endline_gear::Study;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What is looked at.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Registration {
     /// Names of the events by which options are compared; that by which they are ranked first.
     pub events: Vec<String>,

@@ -10,6 +10,7 @@ use endline_session::plugins::{Language, PluginKind};
 
 use super::haul::HaulArgs;
 use super::mill::MillArgs;
+use super::output::Told;
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::sheet::SheetArgs;
@@ -34,6 +35,23 @@ pub struct Args {
     /// Allow all plugin libraries that are new or have changed; `plugins allow` does so one by one.
     #[arg(long, global = true)]
     pub(super) allow_plugins: bool,
+    /// Tell nothing on standard error but what went wrong.
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Tell also which gear library and which plugins are used.
+    #[arg(long, short, global = true)]
+    verbose: bool,
+}
+
+impl Args {
+    /// How much is told on standard error.
+    pub(super) fn told(&self) -> Told {
+        match (self.quiet, self.verbose) {
+            (true, _) => Told::Errors,
+            (_, true) => Told::Details,
+            _ => Told::Notes,
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -77,6 +95,11 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: WhaleCommand,
     },
+    /// Print the JSON schema of a form that a command prints with --json, or list the forms.
+    Schema {
+        /// Form, such as endline.run/1, or a command that prints it, such as "study merge".
+        form: Option<String>,
+    },
     /// Print the script by which a shell completes the arguments of this program.
     Completions {
         /// Shell that it is for.
@@ -97,7 +120,7 @@ pub(super) enum Command {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RunArgs {
-    /// Scenario file, or a scenario of the gear library by its id.
+    /// Scenario file, a scenario of the gear library by its id, or - for standard input.
     pub(super) scenario: PathBuf,
     /// Folder for the summary, the recording and a picture; it is created if missing.
     #[arg(long, value_name = "DIR")]
@@ -123,7 +146,7 @@ pub(super) struct RunArgs {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct SettleArgs {
-    /// Scenario file, or a scenario of the gear library by its id.
+    /// Scenario file, a scenario of the gear library by its id, or - for standard input.
     pub(super) scenario: PathBuf,
     /// Print the result as one JSON object.
     #[arg(long)]

@@ -30,7 +30,10 @@ pub(super) fn load_told() -> (PluginHost, Vec<PluginProblem>) {
     if ALLOW.get() == Some(&true) && allow_waiting(&mut loader, &problems) {
         (host, problems) = load_with(&mut loader);
     }
-    problems.iter().for_each(|problem| output::note(&problem.to_string()));
+    problems.iter().for_each(|problem| output::warn(&problem.to_string()));
+    for plugin in host.list() {
+        output::detail(&format!("plugin: {} {}", plugin.id, plugin.version));
+    }
     (host, problems)
 }
 
@@ -44,7 +47,7 @@ fn allow_waiting(loader: &mut Loader, problems: &[PluginProblem]) -> bool {
                 Ok(()) => {
                     output::note(&format!("{}: allowed, hash {}", problem.file.display(), ask.hash))
                 }
-                Err(error) => output::note(&error),
+                Err(error) => output::warn(&error),
             }
         }
     }

@@ -39,7 +39,7 @@ impl Interrupt {
             SIGNALS.into_iter().filter(|signal| !(*signal == HANGUP && is_ignored(HANGUP)))
         {
             if let Err(error) = interrupt.watch_for(signal) {
-                output::note(&format!("an interrupt will end the program at once: {error}"));
+                output::warn(&format!("an interrupt will end the program at once: {error}"));
             }
         }
         interrupt

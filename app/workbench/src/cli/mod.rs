@@ -24,6 +24,8 @@ mod render;
 mod replay;
 mod rules;
 mod run;
+mod scenario;
+mod schema;
 mod search;
 mod settle;
 mod sheet;
@@ -55,6 +57,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Err(message) => return Ok(output::usage(&message)),
     };
     let library = args.library.as_deref();
+    output::tell(args.told());
     host::allow(args.allow_plugins);
     shipped::carry(inside::GEAR_LIBRARY, output::note);
     match &args.command {
@@ -74,6 +77,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Mill(args)) => mill::mill(args),
         Some(Command::Haul(args)) => haul::haul_gear(args, library),
         Some(Command::Sheet(args)) => sheet::sheet(args, library),
+        Some(Command::Schema { form }) => schema::schema(form.as_deref()),
         Some(Command::Completions { shell }) => Ok(manual::completions(*shell)),
         Some(Command::Man { out }) => manual::man(out),
         Some(Command::Plugins { what }) => plugins::plugins(what),

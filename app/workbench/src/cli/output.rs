@@ -2,9 +2,34 @@
 
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use super::Failure;
 use super::harmless::harmless;
+
+/// How much is told on standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Told {
+    /// What went wrong.
+    Errors,
+    /// Notes and progress too.
+    Notes,
+    /// Also which files and plugins are used.
+    Details,
+}
+
+static TOLD: OnceLock<Told> = OnceLock::new();
+
+/// Says once how much is told.
+pub(super) fn tell(told: Told) {
+    // Said before in this program, it stays as it was.
+    let _ = TOLD.set(told);
+}
+
+/// Whether so much is told.
+pub(super) fn is_told(told: Told) -> bool {
+    told <= *TOLD.get().unwrap_or(&Told::Notes)
+}
 
 /// Prints on standard output; a closed pipe is no error.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
@@ -19,6 +44,23 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints a note on standard error, where anyone still reads it.
 pub(super) fn note(text: &str) {
+    tell_line(Told::Notes, text);
+}
+
+/// Prints what only --verbose asks for on standard error.
+pub(super) fn detail(text: &str) {
+    tell_line(Told::Details, text);
+}
+
+/// Prints what went wrong, though the command goes on.
+pub(super) fn warn(text: &str) {
+    tell_line(Told::Errors, text);
+}
+
+fn tell_line(told: Told, text: &str) {
+    if !is_told(told) {
+        return;
+    }
     let _ = writeln!(io::stderr(), "endline: {}", harmless(text));
 }
 

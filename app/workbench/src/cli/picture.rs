@@ -184,6 +184,6 @@ pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
     let caption = caption(&report.scenario);
     let shot = Shot { view: "orbit", size: [1280, 800], caption: &caption, out, fit: Vec::new() };
     if let Err(reason) = draw(run.model(), frame, &shot) {
-        output::note(&format!("no picture: {reason}"));
+        output::warn(&format!("no picture: {reason}"));
     }
 }

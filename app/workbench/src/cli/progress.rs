@@ -4,6 +4,8 @@ use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::output::{Told, is_told};
+
 /// How often the bar is touched [steps]; drawing is limited further by its own clock.
 const STRIDE: u64 = 16;
 
@@ -12,7 +14,7 @@ pub(super) struct Progress(Option<ProgressBar>);
 
 impl Progress {
     pub(super) fn new(label: &'static str) -> Self {
-        if !std::io::stderr().is_terminal() {
+        if !std::io::stderr().is_terminal() || !is_told(Told::Notes) {
             return Self(None);
         }
         let bar = ProgressBar::new(0).with_message(label);

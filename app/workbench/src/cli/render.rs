@@ -58,7 +58,7 @@ fn of_recording(args: &RenderArgs) -> Result<Moment, Failure> {
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let (run, frame) = replay::frame_at(&recording, &host::load(), options, args.at)?;
     if !replay::ends_as_recorded(&recording, &run) {
-        output::note(
+        output::warn(
             "what is drawn is not the recorded state; `endline replay --verify` names the first step that differs",
         );
     }

@@ -4,30 +4,46 @@ use std::process::ExitCode;
 
 use endline_session::recording::replay::{self, ReplayOptions, Verdict};
 use endline_session::{Recording, Report, Run};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::args::ReplayArgs;
 use super::progress::Progress;
 use super::{Failure, host, output, table};
 
+/// Name and version of the JSON form.
+pub(super) const SCHEMA: &str = "endline.replay/1";
+
 /// What `--json` prints.
-#[derive(Serialize)]
-struct ReplayReport {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct ReplayReport {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     schema: &'static str,
+    /// File of the recording.
     recording: String,
+    /// Version of Endline that recorded it.
     recorded_with: String,
+    /// Steps recorded.
     steps: u64,
     /// `null` where nothing was compared.
     verified: Option<bool>,
+    /// The first difference; null where there is none.
     differs: Option<Difference>,
+    /// What is damaged in the file; null where nothing is.
     damage: Option<String>,
+    /// Summary of the run.
     run: Report,
 }
 
-#[derive(Clone, Copy, Serialize)]
+/// The first difference from a recording.
+#[derive(Clone, Copy, JsonSchema, Serialize)]
 struct Difference {
+    /// Number of the step.
     step: u64,
+    /// Its moment [s].
     time_s: f64,
+    /// What of the state differs.
     part: &'static str,
 }
 
@@ -80,7 +96,7 @@ fn is_bound(args: &ReplayArgs, recording: &Recording) -> bool {
 pub(super) fn tell_version(recording: &Recording) {
     let (recorded, here) = (&recording.header.program, endline_session::VERSION);
     if recorded != here {
-        output::note(&format!(
+        output::warn(&format!(
             "recorded with Endline {recorded}, this is {here}: the bits may differ"
         ));
     }
@@ -115,7 +131,7 @@ fn json(
     differs: Option<Difference>,
 ) -> String {
     let report = ReplayReport {
-        schema: "endline.replay/1",
+        schema: SCHEMA,
         recording: args.recording.display().to_string(),
         recorded_with: recording.header.program.clone(),
         steps: recording.steps() as u64,

@@ -5,12 +5,12 @@ use std::process::ExitCode;
 
 use endline_gear::RunRule;
 use endline_session::recording::take_over::take_over;
-use endline_session::{Prepared, Recording, Report, Run, RunOptions, prepare};
+use endline_session::{Prepared, Recording, Report, Run, RunOptions};
 
 use super::args::RunArgs;
 use super::interrupt::{self, Interrupt};
 use super::progress::Progress;
-use super::{Failure, host, output, picture, table};
+use super::{Failure, host, output, picture, scenario, table};
 
 /// Frames kept for choosing the picture, for each simulated second.
 const FRAMES_HZ: f64 = 10.0;
@@ -22,7 +22,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         .as_ref()
         .map(|recording| recording.source.overrides.clone())
         .unwrap_or_default());
-    let prepared = prepare(&args.scenario, library, &host, over)?;
+    let prepared = scenario::prepared(&args.scenario, library, &host, over)?;
     let mut run = started(args, recording.as_ref(), prepared)?;
     let interrupt = Interrupt::watch();
     to_end(args, &mut run, &interrupt);
@@ -33,7 +33,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     output::print(&if args.json { report.json() + "\n" } else { table::summary(&report) })?;
     kept?;
     if let Some(code) = interrupt.exit_code() {
-        output::note(&how_to_go_on(args, &run));
+        output::warn(&how_to_go_on(args, &run));
         return Ok(code);
     }
     if let Some(stopped) = &report.stopped {

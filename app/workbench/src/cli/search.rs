@@ -81,7 +81,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
     interrupt.on_asked(move || watched.cancel());
     let stories = found(&question, &folder, &effort, &control, told())?;
     if let Some(code) = interrupt.exit_code() {
-        output::note(&format!(
+        output::warn(&format!(
             "interrupted: runs are kept in {}; the same command goes on from them",
             folder.path.display()
         ));

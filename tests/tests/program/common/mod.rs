@@ -7,6 +7,8 @@
     reason = "a test fails by panicking, in its helpers too"
 )]
 
+pub mod form;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -22,7 +24,7 @@ pub struct Called {
 }
 
 impl Called {
-    /// The one JSON object on standard output.
+    /// The one JSON object on standard output, which is of the form that it names.
     pub fn json(&self) -> Value {
         let mut documents = serde_json::Deserializer::from_str(&self.stdout).into_iter::<Value>();
         let first = documents
@@ -30,7 +32,8 @@ impl Called {
             .unwrap_or_else(|| panic!("no JSON; {self}"))
             .unwrap_or_else(|error| panic!("{error}; {self}"));
         assert!(documents.next().is_none(), "more than one JSON object; {self}");
-        assert!(first.is_object(), "{self}");
+        let form = first["schema"].as_str().unwrap_or_else(|| panic!("no form; {self}"));
+        form::hold(&first, form);
         first
     }
 

@@ -1,10 +1,11 @@
 //! An edit of an assembly's file before anybody has tried it.
 
 use endline_gear::{Document, Setting};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A field that an edit changes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Change {
     /// Its dotted path in the assembly's file, such as `lines.endline-top.inserts.first`.
     pub field: String,

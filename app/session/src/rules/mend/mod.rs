@@ -23,6 +23,7 @@ mod tests;
 mod usual;
 
 use endline_gear::{Document, Rule, Sources};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -52,9 +53,10 @@ const MOST_ROUNDS: usize = 16;
 const MOST_TIMES: usize = 2;
 
 /// What would bring an assembly to comply.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Mends {
-    /// Name and version of its JSON.
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Verdicts before any edit, without the rules that do not apply.
     pub before: RuleSheet,
@@ -65,7 +67,7 @@ pub struct Mends {
 }
 
 /// A rule that an assembly does not pass, and edits that bring it to pass.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct RuleMend {
     /// Id of the rule.
     pub rule: String,
@@ -80,7 +82,7 @@ pub struct RuleMend {
 }
 
 /// An edit that was tried on a copy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Proposal {
     /// What it does, in a sentence.
     pub says: String,

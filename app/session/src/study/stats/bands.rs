@@ -10,6 +10,7 @@
 //! [`DEALS`]: where it is no wider, the assumed inputs have not shown that they matter.
 
 use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::open::Opened;
@@ -26,7 +27,7 @@ use super::sensitivity::parts_of;
 const DEALS: usize = 200;
 
 /// The bands of an event's rate with an option.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Bands {
     /// Id of the option, and its name.
     pub option: String,
@@ -43,7 +44,7 @@ pub struct Bands {
 }
 
 /// Rates over the levels of assumed inputs, one input at a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct AssumedBand {
     /// Least and greatest rate.
     pub least: f64,
@@ -58,7 +59,7 @@ pub struct AssumedBand {
 }
 
 /// What finer segments and steps do to a rate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct SegmentBand {
     /// Rate with finer ones over rate with those of this study.
     pub ratio: f64,

@@ -4,6 +4,7 @@
 //! either run are counted apart, for an encounter in which nothing touches has little to change. With `P` the greatest
 //! tension of a run, the change of tension is `sum P / sum P_baseline - 1` over the same encounters.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -16,7 +17,7 @@ use super::marks::{Mark, Marks, encounters, weights};
 const OUTCOMES: [&str; 5] = ["no_contact", "shed", "parted_free", "parted_entangled", "entangled"];
 
 /// An option's runs beside the baseline's.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Changes {
     /// Outcome with the baseline, outcome with the option, encounters; the same outcome too, none that did not come.
     pub counts: Vec<(&'static str, &'static str, u64)>,
@@ -27,7 +28,7 @@ pub struct Changes {
 }
 
 /// What changed over some encounters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Change {
     /// Encounters with another outcome.
     pub outcome: Rate,

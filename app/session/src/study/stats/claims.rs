@@ -1,6 +1,7 @@
 //! Claims: whether the sign holds.
 
 use endline_gear::Claim;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -13,7 +14,7 @@ use super::paired::Paired;
 use super::weighted::WeightedMean;
 
 /// What came of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The whole interval of the difference has the claimed sign.
@@ -40,7 +41,7 @@ impl Verdict {
 }
 
 /// A claim and what was counted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct ClaimFinding {
     /// Id.
     pub id: String,

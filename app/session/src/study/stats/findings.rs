@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use endline_gear::StudyEvent;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::strength::PartStrength;
@@ -26,9 +27,10 @@ use super::tensions::Tensions;
 const SCHEMA: &str = "endline.findings/2";
 
 /// What a study found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Findings {
-    /// Always `endline.findings/2`.
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Id of the study.
     pub study: String,
@@ -59,7 +61,7 @@ pub struct Findings {
 }
 
 /// What came of an option.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct OptionFinding {
     /// Id.
     pub id: String,
@@ -94,7 +96,7 @@ pub struct OptionFinding {
 }
 
 /// Looks at the lengths of segments near the whale.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Looks {
     /// All.
     pub all: u64,
@@ -103,7 +105,7 @@ pub struct Looks {
 }
 
 /// Rates within a level of the prior by which results are separated.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct LevelFinding {
     /// The level.
     pub level: String,

@@ -8,6 +8,7 @@
 //! Reference: Wilson 1927 (doi:10.1080/01621459.1927.10502953); Brown, Cai and DasGupta 2001 (doi:10.1214/ss/1009213286);
 //! Fay and Feuer 1997 (doi:10.1002/(SICI)1097-0258(19970415)16:7<791::AID-SIM500>3.0.CO;2-#).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Gamma, Normal};
 
@@ -15,7 +16,7 @@ use super::marks::Marks;
 use super::weighted::WeightedMean;
 
 /// An interval of 95 %.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Interval {
     /// Lower end.
     pub low: f64,
@@ -37,7 +38,7 @@ impl Interval {
 }
 
 /// How often an event came in the runs that count.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Rate {
     /// Runs with the event.
     pub hits: u64,

@@ -6,6 +6,7 @@
 //! does not settle it. Of encounters of unlike weight, fewer events than that settle nothing.
 
 use endline_gear::ObservedShare;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -18,7 +19,7 @@ use super::paired::Paired;
 const LEAST: u64 = 10;
 
 /// Whether a simulated share agrees with what was observed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Agreement {
     /// It lies within.
@@ -42,7 +43,7 @@ impl Agreement {
 }
 
 /// An observation and what the study has beside it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct ObservationFinding {
     /// Id.
     pub id: String,

@@ -9,6 +9,7 @@
 //! even chance is then the incomplete beta function, `P(k of n) = I_½(n - k, k + 1)`, which equals it for whole numbers.
 //! Reference: Bonett and Price 2012 (doi:10.3102/1076998611411915); Lachenbruch and Lynch 1998; Zou and Donner 2008 (doi:10.1002/sim.3095); McNemar 1947 (doi:10.1007/BF02295996).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF};
 
@@ -18,7 +19,7 @@ use super::marks::{Mark, Marks};
 use super::weighted::WeightedMean;
 
 /// An option compared with another.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Paired {
     /// Encounters in which both runs count.
     pub encounters: u64,

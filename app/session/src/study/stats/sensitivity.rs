@@ -4,6 +4,7 @@
 //! levels. Inputs are drawn independently of one another, so that parts differ in that input alone but for chance. Rates
 //! are the baseline's: options meet the same encounters, so that their runs together would count each encounter many times.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use endline_gear::Prior;
@@ -16,7 +17,7 @@ use super::marks::{Marks, encounters};
 use super::sobol::{SobolIndex, classes};
 
 /// Part of an input's range.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Part {
     /// Its name: `below 1.1`, `from 1.1 on`, or a level.
     pub name: String,
@@ -29,7 +30,7 @@ pub struct Part {
 }
 
 /// What an input does.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct InputFinding {
     /// Name of the prior.
     pub name: String,
@@ -217,7 +218,7 @@ fn parts(
 }
 
 /// How often an option has the lowest rate when encounters are drawn again.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Lowest {
     /// Share of the draws in which no other option has it.
     pub alone: f64,

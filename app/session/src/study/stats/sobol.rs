@@ -6,6 +6,7 @@
 //! References: Sobol' 1993; Saltelli et al. 2008, Global Sensitivity Analysis; given-data estimates: Plischke, Borgonovo and Smith
 //! 2013 (doi:10.1016/j.ejor.2012.11.047).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::bootstrap::Draws;
@@ -19,7 +20,7 @@ const LEAST: usize = 8;
 const DEALS: usize = 200;
 
 /// How much of an event's variance an input explains alone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct SobolIndex {
     /// The index; 0 where the event does not vary. Slightly below 0 by chance.
     pub index: f64,

@@ -7,6 +7,7 @@
 //! Whales of unlike weight count by it, scaled so that all together count as Kish's effective number of them (`weighted.rs`).
 //! References: Kaplan and Meier 1958 (doi:10.1080/01621459.1958.10501452); Kalbfleisch and Prentice 2002, section 1.4.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -19,7 +20,7 @@ use super::weighted::kish;
 const RELEASED: [&str; 2] = ["shed", "parted_free"];
 
 /// Shares still held, by time since first contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Survival {
     /// Whales that rope touched.
     pub touched: u64,
@@ -32,7 +33,7 @@ pub struct Survival {
 }
 
 /// Share of whales that rope still holds from a time on.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct HeldShare {
     /// Time since first contact [s].
     pub time_s: f64,

@@ -1,5 +1,6 @@
 //! Distribution of the greatest tension of a run.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::table::Table;
@@ -10,7 +11,7 @@ use super::marks::{encounters, weights};
 use super::weighted::quantile;
 
 /// Greatest tensions of an option's runs [N].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Tensions {
     /// Of every run that counts, sorted [N], each with what its encounter counts for.
     pub sorted_n: Vec<(f64, f64)>,

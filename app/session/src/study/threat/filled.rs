@@ -197,7 +197,7 @@ mod tests {
         ];
         rows.sort_by(|one, other| one.place().total_cmp(&other.place()));
         Threats {
-            schema: "endline.threat/1",
+            schema: super::super::SCHEMA,
             study: "s".into(),
             hash: "h".into(),
             event: "held_fast".into(),

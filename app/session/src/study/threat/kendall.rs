@@ -5,6 +5,7 @@
 //! Its interval covers chance: encounters are drawn again.
 //! Reference: Kendall 1945, The treatment of ties in ranking problems, Biometrika 33 (doi:10.1093/biomet/33.3.239).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::study::stats::{Interval, Mark, Marks, bootstrap};
@@ -13,7 +14,7 @@ use super::Threat;
 use super::poll::Poll;
 
 /// Agreement in order.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Tau {
     /// Kendall's τ_b.
     pub tau: f64,

@@ -11,6 +11,7 @@ mod kendall;
 mod poll;
 
 use endline_gear::{StudyEvent, ThreatRow};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::open::Opened;
@@ -23,8 +24,11 @@ pub use kendall::Tau;
 pub(crate) use poll::at_line;
 pub use poll::{Poll, Polled};
 
+/// Name and version of the JSON form.
+pub(super) const SCHEMA: &str = "endline.threat/1";
+
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Threat {
     /// Id of the option that was simulated.
     pub option: String,
@@ -43,9 +47,10 @@ pub struct Threat {
 }
 
 /// What a study says of threats.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Threats {
-    /// Always `endline.threat/1`.
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Id of the study.
     pub study: String,
@@ -92,7 +97,7 @@ impl Threats {
         }
         let tau = poll.and_then(|poll| kendall::against(poll, &rows));
         Ok(Self {
-            schema: "endline.threat/1",
+            schema: SCHEMA,
             study: opened.study.id.clone(),
             hash: opened.hash.clone(),
             event: event.name(),

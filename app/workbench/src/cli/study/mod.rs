@@ -3,7 +3,7 @@
 pub(super) mod args;
 mod hindcast;
 mod progress;
-mod status;
+pub(super) mod status;
 mod submit;
 mod threat;
 mod words;
@@ -66,7 +66,7 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     drop(control);
     if let Some(code) = interrupt.exit_code() {
         let Count { done, total, .. } = progress.blocks;
-        output::note(&format!(
+        output::warn(&format!(
             "interrupted: {done} of {total} encounters are kept in {}; the same command goes on from them",
             folder.path.display()
         ));

@@ -22,7 +22,8 @@ pub(super) struct Bar {
 
 impl Bar {
     pub(super) fn new() -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        let shows = std::io::stderr().is_terminal() && output::is_told(output::Told::Notes);
+        let bar = shows.then(|| {
             let bar = ProgressBar::new(0).with_message("encounters");
             if let Ok(style) =
                 ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise} left")

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use endline_session::study::folder::Folder;
 use endline_session::study::{Worker, workers};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::args::StatusArgs;
@@ -13,29 +14,38 @@ use crate::cli::table::columns;
 use crate::cli::{Failure, output};
 
 /// Name of the schema of `--json`.
-const SCHEMA: &str = "endline.study-status/1";
+pub(in crate::cli) const SCHEMA: &str = "endline.study_status/1";
 
 /// How a study stands.
-#[derive(Serialize)]
-struct Status {
+#[derive(JsonSchema, Serialize)]
+pub(in crate::cli) struct Status {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     schema: &'static str,
+    /// Id of the study.
     study: String,
+    /// Folder of its results.
     folder: String,
     /// Encounters that are written.
     done: usize,
+    /// Encounters of the study.
     encounters: u64,
+    /// Processes that work on it, or have ended at work.
     processes: Vec<Process>,
 }
 
 /// A process at work on a study.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Process {
+    /// Name of its machine.
     machine: String,
+    /// The machine's number of the process.
     pid: u32,
     /// Encounters that it runs.
     runs: Vec<u32>,
     /// Time since it was last seen at work [s].
     silent_s: f64,
+    /// Whether it has ended, so that others run its encounters.
     has_ended: bool,
 }
 

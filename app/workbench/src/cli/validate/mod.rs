@@ -8,17 +8,26 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use endline_session::cases::{Cases, Effort, Outcome};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::args::ValidateArgs;
 use super::{Failure, host, output};
 
+/// Name and version of the JSON form.
+pub(super) const SCHEMA: &str = "endline.validate/1";
+
 /// What `--json` prints.
-#[derive(Serialize)]
-struct Report<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Report<'a> {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
     schema: &'static str,
+    /// Version of Endline.
     version: &'static str,
+    /// Whether all cases have passed.
     passed: bool,
+    /// The cases, in order of id.
     cases: &'a [Outcome],
 }
 
@@ -57,7 +66,7 @@ fn outcomes(args: &ValidateArgs, cases: &Cases) -> Result<Vec<Outcome>, Failure>
 
 fn json(outcomes: &[Outcome], missed: usize) -> String {
     let report = Report {
-        schema: "endline.validate/1",
+        schema: SCHEMA,
         version: endline_session::VERSION,
         passed: missed == 0,
         cases: outcomes,
