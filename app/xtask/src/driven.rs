@@ -1,5 +1,5 @@
 //! Tests that drive the built program from outside, by scripts, where the machine has what they need: the window by real mouse and
-//! keys on a screen of its own, and a study by a real queue of a cluster.
+//! keys on a screen of its own, a study by a real queue of a cluster, and the program for Windows under Wine.
 
 use std::path::Path;
 use std::process::Command;
@@ -37,6 +37,17 @@ const SLURM: Script = Script {
     folder: "slurm",
 };
 
+const WINDOWS: Script = Script {
+    file: "tests/windows/wine.sh",
+    what: "the program for Windows under Wine",
+    tools: &["wine", "x86_64-w64-mingw32-gcc"],
+    packages: "wine wine64 gcc-mingw-w64-x86-64-win32",
+    folder: "windows",
+};
+
+/// Rust's name of the system for which [`windows`] builds.
+const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
+
 /// Each user's first hour in a real window; its pictures go to `<target>/first-hours`.
 ///
 /// # Errors
@@ -53,14 +64,42 @@ pub fn slurm(workspace: &Workspace) -> Outcome {
     drive(workspace, &SLURM, workspace.program(Profile::Dev).as_path())
 }
 
+/// The program and a plugin library built for Windows, run under Wine and held against the same code here; what they left goes to
+/// `<target>/windows`.
+///
+/// # Errors
+/// When they cannot be built (`rustup target add x86_64-pc-windows-gnu` brings Rust's part), or a state or table differs.
+pub fn windows(workspace: &Workspace) -> Outcome {
+    if !WINDOWS.is_skipped() {
+        let build = |package: &[&str]| {
+            workspace
+                .cargo(&[&["build", "--target", WINDOWS_TARGET, "--package"], package].concat())
+        };
+        build(&["endline"])?;
+        build(&["endline-friction-models", "--lib", "--features", "entry"])?;
+    }
+    drive(workspace, &WINDOWS, workspace.program(Profile::Dev).as_path())
+}
+
+impl Script {
+    /// Whether a tool is missing, which is told.
+    fn is_skipped(&self) -> bool {
+        let Self { what, tools, packages, .. } = self;
+        let missing = tools.iter().find(|tool| !on_path(tool));
+        if let Some(missing) = missing {
+            eprintln!(
+                "skipped: {what}, as there is no {missing} here; Debian: apt-get install {packages}"
+            );
+        }
+        missing.is_some()
+    }
+}
+
 fn drive(workspace: &Workspace, script: &Script, program: &Path) -> Outcome {
-    let Script { file, what, tools, packages, folder } = script;
-    if let Some(missing) = tools.iter().find(|tool| !on_path(tool)) {
-        eprintln!(
-            "skipped: {what}, as there is no {missing} here; Debian: apt-get install {packages}"
-        );
+    if script.is_skipped() {
         return Ok(());
     }
+    let Script { file, what, folder, .. } = script;
     let folder = workspace.target.join(folder);
     announce(file, &[&program.display().to_string(), &folder.display().to_string()]);
     let status = Command::new("bash")

@@ -35,6 +35,8 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
                                          N hours at low priority; print inputs, panics, hangs and memory
        cargo xtask window                only drive the window that was built
        cargo xtask slurm                 run a study on a Slurm of one node begun for it, as root, where Slurm is installed
+       cargo xtask windows               build for Windows and run it under Wine, where Wine and mingw-w64 are installed;
+                                         hashes and tables must be those of this system
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask package               build a portable archive and a Debian package of the release
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
@@ -77,6 +79,7 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["window"] => Box::new(driven::window),
         ["package"] => Box::new(package::package),
         ["slurm"] => Box::new(driven::slurm),
+        ["windows"] => Box::new(driven::windows),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {
             Box::new(|workspace| plugins::build(workspace, Profile::Release))

@@ -74,7 +74,7 @@ impl WhaleItem {
             length_m,
             diameter_m: value("drag.diameter_offset")? + value("drag.diameter")? * length_m,
             wetted_area_m2: value("drag.wetted_area")?
-                * mass_kg.powf(value("drag.wetted_area_exponent")?),
+                * libm::pow(mass_kg, value("drag.wetted_area_exponent")?),
             appendages: value("drag.appendages")?,
             oscillation: value("drag.oscillation")?,
             open_mouth: value("drag.open_mouth")?,
@@ -121,7 +121,7 @@ impl WhaleItem {
     #[must_use]
     pub fn jaws(&self, length_m: f64, skin: &Skin) -> Option<JawStrength> {
         let value = |key| self.entry.value(key);
-        let burst_n = value("strength.burst")? * length_m.powf(value("strength.exponent")?);
+        let burst_n = value("strength.burst")? * libm::pow(length_m, value("strength.exponent")?);
         let forces_n = [value("strength.jaw")? * burst_n, value("strength.lip")? * burst_n];
         Some(JawStrength::of_forces(skin, forces_n))
     }
@@ -129,7 +129,7 @@ impl WhaleItem {
     fn muscle(&self, form: &WhaleForm, effort: Effort) -> Option<Muscle> {
         let value = |key| self.entry.value(key);
         let length = form.length_m;
-        let grown = length.powf(value("strength.exponent")?);
+        let grown = libm::pow(length, value("strength.exponent")?);
         Some(Muscle {
             sustained_n: value("strength.sustained")? * grown,
             burst_n: value("strength.burst")? * grown,
@@ -156,7 +156,7 @@ fn flippers(form: &WhaleForm) -> [f64; 2] {
         .iter()
         .min_by(|one, other| (one.at - at).abs().total_cmp(&(other.at - at).abs()));
     let half_width = 0.5 * form.breadth_scale * nearest.map_or(0.0, |station| station.width);
-    let reach = half_width + form.flippers.span * form.flippers.droop.cos();
+    let reach = half_width + form.flippers.span * libm::cos(form.flippers.droop);
     [
         reach * form.length_m,
         0.5 * (form.flippers.root_chord + form.flippers.max_chord) * form.length_m,

@@ -31,7 +31,7 @@ fn of_line(length_m: f64, whale_m: f64, resolution: &Resolution) -> f64 {
     let along_edges = (ALONG_EDGES * whale_m).min(length_m);
     let near = (whale_m - along_edges).min(length_m - along_edges);
     let far = length_m - along_edges - near;
-    let between = BETWEEN * (resolution.far_m / resolution.edge_m).ln();
+    let between = BETWEEN * libm::log(resolution.far_m / resolution.edge_m);
     let graded = far / resolution.far_m + between.min(far / resolution.near_m);
     along_edges / resolution.edge_m + near / resolution.near_m + graded + 1.0
 }

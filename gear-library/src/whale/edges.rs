@@ -64,7 +64,7 @@ mod tests {
         let rim = |x: f64| {
             (0..sides).map(move |side| {
                 let angle = TAU * f64::from(side) / f64::from(sides);
-                DVec3::new(x, 0.02 * angle.cos(), 0.02 * angle.sin())
+                DVec3::new(x, 0.02 * libm::cos(angle), 0.02 * libm::sin(angle))
             })
         };
         let triangles = (0..sides).flat_map(|side| {

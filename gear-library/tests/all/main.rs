@@ -1,5 +1,10 @@
 //! Tests of the gear library through the crate's own door: files, assembly, the whale's skin, encounters.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "expected values may come from the functions of the platform"
+)]
+
 mod animations;
 mod body;
 mod files;

@@ -281,17 +281,16 @@ fn plugins_are_libraries_whose_entry_is_off_by_default() {
 }
 
 #[test]
-fn sim_and_plugins_repeat_the_lint_settings_of_the_house() {
+fn what_decides_a_run_repeats_the_lint_settings_of_the_house() {
     // Clippy reads the nearest clippy.toml only.
-    let (house, sim, plugins) = (
-        toml_file("clippy.toml"),
-        toml_file("app/sim/clippy.toml"),
-        toml_file("plugins/clippy.toml"),
-    );
-    for (key, value) in &house {
-        assert_eq!(sim.get(key), Some(value), "app/sim/clippy.toml must repeat {key}");
-        assert_eq!(plugins.get(key), Some(value), "plugins/clippy.toml must repeat {key}");
-    }
+    let house = toml_file("clippy.toml");
+    let [sim, plugins, gear] = ["app/sim", "plugins", "gear-library"].map(|folder| {
+        let file = toml_file(&format!("{folder}/clippy.toml"));
+        for (key, value) in &house {
+            assert_eq!(file.get(key), Some(value), "{folder}/clippy.toml must repeat {key}");
+        }
+        file
+    });
     let banned = |file: &toml::Table| {
         let methods = file["disallowed-methods"].as_array().expect("a list").iter();
         methods
@@ -303,4 +302,6 @@ fn sim_and_plugins_repeat_the_lint_settings_of_the_house() {
         banned(&plugins),
         "a plugin is part of the physics: it may call no more than sim does"
     );
+    let platform = banned(&sim).into_iter().filter(|path| path.starts_with("f64::"));
+    assert_eq!(banned(&gear), platform.collect(), "a model is the same on every platform");
 }

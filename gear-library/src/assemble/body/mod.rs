@@ -74,5 +74,6 @@ fn form(body: &FreeBody) -> Form {
 }
 
 fn skin_turn_drag(diameter: f64, length: f64) -> f64 {
-    SKIN_DRAG * std::f64::consts::PI * diameter * length * (diameter / 2.0).powi(3)
+    let radius = diameter / 2.0;
+    SKIN_DRAG * std::f64::consts::PI * diameter * length * (radius * radius * radius)
 }

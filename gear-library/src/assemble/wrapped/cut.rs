@@ -47,7 +47,7 @@ pub(super) fn most_segments(stretches: &[Stretch], coarse_m: f64) -> f64 {
     let of = |stretch: &Stretch| {
         let whole = stretch.rope_m.unwrap_or_default();
         let grown = stretches.iter().filter_map(|other| other.fine_m).fold(coarse_m, f64::min);
-        let growing = 2.0 * (1.0 + (coarse_m / grown).ln() / GROWTH.ln_1p());
+        let growing = 2.0 * (1.0 + libm::log(coarse_m / grown) / libm::log1p(GROWTH));
         whole / stretch.fine_m.unwrap_or(coarse_m) + growing + 1.0
     };
     stretches.iter().map(of).sum()
