@@ -143,7 +143,7 @@ fn table_of(stories: &Stories) -> Table {
             story.course.to_owned(),
             if story.mirrored { "yes" } else { "" }.to_owned(),
             alike(story),
-            finer(story),
+            story.on_finer().unwrap_or_default(),
             story.share(stories).map_or(String::new(), |share| format!("{:.0} %", 100.0 * share)),
         ]
         .map(Cell::from)
@@ -167,13 +167,6 @@ fn table_of(stories: &Stories) -> Table {
 fn alike(story: &Story) -> String {
     let fragile = if story.is_fragile() { ", fragile" } else { "" };
     story.alike.map_or(String::new(), |alike| format!("{:.0} %{fragile}", 100.0 * alike))
-}
-
-fn finer(story: &Story) -> String {
-    story.finer.map_or(String::new(), |distance| {
-        let alike = if distance <= LIKE { "alike" } else { "not alike" };
-        format!("{alike} ({distance:.2})")
-    })
 }
 
 fn one(folder: &Folder, number: usize, story: &Story) -> Told {

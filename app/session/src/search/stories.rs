@@ -17,7 +17,7 @@ use super::posterior::{Quantity, quantities};
 use super::question::Question;
 use super::robust::{self, Tried, most_robust};
 use super::rounds::Rounds;
-use super::trial::Trial;
+use super::trial::{FAULTY, Trial};
 
 /// Name and version of the JSON form.
 const SCHEMA: &str = "endline.stories/1";
@@ -73,7 +73,7 @@ pub struct Story {
     pub mirrored: bool,
     /// Share of its neighbours that end alike; `None` where none was run.
     pub alike: Option<f64>,
-    /// Distance of the same encounter on a finer resolution; `None` where it was not run.
+    /// Distance of the same encounter on a finer resolution, 1000 where that run came to no valid end; `None` where it was not run.
     pub finer: Option<f64>,
     /// Draws from the priors that are of this kind and like the observation.
     pub draws_like: usize,
@@ -115,10 +115,7 @@ impl Story {
         let alike = self
             .alike
             .map(|alike| format!("{:.0} % of its neighbours end alike{fragile}", 100.0 * alike));
-        let finer = self.finer.map(|distance| match distance <= LIKE {
-            true => format!("on a finer resolution as well ({distance:.2})"),
-            false => format!("not on a finer resolution ({distance:.2})"),
-        });
+        let finer = self.on_finer().map(|finer| format!("on a finer resolution {finer}"));
         let share = self.share(stories).filter(|share| *share > 0.0);
         let share = share.map(|share| {
             let (own, like) = (self.draws_like, stories.net_like);
@@ -126,6 +123,16 @@ impl Story {
         });
         let told: Vec<String> = [alike, finer, share].into_iter().flatten().collect();
         (!told.is_empty()).then(|| told.join("; "))
+    }
+
+    /// What the encounter comes to on a finer resolution, in words; `None` where it was not run.
+    #[must_use]
+    pub fn on_finer(&self) -> Option<String> {
+        self.finer.map(|distance| match distance {
+            FAULTY.. => "no valid end".to_owned(),
+            ..=LIKE => format!("alike ({distance:.2})"),
+            _ => format!("not alike ({distance:.2})"),
+        })
     }
 
     /// Whether it hangs on chance.
