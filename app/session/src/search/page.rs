@@ -46,7 +46,7 @@ struct Page<'a> {
 struct Told {
     heading: String,
     picture: Option<String>,
-    terms: Table,
+    terms: Option<Table>,
     drawn: Table,
 }
 
@@ -185,7 +185,9 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Told {
             story.acts_in_words()
         ),
         picture: folder.path.join(&picture).is_file().then_some(picture),
-        terms: Table::new("What is different from what was seen", &["cost", ""], terms.collect()),
+        terms: (!story.terms.is_empty()).then(|| {
+            Table::new("What is different from what was seen", &["cost", ""], terms.collect())
+        }),
         drawn: Table::new("The encounter", &["drawn", ""], drawn.collect()),
     }
 }
