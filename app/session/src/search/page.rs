@@ -7,6 +7,7 @@ use endline_gear::{Observation, SeenSite};
 
 use crate::error::Error;
 use crate::save;
+use crate::study::in_words;
 use crate::study::report::STYLE;
 use crate::study::report::cell::{Cell, Line, Table};
 
@@ -176,7 +177,7 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Told {
         .iter()
         .map(|(cost, says)| vec![format!("{cost:.2}").into(), says.clone().into()]);
     let drawn = story.drawn.iter().map(|(name, text)| {
-        vec![Cell { lines: vec![Line::Code(name.clone())] }, text.clone().into()]
+        vec![Cell { lines: vec![Line::Code(name.clone())] }, in_words(text).into()]
     });
     Told {
         heading: format!(
@@ -203,7 +204,7 @@ fn common(stories: &Stories) -> Option<Table> {
     for (name, _) in &first.drawn {
         let of = |story: &&Story| {
             let found = story.drawn.iter().find(|(other, _)| other == name);
-            found.map(|(_, text)| text.clone()).unwrap_or_default()
+            found.map(|(_, text)| in_words(text)).unwrap_or_default()
         };
         rows.push(shared(name, like.iter().map(of).collect()));
     }

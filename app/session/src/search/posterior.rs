@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::study::draw::Drawn;
 use crate::study::encounter::Encounter;
+use crate::study::in_words;
 
 use super::distance::LIKE;
 use super::rounds::Rounds;
@@ -66,7 +67,7 @@ fn told(mut drawn: Vec<&Drawn>) -> String {
         drawn.sort_by(|one, other| {
             one.number.partial_cmp(&other.number).unwrap_or(one.name.cmp(&other.name))
         });
-        let at = |quarters: usize| short(&drawn[(drawn.len() - 1) * quarters / 4].text);
+        let at = |quarters: usize| in_words(&drawn[(drawn.len() - 1) * quarters / 4].text);
         return format!("{} to {}", at(1), at(3));
     }
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
@@ -80,15 +81,6 @@ fn told(mut drawn: Vec<&Drawn>) -> String {
         format!("{word} {} %", 100 * count / drawn.len())
     };
     counts.iter().take(WORDS).map(word).collect::<Vec<_>>().join(", ")
-}
-
-/// A drawn value to two decimals, with its unit.
-fn short(text: &str) -> String {
-    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    number.parse().map_or_else(
-        |_| text.to_owned(),
-        |value: f64| format!("{value:.2} {unit}").trim_end().to_owned(),
-    )
 }
 
 #[cfg(test)]

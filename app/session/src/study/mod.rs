@@ -61,6 +61,7 @@ pub(crate) mod tests;
 pub mod threat;
 
 pub use control::Control;
+pub use drawn::in_words;
 pub use leases::{Worker, workers};
 pub use open::{Files, Opened};
 pub use plan::OptionPlan;

@@ -5,6 +5,7 @@ use endline_session::study::Opened;
 use endline_session::study::control::Count;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::{BLOCK, Folder};
+use endline_session::study::in_words;
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
 use endline_session::units::N_PER_LBF;
 
@@ -46,19 +47,11 @@ pub(super) fn plan(opened: &Opened) -> String {
         rows.push(
             [index.to_string()]
                 .into_iter()
-                .chain(drawn.iter().map(|drawn| short(&drawn.text)))
+                .chain(drawn.iter().map(|drawn| in_words(&drawn.text)))
                 .collect(),
         );
     }
     text + &columns(&rows)
-}
-
-/// A drawn value with three figures.
-fn short(text: &str) -> String {
-    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    number
-        .parse::<f64>()
-        .map_or_else(|_| text.to_owned(), |number| format!("{number:.3} {unit}").trim().to_owned())
 }
 
 pub(super) fn ran(opened: &Opened, folder: &Folder, blocks: Count) -> String {

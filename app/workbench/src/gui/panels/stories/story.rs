@@ -3,6 +3,7 @@
 use egui::{Color32, Grid, Label, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::command::SearchAction;
 use endline_session::search::{LIKE, Stories, Story};
+use endline_session::study::in_words;
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
@@ -43,20 +44,13 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: us
             let own = name.rsplit('.').next().unwrap_or(name);
             let own = RichText::new(spoken(own)).color(palette.faint);
             ui.label(own).on_hover_text(name);
-            ui.label(short(text)).on_hover_text(text);
+            ui.label(in_words(text)).on_hover_text(text);
             ui.end_row();
         }
         ui.label(RichText::new("run for").color(palette.faint));
         ui.label(format!("{:.0} s", story.simulated_s));
         ui.end_row();
     });
-}
-
-/// A drawn value to four digits, with its unit.
-fn short(text: &str) -> String {
-    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    let rounded = number.parse::<f64>().ok().and_then(|value| format!("{value:.3e}").parse().ok());
-    rounded.map_or_else(|| text.to_owned(), |value: f64| format!("{value} {unit}"))
 }
 
 /// The terms of the distance as bars, the greatest first; a line marks what alone would be unlike.
