@@ -9,6 +9,7 @@ pub mod camera_path;
 pub mod draw;
 pub mod film;
 pub mod labels;
+#[cfg_attr(target_vendor = "apple", path = "no_offscreen.rs")]
 pub mod offscreen;
 pub mod overlay;
 pub mod pick;
