@@ -97,7 +97,7 @@ pub(super) enum Command {
     },
     /// Print the JSON schema of a form that a command prints with --json, or list the forms.
     Schema {
-        /// Form, such as endline.run/1, or a command that prints it, such as "study merge".
+        /// Form, such as endline.run/1, or a command that prints it, such as "study report".
         form: Option<String>,
     },
     /// Print the script by which a shell completes the arguments of this program.
