@@ -5,6 +5,7 @@ use std::path::Path;
 
 use endline_session::{Overrides, PluginHost, Prepared, locate, prepare, prepare_text};
 
+use super::output::Told;
 use super::{Failure, output};
 
 /// Prepares the scenario that the command line names.
@@ -15,8 +16,11 @@ pub(super) fn prepared(
     over: Overrides,
 ) -> Result<Prepared, Failure> {
     let is_stream = named == Path::new("-");
-    if let Ok(folder) = locate::library((!is_stream).then_some(named), library) {
-        output::detail(&format!("gear library: {}", folder.display()));
+    if output::is_told(Told::Details) {
+        let file = named.is_file().then_some(named);
+        if let Ok(folder) = locate::library(file, library) {
+            output::detail(&format!("gear library: {}", folder.display()));
+        }
     }
     if !is_stream {
         return Ok(prepare(named, library, host, over)?);

@@ -102,7 +102,15 @@ mod tests {
         for form in forms() {
             let schema = form.titled();
             assert_eq!(schema.get("title"), Some(&form.name.into()));
-            look(schema.as_value(), form.name);
+            let schema = schema.as_value();
+            // What is written names the form under which it is listed; a bare list names none.
+            let written = schema["properties"]["schema"].get("const");
+            assert!(
+                schema["type"] == "array" || written == Some(&form.name.into()),
+                "{}",
+                form.name
+            );
+            look(schema, form.name);
         }
     }
 }
