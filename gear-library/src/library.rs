@@ -50,18 +50,33 @@ impl Library {
             library.read_file(path, text, &problems);
             all.extend(problems.into_sorted());
         }
-        library.whales.retain_mut(|whale| whale.load_mesh(sources, &all));
-        library.acts.retain_mut(|act| act.load_animation(sources, &all));
+        library.read_meshes(sources, &all);
         library.check_materials(&all);
         (library, all.into_sorted())
     }
 
-    /// All problems of one file, as the library would find them.
+    /// All problems of one file, as the library would find them; a mesh or animation that it names is not read.
     #[must_use]
     pub fn check_file(path: &str, text: &str) -> Vec<Diagnostic> {
         let problems = Problems::default();
         Self::default().read_file(path, text, &problems);
         problems.into_sorted()
+    }
+
+    /// All problems of one file and of the mesh or animation that it names, looked for in `meshes`.
+    #[must_use]
+    pub fn check_file_with(path: &str, text: &str, meshes: &Sources) -> Vec<Diagnostic> {
+        let problems = Problems::default();
+        let mut library = Self::default();
+        library.read_file(path, text, &problems);
+        library.read_meshes(meshes, &problems);
+        problems.into_sorted()
+    }
+
+    /// Reads the meshes of whales and the animations of acts; an item whose own cannot be read is left out.
+    fn read_meshes(&mut self, meshes: &Sources, problems: &Problems) {
+        self.whales.retain_mut(|whale| whale.load_mesh(meshes, problems));
+        self.acts.retain_mut(|act| act.load_animation(meshes, problems));
     }
 
     fn read_file(&mut self, path: &str, text: &str, problems: &Problems) {

@@ -47,6 +47,20 @@ impl Sources {
         if problems.is_empty() { Ok(sources) } else { Err(problems) }
     }
 
+    /// The meshes and animations that lie beside a library file, such as `whales/right-whale.toml`, without any text.
+    ///
+    /// # Errors
+    /// For each one that cannot be read.
+    pub fn beside(file: &Path) -> Result<Self, Vec<Diagnostic>> {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let root = folder.parent().unwrap_or(Path::new(""));
+        let name = folder.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+        let (mut meshes, mut problems) = (BTreeMap::new(), Vec::new());
+        read_meshes(root, &name, &mut meshes, &mut problems);
+        let sources = Self { files: BTreeMap::new(), meshes };
+        if problems.is_empty() { Ok(sources) } else { Err(problems) }
+    }
+
     /// Refuses more than a recording can carry.
     fn too_large(&self, root: &Path) -> Option<Diagnostic> {
         let bytes = self.files.values().map(String::len).chain(self.meshes.values().map(Vec::len));

@@ -123,11 +123,18 @@ impl Checked {
             return self.scenario(path, library, host);
         }
         self.files += 1;
-        match read::text(path) {
-            Ok(text) => {
-                self.problems.extend(Library::check_file(&path.display().to_string(), &text))
+        let text = match read::text(path) {
+            Ok(text) => text,
+            Err(error) => return self.tell(path, &format!("cannot be read: {error}"), ""),
+        };
+        match Sources::beside(path) {
+            Ok(meshes) => {
+                let file = path.file_name().unwrap_or_default().to_string_lossy();
+                let found = Library::check_file_with(&format!("{parent}/{file}"), &text, &meshes);
+                let root = path.ancestors().nth(2).unwrap_or(Path::new(""));
+                self.problems.extend(found.into_iter().map(|problem| under(root, problem)));
             }
-            Err(error) => self.tell(path, &format!("cannot be read: {error}"), ""),
+            Err(problems) => self.problems.extend(problems),
         }
     }
 

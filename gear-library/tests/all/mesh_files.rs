@@ -187,7 +187,8 @@ fn turn_bones(file: &mut Value, turn: DQuat) {
     for (place, joint) in joints.iter().enumerate() {
         let node = &mut file["nodes"][*joint];
         if place == 0 {
-            node["rotation"] = json!(turn.to_array());
+            let lies: [f64; 4] = serde_json::from_value(node["rotation"].clone()).unwrap();
+            node["rotation"] = json!((DQuat::from_array(lies) * turn).to_array());
         } else {
             let moved: [f64; 3] = serde_json::from_value(node["translation"].clone()).unwrap();
             node["translation"] = json!((turn.inverse() * DVec3::from_array(moved)).to_array());
@@ -271,6 +272,13 @@ fn the_mesh_must_be_whole_and_of_the_whales_size() {
     let mut moved = skin.clone();
     moved.vertices.iter_mut().for_each(|place| place.y += 4.0);
     told(&file(&moved), &["lies 4.00 m from where the whale lies"]);
+    // On its side it is as long, and its middle moves by little.
+    let mut rolled = skin.clone();
+    rolled.vertices.iter_mut().for_each(|place| *place = DVec3::new(place.x, -place.z, place.y));
+    told(&file(&rolled), &["is turned: the region `", "lies 4.26 m", "the back is up"]);
+    let mut rolled = skin.clone();
+    rolled.bones.iter_mut().for_each(|bone| bone.origin.y = -bone.origin.y);
+    told(&file(&rolled), &["is turned: the bone `", "lies 4.46 m", "the back is up"]);
     let mut inward = skin.clone();
     inward.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     told(&file(&inward), &["faces inward", "Recalculate Outside"]);
@@ -302,12 +310,50 @@ fn weights_must_be_there_and_be_four_at_most() {
     let unskinned = changed(|file| {
         file["nodes"][0].as_object_mut().unwrap().remove("skin");
     });
-    told(&unskinned, &["the mesh `skin` has no skin", "parent the mesh to the armature"]);
+    told(&unskinned, &["has a mesh without a skin, `skin`", "parent the mesh to the armature"]);
     let elsewhere = changed(|file| file["buffers"][0]["uri"] = json!("whale.bin"));
     told(&elsewhere, &["keeps its numbers in another file, `whale.bin`", ".glb"]);
 }
 
-/// Whatever the bytes, the answer is a skin or a fault.
+#[test]
+fn a_file_that_is_not_sound_is_told_in_a_few_words() {
+    let compressed = changed(|file| {
+        file["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+        for accessor in file["accessors"].as_array_mut().unwrap() {
+            accessor.as_object_mut().unwrap().remove("bufferView");
+        }
+    });
+    told(&compressed, &["is compressed by KHR_draco_mesh_compression", "without Compression"]);
+    let astray = changed(|file| {
+        for node in file["nodes"].as_array_mut().unwrap() {
+            node["children"] = json!([1_000]);
+        }
+    });
+    let faults = faults(&astray, &skin());
+    assert!(faults.contains("is not sound glTF 2.0") && faults.contains("and 26 more"), "{faults}");
+    assert!(faults.len() < 500, "{faults}");
+}
+
+#[test]
+fn a_file_alone_is_checked_with_its_mesh() {
+    let folder = std::env::temp_dir().join(format!("endline-gear-mesh-{}", std::process::id()));
+    let file = folder.join(FILE);
+    std::fs::create_dir_all(folder.join("whales")).unwrap();
+    let text = sources().get(FILE).unwrap().replacen("name =", "mesh = \"my.glb\"\nname =", 1);
+    std::fs::write(&file, &text).unwrap();
+    let told = |bytes: Option<&[u8]>| {
+        if let Some(bytes) = bytes {
+            std::fs::write(folder.join("whales/my.glb"), bytes).unwrap();
+        }
+        let found = Library::check_file_with(FILE, &text, &Sources::beside(&file).unwrap());
+        found.iter().map(ToString::to_string).collect::<String>()
+    };
+    assert!(told(None).contains("there is no file `whales/my.glb`"));
+    assert_eq!(told(Some(&written(&skin(), Form::Binary))), "");
+    assert!(told(Some(&written(&scaled(&skin(), 0.01), Form::Binary))).contains("m was expected"));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn one_mesh_at_thousands_of_nodes_is_refused_before_it_is_read() {
     let many = changed(|file| {
@@ -318,6 +364,7 @@ fn one_mesh_at_thousands_of_nodes_is_refused_before_it_is_read() {
     told(&many, &["more than 2000000 corners", "each mesh at one node"]);
 }
 
+/// Whatever the bytes, the answer is a skin or a fault.
 #[test]
 fn damaged_files_are_faults() {
     let like = skin();

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use endline_sdk::Region;
 use endline_sim::whale::{Bounds, Skin};
+use glam::DVec3;
 
 use super::Fault;
 use super::corners::shown;
@@ -30,10 +32,43 @@ fn scale(skin: &Skin, like: &Skin) -> Option<Fault> {
         ));
     }
     let off = (own.low + own.high - wanted.low - wanted.high) / 2.0;
-    (off.length() > ROOM * want).then(|| {
-        let help = "the snout lies ahead along +x and the back is up; the origin is in mid-body at the height of the snout's tip";
-        Fault::new(format!("lies {:.2} m from where the whale lies, or is turned", off.length()), help)
+    if off.length() > ROOM * want {
+        return Some(Fault::new(
+            format!("lies {:.2} m from where the whale lies, or is turned", off.length()),
+            LIES,
+        ));
+    }
+    let (part, off) = farthest(skin, like)?;
+    (off > ROOM * want).then(|| {
+        Fault::new(format!("is turned: {part} lies {off:.2} m from where the whale has it"), LIES)
     })
+}
+
+/// How a whale lies in a file.
+const LIES: &str = "the snout lies ahead along +x and the back is up; the origin is in mid-body at the height of the snout's tip; in Blender, see that the whale lies so, then apply the rotation (Ctrl+A) of mesh and armature";
+
+/// The region or bone that lies farthest from where the whale has it, and how far [m].
+fn farthest(skin: &Skin, like: &Skin) -> Option<(String, f64)> {
+    let region = |region: Region| {
+        let off = centre(skin, region)?.distance(centre(like, region)?);
+        Some((format!("the region `{}`", region.name()), off))
+    };
+    let bones = skin.bones.iter().zip(&like.bones);
+    let bones = bones
+        .map(|(own, like)| (format!("the bone `{}`", own.name), own.origin.distance(like.origin)));
+    let all = Region::ALL.into_iter().filter_map(region).chain(bones);
+    all.max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
+/// Centre of a region's skin [m]; `None` where it has none.
+fn centre(skin: &Skin, region: Region) -> Option<DVec3> {
+    let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region);
+    let (moment, area) = own.fold((DVec3::ZERO, 0.0), |(moment, area), (triangle, _)| {
+        let [a, b, c] = triangle.map(|corner| skin.vertices[corner as usize]);
+        let own = (b - a).cross(c - a).length();
+        (moment + own * (a + b + c) / 3.0, area + own)
+    });
+    (area > 0.0).then(|| moment / area)
 }
 
 /// Every edge has two triangles, which run along it in opposite directions.

@@ -4,6 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gltf::Document;
 use gltf::buffer::Source;
+use gltf::json::Root;
 
 use super::Fault;
 
@@ -25,8 +26,10 @@ impl File {
         let not_gltf = |error: &dyn std::fmt::Display| {
             Fault::new(format!("is not sound glTF 2.0: {error}"), SAVE_AS)
         };
-        let root = gltf::json::deserialize::from_slice(text).map_err(|error| not_gltf(&error))?;
-        let document = Document::from_json(root).map_err(|error| not_gltf(&error))?;
+        let root: Root =
+            gltf::json::deserialize::from_slice(text).map_err(|error| not_gltf(&error))?;
+        uncompressed(&root)?;
+        let document = Document::from_json(root).map_err(|error| not_gltf(&told(&error)))?;
         let buffers = document
             .buffers()
             .map(|buffer| load(&buffer.source(), binary, buffer.length()))
@@ -38,6 +41,27 @@ impl File {
     pub fn buffer(&self, index: usize) -> &[u8] {
         self.buffers.get(index).map_or(&[], Vec::as_slice)
     }
+}
+
+/// A file whose meshes are compressed is refused by the name of what did it.
+fn uncompressed(root: &Root) -> Result<(), Fault> {
+    let compressing = root.extensions_required.iter().find(|name| name.ends_with("compression"));
+    compressing.map_or(Ok(()), |name| {
+        Err(Fault::new(
+            format!("is compressed by {name}"),
+            "in Blender, export without Compression",
+        ))
+    })
+}
+
+/// What is not sound, the first few of it: one thing missing may be told for each of many meshes.
+fn told(error: &gltf::Error) -> String {
+    let gltf::Error::Validation(faults) = error else { return error.to_string() };
+    let first: Vec<String> =
+        faults.iter().take(3).map(|(path, fault)| format!("{path}: {fault}")).collect();
+    let more = faults.len().saturating_sub(first.len());
+    let rest = if more > 0 { format!("; and {more} more") } else { String::new() };
+    format!("{}{rest}", first.join("; "))
 }
 
 /// The text and the numbers of a binary file.

@@ -67,7 +67,7 @@ fn only_skin(file: &File) -> Result<FileSkin<'_>, Fault> {
     for node in file.document.nodes().filter(|node| node.mesh().is_some()) {
         let Some(skin) = node.skin() else {
             let message =
-                format!("the mesh `{}` has no skin", node.name().unwrap_or("without a name"));
+                format!("has a mesh without a skin, `{}`", node.name().unwrap_or("without a name"));
             return Err(Fault::new(
                 message,
                 format!("{parent_it}; delete what is no part of the whale"),

@@ -3,7 +3,7 @@
 //! ```text
 //! glTF  x y z  =  whale  x  z  -y        metres; glTF has y up, the whale's frame has z to the back
 //! ```
-//! Vertices are written in glTF's axes; the skeleton's root turns by a quarter, so that each bone keeps the whale's own axes.
+//! Vertices are written in glTF's axes; the first bone turns by a quarter, so that each bone keeps the whale's own axes.
 //! Rest places of bones and vertices are read from the nodes and the inverse bind matrices, whatever their local axes
 //! (Blender turns its bones along themselves). How bones turn is not in the mesh: bones are known by name.
 

@@ -65,7 +65,8 @@ pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
     }
 }
 
-/// Nodes: the skin, the root that turns the whale's axes into glTF's, then the bones in their order.
+/// Nodes: the skin, the root, then the bones in their order. The first bones turn the whale's axes into glTF's: a turn of the
+/// root, which Blender takes for the armature's own, would turn the mesh that it parents to the armature a second time.
 const SKIN_NODE: usize = 0;
 const ROOT_NODE: usize = 1;
 const FIRST_BONE: usize = 2;
@@ -75,17 +76,21 @@ fn nodes(skin: &Skin, about: &About<'_>) -> Vec<Value> {
         let own = skin.bones.iter().enumerate().filter(|(_, bone)| bone.parent == of);
         own.map(|(index, _)| index + FIRST_BONE).collect()
     };
-    let quarter = [-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2];
     let mut nodes = vec![
         json!({ "name": "skin", "mesh": 0, "skin": 0 }),
-        json!({ "name": "whale", "rotation": quarter, "children": children(None), "extras": whale_extras(about) }),
+        json!({ "name": "whale", "children": children(None), "extras": whale_extras(about) }),
     ];
     for (index, bone) in skin.bones.iter().enumerate() {
-        let parent = bone
-            .parent
-            .and_then(|parent| skin.bones.get(parent))
-            .map_or(DVec3::ZERO, |parent| parent.origin);
-        let mut node = json!({ "name": bone.name, "translation": (bone.origin - parent).to_array(), "extras": bone_extras(bone, about.joints) });
+        let mut node = json!({ "name": bone.name, "extras": bone_extras(bone, about.joints) });
+        match bone.parent.and_then(|parent| skin.bones.get(parent)) {
+            Some(parent) => {
+                node["translation"] = json!((bone.origin - parent.origin).to_array());
+            }
+            None => {
+                node["translation"] = json!(to_gltf(bone.origin).to_array());
+                node["rotation"] = json!([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
+            }
+        }
         let below = children(Some(index));
         if !below.is_empty() {
             node["children"] = json!(below);
