@@ -71,6 +71,7 @@ pub fn slurm(workspace: &Workspace) -> Outcome {
 /// When they cannot be built (`rustup target add x86_64-pc-windows-gnu` brings Rust's part), or a state or table differs.
 pub fn windows(workspace: &Workspace) -> Outcome {
     if !WINDOWS.is_skipped() {
+        workspace.cargo(&["build", "--package", "endline"])?;
         let build = |package: &[&str]| {
             workspace
                 .cargo(&[&["build", "--target", WINDOWS_TARGET, "--package"], package].concat())
