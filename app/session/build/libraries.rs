@@ -33,6 +33,7 @@ pub const REPORTING: &[&str] = &[
     "schemars",
     "serde",
     "serde_json",
+    "tempfile",
 ];
 
 /// Name and version of each library that decides a run, in order of name.
