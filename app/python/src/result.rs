@@ -25,13 +25,13 @@ pub struct Result {
 
 impl Result {
     /// Of a run as it stands.
-    pub fn of(run: &Run) -> Self {
-        Self {
+    pub fn of(run: &Run) -> PyResult<Self> {
+        Ok(Self {
             report: Report::from_run(run),
             model: Arc::clone(run.model()),
             frames: run.frames().to_vec(),
-            recording: run.recording(),
-        }
+            recording: run.recording().map_err(raised)?,
+        })
     }
 
     fn frame(&self, moment: usize) -> PyResult<&Arc<Frame>> {

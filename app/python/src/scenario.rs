@@ -81,7 +81,7 @@ impl Scenario {
             let mut signals = Signals::new();
             run.to_end_until(|_| !signals.go_on());
             signals.outcome()?;
-            Ok(Result::of(&run))
+            Result::of(&run)
         })
     }
 }
@@ -115,6 +115,6 @@ pub fn replay(
             Verdict::Same { .. } => None,
             Verdict::Differs { step, time_s, part } => Some((step, time_s, part)),
         };
-        Ok((Result::of(&run), differs))
+        Ok((Result::of(&run)?, differs))
     })
 }

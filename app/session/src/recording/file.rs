@@ -1,19 +1,20 @@
 //! The bytes of a recording: a magic word, a format number, then sections, each with its length
 //! and its BLAKE3 hash. See `docs/recording.md`.
 
+use std::io::{self, Write};
+
 use endline_sdk::Controls;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::Recording;
+use super::{Header, Recording};
 use crate::hash::{PARTS, StateHash};
+use crate::source::Source;
 
 /// First bytes of every recording; the high bit and the line end catch text-mode copies.
 const MAGIC: [u8; 8] = *b"\x89ENDLIN\n";
 /// Number of this format.
 const FORMAT: u32 = 3;
-const INPUT_BYTES: usize = 8 * Controls::COUNT;
-const HASH_BYTES: usize = 8 * PARTS;
 /// Sections in their order in the file, with the names used in messages; the last is empty and marks the end.
 const SECTIONS: [([u8; 4], &str); 5] = [
     (*b"HEAD", "header"),
@@ -24,31 +25,56 @@ const SECTIONS: [([u8; 4], &str); 5] = [
 ];
 const INPUTS: usize = 2;
 
-/// The bytes of a recording.
-pub(super) fn write(recording: &Recording) -> Result<Vec<u8>, String> {
-    let mut inputs = Vec::with_capacity(recording.inputs.len() * INPUT_BYTES);
-    for controls in &recording.inputs {
-        controls
-            .to_array()
-            .iter()
-            .for_each(|number| inputs.extend_from_slice(&number.to_le_bytes()));
+/// The payload of a section, in pieces; told twice, as its hash stands before it.
+pub(crate) trait Rows {
+    /// Its length.
+    fn bytes(&self) -> u64;
+
+    /// Tells it piece by piece.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or a piece not taken.
+    fn each(&self, take: &mut dyn FnMut(&[u8]) -> io::Result<()>) -> io::Result<()>;
+}
+
+impl Rows for Vec<u8> {
+    fn bytes(&self) -> u64 {
+        self.len() as u64
     }
-    let mut hashes = Vec::with_capacity(recording.hashes.len() * HASH_BYTES);
-    for hash in &recording.hashes {
-        hash.parts.iter().for_each(|part| hashes.extend_from_slice(&part.to_le_bytes()));
+
+    fn each(&self, take: &mut dyn FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        take(self)
     }
-    let payloads =
-        [encode(&recording.header)?, encode(&recording.source)?, inputs, hashes, Vec::new()];
-    let mut bytes = Vec::new();
-    bytes.extend_from_slice(&MAGIC);
-    bytes.extend_from_slice(&FORMAT.to_le_bytes());
-    for ((tag, _), payload) in SECTIONS.iter().zip(&payloads) {
-        bytes.extend_from_slice(tag);
-        bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
-        bytes.extend_from_slice(blake3::hash(payload).as_bytes());
-        bytes.extend_from_slice(payload);
+}
+
+/// Writes a recording: inputs are the ten floats of each step, hashes the parts of each state, both little-endian.
+pub(super) fn write(
+    out: &mut dyn Write,
+    header: &Header,
+    source: &Source,
+    [inputs, hashes]: [&dyn Rows; 2],
+) -> io::Result<()> {
+    let (header, source) = (encode(header)?, encode(source)?);
+    let payloads: [&dyn Rows; SECTIONS.len()] = [&header, &source, inputs, hashes, &Vec::new()];
+    out.write_all(&MAGIC)?;
+    out.write_all(&FORMAT.to_le_bytes())?;
+    for ((tag, _), payload) in SECTIONS.iter().zip(payloads) {
+        let mut hasher = blake3::Hasher::new();
+        payload.each(&mut |piece| {
+            hasher.update(piece);
+            Ok(())
+        })?;
+        out.write_all(tag)?;
+        out.write_all(&payload.bytes().to_le_bytes())?;
+        out.write_all(hasher.finalize().as_bytes())?;
+        payload.each(&mut |piece| out.write_all(piece))?;
     }
-    Ok(bytes)
+    Ok(())
+}
+
+/// Words as they stand in a file.
+pub(super) fn bytes<const N: usize>(rows: impl Iterator<Item = [u64; N]>) -> Vec<u8> {
+    rows.flatten().flat_map(u64::to_le_bytes).collect()
 }
 
 /// A recording from its bytes; the message of an error says what was expected.
@@ -118,8 +144,8 @@ fn check_counts(recording: Recording) -> Result<Recording, String> {
     Ok(recording)
 }
 
-fn encode(value: &impl Serialize) -> Result<Vec<u8>, String> {
-    postcard::to_stdvec(value).map_err(|error| format!("cannot be encoded: {error}"))
+fn encode(value: &impl Serialize) -> io::Result<Vec<u8>> {
+    postcard::to_stdvec(value).map_err(io::Error::other)
 }
 
 fn decode<T: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T, String> {
@@ -185,8 +211,14 @@ impl<'a> Reader<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Header;
     use super::*;
+
+    fn written(recording: &Recording) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        recording.write(&mut bytes).unwrap();
+        bytes
+    }
+
     fn sample() -> Recording {
         let input = |step: u32| Controls {
             speed: f64::from(step) / 8.0,
@@ -206,12 +238,12 @@ mod tests {
 
     #[test]
     fn a_recording_survives_the_round_trip() {
-        assert_eq!(read(&write(&sample()).unwrap()).unwrap(), sample());
+        assert_eq!(read(&written(&sample())).unwrap(), sample());
     }
 
     #[test]
     fn every_cut_is_found() {
-        let whole = write(&sample()).unwrap();
+        let whole = written(&sample());
         for length in 0..whole.len() {
             let message = read(&whole[..length]).unwrap_err();
             assert!(
@@ -223,7 +255,7 @@ mod tests {
 
     #[test]
     fn every_changed_byte_is_found() {
-        let whole = write(&sample()).unwrap();
+        let whole = written(&sample());
         for place in 0..whole.len() {
             let mut changed = whole.clone();
             changed[place] ^= 0x10;
@@ -237,10 +269,10 @@ mod tests {
 
     #[test]
     fn a_longer_file_and_another_format_are_refused() {
-        let mut longer = write(&sample()).unwrap();
+        let mut longer = written(&sample());
         longer.push(0);
         assert!(read(&longer).unwrap_err().contains("after its end mark"));
-        let mut newer = write(&sample()).unwrap();
+        let mut newer = written(&sample());
         newer[8] = 9;
         assert!(read(&newer).unwrap_err().contains("format 9"));
     }

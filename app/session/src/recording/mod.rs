@@ -9,6 +9,7 @@ pub mod program;
 pub mod replay;
 pub mod take_over;
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use endline_sdk::Controls;
@@ -18,6 +19,8 @@ use crate::error::Error;
 use crate::hash::StateHash;
 use crate::plugins::PluginUsed;
 use crate::source::Source;
+
+pub(crate) use file::Rows;
 
 /// Ending of recording files.
 pub const EXTENSION: &str = "endline";
@@ -75,9 +78,13 @@ impl Recording {
     /// # Errors
     /// Where it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let bytes = file::write(self).map_err(|message| Error::at(path, message))?;
-        crate::save::atomically(path, &bytes)
-            .map_err(|error| Error::at(path, format!("cannot be written: {error}")))
+        save(path, |out| self.write(out))
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let inputs = file::bytes(self.inputs.iter().map(words));
+        let hashes = file::bytes(self.hashes.iter().map(|hash| hash.parts));
+        file::write(out, &self.header, &self.source, [&inputs, &hashes])
     }
 
     /// Loads a recording. Changed inputs do not hinder it: they are reported in `damage`, and
@@ -90,4 +97,27 @@ impl Recording {
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         file::read(&bytes).map_err(|message| Error::at(path, message))
     }
+}
+
+/// Saves a recording as it is written, so that a long run is never in memory as a whole.
+///
+/// # Errors
+/// Where it cannot be written, or its rows not be read.
+pub(crate) fn save_rows(
+    path: &Path,
+    header: &Header,
+    source: &Source,
+    rows: [&dyn Rows; 2],
+) -> Result<(), Error> {
+    save(path, |out| file::write(out, header, source, rows))
+}
+
+/// Controls as the words of a row.
+pub(crate) fn words(controls: &Controls) -> [u64; Controls::COUNT] {
+    controls.to_array().map(f64::to_bits)
+}
+
+fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
+    crate::save::atomically_with(path, write)
+        .map_err(|error| Error::at(path, format!("cannot be written: {error}")))
 }

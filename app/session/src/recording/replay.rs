@@ -265,7 +265,7 @@ mod tests {
             run.step(Controls { yaw: f64::from(step) / f64::from(steps), ..Controls::default() })
                 .unwrap();
         }
-        run.recording()
+        run.recording().unwrap()
     }
 
     fn verdict(recording: &Recording) -> Verdict {

@@ -1,10 +1,13 @@
 //! A run: a settled model stepped through time, measured and recorded on the way.
 
+mod log;
 mod moment;
 mod over;
 mod stuck;
 
+use std::io;
 use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -17,11 +20,12 @@ use endline_sim::{
 };
 
 use crate::error::Error;
-use crate::hash::StateHash;
-use crate::recording::{Header, Recording};
+use crate::hash::{PARTS, StateHash};
+use crate::recording::{self, Header, Recording, Rows, words};
 use crate::source::Prepared;
 use crate::timing::{Timing, clock_ns};
 
+use log::Log;
 pub use moment::Moment;
 
 /// How a run is kept.
@@ -43,8 +47,8 @@ pub struct Run {
     state: State,
     workspace: Workspace,
     metrics: Metrics,
-    inputs: Vec<Controls>,
-    hashes: Vec<StateHash>,
+    inputs: Log<{ Controls::COUNT }>,
+    hashes: Log<PARTS>,
     frames: Vec<Arc<Frame>>,
     /// How often every second frame was dropped.
     thinned: u32,
@@ -96,8 +100,8 @@ impl Run {
         let mut run = Self {
             workspace: Workspace::new(&prepared.model),
             metrics: Metrics::new(&prepared.model),
-            inputs: Vec::new(),
-            hashes: vec![StateHash::of(&Input::default(), &settled.state)],
+            inputs: Log::new(),
+            hashes: Log::new(),
             frames: Vec::new(),
             thinned: 0,
             stopped: None,
@@ -109,6 +113,7 @@ impl Run {
             options,
         };
         run.workspace.lend_clock(clock_ns);
+        run.hashes.push(StateHash::of(&Input::default(), &run.state).parts);
         run.metrics.fold(&run.prepared.model, &run.state, &[]);
         run.keep_frame();
         run
@@ -135,7 +140,7 @@ impl Run {
             return Err(stop.clone());
         }
         let input = Input { controls };
-        self.inputs.push(controls);
+        self.inputs.push(words(&controls));
         let near = self.workspace.audit.contact_steps;
         let start = Instant::now();
         let stepped = step(&self.prepared.model, &input, &mut self.state, &mut self.workspace);
@@ -146,7 +151,7 @@ impl Run {
             return Err(stop);
         }
         let stepped_at = Instant::now();
-        self.hashes.push(StateHash::of(&input, &self.state));
+        self.hashes.push(StateHash::of(&input, &self.state).parts);
         self.metrics.fold_step(&self.prepared.model, &self.state, &self.workspace);
         self.keep_frame();
         self.timing.add_cost(self.workspace.cost(), stepped_at.elapsed());
@@ -242,10 +247,13 @@ impl Run {
         Arc::new(Frame::of(&self.state, contacts, body_contacts))
     }
 
-    /// The controls of every step so far.
-    #[must_use]
-    pub fn inputs(&self) -> &[Controls] {
-        &self.inputs
+    /// The controls of the first steps, of all where there are not so many.
+    ///
+    /// # Errors
+    /// Where those of a long run cannot be read again.
+    pub fn inputs(&self, steps: usize) -> Result<Vec<Controls>, Error> {
+        let rows = self.inputs.first(steps).map_err(|error| lost(&error))?;
+        Ok(rows.into_iter().map(|row| Controls::from_array(row.map(f64::from_bits))).collect())
     }
 
     /// Places where rope presses on skin, at the end of the last step.
@@ -313,14 +321,36 @@ impl Run {
     /// Hash of the state now.
     #[must_use]
     pub fn state_hash(&self) -> StateHash {
-        self.hashes.last().copied().unwrap_or_default()
+        self.hashes.last().map_or_else(StateHash::default, |parts| StateHash { parts })
     }
 
-    /// The run so far as a recording.
-    #[must_use]
-    pub fn recording(&self) -> Recording {
+    /// The run so far as a recording, all of it in memory.
+    ///
+    /// # Errors
+    /// Where the steps of a long run cannot be read again.
+    pub fn recording(&self) -> Result<Recording, Error> {
+        let hashes = self.hashes.first(self.hashes.len()).map_err(|error| lost(&error))?;
+        Ok(Recording {
+            header: self.header(),
+            source: (*self.prepared.source).clone(),
+            inputs: self.inputs(self.inputs.len())?,
+            hashes: hashes.into_iter().map(|parts| StateHash { parts }).collect(),
+            damage: None,
+        })
+    }
+
+    /// Saves the run so far as a recording, so that a crash leaves the old file whole.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn save_recording(&self, path: &Path) -> Result<(), Error> {
+        let rows: [&dyn Rows; 2] = [&self.inputs, &self.hashes];
+        recording::save_rows(path, &self.header(), &self.prepared.source, rows)
+    }
+
+    fn header(&self) -> Header {
         let settings = &self.model().spec.settings;
-        let header = Header {
+        Header {
             program: crate::VERSION.into(),
             model_hash: self.prepared.source.hash(),
             plugins: self.prepared.plugins.clone(),
@@ -328,14 +358,6 @@ impl Run {
             dt_s: settings.step_s,
             unsettled: self.options.unsettled,
             stopped: self.stopped.as_ref().map(|stop| Error::Stopped(stop.clone()).to_string()),
-        };
-        let source = (*self.prepared.source).clone();
-        Recording {
-            header,
-            source,
-            inputs: self.inputs.clone(),
-            hashes: self.hashes.clone(),
-            damage: None,
         }
     }
 
@@ -357,6 +379,11 @@ impl Run {
             });
         }
     }
+}
+
+/// The older steps of a long run are in a file without a name.
+fn lost(error: &io::Error) -> Error {
+    Error::Replay(format!("the steps of the run cannot be read again: {error}"))
 }
 
 /// The parts where they are placed, taken as they are.

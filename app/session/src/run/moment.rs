@@ -1,5 +1,6 @@
 //! A moment of a run, from which another run goes on.
 
+use std::io;
 use std::sync::Arc;
 
 use endline_sim::balance::Balance;
@@ -40,18 +41,20 @@ impl Run {
     /// The run of another model that had the same run up to a moment of this one: it goes on from there.
     ///
     /// The models differ in nothing that had any effect until then, such as in strengths above every tension so far.
-    #[must_use]
-    pub fn branched(&self, moment: &Moment, prepared: Prepared) -> Self {
+    ///
+    /// # Errors
+    /// Where the steps of a long run cannot be read again.
+    pub fn branched(&self, moment: &Moment, prepared: Prepared) -> io::Result<Self> {
         // A workspace is scratch: a new one changes no bit.
         let mut workspace = Workspace::new(&prepared.model);
         workspace.audit = moment.audit;
         workspace.balance = moment.balance;
         workspace.lend_clock(clock_ns);
-        Self {
+        Ok(Self {
             workspace,
             metrics: moment.metrics.clone(),
-            inputs: self.inputs[..moment.steps].to_vec(),
-            hashes: self.hashes[..=moment.steps].to_vec(),
+            inputs: self.inputs.begun(moment.steps)?,
+            hashes: self.hashes.begun(moment.steps + 1)?,
             frames: self.frames_until(moment.steps),
             thinned: self.thinned,
             state: moment.state.clone(),
@@ -61,7 +64,7 @@ impl Run {
             timing: self.timing,
             options: self.options,
             prepared,
-        }
+        })
     }
 
     /// The frames kept of the first steps.

@@ -88,5 +88,6 @@ pub(super) fn begun(
     parted: &[(usize, Moment)],
 ) -> Option<Run> {
     let (_, moment) = parted.iter().find(|(other, _)| *other == option)?;
-    same_until_parting(&prepared.model, run.model()).then(|| run.branched(moment, prepared.clone()))
+    let same = same_until_parting(&prepared.model, run.model());
+    same.then(|| run.branched(moment, prepared.clone()).ok()).flatten()
 }

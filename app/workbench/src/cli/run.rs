@@ -101,7 +101,7 @@ fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
     endline_session::save::atomically(&summary, report.json().as_bytes()).map_err(|error| {
         Failure::failed(format!("{}: cannot be written: {error}", summary.display()))
     })?;
-    run.recording().save(&folder.join("recording.endline"))?;
+    run.save_recording(&folder.join("recording.endline"))?;
     picture::of_peak(run, report, &folder.join("picture.png"));
     Ok(())
 }

@@ -323,7 +323,7 @@ impl<'a> Worker<'a> {
 
     fn save(&mut self, path: &Path) {
         let Some(run) = &self.run else { return };
-        self.message = Some(match run.recording().save(path) {
+        self.message = Some(match run.save_recording(path) {
             Ok(()) => format!("saved {}", path.display()),
             Err(error) => error.to_string(),
         });

@@ -31,13 +31,14 @@ impl Worker<'_> {
 
     /// Runs again up to the moment shown.
     pub(super) fn branch(&mut self) {
-        let inputs = self.inputs_up_to_the_moment_shown();
-        self.run_again(inputs, false);
+        if let Some(inputs) = self.inputs_up_to_the_moment_shown() {
+            self.run_again(inputs, false);
+        }
     }
 
     /// The same inputs up to the moment shown in another model, whose pilot program steers on from there.
     pub(super) fn rerun(&mut self, prepared: Prepared) {
-        let inputs = self.inputs_up_to_the_moment_shown();
+        let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
         self.pilot = None;
         self.load(prepared);
         if !matches!(self.status, Status::Failed(_)) {
@@ -45,11 +46,12 @@ impl Worker<'_> {
         }
     }
 
-    fn inputs_up_to_the_moment_shown(&self) -> Vec<Controls> {
-        let Some(run) = &self.run else { return Vec::new() };
+    /// None where they cannot be read again, which is told.
+    fn inputs_up_to_the_moment_shown(&mut self) -> Option<Vec<Controls>> {
+        let Some(run) = &self.run else { return Some(Vec::new()) };
         let step = self.sought.as_ref().map_or(run.state().step, |frame| frame.step);
-        let upto = usize::try_from(step).unwrap_or(usize::MAX).min(run.inputs().len());
-        run.inputs()[..upto].to_vec()
+        let inputs = run.inputs(usize::try_from(step).unwrap_or(usize::MAX));
+        inputs.map_err(|error| self.message = Some(error.to_string())).ok()
     }
 
     /// The next input of those run again.
@@ -70,7 +72,8 @@ impl Worker<'_> {
     /// Makes the run so far a scenario whose pilot program flies it again.
     pub(super) fn make_program(&mut self, thin: f64) {
         let Some(run) = &self.run else { return };
-        let made = program(&run.recording(), self.host, thin).map_err(|error| error.to_string());
+        let made = run.recording().and_then(|recording| program(&recording, self.host, thin));
+        let made = made.map_err(|error| error.to_string());
         self.program = Some(std::sync::Arc::new(made));
     }
 }

@@ -143,7 +143,7 @@ pub(super) fn keep(to: &Path, played: &endline_session::study::Played) -> Result
             Failure::failed(format!("{}: cannot be written: {error}", file.display()))
         })?;
     }
-    played.run.recording().save(&to.join("recording.endline"))?;
+    played.run.save_recording(&to.join("recording.endline"))?;
     picture::of_peak(&played.run, &played.report, &to.join("picture.png"));
     Ok(())
 }
