@@ -86,7 +86,7 @@ fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
     let palette = Theme::palette_of(ui);
     let Some(job) = &shared.workbench.searches.job else { return };
     let name = job.found().question.map(|question| question.observation.name.clone());
-    let so_far = if job.unfinished() { "So far: " } else { "" };
+    let so_far = if job.unfinished() { "Still searching. " } else { "" };
     let report = job.report();
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(name.unwrap_or_default()).strong());
@@ -120,6 +120,8 @@ impl StoriesPanel {
 
     fn table(&mut self, ui: &mut Ui, shared: &mut Shared, found: &Arc<Stories>, number: usize) {
         let mut wanted = None;
+        // Acts and course take what the narrow columns leave.
+        let words = (ui.available_width() - 290.0).max(214.0);
         let table = TableBuilder::new(ui)
             .id_salt("stories")
             .striped(true)
@@ -129,8 +131,8 @@ impl StoriesPanel {
             .column(Column::exact(22.0))
             .column(Column::initial(54.0))
             .column(Column::initial(76.0).clip(true))
-            .column(Column::initial(122.0).clip(true))
-            .column(Column::initial(92.0).clip(true))
+            .column(Column::initial(0.57 * words).clip(true))
+            .column(Column::initial(0.43 * words).clip(true))
             .column(Column::remainder().at_least(84.0).clip(true));
         table
             .header(20.0, |mut header| {
