@@ -6,6 +6,7 @@ mod driven;
 mod fuzz;
 mod package;
 mod plugins;
+mod processors;
 mod python;
 mod run;
 mod shape;
@@ -37,6 +38,8 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask slurm                 run a study on a Slurm of one node begun for it, as root, where Slurm is installed
        cargo xtask windows               build for Windows and run it under Wine, where Wine and mingw-w64 are installed;
                                          hashes and tables must be those of this system
+       cargo xtask processors            run the golden states on older x86-64 processors and on ARM, emulated by qemu,
+                                         where that is installed
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask package               build a portable archive and a Debian package of the release
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
@@ -80,6 +83,7 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["package"] => Box::new(package::package),
         ["slurm"] => Box::new(driven::slurm),
         ["windows"] => Box::new(driven::windows),
+        ["processors"] => Box::new(processors::emulate),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {
             Box::new(|workspace| plugins::build(workspace, Profile::Release))

@@ -1,0 +1,48 @@
+//! The golden states on other processors, emulated by qemu: kinds of x86-64 without and with the wide lanes, and ARM.
+
+use crate::Outcome;
+use crate::system_packages::on_path;
+use crate::workspace::Workspace;
+
+/// The test that is run on each.
+const GOLDEN: [&str; 5] = ["test", "--package", "endline-tests", "--test", "golden"];
+/// Kinds of x86-64, by qemu's names: SSE2 alone, SSE4.2, AVX2, and AVX2 of another maker.
+const KINDS: [&str; 4] = ["qemu64", "Nehalem", "Haswell", "EPYC-Rome"];
+/// Rust's name of ARM.
+const ARM: &str = "aarch64-unknown-linux-gnu";
+
+/// Runs the golden states on every processor that can be emulated here; the table is that of this machine.
+///
+/// # Errors
+/// When a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` brings Rust's part of ARM), or a state differs.
+pub fn emulate(workspace: &Workspace) -> Outcome {
+    if is_there(&["qemu-x86_64"], "qemu-user") {
+        for kind in KINDS {
+            let runner = format!("qemu-x86_64 -cpu {kind}");
+            let runner = [("CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER", runner.as_str())];
+            workspace.cargo_with(&GOLDEN, &runner)?;
+        }
+    }
+    let packages = "qemu-user gcc-aarch64-linux-gnu libc6-dev-arm64-cross";
+    if is_there(&["qemu-aarch64", "aarch64-linux-gnu-gcc"], packages) {
+        let arm = [
+            (
+                "CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER",
+                "qemu-aarch64 -L /usr/aarch64-linux-gnu",
+            ),
+            ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc"),
+            ("CC_aarch64_unknown_linux_gnu", "aarch64-linux-gnu-gcc"),
+        ];
+        workspace.cargo_with(&[GOLDEN.as_slice(), &["--target", ARM]].concat(), &arm)?;
+    }
+    Ok(())
+}
+
+/// Whether all these programs are there; what is missing is told.
+fn is_there(programs: &[&str], packages: &str) -> bool {
+    let missing = programs.iter().find(|program| !on_path(program));
+    if let Some(missing) = missing {
+        eprintln!("skipped: there is no {missing} here; Debian: apt-get install {packages}");
+    }
+    missing.is_none()
+}
