@@ -4,6 +4,7 @@
 
 mod driven;
 mod fuzz;
+mod materials;
 mod package;
 mod plugins;
 mod processors;

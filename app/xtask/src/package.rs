@@ -9,8 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::Outcome;
 use crate::workspace::{Profile, Workspace, announce};
+use crate::{Outcome, materials};
 
 /// Shells, and where each looks for what it completes.
 const SHELLS: [(&str, &str); 3] = [
@@ -46,6 +46,7 @@ pub fn package(workspace: &Workspace) -> Outcome {
     let tree = out.join(&name);
     fill(workspace, &tree)?;
     let stamp = stamp(workspace);
+    materials::write(workspace, &tree.join("share/doc/endline/endline.cdx.json"), &stamp)?;
     let archive = archive(&out, &name, &stamp)?;
     let debian = debian(&out, &tree, &stamp)?;
     for file in [archive, debian] {
