@@ -132,7 +132,7 @@ fn faults_of_a_case_are_told_where_they_stand() {
         place
             .endline(&["--library", &library, "validate", "reference-a-100", "--plain"])
             .fails(1, words);
-        place.endline(&["--library", &library, "check", &common::text(&case)]).fails(1, words);
+        place.endline(&["--library", &library, "check", &text(&case)]).fails(1, words);
         whole = Some((library, words));
     }
     // The whole library takes seconds: once is enough.
