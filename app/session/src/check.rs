@@ -33,10 +33,21 @@ pub fn check_path(path: &Path, library: Option<&Path>, host: &PluginHost) -> Che
     if path.is_dir() {
         checked.folder(path, library, host);
     } else {
-        checked.file(path, library, host);
+        checked.file(&in_its_folder(path), library, host);
     }
     checked
 }
+
+/// A file called by its name alone, with the folder that tells its kind where that is one of a library's.
+fn in_its_folder(path: &Path) -> PathBuf {
+    let whole = std::path::absolute(path).unwrap_or_default();
+    let folder = whole.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+    let tells = OTHERS.contains(&&*folder) || endline_gear::Kind::in_folder(&folder).is_some();
+    if path.parent() == Some(Path::new("")) && tells { whole } else { path.to_owned() }
+}
+
+/// Folders of a library that hold other files than items and scenarios.
+const OTHERS: [&str; 4] = ["cases", "observations", "rules", "studies"];
 
 impl Checked {
     fn folder(&mut self, folder: &Path, library: Option<&Path>, host: &PluginHost) {

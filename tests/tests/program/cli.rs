@@ -376,9 +376,12 @@ fn a_whale_from_a_mesh_file_runs_and_replays() {
     assert_ne!(own["model_hash"], plain["model_hash"]);
     fs::remove_file(whales.join("mine.glb")).unwrap();
     place.endline(&["replay", "own/recording.endline", "--verify"]).done();
-    place
-        .endline(&["run", &scenario])
-        .fails(1, &["right-whale.toml:", "there is no file `whales/mine.glb`"]);
+    let told = ["right-whale.toml:", "there is no file `whales/mine.glb`"];
+    place.endline(&["run", &scenario]).fails(1, &told);
+    // The file alone too, and by its name in its folder.
+    place.endline(&["check", &text(&item)]).fails(1, &told);
+    let mut inside = place.command(&["check", "right-whale.toml"]);
+    common::called(inside.current_dir(&whales)).fails(1, &told);
 }
 
 #[test]
