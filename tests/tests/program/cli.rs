@@ -381,7 +381,7 @@ fn a_whale_from_a_mesh_file_runs_and_replays() {
     // The file alone too, and by its name in its folder.
     place.endline(&["check", &text(&item)]).fails(1, &told);
     let mut inside = place.command(&["check", "right-whale.toml"]);
-    common::called(inside.current_dir(&whales)).fails(1, &told);
+    called(inside.current_dir(&whales)).fails(1, &told);
 }
 
 #[test]
