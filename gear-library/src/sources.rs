@@ -47,18 +47,16 @@ impl Sources {
         if problems.is_empty() { Ok(sources) } else { Err(problems) }
     }
 
-    /// The meshes and animations that lie beside a library file, such as `whales/right-whale.toml`, without any text.
-    ///
-    /// # Errors
-    /// For each one that cannot be read.
-    pub fn beside(file: &Path) -> Result<Self, Vec<Diagnostic>> {
+    /// The meshes and animations that lie beside a library file, such as `whales/right-whale.toml`, without any text; and a problem
+    /// for each one that cannot be read.
+    #[must_use]
+    pub fn beside(file: &Path) -> (Self, Vec<Diagnostic>) {
         let folder = file.parent().unwrap_or(Path::new(""));
         let root = folder.parent().unwrap_or(Path::new(""));
         let name = folder.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
         let (mut meshes, mut problems) = (BTreeMap::new(), Vec::new());
         read_meshes(root, &name, &mut meshes, &mut problems);
-        let sources = Self { files: BTreeMap::new(), meshes };
-        if problems.is_empty() { Ok(sources) } else { Err(problems) }
+        (Self { files: BTreeMap::new(), meshes }, problems)
     }
 
     /// Refuses more than a recording can carry.

@@ -138,15 +138,12 @@ impl Checked {
             Ok(text) => text,
             Err(error) => return self.tell(path, &format!("cannot be read: {error}"), ""),
         };
-        match Sources::beside(path) {
-            Ok(meshes) => {
-                let file = path.file_name().unwrap_or_default().to_string_lossy();
-                let found = Library::check_file_with(&format!("{parent}/{file}"), &text, &meshes);
-                let root = path.ancestors().nth(2).unwrap_or(Path::new(""));
-                self.problems.extend(found.into_iter().map(|problem| under(root, problem)));
-            }
-            Err(problems) => self.problems.extend(problems),
-        }
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let (meshes, unread) = Sources::beside(path);
+        let found = Library::check_file_with(&format!("{parent}/{file}"), &text, &meshes);
+        let root = path.ancestors().nth(2).unwrap_or(Path::new(""));
+        let all = unread.into_iter().chain(found);
+        self.problems.extend(all.map(|problem| under(root, problem)));
     }
 
     /// Every validation case of a library.

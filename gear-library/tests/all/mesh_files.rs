@@ -345,7 +345,7 @@ fn a_file_alone_is_checked_with_its_mesh() {
         if let Some(bytes) = bytes {
             std::fs::write(folder.join("whales/my.glb"), bytes).unwrap();
         }
-        let found = Library::check_file_with(FILE, &text, &Sources::beside(&file).unwrap());
+        let found = Library::check_file_with(FILE, &text, &Sources::beside(&file).0);
         found.iter().map(ToString::to_string).collect::<String>()
     };
     assert!(told(None).contains("there is no file `whales/my.glb`"));

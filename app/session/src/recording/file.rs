@@ -73,7 +73,7 @@ pub(super) fn write(
 }
 
 /// Words as they stand in a file.
-pub(super) fn bytes<const N: usize>(rows: impl Iterator<Item = [u64; N]>) -> Vec<u8> {
+pub(crate) fn bytes<const N: usize>(rows: impl Iterator<Item = [u64; N]>) -> Vec<u8> {
     rows.flatten().flat_map(u64::to_le_bytes).collect()
 }
 

@@ -20,7 +20,7 @@ use crate::hash::StateHash;
 use crate::plugins::PluginUsed;
 use crate::source::Source;
 
-pub(crate) use file::Rows;
+pub(crate) use file::{Rows, bytes};
 
 /// Ending of recording files.
 pub const EXTENSION: &str = "endline";
@@ -82,8 +82,8 @@ impl Recording {
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let inputs = file::bytes(self.inputs.iter().map(words));
-        let hashes = file::bytes(self.hashes.iter().map(|hash| hash.parts));
+        let inputs = bytes(self.inputs.iter().map(words));
+        let hashes = bytes(self.hashes.iter().map(|hash| hash.parts));
         file::write(out, &self.header, &self.source, [&inputs, &hashes])
     }
 

@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::recording::Rows;
+use crate::recording::{Rows, bytes};
 
 /// Rows in memory at most: some 9 MB of inputs and state hashes. In tests few, so that their runs are in a file.
 const IN_MEMORY: usize = if cfg!(test) { 16 } else { 1 << 16 };
@@ -91,7 +91,7 @@ impl<const N: usize> Log<N> {
         };
         let mut open = file.lock().unwrap_or_else(PoisonError::into_inner);
         open.seek(SeekFrom::Start((rows * 8 * N) as u64))?;
-        open.write_all(&bytes(&self.newer))?;
+        open.write_all(&bytes(self.newer.iter().copied()))?;
         drop(open);
         self.older = Some((file, rows + self.newer.len()));
         self.newer.clear();
@@ -110,7 +110,7 @@ impl<const N: usize> Log<N> {
                 left -= now;
             }
         }
-        self.newer.chunks(PIECE / (8 * N)).try_for_each(|rows| take(&bytes(rows)))
+        self.newer.chunks(PIECE / (8 * N)).try_for_each(|rows| take(&bytes(rows.iter().copied())))
     }
 }
 
@@ -134,10 +134,6 @@ fn row_of<const N: usize>(file: &Mutex<File>, at: usize) -> io::Result<[u64; N]>
         *word = u64::from_le_bytes(bytes);
     }
     Ok(row)
-}
-
-fn bytes<const N: usize>(rows: &[[u64; N]]) -> Vec<u8> {
-    rows.iter().flatten().flat_map(|word| word.to_le_bytes()).collect()
 }
 
 #[cfg(test)]
@@ -175,7 +171,7 @@ mod tests {
                 Ok(())
             })
             .unwrap();
-            assert_eq!(all, bytes(&rows(count)));
+            assert_eq!(all, bytes(rows(count).into_iter()));
             assert_eq!(log.bytes(), all.len() as u64);
         }
     }

@@ -65,8 +65,8 @@ pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
     }
 }
 
-/// Nodes: the skin, the root, then the bones in their order. The first bones turn the whale's axes into glTF's: a turn of the
-/// root, which Blender takes for the armature's own, would turn the mesh that it parents to the armature a second time.
+/// Nodes: the skin, the root, then the bones in their order. The first bone turns the whale's axes into glTF's. Blender would take a
+/// turn of the root for that of the armature, undo it by a pose of this bone, and export the whale at rest without the pose.
 const SKIN_NODE: usize = 0;
 const ROOT_NODE: usize = 1;
 const FIRST_BONE: usize = 2;
