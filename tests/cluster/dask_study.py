@@ -2,7 +2,7 @@
 once with a worker killed half-way. Prints times; ends with 1 where a table differs.
 
 usage: python dask_study.py FOLDER [SECONDS [ENCOUNTERS]]    FOLDER is made anew; SECONDS is how long each encounter lasts (120),
-                                                             ENCOUNTERS how many are in a task (32); needs endline[dask]
+                                                             ENCOUNTERS how many are in a task (16); needs endline[dask]
 """
 
 import os
@@ -54,7 +54,8 @@ def killing(client):
 
 def main():
     folder = Path(sys.argv[1])
-    seconds, encounters = [int(number) for number in (*sys.argv[2:], *("120", "32")[len(sys.argv) - 2 :])]
+    seconds = int(sys.argv[2]) if len(sys.argv) > 2 else 120
+    encounters = int(sys.argv[3]) if len(sys.argv) > 3 else 16
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     study = make_study(folder, seconds)

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::Outcome;
-use crate::system_packages::on_path;
+use crate::system_packages::are_here;
 use crate::workspace::{Profile, Workspace, announce};
 
 /// A script that takes the program and a folder of its own.
@@ -85,14 +85,7 @@ pub fn windows(workspace: &Workspace) -> Outcome {
 impl Script {
     /// Whether a tool is missing, which is told.
     fn is_skipped(&self) -> bool {
-        let Self { what, tools, packages, .. } = self;
-        let missing = tools.iter().find(|tool| !on_path(tool));
-        if let Some(missing) = missing {
-            eprintln!(
-                "skipped: {what}, as there is no {missing} here; Debian: apt-get install {packages}"
-            );
-        }
-        missing.is_some()
+        !are_here(self.what, self.tools, self.packages)
     }
 }
 

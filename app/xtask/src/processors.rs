@@ -1,7 +1,7 @@
 //! The golden states on other processors, emulated by qemu: kinds of x86-64 without and with the wide lanes, and ARM.
 
 use crate::Outcome;
-use crate::system_packages::on_path;
+use crate::system_packages::are_here;
 use crate::workspace::Workspace;
 
 /// The test that is run on each.
@@ -16,7 +16,7 @@ const ARM: &str = "aarch64-unknown-linux-gnu";
 /// # Errors
 /// When a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` brings Rust's part of ARM), or a state differs.
 pub fn emulate(workspace: &Workspace) -> Outcome {
-    if is_there(&["qemu-x86_64"], "qemu-user") {
+    if are_here("other x86-64 processors", &["qemu-x86_64"], "qemu-user") {
         for kind in KINDS {
             let runner = format!("qemu-x86_64 -cpu {kind}");
             let runner = [("CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER", runner.as_str())];
@@ -24,7 +24,7 @@ pub fn emulate(workspace: &Workspace) -> Outcome {
         }
     }
     let packages = "qemu-user gcc-aarch64-linux-gnu libc6-dev-arm64-cross";
-    if is_there(&["qemu-aarch64", "aarch64-linux-gnu-gcc"], packages) {
+    if are_here("ARM", &["qemu-aarch64", "aarch64-linux-gnu-gcc"], packages) {
         let arm = [
             (
                 "CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER",
@@ -36,13 +36,4 @@ pub fn emulate(workspace: &Workspace) -> Outcome {
         workspace.cargo_with(&[GOLDEN.as_slice(), &["--target", ARM]].concat(), &arm)?;
     }
     Ok(())
-}
-
-/// Whether all these programs are there; what is missing is told.
-fn is_there(programs: &[&str], packages: &str) -> bool {
-    let missing = programs.iter().find(|program| !on_path(program));
-    if let Some(missing) = missing {
-        eprintln!("skipped: there is no {missing} here; Debian: apt-get install {packages}");
-    }
-    missing.is_none()
 }

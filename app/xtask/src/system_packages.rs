@@ -83,6 +83,17 @@ pub fn on_path(command: &str) -> bool {
     std::env::split_paths(&folders).any(|folder| folder.join(command).is_file())
 }
 
+/// Whether all the programs that `what` needs are there; one that is missing is told, with Debian's packages.
+pub fn are_here(what: &str, programs: &[&str], packages: &str) -> bool {
+    let missing = programs.iter().find(|program| !on_path(program));
+    if let Some(missing) = missing {
+        eprintln!(
+            "skipped: {what}, as there is no {missing} here; Debian: apt-get install {packages}"
+        );
+    }
+    missing.is_none()
+}
+
 /// How to become administrator without asking anyone: nothing for root, `sudo -n` where it needs no password.
 fn administrator() -> Option<&'static [&'static str]> {
     let is_root = Command::new("id").arg("-u").output().is_ok_and(|answer| answer.stdout == b"0\n");
