@@ -87,6 +87,25 @@ fn set(field: &str, value: &str) -> Command {
 }
 
 #[test]
+fn a_model_that_is_ready_withdraws_what_was_said_before_it_and_not_what_was_said_since() {
+    let folder = Folder::new("notice");
+    let mut workbench = folder.workbench();
+    status(&mut workbench, &Status::Paused);
+    let refused = Command::Study(StudyAction::OptionFromEdits);
+    for (said_since, duration) in [(true, "1 s"), (false, "2 s")] {
+        workbench.perform(set("duration", duration)).unwrap();
+        let before = workbench.perform(refused.clone()).unwrap_err();
+        assert_eq!(workbench.notice.as_ref().map(|notice| &notice.text), Some(&before));
+        workbench.perform(Command::Run(RunAction::Apply)).unwrap();
+        let since = said_since.then(|| {
+            workbench.perform(Command::Run(RunAction::OpenRecording("none".into()))).unwrap_err()
+        });
+        wait(&mut workbench, "the model", |workbench| !workbench.making());
+        assert_eq!(workbench.notice.clone().map(|notice| notice.text), since);
+    }
+}
+
+#[test]
 fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_commands() {
     let folder = Folder::new("whole");
     let mut workbench = folder.workbench();

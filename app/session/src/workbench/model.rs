@@ -48,6 +48,8 @@ pub(super) struct Pending {
     /// What it is made of, where that is something else.
     guest: Option<Guest>,
     then: Then,
+    /// The notice that stood as the making began: past once the model is there. One that came since stays.
+    notice: Option<Notice>,
 }
 
 /// What the model of the run shown was made of.
@@ -127,7 +129,12 @@ impl Workbench {
             library: self.plugins.host.with_clips(documents.sources()),
             overrides: Overrides::default(),
         };
-        self.run.pending = Pending { texts: documents.texts_of_run(), guest: None, then };
+        self.run.pending = Pending {
+            texts: documents.texts_of_run(),
+            then,
+            notice: self.notice.clone(),
+            ..Pending::default()
+        };
         let host = Arc::clone(&self.plugins.host);
         self.make(move || source.prepare(&host))
     }
@@ -140,7 +147,8 @@ impl Workbench {
         make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static,
     ) -> Result<(), String> {
         let guest = Some(Guest { name, version: self.project.documents.version() });
-        self.run.pending = Pending { texts: Texts::new(), guest, then };
+        self.run.pending =
+            Pending { guest, then, notice: self.notice.clone(), ..Pending::default() };
         self.make(make)
     }
 
@@ -176,7 +184,9 @@ impl Workbench {
         if let Then::Inputs(_, plugins) = &pending.then {
             check_plugins(plugins, &prepared.plugins).map_err(|error| error.to_string())?;
         }
-        self.notice = None;
+        if self.notice == pending.notice {
+            self.notice = None;
+        }
         self.keep_run();
         self.run.made.texts = Some(pending.texts);
         self.run.made.stale.set(None);
