@@ -12,6 +12,7 @@
 //! | `result` | what a run leaves: figures, moments, a recording, pictures |
 //! | `moments` | the moments of a run as arrays |
 //! | `study` | a study run, merged, reported |
+//! | `signals` | Ctrl+C while Endline works |
 
 mod error;
 mod host;
@@ -19,6 +20,7 @@ mod library;
 mod moments;
 mod result;
 mod scenario;
+mod signals;
 mod study;
 
 use pyo3::prelude::*;
@@ -38,33 +40,4 @@ mod _endline {
     use crate::scenario::{Scenario, replay};
     #[pymodule_export]
     use crate::study::Study;
-}
-
-/// Asks the interpreter now and then whether the user wants to stop.
-struct Signals {
-    asked: std::time::Instant,
-    raised: Option<PyErr>,
-}
-
-impl Signals {
-    /// Between two questions; each takes the interpreter's lock.
-    const PAUSE: std::time::Duration = std::time::Duration::from_millis(100);
-
-    fn new() -> Self {
-        Self { asked: std::time::Instant::now(), raised: None }
-    }
-
-    /// Whether work goes on; false once Ctrl+C or another signal has raised an exception, which is kept.
-    fn go_on(&mut self) -> bool {
-        if self.asked.elapsed() >= Self::PAUSE {
-            self.raised = Python::attach(|python| python.check_signals()).err();
-            self.asked = std::time::Instant::now();
-        }
-        self.raised.is_none()
-    }
-
-    /// What was raised.
-    fn outcome(self) -> PyResult<()> {
-        self.raised.map_or(Ok(()), Err)
-    }
 }

@@ -1,6 +1,7 @@
 //! A scenario prepared, settled and run; a recording run again.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
 
 use endline_session::recording::replay::{self as again, ReplayOptions, Verdict};
@@ -9,10 +10,10 @@ use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, locate, p
 use endline_sim::settle;
 use pyo3::prelude::*;
 
-use crate::Signals;
 use crate::error::{failed, raised};
 use crate::host::host;
 use crate::result::Result;
+use crate::signals::interruptible;
 
 /// A scenario with its gear library, ready to run.
 #[pyclass(frozen, module = "endline._endline")]
@@ -65,22 +66,22 @@ impl Scenario {
     }
 
     /// The gear at rest, as the JSON of `endline settle`.
-    fn settle(&self, python: Python<'_>) -> String {
-        python.detach(|| {
+    fn settle(&self, python: Python<'_>) -> PyResult<String> {
+        let prepared = self.prepared.clone();
+        interruptible(python, move |_| {
             let start = Instant::now();
-            let settled = settle(&self.prepared.model);
-            SettledShape::of(&self.prepared, &settled, start.elapsed().as_secs_f64()).json()
+            let settled = settle(&prepared.model);
+            Ok(SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64()).json())
         })
     }
 
     /// Settles and runs to the end, keeping moments at a rate.
     fn run(&self, python: Python<'_>, frames_hz: f64, unsettled: bool) -> PyResult<Result> {
         let options = RunOptions { unsettled, frames_hz };
-        python.detach(|| {
-            let mut run = Run::new(self.prepared.clone(), options).map_err(raised)?;
-            let mut signals = Signals::new();
-            run.to_end_until(|_| !signals.go_on());
-            signals.outcome()?;
+        let prepared = self.prepared.clone();
+        interruptible(python, move |goes_on| {
+            let mut run = Run::new(prepared, options).map_err(raised)?;
+            run.to_end_until(|_| !goes_on.load(Relaxed));
             Result::of(&run)
         })
     }
@@ -107,10 +108,10 @@ pub fn replay(
     other_plugins: bool,
 ) -> PyResult<(Result, Option<Difference>)> {
     let options = ReplayOptions { other_plugins, frames_hz };
-    python.detach(|| {
+    interruptible(python, move |goes_on| {
         let recording = Recording::load(&recording).map_err(raised)?;
-        let (run, verdict) =
-            again::verify(&recording, host(), options, |_, _| {}).map_err(raised)?;
+        let tell = |_, _| goes_on.load(Relaxed);
+        let (run, verdict) = again::verify(&recording, host(), options, tell).map_err(raised)?;
         let differs = match verdict {
             Verdict::Same { .. } => None,
             Verdict::Differs { step, time_s, part } => Some((step, time_s, part)),

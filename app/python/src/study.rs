@@ -9,9 +9,9 @@ use endline_session::study::{Control, Opened, Shard, batch, merge, report};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::Signals;
 use crate::error::{failed, raised};
 use crate::host::host;
+use crate::signals::Signals;
 
 /// A study, opened and checked.
 #[pyclass(frozen, module = "endline._endline")]

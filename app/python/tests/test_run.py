@@ -105,9 +105,13 @@ def test_other_threads_run_meanwhile():
     assert len(ticks) > 5
 
 
-def test_ctrl_c_stops_a_run():
-    script = "import signal, endline; signal.signal(signal.SIGINT, signal.default_int_handler); s = endline.Scenario('hello-endline'); print('running', flush=True); s.run(); print('ended')"
-    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+@pytest.mark.parametrize("work", ["s.run()", "endline.replay('twice.endline')"])
+def test_ctrl_c_stops_a_run_and_a_replay(work, hello, tmp_path):
+    hello.save(tmp_path / "twice.endline")
+    script = f"import signal, endline; signal.signal(signal.SIGINT, signal.default_int_handler); s = endline.Scenario('hello-endline'); print('running', flush=True); {work}; print('ended')"
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path
+    )
     assert process.stdout.readline() == "running\n"
     time.sleep(1)
     process.send_signal(signal.SIGINT)
@@ -173,3 +177,44 @@ def test_exported_tables_are_read_by_other_libraries(hello, command, tmp_path):
     assert count == len(hello.contacts) and most == hello.contacts.normal_force_N.max()
     told = duckdb.sql(f"select unit from '{tmp_path / 'columns.parquet'}' where \"column\" = 'tension_N'").fetchall()
     assert told == [("N",)]
+
+
+def test_arrow_tables_are_mapped_into_memory_by_other_libraries(hello, command, tmp_path):
+    """Arrow by pyarrow, polars and duckdb: types, units, counts, and the numbers of the arrays."""
+    import duckdb
+    import polars
+    import pyarrow as arrow
+
+    scenario = library_file("scenarios/hello-endline.toml")
+    command("export", scenario, "--out", tmp_path, "--format", "arrow", "--rate", 10)
+    moments, nodes = hello.node_position_m.shape[:2]
+
+    segments = arrow.ipc.open_file(arrow.memory_map(str(tmp_path / "segments.arrow")))
+    text = arrow.dictionary(arrow.int32(), arrow.string())
+    assert {field.name: field.type for field in segments.schema} == {
+        "time_s": arrow.float64(),
+        "line": text,
+        "segment": arrow.int64(),
+        "tension_N": arrow.float64(),
+        "length_m": arrow.float64(),
+        "is_cut": arrow.bool_(),
+    }
+    assert segments.schema.field("tension_N").metadata == {
+        b"unit": b"N",
+        b"meaning": b"tension; none in slack rope",
+    }
+    assert segments.schema.metadata[b"program"].startswith(b"endline ")
+    before = arrow.total_allocated_bytes()
+    table = segments.read_all()
+    assert arrow.total_allocated_bytes() - before < table.nbytes / 100, "the file is mapped, not copied"
+    tension = table["tension_N"].to_numpy()
+    assert np.array_equal(tension.reshape(hello.tension_N.shape), hello.tension_N)
+
+    places = polars.read_ipc(tmp_path / "nodes.arrow", memory_map=True)
+    assert places.schema["line"] == polars.Categorical
+    places = places.select("x_m", "y_m", "z_m").to_numpy().reshape(moments, nodes, 3)
+    assert np.array_equal(places, hello.node_position_m)
+
+    contacts = arrow.ipc.open_file(tmp_path / "contacts.arrow").read_all()
+    [(count, most)] = duckdb.sql("select count(*), max(normal_force_N) from contacts").fetchall()
+    assert count == len(hello.contacts) and most == hello.contacts.normal_force_N.max()

@@ -6,12 +6,13 @@
 //! | [`picture`] | charts drawn | `svg`, `png` |
 //! | [`animation`] | a run in motion | `glb` |
 //! | [`model`] | gear and whale as 3-D models | `stl`, `glb` |
-//! | [`tables`] | the moments of a run as tables | `parquet`, `csv` |
+//! | [`tables`] | the moments of a run as tables | `parquet`, `arrow`, `csv` |
 //! | [`font`] | the font of all of them | |
 //!
 //! Tables of the library are read and written by [`edit::library_table`](crate::edit::library_table).
 
 pub mod animation;
+mod arrow;
 pub mod chart;
 pub mod font;
 pub mod model;

@@ -1,4 +1,4 @@
-//! The moments of a run as tables for programs that analyse data: each a file, as Parquet or as comma-separated values.
+//! The moments of a run as tables for programs that analyse data: each a file, as Parquet, Arrow or comma-separated values.
 //!
 //! | table | rows |
 //! |---|---|
@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
 
+use super::arrow;
 use crate::save;
 use crate::study::table::{Column, Table};
 use crate::study::{parquet, table};
@@ -26,6 +27,8 @@ use crate::study::{parquet, table};
 pub enum TableFormat {
     /// Apache Parquet; texts by dictionary, zstd inside.
     Parquet,
+    /// Apache Arrow; texts by dictionary, uncompressed.
+    Arrow,
     /// Comma-separated values, RFC 4180.
     Csv,
 }
@@ -68,6 +71,10 @@ pub fn write(
             TableFormat::Parquet => {
                 let bytes = parquet::write(&table, &tags);
                 ("parquet", bytes.map_err(|error| format!("{name}: {error}"))?)
+            }
+            TableFormat::Arrow => {
+                let bytes = arrow::write(&table, &tags);
+                ("arrow", bytes.map_err(|error| format!("{name}: {error}"))?)
             }
         };
         let file = folder.join(format!("{name}.{ending}"));

@@ -85,7 +85,7 @@ pub fn ends_as_recorded(recording: &Recording, run: &Run) -> bool {
     recording.hashes.get(at) == Some(&run.state_hash())
 }
 
-/// Runs a recording again to its end, telling the steps taken and in all.
+/// Runs a recording again to its end, telling the steps taken and in all; `progress` says whether to go on.
 ///
 /// # Errors
 /// As [`start`]; and inputs changed since they were saved.
@@ -93,20 +93,21 @@ pub fn replay(
     recording: &Recording,
     host: &PluginHost,
     options: ReplayOptions,
-    mut progress: impl FnMut(u64, u64),
+    mut progress: impl FnMut(u64, u64) -> bool,
 ) -> Result<Run, Error> {
     refuse_damage(recording)?;
     let mut run = start(recording, host, options)?;
     for controls in &recording.inputs {
-        if run.step_raw(*controls).is_err() {
+        if run.step_raw(*controls).is_err() || !progress(run.state().step, recording.steps() as u64)
+        {
             break;
         }
-        progress(run.state().step, recording.steps() as u64);
     }
     Ok(run)
 }
 
-/// Runs a recording again and compares every step, up to the first that differs.
+/// Runs a recording again and compares every step, up to the first that differs; `progress` hears the steps taken and in all
+/// and says whether to go on.
 ///
 /// # Errors
 /// As [`start`].
@@ -114,7 +115,7 @@ pub fn verify(
     recording: &Recording,
     host: &PluginHost,
     options: ReplayOptions,
-    mut progress: impl FnMut(u64, u64),
+    mut progress: impl FnMut(u64, u64) -> bool,
 ) -> Result<(Run, Verdict), Error> {
     let mut run = start(recording, host, options)?;
     let verdict = compare(recording, &mut run, recording.inputs.len(), &mut progress);
@@ -126,7 +127,7 @@ pub(super) fn compare(
     recording: &Recording,
     run: &mut Run,
     steps: usize,
-    progress: &mut dyn FnMut(u64, u64),
+    progress: &mut dyn FnMut(u64, u64) -> bool,
 ) -> Verdict {
     let differs = |step: usize, part| Verdict::Differs {
         step: step as u64,
@@ -143,7 +144,9 @@ pub(super) fn compare(
         if let Some(part) = step_and_compare(recording, run, step, Input { controls: *controls }) {
             return differs(step, part);
         }
-        progress(step as u64, steps as u64);
+        if !progress(step as u64, steps as u64) {
+            break;
+        }
     }
     Verdict::Same { steps: run.state().step }
 }
@@ -269,7 +272,7 @@ mod tests {
     }
 
     fn verdict(recording: &Recording) -> Verdict {
-        compare(recording, &mut run(), recording.inputs.len(), &mut |_, _| {})
+        compare(recording, &mut run(), recording.inputs.len(), &mut |_, _| true)
     }
 
     #[test]

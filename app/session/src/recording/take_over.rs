@@ -30,7 +30,11 @@ pub fn take_over(
         )));
     }
     let mut run = Run::new(prepared, options)?;
-    match compare(recording, &mut run, steps, &mut progress) {
+    let mut tell = |step, steps| {
+        progress(step, steps);
+        true
+    };
+    match compare(recording, &mut run, steps, &mut tell) {
         Verdict::Same { .. } => Ok(run),
         Verdict::Differs { step, time_s, part } => Err(Error::Replay(format!(
             "the scenario is not the one recorded: at step {step} ({time_s:.3} s) its {part} differs from the recording\n\

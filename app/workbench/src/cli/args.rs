@@ -280,6 +280,8 @@ pub(super) struct ExportArgs {
 pub(super) enum TableFormat {
     /// Apache Parquet, with units and meanings of the columns in its metadata.
     Parquet,
+    /// Apache Arrow (IPC file), the same uncompressed, for programs that map a file into memory.
+    Arrow,
     /// Comma-separated values.
     Csv,
 }

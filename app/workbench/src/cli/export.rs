@@ -35,6 +35,7 @@ pub(super) fn export(args: &ExportArgs, library: Option<&Path>) -> Result<ExitCo
     let about = about.map(|(key, text)| (key.to_owned(), text));
     let format = match args.format {
         TableFormat::Parquet => tables::TableFormat::Parquet,
+        TableFormat::Arrow => tables::TableFormat::Arrow,
         TableFormat::Csv => tables::TableFormat::Csv,
     };
     let written = tables::write(&args.out, format, player.run.model(), &frames, &about);

@@ -79,7 +79,10 @@ fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdic
     let host = host::load();
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let progress = Progress::new(if args.verify { "verifying" } else { "replaying" });
-    let tell = |step, steps| progress.at(step, steps);
+    let tell = |step, steps| {
+        progress.at(step, steps);
+        true
+    };
     if args.verify {
         let (run, verdict) = replay::verify(recording, &host, options, tell)?;
         return Ok((run, Some(verdict)));
