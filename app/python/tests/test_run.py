@@ -210,7 +210,7 @@ def test_arrow_tables_are_mapped_into_memory_by_other_libraries(hello, command, 
     tension = table["tension_N"].to_numpy()
     assert np.array_equal(tension.reshape(hello.tension_N.shape), hello.tension_N)
 
-    places = polars.read_ipc(tmp_path / "nodes.arrow", memory_map=True)
+    places = polars.read_ipc(tmp_path / "nodes.arrow")
     assert places.schema["line"] == polars.Categorical
     places = places.select("x_m", "y_m", "z_m").to_numpy().reshape(moments, nodes, 3)
     assert np.array_equal(places, hello.node_position_m)
