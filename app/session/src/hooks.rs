@@ -15,11 +15,17 @@ use crate::plugins::{
 /// A plugin that has not opened after this is taken to hang.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A loader of these folders that asks for what the user has not allowed; what came with the program needs no leave.
+/// A loader of these folders that asks for what the user has not allowed; what came with the program needs no leave. What was allowed
+/// and is not trusted runs in processes of its own.
 #[must_use]
 pub fn plugin_loader(folders: &[PathBuf]) -> Loader {
     let own: Vec<PathBuf> = program_folder().into_iter().collect();
-    Loader::new(folders, Choices::kept_in(chosen_file(), &own))
+    let loader = Loader::new(folders, Choices::kept_in(chosen_file(), &own));
+    match program() {
+        Ok(program) => loader.apart(program),
+        // Without the program nothing can be checked, and so nothing is opened.
+        Err(_) => loader,
+    }
 }
 
 /// Loads the plugins of these folders for the program `endline`, which opens each new file first

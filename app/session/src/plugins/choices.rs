@@ -1,8 +1,9 @@
 //! What the user has decided about plugins: which libraries may be opened, each by the hash of its file, and which plugins are off.
 //!
 //! A library runs with the user's rights, so one that did not come with the program is opened only once its user has said so, and
-//! is asked about again when its bytes change. The decisions stand in one text file of the user's data folder, a line each:
-//! `allow HASH FILE` and `off ID`.
+//! is asked about again when its bytes change. One that is allowed runs in a process of its own; one that is trusted besides runs in
+//! the program's. The decisions stand in one text file of the user's data folder, a line each: `allow HASH FILE`,
+//! `trust HASH FILE` and `off ID`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -28,13 +29,21 @@ pub struct Ask {
     pub change: Change,
 }
 
+/// What a user has said of a library.
+#[derive(Clone, Debug)]
+struct Allowed {
+    hash: String,
+    /// Whether it may run in the program's own process.
+    is_trusted: bool,
+}
+
 /// A user's decisions.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
     list: Option<PathBuf>,
     everything: bool,
     own: Vec<PathBuf>,
-    allowed: BTreeMap<PathBuf, String>,
+    allowed: BTreeMap<PathBuf, Allowed>,
     off: BTreeSet<String>,
 }
 
@@ -53,11 +62,11 @@ impl Choices {
         let mut choices = Self { list, own, ..Self::default() };
         for line in text.lines() {
             match line.split_once(' ') {
-                Some(("allow", rest)) => {
-                    choices.allowed.extend(
-                        rest.split_once(' ')
-                            .map(|(hash, file)| (PathBuf::from(file), hash.to_owned())),
-                    );
+                Some((word @ ("allow" | "trust"), rest)) => {
+                    let is_trusted = word == "trust";
+                    choices.allowed.extend(rest.split_once(' ').map(|(hash, file)| {
+                        (PathBuf::from(file), Allowed { hash: hash.to_owned(), is_trusted })
+                    }));
                 }
                 Some(("off", id)) => {
                     choices.off.insert(id.to_owned());
@@ -83,22 +92,46 @@ impl Choices {
     #[must_use]
     pub fn ask(&self, file: &Path, hash: &str) -> Option<Ask> {
         let file = whole(file);
-        if self.everything || self.own.iter().any(|folder| file.starts_with(folder)) {
+        if self.needs_no_leave(&file) {
             return None;
         }
         let change = match self.allowed.get(&file) {
-            Some(allowed) if allowed == hash => return None,
+            Some(allowed) if allowed.hash == hash => return None,
             Some(_) => Change::Changed,
             None => Change::New,
         };
         Some(Ask { hash: hash.to_owned(), change })
     }
 
-    /// Allows a file with these bytes.
+    /// Whether a file runs in the program's own process: it came with the program, or its user trusts it.
+    #[must_use]
+    pub fn is_trusted(&self, file: &Path) -> bool {
+        let file = whole(file);
+        self.needs_no_leave(&file) || self.allowed.get(&file).is_some_and(|known| known.is_trusted)
+    }
+
+    /// Whether nobody asks about a file, whose path is whole.
+    fn needs_no_leave(&self, file: &Path) -> bool {
+        self.everything || self.own.iter().any(|folder| file.starts_with(folder))
+    }
+
+    /// Allows a file with these bytes, in a process of its own.
     ///
     /// # Errors
     /// Where the decision cannot be kept, or the path does not fit on a line.
     pub fn allow(&mut self, file: &Path, hash: &str) -> Result<(), String> {
+        self.decide(file, hash, false)
+    }
+
+    /// Allows a file with these bytes, in the program's own process.
+    ///
+    /// # Errors
+    /// As [`allow`](Self::allow).
+    pub fn trust(&mut self, file: &Path, hash: &str) -> Result<(), String> {
+        self.decide(file, hash, true)
+    }
+
+    fn decide(&mut self, file: &Path, hash: &str, is_trusted: bool) -> Result<(), String> {
         let file = whole(file);
         // A line break in a path would begin a line of its own, which allows another file.
         if file.to_str().is_none_or(|text| text.chars().any(char::is_control)) {
@@ -106,7 +139,7 @@ impl Choices {
                 "{file:?}: a path with control characters, or that is not UTF-8, cannot be kept; give the file another name"
             ));
         }
-        self.allowed.insert(file, hash.to_owned());
+        self.allowed.insert(file, Allowed { hash: hash.to_owned(), is_trusted });
         self.keep()
     }
 
@@ -140,8 +173,10 @@ impl Choices {
 
     fn keep(&self) -> Result<(), String> {
         let Some(list) = &self.list else { return Ok(()) };
-        let allowed =
-            self.allowed.iter().map(|(file, hash)| format!("allow {hash} {}\n", file.display()));
+        let allowed = self.allowed.iter().map(|(file, Allowed { hash, is_trusted })| {
+            let word = if *is_trusted { "trust" } else { "allow" };
+            format!("{word} {hash} {}\n", file.display())
+        });
         let text: String = allowed.chain(self.off.iter().map(|id| format!("off {id}\n"))).collect();
         let kept = list
             .parent()
@@ -175,6 +210,11 @@ mod tests {
         read().allow(&file, "1").unwrap();
         read().switch("org.example.slow", false).unwrap();
         assert_eq!((change("1"), change("2")), (None, Some(Change::Changed)));
+        assert!(!read().is_trusted(&file) && read().is_trusted(&own.join("lib.so")));
+        read().trust(&file, "1").unwrap();
+        assert!(read().is_trusted(&file) && change("1").is_none() && change("2").is_some());
+        read().allow(&file, "1").unwrap();
+        assert!(!read().is_trusted(&file), "the last word counts");
         assert!(read().is_off("org.example.slow") && !read().is_off("org.example.fast"));
         let hidden = folder.join("a\nallow 3 lib.so");
         assert!(read().allow(&hidden, "2").unwrap_err().contains("control characters"));

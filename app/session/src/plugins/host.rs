@@ -113,6 +113,7 @@ impl PluginHost {
                 file: file.to_path_buf(),
                 hash: hash.to_owned(),
                 about: opened.about.clone(),
+                is_apart: opened.is_apart,
             };
             let added = hook.and_then(|hook| self.insert(hook, Some(from), choices));
             problems.extend(added.err().map(|refusal| refusal.at(file)));
@@ -143,7 +144,12 @@ impl PluginHost {
         problems: &mut Vec<PluginProblem>,
     ) {
         let hash = blake3::hash(&plugin.bytes).to_hex().to_string();
-        let from = Origin { file: folder.join(PLUGIN_FILE), hash, about: plugin.about.clone() };
+        let from = Origin {
+            file: folder.join(PLUGIN_FILE),
+            hash,
+            about: plugin.about.clone(),
+            is_apart: false,
+        };
         let gear = plugin
             .gear
             .iter()

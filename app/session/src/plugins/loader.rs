@@ -26,14 +26,25 @@ pub struct Loader {
     /// What the user has decided.
     pub choices: Choices,
     linked: Vec<Hook>,
-    opened: BTreeMap<(PathBuf, String), Opened>,
+    /// The program that serves libraries in processes of their own; without one, all run in this process.
+    serves: Option<PathBuf>,
+    /// By file, hash, and whether it runs in a process of its own.
+    opened: BTreeMap<(PathBuf, String, bool), Opened>,
 }
 
 impl Loader {
     /// A loader of these folders.
     #[must_use]
     pub fn new(folders: &[PathBuf], choices: Choices) -> Self {
-        Self { folders: folders.to_vec(), choices, linked: Vec::new(), opened: BTreeMap::new() }
+        let (linked, opened) = (Vec::new(), BTreeMap::new());
+        Self { folders: folders.to_vec(), choices, linked, serves: None, opened }
+    }
+
+    /// The same, with libraries that are not trusted in processes of their own, which `program plugins serve` is. Where the system
+    /// is not a Unix, they run in this one.
+    #[must_use]
+    pub fn apart(self, program: PathBuf) -> Self {
+        Self { serves: cfg!(unix).then_some(program), ..self }
     }
 
     /// The same with plugins that are linked into the program: each serves where no folder has a usable one of its id.
@@ -66,7 +77,8 @@ impl Loader {
 
     fn open(&mut self, file: &Path, checker: &Checker<'_>) -> Result<(String, Opened), Refusal> {
         let (hash, bytes) = read(file)?;
-        let key = (file.to_path_buf(), hash.clone());
+        let serves = self.serves.as_ref().filter(|_| !self.choices.is_trusted(file));
+        let key = (file.to_path_buf(), hash.clone(), serves.is_some());
         if let Some(ask) = self.choices.ask(file, &hash) {
             let what = if ask.change == Change::New {
                 "has not been allowed yet"
@@ -92,7 +104,10 @@ impl Loader {
                 ..Refusal::new(reason, "remove the file or fix the plugin")
             }
         })?;
-        let opened = open_copy(file, &bytes)?;
+        let opened = match serves {
+            Some(program) => open_apart(program, file, bytes),
+            None => open_copy(file, &bytes),
+        }?;
         self.opened.insert(key, opened.clone());
         Ok((hash, opened))
     }
@@ -129,7 +144,17 @@ fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
     Ok((blake3::hash(&bytes).to_hex().to_string(), bytes))
 }
 
-fn open_copy(file: &Path, bytes: &[u8]) -> Result<Opened, Refusal> {
+#[cfg(unix)]
+fn open_apart(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+    super::process::open(program, file, bytes)
+}
+
+#[cfg(not(unix))]
+fn open_apart(_: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+    open_copy(file, &bytes)
+}
+
+pub(super) fn open_copy(file: &Path, bytes: &[u8]) -> Result<Opened, Refusal> {
     with_copy(file, bytes, |copy| library::open(copy, file))?
 }
 

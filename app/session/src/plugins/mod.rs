@@ -1,8 +1,8 @@
 //! Plugins: found in folders, checked in a child process, loaded, and guarded while they run.
 //!
 //! ```text
-//! folders -> files -> choices (allowed by its user) -> checker (child process) -> library (C table, from a copy)
-//!         -> guard (finite, passive) -> PluginHost
+//! folders -> files -> choices (allowed by its user) -> checker (child process)
+//!         -> library (C table, from a copy), in a process of its own unless it is trusted -> guard (finite, passive) -> PluginHost
 //! ```
 //!
 //! First-party plugins take the same road as anyone's. A file that cannot be used becomes a
@@ -20,6 +20,8 @@ mod info;
 mod library;
 mod loader;
 mod new;
+#[cfg(unix)]
+mod process;
 mod used;
 
 pub use check::trial::Finding;
@@ -31,4 +33,6 @@ pub use host::PluginHost;
 pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, Standing};
 pub use loader::{Loader, file_hash};
 pub use new::{Language, Project, write_project};
+#[cfg(unix)]
+pub use process::serve_here;
 pub use used::PluginUsed;

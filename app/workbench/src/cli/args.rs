@@ -339,8 +339,14 @@ pub(super) enum PluginsCommand {
     },
     /// Write a small plugin project that builds and passes the check.
     New(NewPluginArgs),
-    /// Allow Endline to load these libraries in their present version; a plugin runs with your rights.
+    /// Serve the library that the program names on standard input.
+    #[command(hide = true)]
+    Serve,
+    /// Allow Endline to load these libraries in their present version, each in a process of its own; a plugin runs with your rights.
     Allow {
+        /// Trust them: run them in the program's own process, which a faulty one can crash or hold up.
+        #[arg(long)]
+        in_process: bool,
         /// Plugin files.
         #[arg(required = true)]
         files: Vec<PathBuf>,

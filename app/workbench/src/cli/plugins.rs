@@ -24,7 +24,8 @@ pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
         PluginsCommand::Check { file, here: false } => check(file),
         PluginsCommand::Check { file, here: true } => check_here(file),
         PluginsCommand::New(args) => new(args),
-        PluginsCommand::Allow { files } => allow(files),
+        PluginsCommand::Serve => serve(),
+        PluginsCommand::Allow { files, in_process } => allow(files, *in_process),
         PluginsCommand::Forget { files } => forget(files),
         PluginsCommand::Off { id } => switch(id, false),
         PluginsCommand::On { id } => switch(id, true),
@@ -64,13 +65,16 @@ fn left_out(problem: &PluginProblem) -> String {
 }
 
 /// Pins files as they are now.
-fn allow(files: &[PathBuf]) -> Result<ExitCode, Failure> {
+fn allow(files: &[PathBuf], in_process: bool) -> Result<ExitCode, Failure> {
     let mut loader = host::loader();
     for file in files {
         let hash = file_hash(file).map_err(Failure::failed)?;
         loader.choices.keeps().map_err(Failure::failed)?;
-        loader.choices.allow(file, &hash).map_err(Failure::failed)?;
-        output::print(&format!("{}: allowed, hash {hash}\n", file.display()))?;
+        let (choices, place) =
+            (&mut loader.choices, if in_process { " in this process" } else { "" });
+        let kept = if in_process { choices.trust(file, &hash) } else { choices.allow(file, &hash) };
+        kept.map_err(Failure::failed)?;
+        output::print(&format!("{}: allowed{place}, hash {hash}\n", file.display()))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -128,6 +132,18 @@ fn check_here(file: &Path) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Answers the program that has started this process to run a library in.
+#[cfg(unix)]
+fn serve() -> Result<ExitCode, Failure> {
+    endline_session::plugins::serve_here().map_err(Failure::failed)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+#[cfg(not(unix))]
+fn serve() -> Result<ExitCode, Failure> {
+    Err(Failure::failed("on this system plugins run in the program's own process".to_owned()))
+}
+
 /// Writes a project and says how to go on.
 fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
     let (kind, language) = (args.kind.into(), args.lang.into());
@@ -157,8 +173,9 @@ fn told(info: &PluginInfo) -> String {
         .file
         .as_ref()
         .map_or_else(|| "linked in".to_owned(), |file| file.display().to_string());
+    let apart = if info.is_apart { ", in a process of its own" } else { "" };
     let mut text = format!(
-        "{}  {}  {}\n  {} ({place})\n  {}\n",
+        "{}  {}  {}\n  {} ({place}{apart})\n  {}\n",
         info.id, info.version, info.kind, info.name, info.help
     );
     if !info.about.is_empty() {

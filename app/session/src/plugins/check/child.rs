@@ -68,8 +68,9 @@ impl Orders {
     }
 }
 
+/// From here on this process has a limit of memory.
 #[cfg(unix)]
-fn limit_memory() {
+pub(in crate::plugins) fn limit_memory() {
     use rustix::process::{Resource, getrlimit, setrlimit};
     let mut limit = getrlimit(Resource::As);
     limit.current = Some(limit.current.map_or(MOST_MEMORY, |now| now.min(MOST_MEMORY)));

@@ -17,6 +17,8 @@ use super::choices::Choices;
 use super::host::PluginHost;
 use super::info::{Checker, PluginInfo};
 use super::loader::{open_folder, open_here};
+#[cfg(unix)]
+pub(super) use child::limit_memory;
 use child::{Ended, Orders};
 use trial::Finding;
 

@@ -17,8 +17,9 @@ const GREATEST_RATIO: f64 = 10.0;
 const ROUNDING: f64 = 1e-9;
 
 /// No number: what a place for an answer holds before the call, and no arithmetic gives.
-const BLANK: f64 = f64::from_bits(0x7ff8_5eed_0e4d_11e5);
-const UNWRITTEN: FrictionResponse =
+pub(in crate::plugins) const BLANK: f64 = f64::from_bits(0x7ff8_5eed_0e4d_11e5);
+/// An answer of such numbers.
+pub(in crate::plugins) const UNWRITTEN: FrictionResponse =
     FrictionResponse { force_n: [BLANK; 3], by_slip: [[BLANK; 3]; 3], by_normal_force: [BLANK; 3] };
 
 pub(super) struct Guarded(pub Arc<dyn FrictionModel>);

@@ -10,6 +10,9 @@ mod friction;
 mod gear;
 mod motion;
 
+#[cfg(unix)]
+pub(super) use friction::{BLANK, UNWRITTEN};
+
 pub(super) fn guarded(hook: Hook) -> Hook {
     match hook {
         Hook::Motion(motion) => Hook::Motion(Arc::new(motion::Guarded(motion))),

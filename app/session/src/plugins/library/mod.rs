@@ -34,6 +34,8 @@ const TELL_AUTHOR: &str = "tell the plugin's author";
 pub(super) struct Opened {
     /// What it says of itself: who made it, where its laws and figures come from; may be empty.
     pub about: String,
+    /// Whether it runs in a process of its own.
+    pub is_apart: bool,
     /// Its plugins, and why each is not used that cannot be.
     pub hooks: Vec<Result<Hook, Refusal>>,
 }
@@ -42,7 +44,11 @@ pub(super) struct Opened {
 /// own place, where `file` is a copy.
 pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
     let (about, plugins) = boundary::open(file, named)?;
-    Ok(Opened { about, hooks: plugins.into_iter().map(|plugin| hook(plugin?)).collect() })
+    Ok(Opened {
+        about,
+        is_apart: false,
+        hooks: plugins.into_iter().map(|plugin| hook(plugin?)).collect(),
+    })
 }
 
 fn hook(plugin: AbiPlugin) -> Result<Hook, Refusal> {

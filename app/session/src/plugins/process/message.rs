@@ -1,0 +1,215 @@
+//! What the program and a plugin's process say to each other.
+//!
+//! | who | says |
+//! |---|---|
+//! | program | [`Orders`]: which bytes to open |
+//! | process | [`Opening`]: what they hold |
+//! | program | [`Question`]: a call of one of the plugins |
+//! | process | [`Answer`]: what the call gave |
+//!
+//! Questions and answers alternate until the program closes the pipe. Each is a frame (`frame.rs`).
+
+use endline_sdk::{
+    AttributeValue, BodyPart, Contacts, Controls, Descriptor, FrictionResponse, GearAction,
+    GearStep, MotionInput, MotionOutput, Rig, Site,
+};
+
+/// What a process is to open.
+pub(super) struct Orders {
+    /// Version of the program: another one says other things.
+    pub version: String,
+    /// The file, as the library is told its own place.
+    pub file: String,
+    /// The bytes of the library, which were hashed and allowed.
+    pub bytes: Vec<u8>,
+}
+
+/// What came of it.
+pub(super) enum Opening {
+    /// What the library says of itself, and its plugins.
+    Opened {
+        /// Author and sources.
+        about: String,
+        /// Its plugins, in order.
+        plugins: Vec<Declared>,
+    },
+    /// Why it cannot be used.
+    Refused(Refused),
+}
+
+/// One plugin of a library.
+pub(super) enum Declared {
+    /// Of a kind, with what it takes.
+    Motion(Descriptor),
+    /// The same.
+    Friction(Descriptor),
+    /// The same.
+    Gear(Descriptor),
+    /// One that cannot be used.
+    Refused(Refused),
+}
+
+/// Why a library or one of its plugins cannot be used.
+pub(super) struct Refused {
+    pub id: Option<String>,
+    pub reason: String,
+    pub help: String,
+}
+
+/// A call of a plugin.
+pub(super) struct Question {
+    /// Place of the plugin among those of its library.
+    pub plugin: u32,
+    /// Function and arguments.
+    pub call: Call,
+}
+
+/// A function with its arguments.
+pub(super) enum Call {
+    /// Whale motion.
+    Move { attributes: Vec<f64>, input: Box<MotionNow>, state: Vec<f64> },
+    /// Friction: forces of one solver pass.
+    Respond { attributes: Vec<f64>, contacts: Box<ContactArrays> },
+    /// Friction: floats after a step.
+    Advance { attributes: Vec<f64>, contacts: Box<ContactArrays> },
+    /// Gear type: parts and connections.
+    Build { attributes: Vec<AttributeValue>, site: Site },
+    /// Gear type: a step.
+    Step { attributes: Vec<AttributeValue>, input: GearNow, state: Vec<f64> },
+}
+
+/// What a call gave.
+pub(super) enum Answer {
+    Moved {
+        output: Box<MotionOutput>,
+        state: Vec<f64>,
+    },
+    Responses(Vec<FrictionResponse>),
+    Floats(Vec<f64>),
+    Built(Rig),
+    Acted {
+        actions: Vec<GearAction>,
+        state: Vec<f64>,
+    },
+    /// The plugin's own error.
+    Fault(String),
+}
+
+/// [`MotionInput`] with arrays of its own.
+pub(super) struct MotionNow {
+    pub time_s: f64,
+    pub dt_s: f64,
+    pub length_m: f64,
+    pub speed_m_s: f64,
+    pub position_m: [f64; 3],
+    pub orientation: [f64; 4],
+    pub controls: Controls,
+    pub contact_force_n: [f64; BodyPart::ALL.len()],
+    pub contact_port_m: [f64; BodyPart::ALL.len()],
+}
+
+/// [`Contacts`] with arrays of its own.
+pub(super) struct ContactArrays {
+    pub dt_s: f64,
+    pub normal_force_n: Vec<f64>,
+    pub normal: Vec<[f64; 3]>,
+    pub grain: Vec<[f64; 3]>,
+    pub along: Vec<[f64; 3]>,
+    pub slip_m: Vec<[f64; 3]>,
+    pub length_m: Vec<f64>,
+    pub coefficient: Vec<f64>,
+    pub region: Vec<u32>,
+    pub rope: Vec<u32>,
+    pub state: Vec<f64>,
+}
+
+/// [`GearStep`] with an array of its own.
+pub(super) struct GearNow {
+    pub time_s: f64,
+    pub dt_s: f64,
+    pub end_tension_n: Vec<[f64; 2]>,
+}
+
+impl From<&MotionInput<'_>> for MotionNow {
+    fn from(input: &MotionInput<'_>) -> Self {
+        Self {
+            time_s: input.time_s,
+            dt_s: input.dt_s,
+            length_m: input.length_m,
+            speed_m_s: input.speed_m_s,
+            position_m: input.position_m,
+            orientation: input.orientation,
+            controls: input.controls,
+            contact_force_n: *input.contact_force_n,
+            contact_port_m: *input.contact_port_m,
+        }
+    }
+}
+
+impl MotionNow {
+    /// As a motion takes it.
+    pub fn lent(&self) -> MotionInput<'_> {
+        MotionInput {
+            time_s: self.time_s,
+            dt_s: self.dt_s,
+            length_m: self.length_m,
+            speed_m_s: self.speed_m_s,
+            position_m: self.position_m,
+            orientation: self.orientation,
+            controls: self.controls,
+            contact_force_n: &self.contact_force_n,
+            contact_port_m: &self.contact_port_m,
+        }
+    }
+}
+
+impl From<&Contacts<'_>> for ContactArrays {
+    fn from(contacts: &Contacts<'_>) -> Self {
+        Self {
+            dt_s: contacts.dt_s,
+            normal_force_n: contacts.normal_force_n.to_vec(),
+            normal: contacts.normal.to_vec(),
+            grain: contacts.grain.to_vec(),
+            along: contacts.along.to_vec(),
+            slip_m: contacts.slip_m.to_vec(),
+            length_m: contacts.length_m.to_vec(),
+            coefficient: contacts.coefficient.to_vec(),
+            region: contacts.region.to_vec(),
+            rope: contacts.rope.to_vec(),
+            state: contacts.state.to_vec(),
+        }
+    }
+}
+
+impl ContactArrays {
+    /// As a friction model takes them.
+    pub fn lent(&self) -> Contacts<'_> {
+        Contacts {
+            dt_s: self.dt_s,
+            normal_force_n: &self.normal_force_n,
+            normal: &self.normal,
+            grain: &self.grain,
+            along: &self.along,
+            slip_m: &self.slip_m,
+            length_m: &self.length_m,
+            coefficient: &self.coefficient,
+            region: &self.region,
+            rope: &self.rope,
+            state: &self.state,
+        }
+    }
+}
+
+impl From<&GearStep<'_>> for GearNow {
+    fn from(input: &GearStep<'_>) -> Self {
+        let (time_s, dt_s) = (input.time_s, input.dt_s);
+        Self { time_s, dt_s, end_tension_n: input.end_tension_n.to_vec() }
+    }
+}
+
+impl GearNow {
+    /// As a gear type takes it.
+    pub fn lent(&self) -> GearStep<'_> {
+        GearStep { time_s: self.time_s, dt_s: self.dt_s, end_tension_n: &self.end_tension_n }
+    }
+}

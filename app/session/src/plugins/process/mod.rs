@@ -1,0 +1,100 @@
+//! A library in a process of its own: it may crash, hang or take memory, and ends a run with a reason, not the program.
+//!
+//! Plugins keep nothing between calls, so that any process of a library can answer any call. As many are started as calls are made
+//! at once; each serves one call at a time over a pipe. One that fails is not used again, and the next call has a new one.
+//!
+//! | file | what |
+//! |---|---|
+//! | `serve` | the side of the process |
+//! | `hooks` | its plugins as motion, friction model and gear type |
+//! | `worker` | one process, as the program sees it |
+//! | `message`, `encoding`, `wire`, `frame` | what the two say, its bytes, and how these go over the pipe |
+
+mod encoding;
+mod frame;
+mod hooks;
+mod message;
+mod serve;
+mod wire;
+mod worker;
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use endline_sdk::{Descriptor, HookError};
+
+use super::info::{Hook, Refusal};
+use super::library::Opened;
+use message::{Answer, Call, Declared, Opening, Question, Refused};
+use worker::{Served, Worker};
+
+pub use serve::serve_here;
+
+/// Opens a library in a process of its own, which `program plugins serve` is, and gives its plugins.
+///
+/// # Errors
+/// Where the process cannot be started, ends as it opens the library, or says why the library cannot be used.
+pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+    let served = Served { program: program.to_path_buf(), file: file.to_path_buf(), bytes };
+    let (worker, opening) = Worker::start(&served)
+        .map_err(|reason| Refusal::new(reason, "tell the plugin's author"))?;
+    let processes = Arc::new(Processes { served, idle: Mutex::new(vec![worker]) });
+    match opening {
+        Opening::Refused(why) => Err(refusal(why)),
+        Opening::Opened { about, plugins } => {
+            let hooks = (0..).zip(plugins).map(|(place, plugin)| hook(plugin, place, &processes));
+            Ok(Opened { about, is_apart: true, hooks: hooks.collect() })
+        }
+    }
+}
+
+fn refusal(Refused { id, reason, help }: Refused) -> Refusal {
+    Refusal { id, ..Refusal::new(reason, help) }
+}
+
+fn hook(plugin: Declared, place: u32, processes: &Arc<Processes>) -> Result<Hook, Refusal> {
+    let apart = |descriptor| Apart { descriptor, place, processes: Arc::clone(processes) };
+    match plugin {
+        Declared::Motion(descriptor) => Ok(Hook::Motion(Arc::new(apart(descriptor)))),
+        Declared::Friction(descriptor) => Ok(Hook::Friction(Arc::new(apart(descriptor)))),
+        Declared::Gear(descriptor) => Ok(Hook::Gear(Arc::new(apart(descriptor)))),
+        Declared::Refused(why) => Err(refusal(why)),
+    }
+}
+
+/// The processes of a library.
+struct Processes {
+    served: Served,
+    /// Those that wait for a call.
+    idle: Mutex<Vec<Worker>>,
+}
+
+impl Processes {
+    /// Has a call answered by a process that waits, or by a new one.
+    fn ask(&self, question: &Question) -> Result<Answer, HookError> {
+        let waiting = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut worker = match waiting {
+            Some(worker) => worker,
+            None => Worker::start(&self.served).map_err(HookError::new)?.0,
+        };
+        let answer = worker.ask(question).map_err(HookError::new)?;
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
+        match answer {
+            Answer::Fault(message) => Err(HookError::new(message)),
+            answer => Ok(answer),
+        }
+    }
+}
+
+/// A plugin in another process.
+struct Apart {
+    descriptor: Descriptor,
+    place: u32,
+    processes: Arc<Processes>,
+}
+
+impl Apart {
+    fn ask(&self, call: Call) -> Result<Answer, HookError> {
+        self.processes.ask(&Question { plugin: self.place, call })
+    }
+}
