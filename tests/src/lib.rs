@@ -1,6 +1,7 @@
 //! What the checks of the whole share: where the house stands, and where the program lies.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Folder of the workspace's Cargo.toml.
 #[must_use]
@@ -33,6 +34,28 @@ pub fn program() -> Result<PathBuf, String> {
     } else {
         Err(format!("{} is not there: run `cargo xtask test`, or `cargo build`", program.display()))
     }
+}
+
+/// Compiles a C source of the repository to a plugin library, every warning an error; `define` are macros as `NAME=TEXT`.
+///
+/// # Errors
+/// Where there is no compiler, and what it says of the source.
+pub fn compile_c(source: &str, define: &[&str], library: &Path) -> Result<(), String> {
+    let mut command = Command::new(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));
+    command
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-shared", "-fPIC"])
+        .args(define.iter().map(|text| format!("-D{text}")))
+        .arg("-I")
+        .arg(root().join("plugins/sdk/include"))
+        .arg("-o")
+        .arg(library)
+        .arg(root().join(source))
+        .arg("-lm");
+    let output = command.output().map_err(|error| format!("no C compiler: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 /// Every file below a folder of the workspace, in order of name, without build products and version control.

@@ -74,23 +74,10 @@ pub fn panicking() -> &'static Path {
     })
 }
 
-/// Compiles a C source of the repository into a folder, with every warning an error.
+/// Compiles a C source of the repository into a folder.
 pub fn compile_c(source: &str, folder: &Path) -> PathBuf {
-    let source = root().join(source);
-    let file = folder.join(library_name(source.file_stem().unwrap().to_str().unwrap()));
-    let mut command = Command::new(env::var_os("CC").unwrap_or_else(|| "cc".into()));
-    command.args([
-        "-std=c99",
-        "-Wall",
-        "-Wextra",
-        "-Wpedantic",
-        "-Werror",
-        "-shared",
-        "-fPIC",
-        "-I",
-    ]);
-    command.arg(root().join("plugins/sdk/include")).arg("-o").arg(&file).arg(&source).arg("-lm");
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let stem = Path::new(source).file_stem().unwrap().to_str().unwrap();
+    let file = folder.join(library_name(stem));
+    endline_tests::compile_c(source, &[], &file).unwrap();
     file
 }

@@ -2,6 +2,7 @@
 
 mod alone;
 mod animation;
+mod apart;
 mod cases;
 mod cli;
 mod common;

@@ -140,13 +140,18 @@ impl Place {
 
     /// A call of the program's file alone: copied here, with no gear library and no plugins beside it.
     pub fn alone(&self, arguments: &[&str]) -> Called {
+        called(&mut self.command_alone(arguments))
+    }
+
+    /// The same, not called yet.
+    pub fn command_alone(&self, arguments: &[&str]) -> Command {
         let program = self.path(&format!("bin/endline{}", std::env::consts::EXE_SUFFIX));
         if !program.exists() {
             let built = endline_tests::program().unwrap_or_else(|error| panic!("{error}"));
             fs::create_dir_all(program.parent().unwrap()).unwrap();
             fs::copy(built, &program).unwrap();
         }
-        called(&mut self.command_of(&program, arguments))
+        self.command_of(&program, arguments)
     }
 
     fn command_of(&self, program: &Path, arguments: &[&str]) -> Command {
