@@ -1,8 +1,9 @@
-//! What the plugin boundary costs: the same calls linked in and through the table of a loaded library, both guarded as in a run,
-//! beside the step of an encounter that they are part of.
+//! What the plugin boundary costs: the same calls linked in, through the table of a loaded library, and of a library in a process of
+//! its own, all guarded as in a run, beside the step of an encounter that they are part of.
 //!
-//! `cargo bench -p endline-tests --bench boundary`; the loaded libraries are those that `cargo xtask plugins` builds, in the folder
-//! named by `ENDLINE_PLUGINS`. Wanted: the boundary below 1 % of a step.
+//! `cargo build --release && cargo bench -p endline-tests --bench boundary`; the loaded libraries are those that
+//! `cargo xtask plugins --release` builds, in the folder named by `ENDLINE_PLUGINS`. Wanted: the boundary of a loaded library below 1 %
+//! of a step.
 
 #![allow(
     clippy::unwrap_used,
@@ -15,7 +16,7 @@
 mod linked;
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
@@ -26,7 +27,7 @@ use endline_gear::{Hooks, Options, Scenario, assemble};
 use endline_sdk::{
     Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, Region, WhaleMotion,
 };
-use endline_session::plugins::{Hook, PluginHost};
+use endline_session::plugins::{Choices, Hook, Loader, PluginHost, PluginProblem, file_hash};
 use endline_sim::{Input, Model, State, Workspace, step};
 use linked::{Linked, library, root, told};
 
@@ -48,7 +49,7 @@ fn main() {
     divan::main();
 }
 
-/// Tells the calls of a step, the time of a step linked and loaded, and with that the boundary's share.
+/// Tells the calls of a step, the time of a step linked, loaded and in processes, and with that the boundary's share.
 fn shares() {
     let (model, start) = at_contact(&Counted);
     CALLS.store(0, Ordering::Relaxed);
@@ -60,22 +61,28 @@ fn shares() {
         per_step(&CALLS),
         per_step(&CONTACTS_SEEN)
     );
-    let (one, other) = (at_contact(&linked_host()), at_contact(&loaded_host()));
-    let (mut fastest, mut ends) = ([f64::INFINITY; 2], [0, 0]);
+    let ways = [linked_host(), loaded_host(), apart_host()].map(|host| at_contact(&host));
+    let (mut fastest, mut waited, mut ends) = ([f64::INFINITY; 3], [f64::INFINITY; 3], [0; 3]);
     for _ in 0..12 {
-        for (index, (model, state)) in [&one, &other].into_iter().enumerate() {
+        for (index, (model, state)) in ways.iter().enumerate() {
             let state = state.clone();
-            let begun = seconds();
-            ends[index] = walk(model, state).time_s.to_bits();
+            let (begun, clock) = (seconds(), Instant::now());
+            let end = walk(model, state);
             fastest[index] = fastest[index].min((seconds() - begun) / MEASURED as f64);
+            waited[index] = waited[index].min(clock.elapsed().as_secs_f64() / MEASURED as f64);
+            ends[index] = end.rope.position.iter().fold(0, |bits, at| bits ^ at.z.to_bits());
         }
     }
-    assert_eq!(ends[0], ends[1]);
-    let [linked, loaded] = fastest.map(|seconds| 1e6 * seconds);
-    println!(
-        "linked {linked:.1} us, loaded {loaded:.1} us a step, fastest of 12: {:+.2} %",
-        100.0 * (loaded / linked - 1.0)
-    );
+    assert!(ends.iter().all(|end| *end == ends[0]), "the same bits");
+    for (way, of) in [("linked", 0), ("loaded", 1), ("in processes", 2)] {
+        println!(
+            "{way}: {:.1} us of this thread, {:.1} us by the clock a step, fastest of 12: {:+.2} %, {:+.2} %",
+            1e6 * fastest[of],
+            1e6 * waited[of],
+            100.0 * (fastest[of] / fastest[0] - 1.0),
+            100.0 * (waited[of] / waited[0] - 1.0)
+        );
+    }
 }
 
 /// The encounter of `hello-friction` with the whale set beside the rope, as the rope lies across it.
@@ -126,10 +133,30 @@ fn linked_host() -> PluginHost {
     host
 }
 
+fn folders() -> Vec<PathBuf> {
+    env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect()
+}
+
 fn loaded_host() -> PluginHost {
-    let folders: Vec<PathBuf> =
-        env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect();
-    let (host, problems) = PluginHost::discover(&folders);
+    some(PluginHost::discover(&folders()))
+}
+
+/// The libraries of the folders in processes of their own.
+fn apart_host() -> PluginHost {
+    let mut choices = Choices::kept_in(None, &[]);
+    for folder in folders() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let file = entry.unwrap().path();
+            choices.allow(&file, &file_hash(&file).unwrap()).unwrap();
+        }
+    }
+    let mut loader = Loader::new(&folders(), choices).apart(endline_tests::program().unwrap());
+    let host = some(loader.load(&|_: &Path, _: &str| Ok(())));
+    assert!(host.list().iter().all(|info| info.is_apart), "in processes of their own");
+    host
+}
+
+fn some((host, problems): (PluginHost, Vec<PluginProblem>)) -> PluginHost {
     assert!(
         problems.is_empty() && !host.ids().is_empty(),
         "name the folder of built plugins with ENDLINE_PLUGINS: {problems:?}"
@@ -222,4 +249,10 @@ fn friction_linked_and_guarded(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn friction_loaded_and_guarded(bencher: Bencher<'_, '_>) {
     respond(bencher, loaded_host().friction("org.endline.friction.coulomb").unwrap().as_ref());
+}
+
+/// The model in a process of its own, watched over by the guard.
+#[divan::bench]
+fn friction_apart_and_guarded(bencher: Bencher<'_, '_>) {
+    respond(bencher, apart_host().friction("org.endline.friction.coulomb").unwrap().as_ref());
 }

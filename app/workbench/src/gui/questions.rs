@@ -227,9 +227,10 @@ pub fn plugin(context: &Context, shared: &mut Shared) {
         } else {
             "It was allowed with other content than it has now."
         };
+        let place = if cfg!(unix) { "in a process of its own, but " } else { "" };
         ui.add(
             Label::new(format!(
-                "{why} A plugin runs with your rights: open it only if you trust who made it."
+                "{why} It runs {place}with your rights: allow it only if you trust who made it."
             ))
             .wrap(),
         );

@@ -250,6 +250,10 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
             .color(faint),
     )
     .on_hover_text(&hash);
+    if info.is_apart {
+        ui.label(RichText::new("It runs in a process of its own.").size(12.0).color(faint))
+            .on_hover_text("A crash or a hang of it ends the run, not the program");
+    }
     if shared.workbench.plugins.reports.contains_key(file) {
         report(ui, shared, file);
     } else {
