@@ -8,12 +8,14 @@
 //! | `serve` | the side of the process |
 //! | `hooks` | its plugins as motion, friction model and gear type |
 //! | `worker` | one process, as the program sees it |
-//! | `message`, `encoding`, `wire`, `frame` | what the two say, its bytes, and how these go over the pipe |
+//! | `message`, `encoding`, `wire` | what the two say, and its bytes |
+//! | `frame`, `pipe` | how these go from one to the other |
 
 mod encoding;
 mod frame;
 mod hooks;
 mod message;
+mod pipe;
 mod serve;
 mod wire;
 mod worker;

@@ -5,7 +5,7 @@
 //! too.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, BufReader};
 use std::path::Path;
 use std::time::Duration;
 
@@ -19,6 +19,7 @@ use super::super::library::Opened;
 use super::super::loader::open_copy;
 use super::frame::{receive, send};
 use super::message::{Answer, Call, Declared, Opening, Orders, Question, Refused};
+use super::pipe::Pipe;
 
 /// How often a process looks whether its program still lives.
 const LOOK: Duration = Duration::from_secs(1);
@@ -54,13 +55,14 @@ pub fn serve_here() -> Result<(), String> {
 }
 
 /// Standard input and output for this process alone; what the library prints goes nowhere.
-fn own_pipes() -> io::Result<(impl Read, impl Write)> {
+fn own_pipes() -> io::Result<(BufReader<Pipe>, Pipe)> {
     let (input, output) = (io::stdin(), io::stdout());
     let (own_input, own_output) = (rustix::io::dup(&input)?, rustix::io::dup(&output)?);
     let nowhere = File::options().read(true).write(true).open("/dev/null")?;
     rustix::stdio::dup2_stdin(&nowhere)?;
     rustix::stdio::dup2_stdout(&nowhere)?;
-    Ok((BufReader::with_capacity(1 << 16, File::from(own_input)), File::from(own_output)))
+    let input = BufReader::with_capacity(1 << 16, Pipe::new(own_input, None)?);
+    Ok((input, Pipe::new(own_output, None)?))
 }
 
 /// A library that hangs keeps this process from hearing that its program is gone.

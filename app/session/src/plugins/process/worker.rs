@@ -1,9 +1,8 @@
-//! One process that serves a library, as the program sees it: started, asked, watched and ended.
+//! One process that serves a library, as the program sees it: started, asked, and ended where it hangs.
 
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,12 +10,11 @@ use rustix::process::{Pid, Signal, kill_process_group};
 
 use super::frame::{receive, send};
 use super::message::{Answer, Opening, Orders, Question};
+use super::pipe::Pipe;
 use super::wire::Wire;
 
-/// How often a process at work is looked at.
-const TICK: Duration = Duration::from_millis(50);
-/// Looks after which a call is taken to hang: ten seconds in which this program runs. One that stands still does not count.
-const PATIENCE: u32 = 200;
+/// How long a call may take [s] of the time in which this program runs.
+const PATIENCE: u32 = 10;
 /// How long a process that has closed its pipes may take to end.
 const GRACE: Duration = Duration::from_millis(500);
 
@@ -33,20 +31,9 @@ pub(super) struct Served {
 /// A process that serves a library.
 pub(super) struct Worker {
     child: Child,
-    input: ChildStdin,
-    output: BufReader<ChildStdout>,
+    input: Pipe,
+    output: BufReader<Pipe>,
     room: Vec<u8>,
-    watch: Arc<Mutex<Watch>>,
-}
-
-/// What the thread that watches a process goes by.
-struct Watch {
-    /// The process group, until it is ended.
-    group: Option<Pid>,
-    /// Looks since the call under way began; `None` between calls.
-    looks: Option<u32>,
-    /// Whether it was ended because a call took too long.
-    timed_out: bool,
 }
 
 impl Worker {
@@ -61,12 +48,12 @@ impl Worker {
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
             return Err("a process without pipes was started".to_owned());
         };
-        let watch = Watch { group: group(&child), looks: None, timed_out: false };
-        let watch = Arc::new(Mutex::new(watch));
-        let watched = Arc::clone(&watch);
-        thread::spawn(move || look_after(&watched));
+        let patience = Some(PATIENCE * Pipe::LOOKS);
+        let pipes =
+            Pipe::new(input, patience).and_then(|input| Ok((input, Pipe::new(output, patience)?)));
+        let (input, output) = pipes.map_err(|error| format!("its pipes fail: {error}"))?;
         let output = BufReader::with_capacity(1 << 16, output);
-        let mut worker = Self { child, input, output, room: Vec::new(), watch };
+        let mut worker = Self { child, input, output, room: Vec::new() };
         let opening = worker.exchange(&Orders {
             version: crate::VERSION.to_owned(),
             file: served.file.display().to_string(),
@@ -84,21 +71,21 @@ impl Worker {
     }
 
     fn exchange<A: Wire>(&mut self, question: &impl Wire) -> Result<A, String> {
-        lock(&self.watch).looks = Some(0);
         let answer = send(question, &mut self.input, &mut self.room)
             .and_then(|()| receive(&mut self.output, &mut self.room));
-        lock(&self.watch).looks = None;
         answer.map_err(|error| self.why(&error))
     }
 
     /// Why there was no answer.
     fn why(&mut self, error: &io::Error) -> String {
-        if lock(&self.watch).timed_out {
-            let seconds = TICK.as_secs_f64() * f64::from(PATIENCE);
-            return format!("its process was ended: no answer in {seconds:.0} s");
-        }
-        if error.kind() == io::ErrorKind::InvalidData {
-            return "its process was ended: it said what no plugin says".to_owned();
+        match error.kind() {
+            io::ErrorKind::TimedOut => {
+                return format!("its process was ended: no answer in {PATIENCE} s");
+            }
+            io::ErrorKind::InvalidData => {
+                return "its process was ended: it said what no plugin says".to_owned();
+            }
+            _ => {}
         }
         let start = Instant::now();
         while start.elapsed() < GRACE {
@@ -114,7 +101,11 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        end(&mut lock(&self.watch));
+        // The group has the number of its first process, which the system does not give anew at once.
+        if let Some(group) = i32::try_from(self.child.id()).ok().and_then(Pid::from_raw) {
+            // One that has ended of itself is not there any more.
+            let _ = kill_process_group(group, Signal::KILL);
+        }
         // It was killed: the wait takes no time.
         let _ = self.child.wait();
     }
@@ -136,38 +127,4 @@ fn command(program: &Path) -> Command {
         );
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
-}
-
-fn group(child: &Child) -> Option<Pid> {
-    i32::try_from(child.id()).ok().and_then(Pid::from_raw)
-}
-
-/// Ends a process whose call takes too long; returns once it is ended.
-fn look_after(watch: &Mutex<Watch>) {
-    loop {
-        thread::sleep(TICK);
-        let mut watch = lock(watch);
-        if watch.group.is_none() {
-            return;
-        }
-        if let Some(looks) = &mut watch.looks {
-            *looks += 1;
-            if *looks > PATIENCE {
-                watch.timed_out = true;
-                end(&mut watch);
-            }
-        }
-    }
-}
-
-/// Ends the process and what it has forked. Its number is free for another process once it was waited for, and is forgotten here.
-fn end(watch: &mut Watch) {
-    if let Some(group) = watch.group.take() {
-        // One that has ended of itself is not there any more.
-        let _ = kill_process_group(group, Signal::KILL);
-    }
-}
-
-fn lock(watch: &Mutex<Watch>) -> std::sync::MutexGuard<'_, Watch> {
-    watch.lock().unwrap_or_else(PoisonError::into_inner)
 }
