@@ -8,6 +8,7 @@ use super::folder::Folder;
 use super::merge;
 use super::parquet;
 use super::results::{ResultsRequest, StudyResults};
+use super::seal;
 use super::shard::Shard;
 use super::tests::Place;
 use crate::plugins::PluginHost;
@@ -65,6 +66,29 @@ fn every_damage_of_a_block_or_table_is_refused_or_harmless() {
         }
     }
     assert!(refused > many * 9 / 10, "{refused} of {many} were refused");
+}
+
+/// Damage under a seal that fits it: what a forger could write, and no accident does.
+#[test]
+fn a_forged_block_is_a_whole_table_or_an_error() {
+    let place = Place::new("forged");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    batch::run(&opened, &folder, Shard { part: 0, of: 12 }, 1, &Control::default()).unwrap();
+    let sound = fs::read(folder.file_of(0)).unwrap();
+    let many = if std::env::var_os("ENDLINE_LONG").is_some() { 100_000 } else { 1_000 };
+    let (mut numbers, mut refused) = (Numbers(19), 0);
+    for _ in 0..many {
+        let mut bytes = damaged(&sound, &sound, &mut numbers);
+        seal::seal(&mut bytes);
+        match parquet::read(bytes) {
+            Err(_) => refused += 1,
+            Ok((table, _)) => {
+                assert!(table.columns.iter().all(|(_, column)| column.len() == table.rows()));
+            }
+        }
+    }
+    assert!(refused > many / 4, "{refused} of {many} were refused");
 }
 
 #[test]

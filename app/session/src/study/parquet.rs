@@ -1,5 +1,6 @@
 //! Tables as Parquet files, zstd inside, under a seal (`seal.rs`): the same table gives the same bytes.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use ::parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
@@ -87,9 +88,15 @@ fn write_values<T: DataType>(
     writer.close()
 }
 
-/// Reads the bytes of a file, once they are known to be those that were written.
+/// Reads the bytes of a file, once they are known to be those that were sealed.
 pub(super) fn read(bytes: Vec<u8>) -> Result<Tagged> {
     seal::checked(&bytes).map_err(|broken| ParquetError::General(broken.to_string()))?;
+    // Whoever forges a file seals it too, and the library panics on some that no writer writes.
+    let read = catch_unwind(AssertUnwindSafe(|| read_sealed(bytes)));
+    read.unwrap_or_else(|_| Err(ParquetError::General("no writer of Parquet writes it".into())))
+}
+
+fn read_sealed(bytes: Vec<u8>) -> Result<Tagged> {
     let file = SerializedFileReader::new(bytes::Bytes::from(bytes))?;
     let metadata = file.metadata().file_metadata();
     let tags = metadata.key_value_metadata().into_iter().flatten();
@@ -108,6 +115,10 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Tagged> {
             .enumerate()
             .map(|(index, (name, kind))| Ok((name.clone(), read_column(&*group, index, *kind)?)));
         table.append(Table { columns: read.collect::<Result<_>>()? });
+    }
+    let rows = table.rows();
+    if table.columns.iter().any(|(_, column)| column.len() != rows) {
+        return Err(ParquetError::General("its columns differ in length".into()));
     }
     Ok((table, tags))
 }
