@@ -50,22 +50,32 @@ impl Pipe {
             }
             if begun.elapsed() < BRIEF {
                 std::thread::yield_now();
-            } else if self.patience.is_some_and(|patience| looks > patience) {
-                return Err(ErrorKind::TimedOut.into());
-            } else {
-                looks += 1;
-                self.sleep(flags)?;
+                continue;
             }
+            match self.patience {
+                None => return self.sleeping(work),
+                Some(patience) if looks > patience => return Err(ErrorKind::TimedOut.into()),
+                Some(_) => self.sleep(flags)?,
+            }
+            looks += 1;
         }
     }
 
     /// Sleeps for a look, or until the other side is ready.
     fn sleep(&self, flags: PollFlags) -> io::Result<()> {
-        let longest = self.patience.map(|_| &LOOK);
-        match poll(&mut [PollFd::from_borrowed_fd(self.file.as_fd(), flags)], longest) {
+        match poll(&mut [PollFd::from_borrowed_fd(self.file.as_fd(), flags)], Some(&LOOK)) {
             Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
             Err(error) => Err(error.into()),
         }
+    }
+
+    /// Does something that sleeps until the other side is ready. A process without a file to open may not call `poll`.
+    fn sleeping<T>(&mut self, work: impl FnOnce(&mut File) -> io::Result<T>) -> io::Result<T> {
+        let flags = fcntl_getfl(&self.file)?;
+        fcntl_setfl(&self.file, flags - OFlags::NONBLOCK)?;
+        let done = work(&mut self.file);
+        fcntl_setfl(&self.file, flags)?;
+        done
     }
 }
 
