@@ -96,7 +96,7 @@ fn rope_in_a_heap_ends_its_run_with_the_reason() {
 }
 
 #[test]
-fn a_recording_that_contradicts_itself_is_refused_and_no_picture_is_written_over_it() {
+fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it() {
     let place = Place::new("forged");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     place.endline(&["run", &scenario, "--out", "out"]).done();
@@ -104,7 +104,11 @@ fn a_recording_that_contradicts_itself_is_refused_and_no_picture_is_written_over
     let sound = fs::read(&path).unwrap();
     let file = path.to_str().unwrap();
     let called = place.endline(&["render", file, "--at", "0", "--out", file]);
-    called.fails(2, &["--out is the file that is drawn"]);
+    let written_over = "--out would write over";
+    called.fails(2, &[written_over]);
+    place.endline(&["pilot", file, "--out", file]).fails(2, &[written_over]);
+    let go_on = ["run", &scenario, "--from", file, "--at", "0.05", "--out", "out"];
+    place.endline(&go_on).fails(2, &[written_over]);
     assert_eq!(fs::read(&path).unwrap(), sound, "the recording is as it was");
 
     let mut recording = endline_session::Recording::load(&path).unwrap();

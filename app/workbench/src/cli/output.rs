@@ -1,6 +1,7 @@
 //! Printing that survives a reader who has gone (`endline … | head`), and that no text of a file can turn against the terminal.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
 
@@ -40,6 +41,16 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Refuses to write over the file that is read.
+pub(super) fn not_its_own_input(input: &Path, out: &Path) -> Result<(), Failure> {
+    let known = |path: &Path| path.canonicalize().ok();
+    if known(input).is_none_or(|input| known(out) != Some(input)) {
+        return Ok(());
+    }
+    let file = out.display();
+    Err(Failure::usage(format!("--out would write over {file}, which is read; name another")))
 }
 
 /// Prints a note on standard error, where anyone still reads it.

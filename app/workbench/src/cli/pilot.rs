@@ -9,6 +9,7 @@ use super::args::PilotArgs;
 use super::{Failure, host, output};
 
 pub(super) fn pilot(args: &PilotArgs) -> Result<ExitCode, Failure> {
+    output::not_its_own_input(&args.recording, &args.out)?;
     let recording = Recording::load(&args.recording)?;
     let program = program(&recording, &host::load(), args.thin)?;
     let out = args.out.display();

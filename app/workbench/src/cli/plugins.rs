@@ -15,6 +15,13 @@ use endline_session::plugins::{
 use super::args::{NewPluginArgs, PluginsCommand};
 use super::{Failure, host, output};
 
+/// Where a library runs, untrusted and trusted.
+const PLACES: [&str; 2] = if cfg!(unix) {
+    ["a process of its own (--in-process: faster, for people you trust)", "the program's process"]
+} else {
+    ["the program's process"; 2]
+};
+
 /// How long a file may take to be tried.
 const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -70,11 +77,10 @@ fn allow(files: &[PathBuf], in_process: bool) -> Result<ExitCode, Failure> {
     for file in files {
         let hash = file_hash(file).map_err(Failure::failed)?;
         loader.choices.keeps().map_err(Failure::failed)?;
-        let (choices, place) =
-            (&mut loader.choices, if in_process { " in this process" } else { "" });
+        let (choices, place) = (&mut loader.choices, PLACES[usize::from(in_process)]);
         let kept = if in_process { choices.trust(file, &hash) } else { choices.allow(file, &hash) };
         kept.map_err(Failure::failed)?;
-        output::print(&format!("{}: allowed{place}, hash {hash}\n", file.display()))?;
+        output::print(&format!("{}: allowed, in {place}; hash {hash}\n", file.display()))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -15,9 +15,7 @@ use super::{Failure, film, host, output, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     picture::check_view(&args.view, picture::is_film(&args.out)).map_err(Failure::usage)?;
-    if is_same(&args.file, &args.out) {
-        return Err(Failure::usage("--out is the file that is drawn; name another"));
-    }
+    output::not_its_own_input(&args.file, &args.out)?;
     if picture::is_film(&args.out) {
         return film::film(args, library);
     }
@@ -37,12 +35,6 @@ pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCo
     };
     picture::draw(&moment.model, &moment.frame, &shot(args, &moment)?).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// Whether two paths lead to one file.
-fn is_same(one: &Path, other: &Path) -> bool {
-    let known = |path: &Path| path.canonicalize().ok();
-    known(one).is_some_and(|one| known(other) == Some(one))
 }
 
 /// What is drawn.

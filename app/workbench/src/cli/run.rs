@@ -12,10 +12,16 @@ use super::interrupt::{self, Interrupt};
 use super::progress::Progress;
 use super::{Failure, host, output, picture, scenario, table};
 
+/// The recording's name in the folder of results.
+const RECORDING: &str = "recording.endline";
+
 /// Frames kept for choosing the picture, for each simulated second.
 const FRAMES_HZ: f64 = 10.0;
 
 pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    if let (Some(from), Some(folder)) = (&args.from, &args.out) {
+        output::not_its_own_input(from, &folder.join(RECORDING))?;
+    }
     let host = host::load();
     let recording = args.from.as_deref().map(Recording::load).transpose()?;
     let over = args.over.overrides().or(recording
@@ -61,7 +67,7 @@ fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
     let time_s = run.state().time_s;
     match &args.out {
         Some(folder) => {
-            let recording = folder.join("recording.endline").display().to_string();
+            let recording = folder.join(RECORDING).display().to_string();
             let again = interrupt::command_line(&[
                 ("--from", &recording),
                 ("--at", &format!("{time_s:.6}")),
@@ -101,7 +107,7 @@ fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
     endline_session::save::atomically(&summary, report.json().as_bytes()).map_err(|error| {
         Failure::failed(format!("{}: cannot be written: {error}", summary.display()))
     })?;
-    run.save_recording(&folder.join("recording.endline"))?;
+    run.save_recording(&folder.join(RECORDING))?;
     picture::of_peak(run, report, &folder.join("picture.png"));
     Ok(())
 }
