@@ -53,6 +53,14 @@ pub const SEGMENT: Limit = Limit {
     why: "a segment shorter than rope is thick bends like a row of beads",
     mend: "write a length such as \"0.5 m\"",
 };
+/// Radius of a ball, or an edge of a box, among the bodies of a scenario.
+pub const BODY_SIZE: Limit = Limit {
+    quantity: Quantity::Length,
+    least: 1e-3,
+    most: 20.0,
+    why: "a body as large as a whale touches every triangle of its skin at once, and each touch is weighed against all others",
+    mend: "write the size of a trap, buoy or anchor, such as \"0.3 m\"; what stands still is an `[[obstacle]]`",
+};
 /// Nodes of all ropes together.
 pub const ROPE_NODES: Limit = Limit {
     quantity: Quantity::Ratio,

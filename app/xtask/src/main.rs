@@ -3,7 +3,7 @@
 //! Standard library only: this is the first thing a newcomer compiles, before any system package is there.
 
 mod driven;
-mod fuzz;
+mod long_tests;
 mod materials;
 mod package;
 mod plugins;
@@ -34,7 +34,9 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask golden                write the table of golden states anew, after the physics was changed
                                          on purpose
        cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
-                                         N hours at low priority; print inputs, panics, hangs and memory
+                                         N hours; print inputs, panics, hangs and memory
+       cargo xtask soak --hours N        run random sessions of the window for N hours, with faults and kills, and look
+                                         after each for what is lost or broken
        cargo xtask window                only drive the window that was built
        cargo xtask slurm                 run a study on a Slurm of one node begun for it, as root, where Slurm is installed
        cargo xtask windows               build for Windows and run it under Wine, where Wine and mingw-w64 are installed;
@@ -76,9 +78,10 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["test"] => Box::new(test::test),
         ["test", "--quick"] => Box::new(test::quick),
         ["golden"] => Box::new(test::write_golden),
-        ["fuzz", "--hours", hours] => {
+        [which @ ("fuzz" | "soak"), "--hours", hours] => {
             let hours: f64 = hours.parse().ok().filter(|hours| *hours > 0.0)?;
-            Box::new(move |workspace| fuzz::for_hours(workspace, hours))
+            let test = if *which == "fuzz" { long_tests::fuzz } else { long_tests::soak };
+            Box::new(move |workspace| test(workspace, hours))
         }
         ["window"] => Box::new(driven::window),
         ["package"] => Box::new(package::package),

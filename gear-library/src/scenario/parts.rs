@@ -7,6 +7,7 @@ use endline_sim::model::{EnergyForm, WhaleFigure};
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over};
+use crate::limits::{self, Limit};
 use crate::schema::Kind;
 use crate::tree::Node;
 use crate::units::Quantity;
@@ -184,7 +185,7 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
     let held = fields.value("held_until", Quantity::Time, Range::NotNegative);
     let wetted = fields.flag("wetted_drag");
     let spin = fields.values("spin", Quantity::TurnRate, &[3]);
-    let size = above_zero(&fields, "size", Quantity::Length);
+    let size = within(&fields, "size", &limits::BODY_SIZE);
     let inertia = above_zero(&fields, "inertia", Quantity::Inertia);
     let row = provenance_over(&fields, file);
     let figure = |key, quantity, range| fields.figure(key, quantity, range, &row);
@@ -192,7 +193,7 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
         fields.missing("mass", "expected a mass such as 20 kg");
     }
     let mass = figure("mass", Quantity::Mass, Range::Positive);
-    let radius = figure("radius", Quantity::Length, Range::Positive);
+    let radius = figure("radius", Quantity::Length, Range::Within(&limits::BODY_SIZE));
     let volume = figure("volume", Quantity::Volume, Range::NotNegative);
     let height = figure("float_height", Quantity::Length, Range::Positive);
     let drag = figure("drag_area", Quantity::Area, Range::NotNegative);
@@ -227,6 +228,16 @@ fn above_zero<'a>(fields: &Fields<'a>, key: &'a str, quantity: Quantity) -> Opti
     }
     let message = format!("a value of `{key}` is not above zero");
     fields.problems().push(values.place.error(message, "write three values, each above zero"));
+    None
+}
+
+/// Three values, each within a limit.
+fn within<'a>(fields: &Fields<'a>, key: &'a str, limit: &'static Limit) -> Option<DVec3> {
+    let values = fields.values(key, limit.quantity, &[3])?;
+    let three = place3(&values.value);
+    let beyond = three.to_array().into_iter().find_map(|value| limit.check(key, value).err());
+    let Some(beyond) = beyond else { return Some(three) };
+    fields.problems().push(beyond.at(&values.place));
     None
 }
 

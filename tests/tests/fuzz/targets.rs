@@ -13,7 +13,7 @@ use endline_session::Recording;
 use endline_session::hash::StateHash;
 use endline_session::recording::Header;
 use endline_session::rules::Packs;
-use endline_sim::{Input, Model, Workspace, settle, step};
+use endline_sim::{Input, Model, State, Workspace, settle, step};
 
 use crate::linked::{Linked, library, root};
 use crate::mutate::{Dice, other_number};
@@ -129,14 +129,15 @@ fn scenario(bytes: &[u8]) -> Result<bool, String> {
     Ok(spec.is_ok_and(|spec| Model::new(spec).is_ok()))
 }
 
-/// Valid by its schema, then settled and a few steps: its numbers stay numbers.
+/// Valid by its schema, then settled, where it is not taken as placed, and a few steps: its numbers stay numbers.
 fn stepped(bytes: &[u8]) -> Result<bool, String> {
     let Ok(scenario) = Scenario::read("s.toml", &text(bytes)) else { return Ok(false) };
     let options = Options { rope_nodes: Some(NODES), ..Options::default() };
     let Ok(spec) = assemble(&scenario, shipped(), &Linked, &options) else { return Ok(false) };
     let Ok(model) = Model::new(spec) else { return Ok(false) };
-    let settled = settle(&model);
-    let (mut state, mut workspace) = (settled.state, Workspace::new(&model));
+    let placed = model.spec.settings.as_placed;
+    let mut state = if placed { State::start(&model) } else { settle(&model).state };
+    let mut workspace = Workspace::new(&model);
     for _ in 0..STEPS {
         if step(&model, &Input::default(), &mut state, &mut workspace).is_err() {
             break;

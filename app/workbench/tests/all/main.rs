@@ -13,6 +13,7 @@ mod rules;
 mod runs;
 mod scenario;
 mod search;
+mod soak;
 mod start;
 mod study;
 mod view;

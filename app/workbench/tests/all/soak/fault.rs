@@ -1,0 +1,156 @@
+//! What goes wrong while a session runs.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+
+use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
+use endline_session::PluginHost;
+use endline_session::plugins::Hook;
+
+use super::Dice;
+use super::session::numbers;
+
+/// A fault of a session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// It is killed, and that is all.
+    Killed,
+    /// No file may be longer than 8 kB: a disk that is full for all but the smallest.
+    FullDisk,
+    /// The folder of kept edits is gone, and a file stands in its place.
+    NoDataFolder,
+    /// Somebody else writes files of the library.
+    OthersWrite,
+    /// The whale's motion fails, hangs for a second and gives no numbers, by turns.
+    BadPlugin,
+}
+
+impl Fault {
+    /// Every fault.
+    pub const ALL: [Self; 5] =
+        [Self::Killed, Self::FullDisk, Self::NoDataFolder, Self::OthersWrite, Self::BadPlugin];
+
+    /// Its name, from one program to the other.
+    pub fn name(self) -> String {
+        format!("{self:?}")
+    }
+
+    /// The fault of a name.
+    pub fn named(name: &str) -> Self {
+        Self::ALL.into_iter().find(|fault| fault.name() == name).unwrap_or(Self::Killed)
+    }
+
+    /// Whether edits can be kept all the while.
+    pub fn lets_edits_be_kept(self) -> bool {
+        !matches!(self, Self::FullDisk | Self::NoDataFolder)
+    }
+
+    /// The command of a session under this fault.
+    pub fn command(self, program: &Path) -> Command {
+        if self != Self::FullDisk {
+            return Command::new(program);
+        }
+        // A write past the limit is an error, not the end.
+        let mut command = Command::new("sh");
+        command.args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\""]).arg(program);
+        command
+    }
+
+    /// Does what the fault does from outside; called ten times a second.
+    pub fn strike(self, root: &Path, dice: &mut Dice) {
+        match self {
+            Self::NoDataFolder => {
+                let data = root.join("data");
+                if data.is_dir() {
+                    fs::remove_dir_all(&data).unwrap();
+                    fs::write(&data, "no folder").unwrap();
+                }
+            }
+            Self::OthersWrite if dice.below(5) == 0 => write_as_another(root, dice),
+            _ => {}
+        }
+    }
+
+    /// Puts right what would keep the next session from beginning.
+    pub fn put_right(root: &Path) {
+        let data = root.join("data");
+        if data.is_file() {
+            fs::remove_file(data).unwrap();
+        }
+    }
+
+    /// The plugins of a session.
+    pub fn host(self) -> Arc<PluginHost> {
+        if self != Self::BadPlugin {
+            return crate::common::linked();
+        }
+        let mut host = PluginHost::empty();
+        let swim = endline_workbench::inside::first_party().into_iter();
+        for hook in swim {
+            host.add(match hook {
+                Hook::Motion(sound) => {
+                    Hook::Motion(Arc::new(Bad { sound, calls: AtomicU32::new(0) }))
+                }
+                sound => sound,
+            })
+            .unwrap();
+        }
+        Arc::new(host)
+    }
+}
+
+/// Another program changes a figure of a file, whole.
+fn write_as_another(root: &Path, dice: &mut Dice) {
+    let files: Vec<_> =
+        fs::read_dir(root.join("ropes")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let file = &files[dice.below(files.len())];
+    let Ok(text) = fs::read_to_string(file) else { return };
+    let fields = numbers(&text);
+    if fields.is_empty() {
+        return;
+    }
+    let (field, number, unit) = &fields[dice.below(fields.len())];
+    let line = text.lines().find(|line| line.starts_with(&format!("{field} ="))).unwrap();
+    let changed = format!("{field} = \"{} {unit}\"", number * 1.01);
+    let beside = file.with_extension("theirs");
+    fs::write(&beside, text.replacen(line, &changed, 1)).unwrap();
+    fs::rename(beside, file).unwrap();
+}
+
+/// A motion that is sound for a while.
+struct Bad {
+    sound: Arc<dyn WhaleMotion>,
+    calls: AtomicU32,
+}
+
+impl WhaleMotion for Bad {
+    fn descriptor(&self) -> &Descriptor {
+        self.sound.descriptor()
+    }
+
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
+        let call = self.calls.fetch_add(1, Ordering::Relaxed);
+        let mut output = self.sound.step(attributes, input, state)?;
+        match call % 400 {
+            100 => Err(HookError::new("it does not want to")),
+            200 => {
+                std::thread::sleep(Duration::from_secs(1));
+                Ok(output)
+            }
+            300 => {
+                output.speed_m_s = f64::NAN;
+                Ok(output)
+            }
+            _ => Ok(output),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! A session: random commands and edits until it is killed.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui_kittest::Harness;
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::{self, Autosave};
+use endline_session::live::engine::live;
+use endline_session::task::Waker;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::command::action::{WindowAction, WindowCommand};
+use endline_workbench::gui::command::declared;
+use endline_workbench::gui::shared::Shared;
+use endline_workbench::input::Pilot;
+
+use super::Dice;
+use super::fault::Fault;
+use super::journal::digest;
+
+/// Tells this test that it is a session, and on which library.
+pub const ROOT: &str = "ENDLINE_TEST_SOAK";
+/// Its seed.
+pub const SEED: &str = "ENDLINE_TEST_SOAK_SEED";
+/// Its fault.
+pub const FAULT: &str = "ENDLINE_TEST_SOAK_FAULT";
+
+#[test]
+fn a_session_as_a_program_of_its_own() {
+    let Some(root) = std::env::var_os(ROOT).map(PathBuf::from) else { return };
+    let variable = |name: &str| std::env::var(name).unwrap();
+    let dice = Dice(variable(SEED).parse().unwrap());
+    session(&root, dice, Fault::named(&variable(FAULT)));
+}
+
+/// A scenario of the library that can be opened.
+pub fn scenario(root: &Path) -> PathBuf {
+    let folder = root.join("scenarios");
+    let usual = folder.join("reference-a-pendulum.toml");
+    let others = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    if usual.is_file() { usual } else { others.into_iter().min().unwrap() }
+}
+
+fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
+    Fault::put_right(root);
+    let mut harness = opened(root, fault);
+    let mut unsaved = BTreeSet::new();
+    let mut version = None;
+    loop {
+        match dice.below(20) {
+            0..9 => edit(&mut harness, &mut dice),
+            9..18 => command(&mut harness, &mut dice),
+            _ => harness.run_steps(60),
+        }
+        harness.run_steps(1 + dice.below(20));
+        tell(&harness, &mut unsaved, &mut version);
+    }
+}
+
+/// The window on the library, with what a killed session has left taken up.
+fn opened(root: &Path, fault: Fault) -> Harness<'static, App> {
+    let mut documents = Documents::open(root, &scenario(root)).unwrap();
+    let autosave = Autosave::in_folder(root.join("data"));
+    for (file, kept) in autosave.left_behind() {
+        if kept.scenario == documents.scenario_path() {
+            documents.restore(kept.texts.into_iter().collect());
+        }
+        recovery::forget(&file);
+    }
+    let waker: Waker = Arc::new(|| {});
+    let host = fault.host();
+    let create = move |creation: &mut eframe::CreationContext<'_>| {
+        App::new(creation, Shared::new(documents, host, live(), waker, Pilot::default()))
+    };
+    let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
+    let workbench = &mut harness.state_mut().shared.workbench;
+    workbench.project.autosave = autosave;
+    workbench.studies.folder = Some(root.join("results"));
+    workbench.searches.folder = Some(root.join("results"));
+    harness
+}
+
+/// Changes a figure of a text.
+fn edit(harness: &mut Harness<'static, App>, dice: &mut Dice) {
+    let documents = &harness.state().shared.workbench.project.documents;
+    let paths: Vec<&String> = documents.texts().keys().collect();
+    let path = paths[dice.below(paths.len())].clone();
+    let fields = numbers(documents.text(&path).unwrap_or_default());
+    if fields.is_empty() {
+        return;
+    }
+    let (field, number, unit) = fields[dice.below(fields.len())].clone();
+    let value = format!("{} {unit}", number * (0.5 + 0.01 * dice.below(150) as f64));
+    println!("soak does edit of {path} {field}");
+    harness.state_mut().shared.workbench.set(&path, &field, &value);
+}
+
+/// Fields at the head of a text that are a number with a unit.
+pub fn numbers(text: &str) -> Vec<(String, f64, String)> {
+    let head = text.lines().take_while(|line| !line.starts_with('['));
+    let of = |line: &str| {
+        let (field, value) = line.split_once(" = \"").filter(|(field, _)| !field.contains(' '))?;
+        let (number, unit) = value.split_once('"')?.0.split_once(' ')?;
+        Some((field.to_owned(), number.replace(',', "").parse().ok()?, unit.to_owned()))
+    };
+    head.filter_map(of).collect()
+}
+
+/// Gives a command as the palette would. A dialog needs a display, and quitting is no fault.
+fn command(harness: &mut Harness<'static, App>, dice: &mut Dice) {
+    let all: Vec<_> = declared().filter(|info| info.id() != "window.quit").collect();
+    let info = all[dice.below(all.len())];
+    let mut offers = info.offers(&harness.state().shared);
+    offers.retain(|offer| !matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_))));
+    if offers.is_empty() {
+        return;
+    }
+    let offer = offers.swap_remove(dice.below(offers.len()));
+    println!("soak does {}", offer.name);
+    harness.state_mut().shared.give(offer.command);
+}
+
+/// Tells what is unsaved now, the time and the memory.
+fn tell(
+    harness: &Harness<'static, App>,
+    unsaved: &mut BTreeSet<String>,
+    version: &mut Option<u64>,
+) {
+    let documents = &harness.state().shared.workbench.project.documents;
+    let now_s = harness.ctx.input(|input| input.time);
+    if version.replace(documents.version()) != Some(documents.version()) {
+        let now: BTreeSet<String> = documents.unsaved().iter().cloned().collect();
+        for path in &now {
+            println!("soak unsaved {now_s:.3} {path} {}", digest(documents.text(path)));
+        }
+        unsaved.difference(&now).for_each(|path| println!("soak saved {now_s:.3} {path}"));
+        *unsaved = now;
+    }
+    println!("soak at {now_s:.3} {}", most_mb().unwrap_or(0));
+}
+
+/// Most memory of this program so far [MB], where the system tells.
+fn most_mb() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.split_whitespace().next()?.parse::<u64>().ok()? / 1024)
+}
