@@ -57,14 +57,20 @@ impl Loader {
     /// choices allow before it is opened here.
     pub fn load(&mut self, checker: &Checker<'_>) -> (PluginHost, Vec<PluginProblem>) {
         let (mut host, mut problems) = (PluginHost::empty(), Vec::new());
+        let mut used = BTreeSet::new();
         for file in libraries(&self.folders, &mut problems) {
             match self.open(&file, checker) {
                 Ok((hash, opened)) => {
+                    used.insert((file.clone(), hash.clone()));
                     host.add_loaded(&file, &hash, opened, &self.choices, &mut problems)
                 }
                 Err(refusal) => problems.push(refusal.at(file)),
             }
         }
+        // A process ends once no run has its library any more; one that is mapped here stays.
+        self.opened.retain(|(file, hash, is_apart), _| {
+            !is_apart || used.contains(&(file.clone(), hash.clone()))
+        });
         for folder in text_plugins(&self.folders) {
             match TextPlugin::from_folder(&folder) {
                 Ok(plugin) => host.add_text(&folder, &plugin, &self.choices, &mut problems),

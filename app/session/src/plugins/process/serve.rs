@@ -5,7 +5,7 @@
 //! too.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, IsTerminal};
 use std::path::Path;
 use std::time::Duration;
 
@@ -29,6 +29,9 @@ const LOOK: Duration = Duration::from_secs(1);
 /// # Errors
 /// Where this process was not started by the program, or the pipe breaks.
 pub fn serve_here() -> Result<(), String> {
+    if io::stdin().is_terminal() {
+        return Err("this is for the program to call, over a pipe".to_owned());
+    }
     let broken = |error: io::Error| format!("the pipe to the program is broken: {error}");
     let (mut input, mut output) = own_pipes().map_err(broken)?;
     end_with_parent();

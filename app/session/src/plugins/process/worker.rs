@@ -111,7 +111,10 @@ impl Drop for Worker {
     }
 }
 
-/// The command of a process: no environment but the places of libraries, a process group of its own, nothing on the terminal.
+/// What a process needs of the environment: where libraries lie, and where they are copied to if no memory takes them.
+const ENVIRONMENT: [&str; 4] = ["PATH", "LD_LIBRARY_PATH", "HOME", "XDG_CACHE_HOME"];
+
+/// The command of a process: hardly an environment, a process group of its own, nothing on the terminal.
 fn command(program: &Path) -> Command {
     let mut command = Command::new(program);
     command
@@ -120,11 +123,7 @@ fn command(program: &Path) -> Command {
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .env_clear()
-        .envs(
-            ["PATH", "LD_LIBRARY_PATH"]
-                .iter()
-                .filter_map(|name| Some((name, std::env::var_os(name)?))),
-        );
+        .envs(ENVIRONMENT.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
 }

@@ -38,7 +38,7 @@ const SEED: u64 = 20_261_127;
 /// Sessions on one library, each on what the one before has left, before a fresh one is taken.
 const ON_ONE: u64 = 10;
 /// A session that tells nothing for so long hangs.
-const HANGS: Duration = Duration::from_secs(60);
+const HANGS: Duration = Duration::from_secs(120);
 /// Most memory of a session [MB].
 const MOST_MB: u64 = 2000;
 
