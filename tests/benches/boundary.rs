@@ -61,7 +61,7 @@ fn shares() {
         per_step(&CALLS),
         per_step(&CONTACTS_SEEN)
     );
-    let ways = [linked_host(), loaded_host(), apart_host()].map(|host| at_contact(&host));
+    let ways = [linked_host(), loaded_host(), out_of_process_host()].map(|host| at_contact(&host));
     let (mut fastest, mut waited, mut ends) = ([f64::INFINITY; 3], [f64::INFINITY; 3], [0; 3]);
     for _ in 0..12 {
         for (index, (model, state)) in ways.iter().enumerate() {
@@ -142,7 +142,7 @@ fn loaded_host() -> PluginHost {
 }
 
 /// The libraries of the folders in processes of their own.
-fn apart_host() -> PluginHost {
+fn out_of_process_host() -> PluginHost {
     let mut choices = Choices::kept_in(None, &[]);
     for folder in folders() {
         for entry in std::fs::read_dir(folder).unwrap() {
@@ -150,9 +150,10 @@ fn apart_host() -> PluginHost {
             choices.allow(&file, &file_hash(&file).unwrap()).unwrap();
         }
     }
-    let mut loader = Loader::new(&folders(), choices).apart(endline_tests::program().unwrap());
+    let mut loader =
+        Loader::new(&folders(), choices).out_of_process(endline_tests::program().unwrap());
     let host = some(loader.load(&|_: &Path, _: &str| Ok(())));
-    assert!(host.list().iter().all(|info| info.is_apart), "in processes of their own");
+    assert!(host.list().iter().all(|info| info.out_of_process), "in processes of their own");
     host
 }
 
@@ -253,6 +254,9 @@ fn friction_loaded_and_guarded(bencher: Bencher<'_, '_>) {
 
 /// The model in a process of its own, watched over by the guard.
 #[divan::bench]
-fn friction_apart_and_guarded(bencher: Bencher<'_, '_>) {
-    respond(bencher, apart_host().friction("org.endline.friction.coulomb").unwrap().as_ref());
+fn friction_out_of_process_and_guarded(bencher: Bencher<'_, '_>) {
+    respond(
+        bencher,
+        out_of_process_host().friction("org.endline.friction.coulomb").unwrap().as_ref(),
+    );
 }

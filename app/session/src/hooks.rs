@@ -22,7 +22,7 @@ pub fn plugin_loader(folders: &[PathBuf]) -> Loader {
     let own: Vec<PathBuf> = program_folder().into_iter().collect();
     let loader = Loader::new(folders, Choices::kept_in(chosen_file(), &own));
     match program() {
-        Ok(program) => loader.apart(program),
+        Ok(program) => loader.out_of_process(program),
         // Without the program nothing can be checked, and so nothing is opened.
         Err(_) => loader,
     }

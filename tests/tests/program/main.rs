@@ -2,7 +2,6 @@
 
 mod alone;
 mod animation;
-mod apart;
 mod cases;
 mod cli;
 mod common;
@@ -14,6 +13,7 @@ mod haul;
 mod hostile;
 mod interrupts;
 mod mill;
+mod out_of_process;
 mod replay;
 mod rules;
 mod search;

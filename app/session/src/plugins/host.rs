@@ -113,7 +113,7 @@ impl PluginHost {
                 file: file.to_path_buf(),
                 hash: hash.to_owned(),
                 about: opened.about.clone(),
-                is_apart: opened.is_apart,
+                out_of_process: opened.out_of_process,
             };
             let added = hook.and_then(|hook| self.insert(hook, Some(from), choices));
             problems.extend(added.err().map(|refusal| refusal.at(file)));
@@ -148,7 +148,7 @@ impl PluginHost {
             file: folder.join(PLUGIN_FILE),
             hash,
             about: plugin.about.clone(),
-            is_apart: false,
+            out_of_process: false,
         };
         let gear = plugin
             .gear

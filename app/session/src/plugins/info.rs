@@ -101,7 +101,7 @@ pub struct PluginInfo {
     /// What its library says of itself: who made it, where its laws and figures come from; may be empty.
     pub about: String,
     /// Whether it runs in a process of its own.
-    pub is_apart: bool,
+    pub out_of_process: bool,
 }
 
 /// Where a plugin was loaded from.
@@ -110,7 +110,7 @@ pub(super) struct Origin {
     pub file: PathBuf,
     pub hash: String,
     pub about: String,
-    pub is_apart: bool,
+    pub out_of_process: bool,
 }
 
 impl PluginInfo {
@@ -127,14 +127,14 @@ impl PluginInfo {
             file: Some(from.file),
             hash: Some(from.hash),
             about: from.about,
-            is_apart: false,
+            out_of_process: false,
         }
     }
 
     pub(super) fn of(hook: &Hook, from: Option<Origin>) -> Self {
         let descriptor = hook.descriptor();
         let about = from.as_ref().map(|from| from.about.clone()).unwrap_or_default();
-        let is_apart = from.as_ref().is_some_and(|from| from.is_apart);
+        let out_of_process = from.as_ref().is_some_and(|from| from.out_of_process);
         let (file, hash) = from.map(|Origin { file, hash, .. }| (file, hash)).unzip();
         Self {
             id: descriptor.id.to_string(),
@@ -147,7 +147,7 @@ impl PluginInfo {
             file,
             hash,
             about,
-            is_apart,
+            out_of_process,
         }
     }
 }

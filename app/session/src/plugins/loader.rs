@@ -43,7 +43,7 @@ impl Loader {
     /// The same, with libraries that are not trusted in processes of their own, which `program plugins serve` is. Where the system
     /// is not a Unix, they run in this one.
     #[must_use]
-    pub fn apart(self, program: PathBuf) -> Self {
+    pub fn out_of_process(self, program: PathBuf) -> Self {
         Self { serves: cfg!(unix).then_some(program), ..self }
     }
 
@@ -68,8 +68,8 @@ impl Loader {
             }
         }
         // A process ends once no run has its library any more; one that is mapped here stays.
-        self.opened.retain(|(file, hash, is_apart), _| {
-            !is_apart || used.contains(&(file.clone(), hash.clone()))
+        self.opened.retain(|(file, hash, out_of_process), _| {
+            !out_of_process || used.contains(&(file.clone(), hash.clone()))
         });
         for folder in text_plugins(&self.folders) {
             match TextPlugin::from_folder(&folder) {
@@ -111,7 +111,7 @@ impl Loader {
             }
         })?;
         let opened = match serves {
-            Some(program) => open_apart(program, file, bytes),
+            Some(program) => open_out_of_process(program, file, bytes),
             None => open_copy(file, &bytes),
         }?;
         self.opened.insert(key, opened.clone());
@@ -151,12 +151,12 @@ fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
 }
 
 #[cfg(unix)]
-fn open_apart(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+fn open_out_of_process(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
     super::process::open(program, file, bytes)
 }
 
 #[cfg(not(unix))]
-fn open_apart(_: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+fn open_out_of_process(_: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
     open_copy(file, &bytes)
 }
 

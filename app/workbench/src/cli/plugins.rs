@@ -179,9 +179,9 @@ fn told(info: &PluginInfo) -> String {
         .file
         .as_ref()
         .map_or_else(|| "linked in".to_owned(), |file| file.display().to_string());
-    let apart = if info.is_apart { ", in a process of its own" } else { "" };
+    let own = if info.out_of_process { ", in a process of its own" } else { "" };
     let mut text = format!(
-        "{}  {}  {}\n  {} ({place}{apart})\n  {}\n",
+        "{}  {}  {}\n  {} ({place}{own})\n  {}\n",
         info.id, info.version, info.kind, info.name, info.help
     );
     if !info.about.is_empty() {

@@ -35,7 +35,7 @@ pub(super) struct Opened {
     /// What it says of itself: who made it, where its laws and figures come from; may be empty.
     pub about: String,
     /// Whether it runs in a process of its own.
-    pub is_apart: bool,
+    pub out_of_process: bool,
     /// Its plugins, and why each is not used that cannot be.
     pub hooks: Vec<Result<Hook, Refusal>>,
 }
@@ -46,7 +46,7 @@ pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
     let (about, plugins) = boundary::open(file, named)?;
     Ok(Opened {
         about,
-        is_apart: false,
+        out_of_process: false,
         hooks: plugins.into_iter().map(|plugin| hook(plugin?)).collect(),
     })
 }

@@ -5,10 +5,10 @@ use endline_sdk::{
     GearType, HookError, MotionInput, MotionOutput, Rig, Site, WhaleMotion,
 };
 
-use super::Apart;
+use super::Proxy;
 use super::message::{Answer, Call};
 
-impl WhaleMotion for Apart {
+impl WhaleMotion for Proxy {
     fn descriptor(&self) -> &Descriptor {
         &self.descriptor
     }
@@ -27,7 +27,7 @@ impl WhaleMotion for Apart {
     }
 }
 
-impl FrictionModel for Apart {
+impl FrictionModel for Proxy {
     fn descriptor(&self) -> &Descriptor {
         &self.descriptor
     }
@@ -59,7 +59,7 @@ impl FrictionModel for Apart {
     }
 }
 
-impl GearType for Apart {
+impl GearType for Proxy {
     fn descriptor(&self) -> &Descriptor {
         &self.descriptor
     }

@@ -45,7 +45,7 @@ pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened
         Opening::Refused(why) => Err(refusal(why)),
         Opening::Opened { about, plugins } => {
             let hooks = (0..).zip(plugins).map(|(place, plugin)| hook(plugin, place, &processes));
-            Ok(Opened { about, is_apart: true, hooks: hooks.collect() })
+            Ok(Opened { about, out_of_process: true, hooks: hooks.collect() })
         }
     }
 }
@@ -55,11 +55,11 @@ fn refusal(Refused { id, reason, help }: Refused) -> Refusal {
 }
 
 fn hook(plugin: Declared, place: u32, processes: &Arc<Processes>) -> Result<Hook, Refusal> {
-    let apart = |descriptor| Apart { descriptor, place, processes: Arc::clone(processes) };
+    let proxy = |descriptor| Proxy { descriptor, place, processes: Arc::clone(processes) };
     match plugin {
-        Declared::Motion(descriptor) => Ok(Hook::Motion(Arc::new(apart(descriptor)))),
-        Declared::Friction(descriptor) => Ok(Hook::Friction(Arc::new(apart(descriptor)))),
-        Declared::Gear(descriptor) => Ok(Hook::Gear(Arc::new(apart(descriptor)))),
+        Declared::Motion(descriptor) => Ok(Hook::Motion(Arc::new(proxy(descriptor)))),
+        Declared::Friction(descriptor) => Ok(Hook::Friction(Arc::new(proxy(descriptor)))),
+        Declared::Gear(descriptor) => Ok(Hook::Gear(Arc::new(proxy(descriptor)))),
         Declared::Refused(why) => Err(refusal(why)),
     }
 }
@@ -89,13 +89,13 @@ impl Processes {
 }
 
 /// A plugin in another process.
-struct Apart {
+struct Proxy {
     descriptor: Descriptor,
     place: u32,
     processes: Arc<Processes>,
 }
 
-impl Apart {
+impl Proxy {
     fn ask(&self, call: Call) -> Result<Answer, HookError> {
         self.processes.ask(&Question { plugin: self.place, call })
     }

@@ -250,7 +250,7 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
             .color(faint),
     )
     .on_hover_text(&hash);
-    if info.is_apart {
+    if info.out_of_process {
         ui.label(RichText::new("It runs in a process of its own.").size(12.0).color(faint))
             .on_hover_text("A crash or a hang of it ends the run, not the program");
     }

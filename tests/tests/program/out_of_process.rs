@@ -61,7 +61,7 @@ fn encounter(place: &Place) -> String {
 
 #[test]
 fn whatever_a_library_does_the_run_ends_with_a_reason_and_the_program_lives() {
-    let place = Place::new("apart");
+    let place = Place::new("out-of-process");
     let scenario = encounter(&place);
     for (name, harm, told) in HARM {
         let folder = allowed(&place, name, harm);
@@ -76,7 +76,7 @@ fn whatever_a_library_does_the_run_ends_with_a_reason_and_the_program_lives() {
 
 #[test]
 fn a_library_gives_the_same_bits_in_a_process_of_its_own_as_in_the_programs() {
-    let place = Place::new("apart-bits");
+    let place = Place::new("out-of-process-bits");
     let scenario = place.encounter();
     let shipped = endline_tests::products().unwrap().join("plugins");
     let libraries: Vec<String> =
@@ -93,7 +93,7 @@ fn a_library_gives_the_same_bits_in_a_process_of_its_own_as_in_the_programs() {
         assert_eq!(listed.contains("in a process of its own"), told, "{listed}");
         with(&["run", &scenario, "--json"]).json()["state_hash"].clone()
     };
-    let apart = hash_where("", true);
-    assert!(apart.is_string());
-    assert_eq!(apart, hash_where("--in-process", false));
+    let own_process = hash_where("", true);
+    assert!(own_process.is_string());
+    assert_eq!(own_process, hash_where("--in-process", false));
 }
