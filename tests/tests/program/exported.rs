@@ -89,6 +89,6 @@ fn a_stretch_that_is_none_and_too_many_rows_are_refused() {
     };
     export(&["--from", "5", "--to", "2"]).fails(2, &["no stretch of a run"]);
     export(&["--rate", "0"]).fails(2, &["--rate"]);
-    export(&["--format", "arrow"]).fails(2, &["parquet", "csv"]);
+    export(&["--format", "hdf5"]).fails(2, &["parquet", "arrow", "csv"]);
     assert!(!place.path("tables").exists());
 }

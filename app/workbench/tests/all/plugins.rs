@@ -111,7 +111,7 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
         Standing::Waiting(_)
     ));
     assert!(
-        harness.query_by_label_contains("A plugin runs with your rights").is_some(),
+        harness.query_by_label_contains("with your rights: allow it only if").is_some(),
         "the window asks"
     );
     harness.get_all_by_label("Allow").last().unwrap().click();
@@ -122,7 +122,7 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
         problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
         "{problem}"
     );
-    assert!(harness.query_by_label_contains("A plugin runs with your rights").is_none());
+    assert!(harness.query_by_label_contains("with your rights: allow it only if").is_none());
 
     // Another file, put off: it is not asked about again, and stays left out.
     std::fs::write(&file, "other content").unwrap();

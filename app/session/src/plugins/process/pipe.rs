@@ -13,26 +13,29 @@ use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 
 /// How long an end asks again before it sleeps.
 const BRIEF: Duration = Duration::from_micros(50);
-/// Longest sleep of an end that gives up at last.
-const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 50_000_000 };
+/// Longest sleep at once of an end that gives up at last.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// An end of a pipe.
 pub(super) struct Pipe {
     file: File,
-    /// After how many looks without a sign of the other side a wait is given up; `None` for never. A time in which this process
-    /// stands still is one look.
-    patience: Option<u32>,
+    /// How long an exchange may wait for the other side; `None` for ever.
+    patience: Option<Duration>,
+    /// How long the exchange under way has waited. Of a time in which this process stands still, one look counts.
+    waited: Duration,
 }
 
 impl Pipe {
-    /// Looks in a second.
-    pub const LOOKS: u32 = 20;
-
-    /// An end that waits for so many looks.
-    pub fn new(end: impl Into<OwnedFd>, patience: Option<u32>) -> io::Result<Self> {
+    /// An end that waits so long.
+    pub fn new(end: impl Into<OwnedFd>, patience: Option<Duration>) -> io::Result<Self> {
         let file = File::from(end.into());
         fcntl_setfl(&file, fcntl_getfl(&file)? | OFlags::NONBLOCK)?;
-        Ok(Self { file, patience })
+        Ok(Self { file, patience, waited: Duration::ZERO })
+    }
+
+    /// An exchange begins, whose parts share the patience: who dribbles byte after byte gains no time.
+    pub fn begin(&mut self) {
+        self.waited = Duration::ZERO;
     }
 
     /// Does something once the other side is ready for it.
@@ -42,7 +45,6 @@ impl Pipe {
         mut work: impl FnMut(&mut File) -> io::Result<T>,
     ) -> io::Result<T> {
         let begun = Instant::now();
-        let mut looks = 0;
         loop {
             match work(&mut self.file) {
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {}
@@ -54,16 +56,19 @@ impl Pipe {
             }
             match self.patience {
                 None => return self.sleeping(work),
-                Some(patience) if looks > patience => return Err(ErrorKind::TimedOut.into()),
+                Some(patience) if self.waited > patience => return Err(ErrorKind::TimedOut.into()),
                 Some(_) => self.sleep(flags)?,
             }
-            looks += 1;
         }
     }
 
     /// Sleeps for a look, or until the other side is ready.
-    fn sleep(&self, flags: PollFlags) -> io::Result<()> {
-        match poll(&mut [PollFd::from_borrowed_fd(self.file.as_fd(), flags)], Some(&LOOK)) {
+    fn sleep(&mut self, flags: PollFlags) -> io::Result<()> {
+        let begun = Instant::now();
+        let longest = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
+        let woken = poll(&mut [PollFd::from_borrowed_fd(self.file.as_fd(), flags)], Some(&longest));
+        self.waited += begun.elapsed().min(LOOK);
+        match woken {
             Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
             Err(error) => Err(error.into()),
         }

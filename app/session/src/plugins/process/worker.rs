@@ -13,8 +13,8 @@ use super::message::{Answer, Opening, Orders, Question};
 use super::pipe::Pipe;
 use super::wire::Wire;
 
-/// How long a call may take [s] of the time in which this program runs.
-const PATIENCE: u32 = 10;
+/// How long a call may take, of the time in which this program runs.
+const PATIENCE: Duration = Duration::from_secs(10);
 /// How long a process that has closed its pipes may take to end.
 const GRACE: Duration = Duration::from_millis(500);
 
@@ -48,9 +48,8 @@ impl Worker {
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
             return Err("a process without pipes was started".to_owned());
         };
-        let patience = Some(PATIENCE * Pipe::LOOKS);
-        let pipes =
-            Pipe::new(input, patience).and_then(|input| Ok((input, Pipe::new(output, patience)?)));
+        let pipes = Pipe::new(input, Some(PATIENCE))
+            .and_then(|input| Ok((input, Pipe::new(output, Some(PATIENCE))?)));
         let (input, output) = pipes.map_err(|error| format!("its pipes fail: {error}"))?;
         let output = BufReader::with_capacity(1 << 16, output);
         let mut worker = Self { child, input, output, room: Vec::new() };
@@ -71,6 +70,8 @@ impl Worker {
     }
 
     fn exchange<A: Wire>(&mut self, question: &impl Wire) -> Result<A, String> {
+        self.input.begin();
+        self.output.get_mut().begin();
         let answer = send(question, &mut self.input, &mut self.room)
             .and_then(|()| receive(&mut self.output, &mut self.room));
         answer.map_err(|error| self.why(&error))
@@ -80,7 +81,8 @@ impl Worker {
     fn why(&mut self, error: &io::Error) -> String {
         match error.kind() {
             io::ErrorKind::TimedOut => {
-                return format!("its process was ended: no answer in {PATIENCE} s");
+                let seconds = PATIENCE.as_secs();
+                return format!("its process was ended: no answer in {seconds} s");
             }
             io::ErrorKind::InvalidData => {
                 return "its process was ended: it said what no plugin says".to_owned();
