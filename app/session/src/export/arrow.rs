@@ -48,22 +48,20 @@ fn array(column: &Column) -> Result<ArrayRef, ArrowError> {
     })
 }
 
+/// What a tag tells of a column, as `unit` of `x_m.unit`; none where it is of something else.
+fn about<'a>(name: &str, key: &'a str) -> Option<&'a str> {
+    key.strip_prefix(name)?.strip_prefix('.')
+}
+
 /// What the tags tell of a column.
 fn of_column(name: &str, tags: &[(String, String)]) -> HashMap<String, String> {
-    let own = |(key, text): &(String, String)| {
-        let key = key.strip_prefix(name)?.strip_prefix('.')?;
-        Some((key.to_owned(), text.clone()))
-    };
+    let own = |(key, text): &(String, String)| Some((about(name, key)?.to_owned(), text.clone()));
     tags.iter().filter_map(own).collect()
 }
 
 /// What the tags tell of the table as a whole.
 fn of_table(table: &Table, tags: &[(String, String)]) -> HashMap<String, String> {
-    let names = || table.columns.iter().map(|(name, _)| name);
-    let of_one = |key: &str| {
-        names()
-            .any(|name| key.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with('.')))
-    };
+    let of_one = |key: &str| table.columns.iter().any(|(name, _)| about(name, key).is_some());
     tags.iter().filter(|(key, _)| !of_one(key)).cloned().collect()
 }
 

@@ -61,16 +61,14 @@ impl Loader {
         for file in libraries(&self.folders, &mut problems) {
             match self.open(&file, checker) {
                 Ok((hash, opened)) => {
-                    used.insert((file.clone(), hash.clone()));
+                    used.insert((file.clone(), hash.clone(), opened.out_of_process));
                     host.add_loaded(&file, &hash, opened, &self.choices, &mut problems)
                 }
                 Err(refusal) => problems.push(refusal.at(file)),
             }
         }
         // A process ends once no run has its library any more; one that is mapped here stays.
-        self.opened.retain(|(file, hash, out_of_process), _| {
-            !out_of_process || used.contains(&(file.clone(), hash.clone()))
-        });
+        self.opened.retain(|key, opened| !opened.out_of_process || used.contains(key));
         for folder in text_plugins(&self.folders) {
             match TextPlugin::from_folder(&folder) {
                 Ok(plugin) => host.add_text(&folder, &plugin, &self.choices, &mut problems),
