@@ -38,11 +38,26 @@ pub struct UnsavedEdits {
 #[derive(Debug, Default)]
 pub struct Autosave {
     folder: Option<PathBuf>,
-    /// Version of the texts written last, and the time of writing [s].
-    kept: Option<(u64, f64)>,
+    /// What was written last.
+    kept: Option<Kept>,
     writing: Option<JoinHandle<()>>,
     /// This program's file, with the lock that says so; taken when there is something to write first.
     own: Option<(PathBuf, File)>,
+}
+
+/// What was written of the edits: texts of this version, of these files, at this time [s].
+#[derive(Debug)]
+struct Kept {
+    version: u64,
+    unsaved: Vec<String>,
+    at_s: f64,
+}
+
+impl Kept {
+    /// Whether the documents hold no other edits by now. Saving changes no text, but which of them are edits.
+    fn is_of(&self, documents: &Documents) -> bool {
+        self.version == documents.version() && self.unsaved == documents.unsaved()
+    }
 }
 
 impl Autosave {
@@ -74,16 +89,18 @@ impl Autosave {
     /// to call again [s]; `None` where nothing is left to write.
     pub fn keep(&mut self, documents: &Documents, now_s: f64) -> Option<f64> {
         self.folder.as_ref()?;
-        let (version, at_s) = self.kept.unwrap_or((0, f64::NEG_INFINITY));
-        if version == documents.version() {
-            return None;
-        }
+        let at_s = match &self.kept {
+            Some(kept) if kept.is_of(documents) => return None,
+            Some(kept) => kept.at_s,
+            None => f64::NEG_INFINITY,
+        };
         let busy = self.writing.as_ref().is_some_and(|writing| !writing.is_finished());
         if busy || now_s - at_s < EVERY_S {
             return Some((EVERY_S - (now_s - at_s)).clamp(0.1, EVERY_S));
         }
-        self.kept = Some((documents.version(), now_s));
         let unsaved = documents.unsaved();
+        self.kept =
+            Some(Kept { version: documents.version(), unsaved: unsaved.to_vec(), at_s: now_s });
         if unsaved.is_empty() {
             self.clear();
             return None;
@@ -108,12 +125,17 @@ impl Autosave {
         None
     }
 
-    /// Removes this program's file: its edits are saved, or given up.
-    pub fn clear(&mut self) {
+    /// Waits until what is being written is on the disk.
+    pub fn finish(&mut self) {
         if let Some(writing) = self.writing.take() {
             // The thread writes one file and ends.
             let _ = writing.join();
         }
+    }
+
+    /// Removes this program's file: its edits are saved, or given up.
+    pub fn clear(&mut self) {
+        self.finish();
         if let Some((file, _)) = self.own.take() {
             forget(&file);
         }
@@ -199,5 +221,26 @@ mod tests {
         let rest: Vec<_> = std::fs::read_dir(&folder).unwrap().flatten().collect();
         assert_eq!(rest.len(), 1, "only what is no file of edits stays: {rest:?}");
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn edits_that_were_saved_are_kept_no_longer() {
+        let root = std::env::temp_dir().join(format!("endline-saved-{}", std::process::id()));
+        std::fs::create_dir_all(root.join("ropes")).unwrap();
+        let [rope, scenario] = ["ropes/rope.toml", "one.toml"].map(|name| root.join(name));
+        std::fs::write(rope, "name = \"rope\"\n").unwrap();
+        std::fs::write(&scenario, "name = \"one\"\n").unwrap();
+        let mut documents = Documents::open(&root, &scenario).unwrap();
+        let mut autosave = Autosave::in_folder(root.join("data"));
+        let left = || Autosave::in_folder(root.join("data")).left_behind().len();
+        documents.set("ropes/rope.toml", "name", "another").unwrap();
+        autosave.keep(&documents, 0.0);
+        autosave.finish();
+        let is_kept = || root.join("data").read_dir().unwrap().count();
+        assert_eq!((is_kept(), left()), (2, 0), "a file and its lock, which this program holds");
+        documents.save().unwrap();
+        autosave.keep(&documents, EVERY_S);
+        assert_eq!(is_kept(), 0, "a crash now would offer what is on the disk already");
+        std::fs::remove_dir_all(&root).unwrap();
     }
 }

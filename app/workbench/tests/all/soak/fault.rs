@@ -1,7 +1,9 @@
 //! What goes wrong while a session runs.
 
 use std::fs;
-use std::path::Path;
+use std::fs::Permissions;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -13,6 +15,9 @@ use endline_session::plugins::Hook;
 
 use super::Dice;
 use super::session::numbers;
+
+/// Names the file that holds by how many seconds the clock is wrong.
+const CLOCK: &str = "ENDLINE_TEST_CLOCK";
 
 /// A fault of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,12 +32,23 @@ pub enum Fault {
     OthersWrite,
     /// The whale's motion fails, hangs for a second and gives no numbers, by turns.
     BadPlugin,
+    /// Nothing may be written to the folders of the library.
+    ReadOnly,
+    /// The clock of the day jumps, by a second or by a century, forth and back.
+    ClockJumps,
 }
 
 impl Fault {
     /// Every fault.
-    pub const ALL: [Self; 5] =
-        [Self::Killed, Self::FullDisk, Self::NoDataFolder, Self::OthersWrite, Self::BadPlugin];
+    pub const ALL: [Self; 7] = [
+        Self::Killed,
+        Self::FullDisk,
+        Self::NoDataFolder,
+        Self::OthersWrite,
+        Self::BadPlugin,
+        Self::ReadOnly,
+        Self::ClockJumps,
+    ];
 
     /// Its name, from one program to the other.
     pub fn name(self) -> String {
@@ -49,14 +65,30 @@ impl Fault {
         !matches!(self, Self::FullDisk | Self::NoDataFolder)
     }
 
-    /// The command of a session under this fault.
-    pub fn command(self, program: &Path) -> Command {
-        if self != Self::FullDisk {
-            return Command::new(program);
+    /// The command of a session under this fault, on a library.
+    pub fn command(self, program: &Path, root: &Path) -> Command {
+        let mut command = Command::new(program);
+        match self {
+            Self::FullDisk => {
+                // A write past the limit is an error, not the end.
+                command = Command::new("sh");
+                command.args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\""]).arg(program);
+            }
+            Self::ReadOnly => {
+                set_writable(root, false);
+                // Permissions hold root, too, once it has given up the right to pass them over.
+                if fs::metadata(root).unwrap().uid() == 0 {
+                    command = Command::new("setpriv");
+                    command
+                        .args(["--inh-caps=-dac_override", "--bounding-set=-dac_override"])
+                        .arg(program);
+                }
+            }
+            Self::ClockJumps => {
+                command.env("LD_PRELOAD", jumping_clock(root)).env(CLOCK, root.join("clock"));
+            }
+            _ => {}
         }
-        // A write past the limit is an error, not the end.
-        let mut command = Command::new("sh");
-        command.args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\""]).arg(program);
         command
     }
 
@@ -71,6 +103,11 @@ impl Fault {
                 }
             }
             Self::OthersWrite if dice.below(5) == 0 => write_as_another(root, dice),
+            Self::ClockJumps if dice.below(5) == 0 => {
+                let by_s = [1, 60, 3600, 86_400, 31_557_600, 3_155_760_000_i64];
+                let by_s = by_s[dice.below(by_s.len())] * [-1, 1][dice.below(2)];
+                fs::write(root.join("clock"), by_s.to_string()).unwrap();
+            }
             _ => {}
         }
     }
@@ -80,6 +117,13 @@ impl Fault {
         let data = root.join("data");
         if data.is_file() {
             fs::remove_file(data).unwrap();
+        }
+    }
+
+    /// Puts right what stands in the way of looking at what a session has left.
+    pub fn end(self, root: &Path) {
+        if self == Self::ReadOnly {
+            set_writable(root, true);
         }
     }
 
@@ -101,6 +145,39 @@ impl Fault {
         }
         Arc::new(host)
     }
+}
+
+/// Folders of the library, which hold no kept edits and no results.
+fn folders(root: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    let ours = ["data", "home", "results"];
+    entries.filter(move |path| path.is_dir() && !ours.iter().any(|name| path.ends_with(name)))
+}
+
+/// Lets folders of the library and their files be written to, or not.
+fn set_writable(root: &Path, is_writable: bool) {
+    let (folder, file) = if is_writable { (0o755, 0o644) } else { (0o555, 0o444) };
+    for path in folders(root) {
+        fs::set_permissions(&path, Permissions::from_mode(folder)).unwrap();
+        for entry in fs::read_dir(&path).unwrap().flatten().filter(|entry| entry.path().is_file()) {
+            fs::set_permissions(entry.path(), Permissions::from_mode(file)).unwrap();
+        }
+    }
+}
+
+/// The library that shifts the clock of the day, built from `clock.c`.
+fn jumping_clock(root: &Path) -> PathBuf {
+    let library = root.join("clock.so");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/soak/clock.c");
+    let compiler = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
+    let built = Command::new(compiler)
+        .args(["-shared", "-fPIC", "-o"])
+        .arg(&library)
+        .arg(source)
+        .status()
+        .unwrap();
+    assert!(built.success());
+    library
 }
 
 /// Another program changes a figure of a file, whole.

@@ -132,6 +132,7 @@ impl Soak {
         let told = lines(&mut child);
         let life = Duration::from_millis(1000 + dice.below(1000 * self.longest_s) as u64);
         let (journal, mut wrong) = watched(&mut child, &told, life, root, fault, &mut dice);
+        fault.end(root);
         report.commands += journal.commands;
         report.edits += journal.edits;
         report.most_mb = report.most_mb.max(journal.most_mb);
@@ -151,7 +152,7 @@ impl Soak {
 
 /// A session as a program of its own.
 fn began(root: &Path, seed: u64, fault: Fault) -> Child {
-    let mut command = fault.command(&std::env::current_exe().unwrap());
+    let mut command = fault.command(&std::env::current_exe().unwrap(), root);
     command
         .args(["soak::session::a_session_as_a_program_of_its_own", "--exact", "--nocapture"])
         .env(session::ROOT, root)

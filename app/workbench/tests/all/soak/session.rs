@@ -53,7 +53,11 @@ fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
             9..18 => command(&mut harness, &mut dice),
             _ => harness.run_steps(60),
         }
+        // Before a frame can keep what has changed: a session that is killed has told of all that it kept.
+        tell(&harness, &mut unsaved, &mut version);
         harness.run_steps(1 + dice.below(20));
+        // The window's clock runs many times faster here than a disk.
+        harness.state_mut().shared.workbench.project.autosave.finish();
         tell(&harness, &mut unsaved, &mut version);
     }
 }
@@ -119,6 +123,8 @@ fn command(harness: &mut Harness<'static, App>, dice: &mut Dice) {
     let offer = offers.swap_remove(dice.below(offers.len()));
     println!("soak does {}", offer.name);
     harness.state_mut().shared.give(offer.command);
+    // A frame keeps first, and performs then.
+    harness.run_steps(1);
 }
 
 /// Tells what is unsaved now, the time and the memory.
@@ -129,8 +135,9 @@ fn tell(
 ) {
     let documents = &harness.state().shared.workbench.project.documents;
     let now_s = harness.ctx.input(|input| input.time);
-    if version.replace(documents.version()) != Some(documents.version()) {
-        let now: BTreeSet<String> = documents.unsaved().iter().cloned().collect();
+    let now: BTreeSet<String> = documents.unsaved().iter().cloned().collect();
+    let is_new = version.replace(documents.version()) != Some(documents.version());
+    if is_new || now != *unsaved {
         for path in &now {
             println!("soak unsaved {now_s:.3} {path} {}", digest(documents.text(path)));
         }
