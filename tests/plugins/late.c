@@ -4,9 +4,12 @@
 #include "bad/bad.h"
 
 #include <fenv.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 static int32_t step(MOTION_ARGUMENTS) {

@@ -58,6 +58,18 @@ pub fn compile_c(source: &str, define: &[&str], library: &Path) -> Result<(), St
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
+/// Whether a row of a table in a page of `docs` has a first cell of that name and all of the words.
+#[must_use]
+pub fn documented(page: &str, name_and_words: &[&str]) -> bool {
+    let text = std::fs::read_to_string(root().join("docs").join(page));
+    let (Ok(text), Some((name, words))) = (text, name_and_words.split_first()) else {
+        return false;
+    };
+    text.lines()
+        .filter(|line| line.starts_with(&format!("| `{name}` |")))
+        .any(|line| words.iter().all(|word| line.contains(word)))
+}
+
 /// Every file below a folder of the workspace, in order of name, without build products and version control.
 ///
 /// # Errors

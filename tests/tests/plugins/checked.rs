@@ -92,6 +92,7 @@ fn bad_files_are_set_aside() {
             problem.reason.contains("set aside") && problem.reason.contains(reason),
             "{problem}"
         );
+        assert!(endline_tests::documented("plugin-abi.md", &[file, reason]), "{file}");
     }
     assert_eq!(problems.len(), 4, "{problems:?}");
 }
@@ -116,6 +117,7 @@ fn hostile_files_do_not_pass_and_do_not_hold_the_check_up() {
         let problem =
             problems.iter().find(|problem| problem.file.to_string_lossy().contains(file)).unwrap();
         assert!(problem.reason.contains(reason), "{problem}");
+        assert!(endline_tests::documented("plugin-abi.md", &[file, reason]), "{file}");
     }
     assert_eq!(problems.len(), 4, "{problems:?}");
 }

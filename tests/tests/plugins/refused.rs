@@ -54,6 +54,9 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     ] {
         let problem = problem(&problems, file, id);
         assert!(problem.reason.contains(reason), "{problem}");
+        let documented =
+            endline_tests::documented("plugin-abi.md", &[file.trim_end_matches('.'), reason]);
+        assert!(documented, "{file}: {reason}");
         assert!(!problem.help.is_empty(), "{problem}");
     }
     // Each of the four models of the second copy is named.

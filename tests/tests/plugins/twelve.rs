@@ -80,6 +80,7 @@ fn each_of_twelve_and_more_bad_plugins_has_its_verdict_and_the_program_lives() {
             .find(|problem| of(&problem.file) == file)
             .unwrap_or_else(|| panic!("{file} passed"));
         assert!(problem.reason.contains(verdict), "{file}: {problem}");
+        assert!(endline_tests::documented("plugin-abi.md", &[file, verdict]), "{file}");
     }
     assert_eq!(problems.len(), VERDICTS.len(), "{problems:?}");
     assert_eq!(host.ids().len(), 6, "the good one is there: {:?}", host.ids());

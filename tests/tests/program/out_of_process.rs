@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use crate::common::{Called, Place, called, edit, text};
 
 /// What a library does half a second into a run, and what the run then says of it.
-const HARM: [(&str, &str, &str); 8] = [
+const HARM: [(&str, &str, &str); 9] = [
     ("null", "*(volatile int *)0 = 1;", "signal: 11"),
     ("abort", "abort();", "signal: 6"),
     ("exit", "exit(0);", "its process ended (exit status: 0)"),
@@ -25,6 +25,7 @@ const HARM: [(&str, &str, &str); 8] = [
         "it said what no plugin says",
     ),
     ("spins", "for (;;) {}", "no answer in 10 s"),
+    ("stops", "raise(SIGSTOP);", "no answer in 10 s"),
     (
         "closes",
         "for (int file = 3; file < 40; file++) close(file); for (;;) {}",
@@ -32,8 +33,15 @@ const HARM: [(&str, &str, &str); 8] = [
     ),
 ];
 
-/// What a sound library must not be able to do in a process of its own.
-const DOORS: &str = "if (fopen(\"/etc/passwd\", \"r\") || fopen(\"harm\", \"w\")) abort();";
+/// What a library must not be able to do in a process of its own; where it can, it ends its run.
+const DOORS: [(&str, &str); 6] = [
+    ("reads", "if (fopen(\"/etc/passwd\", \"r\")) abort();"),
+    ("writes", "if (fopen(\"harm\", \"w\")) abort();"),
+    ("connects", "if (socket(AF_INET, SOCK_STREAM, 0) >= 0) abort();"),
+    ("forks", "if (fork() >= 0) abort();"),
+    ("kills", "if (kill(getppid(), SIGKILL) == 0) abort();"),
+    ("traces", "if (ptrace(PTRACE_ATTACH, getppid(), NULL, NULL) == 0) abort();"),
+];
 
 /// A library made of `late.c`, allowed by the user.
 fn allowed(place: &Place, name: &str, harm: &str) -> PathBuf {
@@ -63,15 +71,31 @@ fn encounter(place: &Place) -> String {
 fn whatever_a_library_does_the_run_ends_with_a_reason_and_the_program_lives() {
     let place = Place::new("out-of-process");
     let scenario = encounter(&place);
-    for (name, harm, told) in HARM {
+    let folders = HARM.map(|(name, harm, _)| allowed(&place, name, harm));
+    std::thread::scope(|threads| {
+        for ((name, _, told), folder) in HARM.into_iter().zip(&folders) {
+            let (place, scenario) = (&place, &scenario);
+            threads.spawn(move || {
+                let called = run(place, folder, scenario);
+                called.fails(1, &["plugin `org.example.motion.late`", told]);
+                let at = called.json()["stopped"].clone();
+                assert!(at.to_string().contains("0.51"), "{name}: {at}");
+                assert!(endline_tests::documented("plugin-abi.md", &[name, told]), "{name}");
+            });
+        }
+    });
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn in_a_process_of_its_own_a_library_reaches_nothing_else() {
+    let place = Place::new("sandbox");
+    let scenario = encounter(&place);
+    for (name, harm) in DOORS {
         let folder = allowed(&place, name, harm);
-        let called = run(&place, &folder, &scenario);
-        called.fails(1, &["plugin `org.example.motion.late`", told]);
-        let at = called.json()["stopped"].clone();
-        assert!(at.to_string().contains("0.51"), "{name}: {at}");
+        run(&place, &folder, &scenario).done();
+        assert!(endline_tests::documented("plugin-abi.md", &[name, "not permitted"]), "{name}");
     }
-    let folder = allowed(&place, "doors", DOORS);
-    run(&place, &folder, &scenario).done();
 }
 
 #[test]

@@ -6,6 +6,7 @@
 //! | file | what |
 //! |---|---|
 //! | `serve` | the side of the process |
+//! | `sandbox` | what it gives up before it answers |
 //! | `hooks` | its plugins as motion, friction model and gear type |
 //! | `worker` | one process, as the program sees it |
 //! | `message`, `encoding`, `wire` | what the two say, and its bytes |
@@ -16,6 +17,7 @@ mod frame;
 mod hooks;
 mod message;
 mod pipe;
+mod sandbox;
 mod serve;
 mod wire;
 mod worker;

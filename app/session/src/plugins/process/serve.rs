@@ -1,8 +1,7 @@
 //! The side of the process: it opens the library whose bytes it is given, and answers calls of its plugins until the pipe closes.
 //!
-//! Before it answers, it gives up what a law of friction, a motion or a gear type has no use for: more than 2 GB of memory, and
-//! opening or writing files, sockets, threads and processes. The library's initialisers have run by then; the check has seen them
-//! too.
+//! Before it answers, it gives up what a law of friction, a motion or a gear type has no use for: more than 2 GB of memory, and what
+//! `sandbox` names. The library's initialisers have run by then; the check has seen them too.
 
 use std::fs::File;
 use std::io::{self, BufReader, IsTerminal};
@@ -10,7 +9,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use endline_sdk::HookError;
-use rustix::process::{Resource, Rlimit, getppid, setrlimit};
+use rustix::process::getppid;
 
 use super::super::check::limit_memory;
 use super::super::guard::{BLANK, UNWRITTEN};
@@ -20,6 +19,7 @@ use super::super::loader::open_copy;
 use super::frame::{receive, send};
 use super::message::{Answer, Call, Declared, Opening, Orders, Question, Refused};
 use super::pipe::Pipe;
+use super::sandbox;
 
 /// How often a process looks whether its program still lives.
 const LOOK: Duration = Duration::from_secs(1);
@@ -45,7 +45,7 @@ pub fn serve_here() -> Result<(), String> {
         .unwrap_or_default();
     send(&opening(opened), &mut output, &mut room).map_err(broken)?;
     drop(orders);
-    close_doors();
+    sandbox::enter();
     loop {
         let question: Question = match receive(&mut input, &mut room) {
             Ok(question) => question,
@@ -109,14 +109,6 @@ fn declared(hook: Result<Hook, Refusal>) -> Declared {
 
 fn refused(Refusal { id, reason, help, .. }: Refusal) -> Refused {
     Refused { id, reason, help }
-}
-
-/// From here on no file or socket is opened, nothing is written to a file, and no thread or process begins.
-fn close_doors() {
-    for resource in [Resource::Nofile, Resource::Fsize, Resource::Nproc] {
-        // A system that refuses leaves the limits of memory and time.
-        let _ = setrlimit(resource, Rlimit { current: Some(0), maximum: Some(0) });
-    }
 }
 
 fn answer(hooks: &[Option<Hook>], Question { plugin, call }: Question) -> Answer {
