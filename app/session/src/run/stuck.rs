@@ -51,3 +51,37 @@ impl Run {
         pulls.map_or_else(|| "the run".into(), |line| format!("line {}", model.spec.lines[line].id))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::RunOptions;
+    use crate::source::sample::hanging_rope;
+
+    /// A run of a rope that hangs, whose solver has tried so many steps and passes more than it has.
+    fn run(steps: u64, passes: u64) -> Run {
+        let options = RunOptions { unsettled: true, frames_hz: 0.0 };
+        let mut run = Run::new(hanging_rope(60.0), options).unwrap();
+        run.workspace.audit.solver_steps += steps;
+        run.workspace.audit.passes += passes;
+        run
+    }
+
+    #[test]
+    fn a_run_that_sticks_ends_where_ten_times_the_usual_steps_are_tried_and_stays_ended() {
+        let settings = run(0, 0).model().spec.settings.clone();
+        let usual = (STUCK_FOR_S / settings.contact_step_s.min(settings.step_s)) as u64;
+        let ends = |mut run: Run| run.step(run.pilot()).err();
+        assert_eq!(ends(run(9 * usual, 19 * usual)), None);
+        for many in [run(11 * usual, 0), run(0, 21 * usual)] {
+            let stop = ends(many).unwrap();
+            assert!(stop.reason.contains("it sticks") && stop.reason.contains("`segment`"));
+            assert!(stop.part.starts_with("line "), "{stop:?}");
+        }
+        let mut stuck = run(11 * usual, 0);
+        let first = stuck.step(stuck.pilot()).unwrap_err();
+        let at = stuck.state.step;
+        assert_eq!(stuck.step(stuck.pilot()).unwrap_err(), first);
+        assert_eq!((stuck.state.step, stuck.stopped.as_ref()), (at, Some(&first)));
+    }
+}
