@@ -10,6 +10,7 @@ use crate::study::report::STYLE;
 use crate::study::report::cell::{Cell, Line, Table};
 use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 
+use super::citations::Citations;
 use super::threat::ThreatOfGear;
 use super::{ComplianceSheet, drawing};
 
@@ -41,6 +42,7 @@ struct Page<'a> {
     haul_source: String,
     threat: Option<Threat>,
     unknown: Vec<String>,
+    citations: Vec<String>,
     command: String,
     version: &'static str,
     hash: String,
@@ -54,6 +56,10 @@ pub(super) struct Threat {
 
 pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
     let strengths = &sheet.rest[1].shape.strengths;
+    let mut citations = Citations::default();
+    let rules = rules(sheet, &mut citations);
+    let not_checked = not_checked(sheet, &mut citations);
+    let strength = strength(strengths, &mut citations);
     Page {
         style: STYLE,
         name: &sheet.name,
@@ -64,15 +70,16 @@ pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
         tensions: tensions(sheet),
         slack_lines: slack_lines(sheet),
         bodies: bodies(sheet),
-        rules: rules(sheet),
-        not_checked: not_checked(sheet),
+        rules,
+        not_checked,
         not_applicable: not_applicable(sheet),
-        strength: strength(strengths),
+        strength,
         strength_left_out: left_out(strengths),
         haul: haul(sheet),
         haul_source: haul_source(sheet),
         threat: sheet.threat.as_ref().map(threat),
         unknown: unknown(sheet),
+        citations: citations.listed(),
         command: command(sheet),
         version: crate::VERSION,
         hash: sheet.hash(),
@@ -164,14 +171,15 @@ pub(super) fn bodies(sheet: &ComplianceSheet) -> String {
 }
 
 /// Rules with a verdict, failures first.
-fn rules(sheet: &ComplianceSheet) -> Table {
+fn rules(sheet: &ComplianceSheet, citations: &mut Citations) -> Table {
     let order = [Verdict::Fail, Verdict::Pass];
-    let rows = order.into_iter().flat_map(|verdict| sheet.rules.with(verdict)).map(rule_row);
+    let rows = order.into_iter().flat_map(|verdict| sheet.rules.with(verdict));
+    let rows = rows.map(|rule| rule_row(rule, citations)).collect();
     let headings = ["Rule", "Asks", "Verdict", "Measured, and the limit", "Source"];
-    Table::new("Rules that apply and were checked", &headings, rows.collect())
+    Table::new("Rules that apply and were checked", &headings, rows)
 }
 
-fn rule_row(rule: &RuleResult) -> Vec<Cell> {
+fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
     let standing = if rule.binding { String::new() } else { rule.standing.to_owned() };
     let said = rule.measured.iter().map(|measured| {
         let part = if measured.part.is_empty() { "" } else { &measured.part };
@@ -188,18 +196,16 @@ fn rule_row(rule: &RuleResult) -> Vec<Cell> {
         rule.asks.clone().into(),
         rule.verdict.words().to_uppercase().into(),
         Cell::lines(said.take(4).chain(mend)),
-        sourced(&rule.cite, rule.confidence),
+        citations.cell(&rule.cite, rule.confidence),
     ]
 }
 
-/// A source and how sure it is.
-fn sourced(source: &str, confidence: &str) -> Cell {
-    Cell { lines: vec![Line::Small(format!("{source} ({confidence})"))] }
-}
-
 /// Rules that apply and cannot be checked, with why.
-fn not_checked(sheet: &ComplianceSheet) -> Vec<(String, String)> {
-    let told = |rule: &RuleResult| (rule.rule.clone(), format!("{} ({})", rule.asks, rule.cite));
+fn not_checked(sheet: &ComplianceSheet, citations: &mut Citations) -> Vec<(String, String)> {
+    let told = |rule: &RuleResult| {
+        let asks = rule.asks.trim_end_matches('.');
+        (rule.rule.clone(), format!("{asks} {}", citations.mark(&rule.cite)))
+    };
     sheet.rules.with(Verdict::CannotBeChecked).map(told).collect()
 }
 
@@ -226,7 +232,7 @@ fn distinct(strengths: &[PartStrength]) -> Vec<(&PartStrength, usize)> {
 }
 
 /// Delivered strength of each kind of part.
-fn strength(strengths: &[PartStrength]) -> Table {
+fn strength(strengths: &[PartStrength], citations: &mut Citations) -> Table {
     let row = |(part, count): (&PartStrength, usize)| {
         let more = if count > 1 { format!("and {} alike", count - 1) } else { String::new() };
         let [least, most] = part.nine_of_ten_N;
@@ -237,7 +243,7 @@ fn strength(strengths: &[PartStrength]) -> Table {
             Cell::lines([force(part.stated.value), part.product()]),
             force(part.delivered_N).into(),
             format!("{:.0} to {:.0} lbf", least / N_PER_LBF, most / N_PER_LBF).into(),
-            sourced(&part.stated.source, part.confidence),
+            citations.cell(&part.stated.source, part.confidence),
         ]
     };
     let rows = distinct(strengths).into_iter().take(MOST_PARTS).map(row).collect();
