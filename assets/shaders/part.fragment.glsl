@@ -90,7 +90,8 @@ vec4 surface(vec3 view, float hide) {
     float flat_angle = pow(1.0 - abs(view.z), 3.0);
     if (eye.z > 0.0) {
         vec3 veil = mix(mix(tint.rgb, water_high, 0.7), sky, 0.15 + 0.7 * flat_angle);
-        return vec4(veil, (mix(0.10, 0.50, flat_angle) + 0.06 * lines(world.xy, grid_m)) * (1.0 - hide));
+        float thick = mix(0.10, 0.50, flat_angle) + 0.06 * lines(world.xy, grid_m);
+        return vec4(veil, thick * emerged() * (1.0 - hide));
     }
     float within = smoothstep(WINDOW - 0.16, WINDOW + 0.10, up);
     vec3 colour = mix(water_at(-0.35 * depth_m) * (1.0 + 0.10 * wave.x), mix(water_high, sky, 0.75) * (1.0 + 0.12 * wave.y), within);
@@ -124,7 +125,8 @@ void main() {
         colour = skin(n, view);
     }
     if (eye.z > 0.0 && world.z < 0.0) {
-        colour = mix(colour, mix(water_low, water_high, 0.6), sunk(far * world.z / (world.z - eye.z)));
+        float way = far * world.z / (world.z - eye.z);
+        colour = mix(colour, mix(water_low, water_high, 0.6), emerged() * sunk(way));
     }
     shown = vec4(mix(colour, backdrop(view), hide), 1.0);
 }

@@ -30,6 +30,11 @@ float sunk(float way) {
     return 0.4 * (1.0 - exp(-way / 5.0));
 }
 
+// How far the eye has come out of the water, 0 to 1. A camera that rises through the surface sees no jump.
+float emerged() {
+    return smoothstep(0.0, 0.2 * clear_m, eye.z);
+}
+
 // Bright lines that ripples at the surface throw on what lies near under it, 0 to 1.
 float ripples(vec3 at) {
     vec2 p = at.xy * 0.8 + 0.15 * at.z;

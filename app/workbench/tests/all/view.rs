@@ -346,6 +346,8 @@ fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
 fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() {
     let folder = Folder::new("view-film");
     let mut harness = flown(&folder);
+    alone(&mut harness);
+    set_keys(&mut harness);
     let file = folder.0.join("run.gif");
     give(&mut harness, ViewAction::SaveFilm(file.clone()));
     assert!(harness.state().shared.film.is_some(), "the window goes on meanwhile");
@@ -362,10 +364,17 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
     while let Some(picture) = decoder.read_next_frame().unwrap() {
         pictures.push(picture.buffer.to_vec());
     }
-    // Two seconds at twenty a second, up to the last moment kept; and the whale has moved.
+    // Two seconds at twenty a second, up to the last moment kept; and the camera has passed from the side to above, by more
+    // from first to last than from any to the next.
     assert_eq!((decoder.width(), decoder.height()), (1280, 720));
     assert!((40..=41).contains(&pictures.len()), "{}", pictures.len());
-    assert!(pictures.first() != pictures.last());
+    let differ = |one: &[u8], other: &[u8]| -> f64 {
+        let sum: u64 = one.iter().zip(other).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        sum as f64 / one.len() as f64
+    };
+    let whole = differ(&pictures[0], &pictures[pictures.len() - 1]);
+    let most = pictures.windows(2).map(|two| differ(&two[0], &two[1])).fold(0.0, f64::max);
+    assert!(whole > 5.0 && most < 0.6 * whole, "{whole} {most}");
 
     let cut = folder.0.join("cut.gif");
     give(&mut harness, ViewAction::SaveFilm(cut.clone()));
@@ -380,26 +389,36 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
     assert!(notice.text.contains("no-such-folder"), "{}", notice.text);
 }
 
-#[test]
-fn the_camera_of_a_film_passes_from_key_to_key() {
-    let folder = Folder::new("view-keys");
-    let mut harness = flown(&folder);
+/// The 3-D view and no other panel.
+fn alone(harness: &mut Harness<'static, App>) {
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
     harness.run_steps(3);
-    give(&mut harness, ViewAction::ClearKeys);
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
-    assert_eq!(notice.text, "the camera has no keys");
+}
+
+/// A key of the camera from the side at the beginning, and one from above at 2 s.
+fn set_keys(harness: &mut Harness<'static, App>) {
     for (time_s, from) in [(0.0, View::Side), (2.0, View::Top)] {
         harness.state_mut().shared.perform(TimeAction::Seek(time_s));
-        wait(&mut harness, |app| {
+        wait(harness, |app| {
             let view = app.shared.workbench.view().unwrap();
             (view.frame.time_s - time_s).abs() < 0.1
         });
-        give(&mut harness, ViewAction::Look(from));
+        give(harness, ViewAction::Look(from));
         harness.run_steps(2);
         harness.key_press(egui::Key::I);
         harness.run_steps(2);
     }
+}
+
+#[test]
+fn the_camera_of_a_film_passes_from_key_to_key() {
+    let folder = Folder::new("view-keys");
+    let mut harness = flown(&folder);
+    alone(&mut harness);
+    give(&mut harness, ViewAction::ClearKeys);
+    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    assert_eq!(notice.text, "the camera has no keys");
+    set_keys(&mut harness);
     harness.get_by_label("2 camera keys ⏷");
     let app = harness.state();
     let view = app.shared.workbench.view().unwrap();

@@ -80,7 +80,7 @@ fn random_sessions_on_faults_keep_every_promise() {
     let hours: Option<f64> =
         std::env::var("ENDLINE_SOAK_HOURS").ok().and_then(|hours| hours.parse().ok());
     let soak = hours.map_or(
-        Soak { seed: SEED, until: None, sessions: Fault::ALL.len() as u64, longest_s: 4 },
+        Soak { seed: SEED, until: None, sessions: Fault::ALL.len() as u64, longest_s: 2 },
         |hours| Soak {
             seed: std::time::UNIX_EPOCH.elapsed().map_or(SEED, |since| since.as_nanos() as u64),
             until: Some(Instant::now() + Duration::from_secs_f64(hours * 3600.0)),

@@ -142,20 +142,22 @@ impl LibraryPanel {
         }
     }
 
-    /// What is done with the files, from the right where there is room beside the tables' names.
+    /// What is done with the files, in this order on the screen whichever end the layout begins at.
     fn buttons(&self, ui: &mut Ui, shared: &mut Shared) {
-        let unsaved = shared.workbench.project.documents.unsaved().len();
-        if primary(ui, unsaved > 0, "Save")
-            .on_hover_text("Ctrl+S: write every changed file; comments stay")
-            .clicked()
-        {
-            shared.give(EditAction::Save);
+        let mut buttons: [fn(&Self, &mut Ui, &mut Shared); 6] = [
+            |_, ui, shared| drop(command(ui, shared, "Duplicate", PanelAction::Duplicate)),
+            |_, ui, shared| drop(command(ui, shared, "Delete", PanelAction::Remove)),
+            |library, ui, shared| {
+                ui.menu_button("Table ⏷", |ui| library.table_menu(ui, shared));
+            },
+            |_, ui, shared| drop(command(ui, shared, "Undo", EditAction::Undo)),
+            |_, ui, shared| drop(command(ui, shared, "Redo", EditAction::Redo)),
+            |_, ui, shared| save(ui, shared),
+        ];
+        if ui.layout().prefer_right_to_left() {
+            buttons.reverse();
         }
-        command(ui, shared, "Redo", EditAction::Redo);
-        command(ui, shared, "Undo", EditAction::Undo);
-        ui.menu_button("Table ⏷", |ui| self.table_menu(ui, shared));
-        command(ui, shared, "Delete", PanelAction::Remove);
-        command(ui, shared, "Duplicate", PanelAction::Duplicate);
+        buttons.iter().for_each(|button| button(self, ui, shared));
     }
 
     /// Chooses the copy of an entry and compares the two.
@@ -195,6 +197,14 @@ impl LibraryPanel {
         let folder = format!("{}/", self.kind.folder());
         let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
         shared.workbench.project.documents.problems().iter().filter(own).cloned().collect()
+    }
+}
+
+fn save(ui: &mut Ui, shared: &mut Shared) {
+    let unsaved = shared.workbench.project.documents.unsaved().len();
+    let help = "Ctrl+S: write every changed file; comments stay";
+    if primary(ui, unsaved > 0, "Save").on_hover_text(help).clicked() {
+        shared.give(EditAction::Save);
     }
 }
 
