@@ -55,6 +55,9 @@ pub fn edit_in(
     edit_as(ui, Id::new((place, field.path, field.field)), field, width, said)
 }
 
+/// Names the text box that had the focus last.
+const FOCUSED: &str = "field that has the focus";
+
 fn edit_as(
     ui: &mut Ui,
     edit_id: Id,
@@ -67,6 +70,9 @@ fn edit_as(
     let problem = documents.problem_at(path, field);
     let id = typed_id(edit_id);
     let typing = ui.memory(|memory| memory.has_focus(edit_id));
+    if typing {
+        ui.data_mut(|data| data.insert_temp(Id::new(FOCUSED), edit_id));
+    }
     let shown = || if typing { stored.clone() } else { shortened(&stored) };
     let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(shown);
     let palette = Theme::palette_of(ui);
@@ -161,6 +167,15 @@ pub fn go_to(context: &Context, documents: &Documents, path: &str, field: &str) 
     let id = edit_id(path, field);
     context.memory_mut(|memory| memory.request_focus(id));
     select_all(context, id, &documents.field(path, field).unwrap_or_default());
+}
+
+/// Whether the text box that has the focus is of a field and still shows its value: nothing was typed into it.
+pub fn is_untouched(context: &Context) -> bool {
+    let Some(focused) = context.memory(egui::Memory::focused) else { return false };
+    context.data(|data| {
+        data.get_temp(Id::new(FOCUSED)) == Some(focused)
+            && data.get_temp::<String>(typed_id(focused)).is_none()
+    })
 }
 
 /// Id of what is typed into a text box and not committed yet.

@@ -5,6 +5,7 @@ use endline_session::command::When;
 
 use super::command::action::{WindowAction, WindowCommand};
 use super::command::{declared, to_egui};
+use super::fields;
 use super::shared::Shared;
 
 /// A key and the command it gives.
@@ -30,9 +31,11 @@ pub fn commands(context: &Context, shared: &Shared) -> Vec<WindowCommand> {
         return Vec::new();
     }
     let typing = context.egui_wants_keyboard_input();
+    // A box that was only reached, as the next cell is by Enter, has nothing of its own to undo.
+    let untouched = fields::is_untouched(context);
     let holds = |bound: &Bound| match bound.when {
         When::Always => true,
-        When::Idle => !typing,
+        When::Idle => !typing || (untouched && bound.key.modifiers.command),
         When::Looking => !typing && !shared.flying,
         When::Flying => !typing && shared.flying,
     };

@@ -407,6 +407,26 @@ fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_
     harness.key_press(egui::Key::Tab);
     harness.run_steps(3);
     assert_eq!(focused(&harness, Kind::Rope, "strength"), None, "Tab leaves for the next cell");
+
+    // Ctrl+Z takes the edit back from a cell that was only reached; in one that is typed in, it is the text's own.
+    let strength = |harness: &Harness<'static, App>| {
+        harness.state().shared.workbench.project.documents.field(first, "strength")
+    };
+    let undo = |harness: &mut Harness<'static, App>| {
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        harness.run_steps(2);
+    };
+    harness.event(egui::Event::Text("9".to_owned()));
+    harness.run_steps(1);
+    undo(&mut harness);
+    assert_eq!(strength(&harness).as_deref(), Some("2345 lbf"));
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(2);
+    let documents = &harness.state().shared.workbench.project.documents;
+    go_to(&harness.ctx, documents, first, "diameter");
+    harness.run_steps(2);
+    undo(&mut harness);
+    assert_eq!(strength(&harness).as_deref(), Some("2,700 lbf"));
 }
 
 #[test]
