@@ -1,5 +1,6 @@
 //! The gear selector: every assembly as a picture of it at rest, beside its name; a click shows it.
 
+use egui::text::LayoutJob;
 use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::edit::Documents;
 use endline_session::statics::Trial;
@@ -15,6 +16,8 @@ use crate::gui::theme::Theme;
 
 /// Size of a picture.
 const CARD: egui::Vec2 = vec2(168.0, 112.0);
+/// Height of the name below it: two rows.
+const NAME: f32 = 36.0;
 
 /// Draws all assemblies as cards; answers the one clicked.
 pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> Option<String> {
@@ -58,7 +61,7 @@ fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
 fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool {
     let palette = Theme::palette_of(ui);
     let color = A.color(ui);
-    let size = CARD + vec2(0.0, 20.0);
+    let size = CARD + vec2(0.0, NAME);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let (picture, below) = rect.split_top_bottom_at_y(rect.top() + CARD.y);
     let painter = ui.painter_at(rect);
@@ -83,12 +86,10 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
         (false, false) => Stroke::new(1.0, palette.line),
     };
     painter.rect_stroke(picture, 4.0, outline, egui::StrokeKind::Inside);
-    let text = ui.painter().layout(
-        name.to_owned(),
-        egui::FontId::proportional(12.0),
-        palette.text,
-        f32::INFINITY,
-    );
+    let font = egui::FontId::proportional(12.0);
+    let mut job = LayoutJob::simple(name.to_owned(), font, palette.text, CARD.x - 4.0);
+    job.wrap.max_rows = 2;
+    let text = ui.painter().layout_job(job);
     painter.with_clip_rect(below).galley(below.left_top() + vec2(2.0, 3.0), text, palette.text);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
     let told = match answer {
@@ -100,7 +101,8 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
 
 /// Lines and bodies from the side, as large as they fit.
 fn draw(painter: &egui::Painter, room: Rect, rest: &RigAtRest, color: Color32, faint: Color32) {
-    let places = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
+    let of_lines = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
+    let places = || of_lines().chain(rest.shape.bodies.iter().map(|body| &body.position_m));
     let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
     let Some(first) = places().next().map(flat) else { return };
     let far = places()
