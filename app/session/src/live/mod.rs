@@ -91,7 +91,7 @@ pub struct LiveView {
     pub cost: Cost,
     /// Whether a pilot steers and not the scenario's program.
     pub piloted: bool,
-    /// The controls of the last step.
+    /// The controls of the last step; before the first, those of the pilot program.
     pub controls: Controls,
     /// Answer to the last command that asked for one, such as the file saved.
     pub message: Option<String>,

@@ -166,6 +166,12 @@ fn a_hand_steers_in_real_time_whatever_the_speed_was_and_is_told_that_time_stand
     assert!(waiting(&view).contains("Space"), "{:?}", view.status);
     let told: Vec<String> = readings(&view, Units::Si).into_iter().map(|(name, _)| name).collect();
     assert!(["ROLL", "PITCH", "THROTTLE"].iter().all(|name| told.contains(&(*name).to_owned())));
+    // Taken over before the first step, the whale keeps the speed that the program asks for.
+    assert_eq!(view.controls.speed, 1.0);
+    harness.state_mut().shared.perform(RunAction::Step);
+    wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.frame.step > 0));
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    assert!(view.piloted && view.controls.speed == 1.0, "{:?}", view.controls);
 }
 
 #[test]

@@ -279,6 +279,7 @@ impl<'a> Worker<'a> {
         self.envelope = Envelope::default();
         (self.sought, self.script) = (None, None);
         self.message = None;
+        self.controls = run.pilot();
         self.run = Some(run);
         self.status = Status::Paused;
         self.keep();
