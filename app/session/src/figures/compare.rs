@@ -22,7 +22,7 @@ pub struct Row {
     pub a: String,
     /// Of the run it is compared with.
     pub b: String,
-    /// B less A; empty where one of them has no value.
+    /// A less B: what has changed since the run that was held; empty where one of them has no value.
     pub difference: String,
 }
 
@@ -101,22 +101,22 @@ fn row<S>(figure: &Figure<S>, sources: [Option<&S>; 2], units: Units, of: &str) 
     }
 }
 
-/// With its sign, and as a share of A where that means something.
+/// A less B with its sign, and as a share of B where that means something.
 fn difference(a: &Value, b: &Value, text: &impl Fn(&Value) -> String) -> String {
-    let (Some(first), Some(second)) = (a.number(), b.number()) else {
+    let (Some(now), Some(held)) = (a.number(), b.number()) else {
         return match (a, b) {
             (Value::Absent, _) | (_, Value::Absent) => String::new(),
             _ if a == b => SAME.to_owned(),
             _ => "differs".to_owned(),
         };
     };
-    let by = second - first;
+    let by = now - held;
     let unsigned = text(&Value::Number(by.abs()));
     if unsigned == text(&Value::Number(0.0)) {
         return SAME.to_owned();
     }
     let sign = if by < 0.0 { "−" } else { "+" };
-    let share = 100.0 * by.abs() / first.abs();
+    let share = 100.0 * by.abs() / held.abs();
     if share.is_finite() && share < 1000.0 {
         format!("{sign}{unsigned} ({sign}{share:.0} %)")
     } else {
@@ -133,11 +133,11 @@ mod tests {
     fn differences_carry_their_sign_and_what_reads_alike_is_the_same() {
         let text = |value: &Value| Quantity::Force.text(value, Units::Si);
         let written = |a: Option<f64>, b: Option<f64>| difference(&a.into(), &b.into(), &text);
-        assert_eq!(written(Some(200.0), Some(250.0)), "+50.0 N (+25 %)");
-        assert_eq!(written(Some(100.0), Some(60.0)), "−40.0 N (−40 %)");
+        assert_eq!(written(Some(250.0), Some(200.0)), "+50.0 N (+25 %)");
+        assert_eq!(written(Some(60.0), Some(100.0)), "−40.0 N (−40 %)");
         assert_eq!(written(Some(100.0), Some(100.03)), SAME);
-        assert_eq!(written(Some(0.0), Some(5.0)), "+5.0 N");
-        assert_eq!(written(None, Some(5.0)), "", "there is nothing to subtract from");
+        assert_eq!(written(Some(5.0), Some(0.0)), "+5.0 N");
+        assert_eq!(written(Some(5.0), None), "", "there is nothing to subtract from");
         assert_eq!(text(&Value::Absent), "–");
     }
 

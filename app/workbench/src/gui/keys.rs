@@ -51,11 +51,13 @@ pub fn commands(context: &Context, shared: &Shared) -> Vec<WindowCommand> {
         palette.is_none_or(|palette| place.is_none_or(|place| place <= palette))
     };
     let wanted: Vec<Bound> = wanted.into_iter().filter(before).collect();
-    wanted
-        .into_iter()
-        .filter(|bound| context.input_mut(|input| input.consume_shortcut(&bound.key)))
-        .map(|bound| bound.command)
-        .collect()
+    // Each press counts: in one slow frame there may be several.
+    let pressed = |bound: Bound| {
+        let KeyboardShortcut { modifiers, logical_key } = bound.key;
+        let times = context.input_mut(|input| input.count_and_consume_key(modifiers, logical_key));
+        std::iter::repeat_n(bound.command, times)
+    };
+    wanted.into_iter().flat_map(pressed).collect()
 }
 
 /// Where among the events of this frame a key was first pressed.

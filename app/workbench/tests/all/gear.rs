@@ -427,6 +427,23 @@ fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_
     harness.run_steps(2);
     undo(&mut harness);
     assert_eq!(strength(&harness).as_deref(), Some("2,700 lbf"));
+
+    // Presses that fall into one slow frame are as many undos.
+    let before = harness.state().shared.workbench.project.documents.texts().clone();
+    for number in 1..=3 {
+        harness.state_mut().shared.workbench.set(first, "strength", &format!("{number}000 lbf"));
+    }
+    let press = egui::Event::Key {
+        key: egui::Key::Z,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: egui::Modifiers::COMMAND,
+    };
+    harness.input_mut().events.extend(std::iter::repeat_n(press, 3));
+    harness.step();
+    harness.run_steps(2);
+    assert_eq!(harness.state().shared.workbench.project.documents.texts(), &before);
 }
 
 #[test]

@@ -232,7 +232,7 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
         "{all:?}"
     );
     only(&mut harness, PanelId::COMPARE);
-    assert!(harness.query_all_by_label("B less A").next().is_some(), "the table is on screen");
+    assert!(harness.query_all_by_label("A less B").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
     harness.run_steps(3);
     assert!(harness.state().shared.workbench.comparison().is_none());

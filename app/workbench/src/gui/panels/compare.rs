@@ -84,7 +84,7 @@ fn table(ui: &mut Ui, (head, rows): &Group) {
     Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(
         ui,
         |ui| {
-            for text in ["", "A", "B", "B less A"] {
+            for text in ["", "A", "B", "A less B"] {
                 ui.label(RichText::new(text).small().color(palette.faint));
             }
             ui.end_row();
