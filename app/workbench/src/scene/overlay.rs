@@ -25,6 +25,8 @@ const INK: Color32 = Color32::from_rgb(0xe6, 0xee, 0xf0);
 const FAINT: Color32 = Color32::from_rgb(0xa9, 0xbd, 0xc4);
 const PLATE: Color32 = Color32::from_black_alpha(110);
 const MARGIN: f32 = 12.0;
+/// Width below which a pane is narrow [points].
+const NARROW: f32 = 700.0;
 
 /// Writes the overlay into `rect`.
 pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
@@ -50,7 +52,9 @@ fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
 
 /// The colour bar: pounds-force to its left, newtons to its right.
 fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
-    let height = (rect.height() * 0.35).clamp(120.0, 220.0);
+    // In a narrow pane, as where two runs are compared, what is looked at lies near: the bar is short there.
+    let share = if rect.width() < NARROW { 0.2 } else { 0.35 };
+    let height = (rect.height() * share).clamp(90.0, 220.0);
     let bar = Rect::from_min_size(
         pos2(rect.right() - 78.0, rect.bottom() - MARGIN - 12.0 - height),
         vec2(10.0, height),
