@@ -8,7 +8,7 @@ pub mod problem;
 pub mod steered;
 pub mod words;
 
-use egui::{Align2, FontId, Grid, Rect, RichText, Sense, Ui, UiBuilder, vec2};
+use egui::{Align2, FontId, Grid, Id, Rect, RichText, Sense, Ui, UiBuilder, Vec2, vec2};
 
 use super::theme::Theme;
 
@@ -39,6 +39,22 @@ pub fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         draw(ui);
     });
+}
+
+/// Draws a piece of a long list. Out of sight it is not laid out: its room is that of the last time it was, at this width.
+pub fn where_seen(ui: &mut Ui, id: Id, draw: impl FnOnce(&mut Ui)) {
+    let width = ui.available_width();
+    let known =
+        ui.data(|data| data.get_temp::<Vec2>(id)).filter(|room| (room.x - width).abs() < 0.5);
+    if let Some(room) = known {
+        let rect = Rect::from_min_size(ui.cursor().min, room);
+        if !ui.is_rect_visible(rect) {
+            ui.allocate_space(room);
+            return;
+        }
+    }
+    let height = ui.scope(draw).response.rect.height();
+    ui.data_mut(|data| data.insert_temp(id, vec2(width, height)));
 }
 
 /// Names and values in two columns, with what each is on hover.

@@ -100,29 +100,36 @@ pub(super) struct Item {
     pub path: PathBuf,
     pub name: String,
     pub notes: String,
+    /// The first of the notes.
+    pub first_words: String,
     pub sketch: Sketch,
+    /// Id, name and notes in small letters, for a search.
+    text: String,
 }
 
 impl Item {
-    /// Whether it has every word of a search, in any case.
-    pub(super) fn has(&self, sought: &str) -> bool {
-        let text =
-            format!("{} {} {}", files::stem(&self.path), self.name, self.notes).to_lowercase();
-        sought.to_lowercase().split_whitespace().all(|word| text.contains(word))
+    /// Whether it has every one of these words, which are in small letters.
+    pub(super) fn has(&self, words: &[String]) -> bool {
+        words.iter().all(|word| self.text.contains(word))
     }
+}
 
-    /// The notes up to the end of their first sentence, or so many letters of it.
-    pub(super) fn first_words(&self) -> String {
-        const MOST: usize = 120;
-        let notes = self.notes.split_whitespace().collect::<Vec<_>>().join(" ");
-        let sentence = notes.split_inclusive(". ").next().unwrap_or_default().trim_end();
-        if sentence.chars().count() <= MOST {
-            return sentence.to_owned();
-        }
-        let cut: String = sentence.chars().take(MOST).collect();
-        let words = cut.rsplit_once(' ').map_or(cut.as_str(), |(words, _)| words);
-        format!("{} …", words.trim_end_matches([',', ';', ':']))
+/// The words of a search, in small letters.
+pub(super) fn words(sought: &str) -> Vec<String> {
+    sought.to_lowercase().split_whitespace().map(str::to_owned).collect()
+}
+
+/// Notes up to the end of their first sentence, or so many letters of it.
+fn first_words(notes: &str) -> String {
+    const MOST: usize = 120;
+    let notes = notes.split_whitespace().collect::<Vec<_>>().join(" ");
+    let sentence = notes.split_inclusive(". ").next().unwrap_or_default().trim_end();
+    if sentence.chars().count() <= MOST {
+        return sentence.to_owned();
     }
+    let cut: String = sentence.chars().take(MOST).collect();
+    let words = cut.rsplit_once(' ').map_or(cut.as_str(), |(words, _)| words);
+    format!("{} …", words.trim_end_matches([',', ';', ':']))
 }
 
 /// How many files there are to begin from.
@@ -146,7 +153,6 @@ pub(super) fn all(root: &Path) -> Vec<Item> {
 
 fn read(root: &Path, what: What, path: PathBuf) -> Option<Item> {
     let document = Document::parse(&endline_gear::read::text(&path).ok()?).ok()?;
-    let text = |field: &str| document.get(field).unwrap_or_default();
     let sketch = match what {
         What::Scenario => Sketch::of_scenario(root, &document),
         What::Study => Sketch::of_study(&document),
@@ -158,7 +164,9 @@ fn read(root: &Path, what: What, path: PathBuf) -> Option<Item> {
         What::Observation => Group::Observation,
     };
     let name = document.get("name").unwrap_or_else(|| files::stem(&path));
-    Some(Item { what, group, name, notes: text("notes"), sketch, path })
+    let notes = document.get("notes").unwrap_or_default();
+    let text = format!("{} {name} {notes}", files::stem(&path)).to_lowercase();
+    Some(Item { what, group, path, name, first_words: first_words(&notes), notes, sketch, text })
 }
 
 #[cfg(test)]
@@ -192,7 +200,10 @@ mod tests {
 
     #[test]
     fn a_search_finds_what_has_all_its_words() {
-        let found = |sought: &str| shipped().into_iter().filter(|item| item.has(sought)).count();
+        let found = |sought: &str| {
+            let words = words(sought);
+            shipped().into_iter().filter(|item| item.has(&words)).count()
+        };
         assert_eq!(found(""), shipped().len());
         let both = found("trawl offshore");
         assert!(both > 0 && both < found("trawl"), "{both}");
@@ -201,11 +212,8 @@ mod tests {
 
     #[test]
     fn notes_are_cut_at_a_sentence_or_a_word() {
-        let mut item = shipped().remove(0);
-        item.notes = "One trap.\nA second sentence.".into();
-        assert_eq!(item.first_words(), "One trap.");
-        item.notes = "word, ".repeat(40);
-        let words = item.first_words();
+        assert_eq!(first_words("One trap.\nA second sentence."), "One trap.");
+        let words = first_words(&"word, ".repeat(40));
         assert!(words.ends_with("word …") && words.chars().count() <= 123, "{words}");
     }
 }

@@ -116,9 +116,10 @@ fn open(shared: &mut Shared, what: What, path: &Path) {
 /// The items by group; while something is sought, only what has every word of it, all groups open.
 fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], sought: &str) {
     let mut any = false;
+    let words = item::words(sought);
     for group in Group::ALL {
         let of: Vec<&Item> =
-            items.iter().filter(|item| item.group == group && item.has(sought)).collect();
+            items.iter().filter(|item| item.group == group && item.has(&words)).collect();
         if of.is_empty() {
             continue;
         }
@@ -138,10 +139,13 @@ fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], sought: &str) {
 fn cards(ui: &mut Ui, shared: &mut Shared, items: &[&Item]) {
     let columns = ((ui.available_width() / COLUMN) as usize).max(1);
     for row in items.chunks(columns) {
-        ui.columns(columns, |columns| {
-            for (ui, item) in columns.iter_mut().zip(row) {
-                ui.with_layout(Flow::top_down(Align::Min), |ui| card(ui, shared, item));
-            }
+        let id = row.iter().fold(ui.id(), |id, item| id.with(&item.name));
+        widgets::where_seen(ui, id, |ui| {
+            ui.columns(columns, |columns| {
+                for (ui, item) in columns.iter_mut().zip(row) {
+                    ui.with_layout(Flow::top_down(Align::Min), |ui| card(ui, shared, item));
+                }
+            });
         });
         ui.add_space(4.0);
     }
@@ -158,7 +162,7 @@ fn card(ui: &mut Ui, shared: &mut Shared, item: &Item) {
             if named.clicked() || response.clicked() {
                 open(shared, item.what, &item.path);
             }
-            let notes = RichText::new(item.first_words()).size(12.0).color(palette.faint);
+            let notes = RichText::new(&item.first_words).size(12.0).color(palette.faint);
             ui.add(Label::new(notes).wrap()).on_hover_text(&item.notes);
         });
     });
