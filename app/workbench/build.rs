@@ -1,4 +1,4 @@
-//! Lists the files of the gear library for `src/inside.rs`, which includes their bytes.
+//! Lists the files that the program carries for `src/inside.rs`, which includes their bytes: the gear library and the documents.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -11,23 +11,44 @@ const LIBRARY: &str = "../../gear-library";
 /// What lies beside its items: its Rust package.
 const PACKAGE: [&str; 5] = ["Cargo.toml", "benches", "examples", "src", "tests"];
 
+/// The documents and their pictures, from this package.
+const DOCUMENTS: &str = "../../docs";
+
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("cargo::rerun-if-changed={LIBRARY}");
-    let library = Path::new(LIBRARY).canonicalize()?;
-    let mut files = Vec::new();
-    for entry in sorted(&library)? {
+    let mut items = Vec::new();
+    for entry in entries(LIBRARY)? {
         let is_package = PACKAGE.iter().any(|name| entry.ends_with(name));
         if !is_package {
-            collect(&entry, &mut files)?;
+            collect(&entry, &mut items)?;
         }
     }
+    list(LIBRARY, &items, "gear_library.rs")?;
+
+    let mut documents = entries(DOCUMENTS)?;
+    documents.retain(|path| is_one_of(path, &["md"]));
+    list(DOCUMENTS, &documents, "documents.rs")?;
+    let mut pictures = Vec::new();
+    collect(&Path::new(DOCUMENTS).canonicalize()?.join("pictures"), &mut pictures)?;
+    pictures.retain(|path| is_one_of(path, &["png", "svg"]));
+    list(DOCUMENTS, &pictures, "pictures.rs")
+}
+
+/// Whether a file ends in one of these.
+fn is_one_of(path: &Path, endings: &[&str]) -> bool {
+    path.extension().is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted))
+}
+
+/// Writes the list of files of a folder that `src/inside.rs` includes: the path in it of each, and its bytes.
+fn list(folder: &str, files: &[PathBuf], to: &str) -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed={folder}");
+    let folder = Path::new(folder).canonicalize()?;
     let mut list = String::from("&[\n");
-    for file in &files {
-        let name = file.strip_prefix(&library)?.to_string_lossy().replace('\\', "/");
+    for file in files {
+        let name = file.strip_prefix(&folder)?.to_string_lossy().replace('\\', "/");
         writeln!(list, "    ({name:?}, include_bytes!({:?})),", file.display().to_string())?;
     }
     list.push(']');
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("gear_library.rs"), list)?;
+    fs::write(Path::new(&env::var("OUT_DIR")?).join(to), list)?;
     Ok(())
 }
 
@@ -41,6 +62,11 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>> 
         collect(&entry, files)?;
     }
     Ok(())
+}
+
+/// What a folder of the workspace holds, in order, without hidden files.
+fn entries(folder: &str) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    sorted(&Path::new(folder).canonicalize()?)
 }
 
 /// What a folder holds, in order, without hidden files.

@@ -198,6 +198,14 @@ killed() {
     check "the edits were kept" "grep -q '1,234 lbf' '$DATA/'recovery-*.json"
 }
 
+# A document opens as a page, with its pictures beside it.
+documents() {
+    command "read gear types"
+    check "a document is opened as a page" "within 10 \"grep -q documents/gear-types.html '$WORK/pages'\""
+    check "its pictures are named" "grep -q 'src=\"pictures/gear-cutter.png' '$DATA/documents/gear-types.html'"
+    check "its pictures are there" "[ -f '$DATA/documents/pictures/gear-cutter.png' ]"
+}
+
 # What was chosen is kept while the window is open, for the next time.
 chosen() {
     command "units noaa"
@@ -210,6 +218,7 @@ designer
 regulator
 scientist
 killed
+documents
 chosen
 check "the program said nothing bad" "! grep -qi 'panick' '$WORK/log'"
 echo "pictures in $PICTURES, $SECONDS s"

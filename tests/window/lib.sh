@@ -10,6 +10,11 @@ cp -r "$ROOT/gear-library" "$WORK/library"
 # Each command that the program performs is a line of its log.
 export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_COMMANDS=1
 DATA="$WORK/data/endline"
+# What the program opens with the system's own programs is noted, and no browser comes before the window.
+mkdir "$WORK/bin"
+printf '#!/bin/sh\necho "$1" >>"%s/pages"\n' "$WORK" >"$WORK/bin/xdg-open"
+chmod +x "$WORK/bin/xdg-open"
+export PATH="$WORK/bin:$PATH"
 # No desktop portal: the window asks for paths itself, and no dialog opens on somebody's own screen.
 export DBUS_SESSION_BUS_ADDRESS=disabled:
 

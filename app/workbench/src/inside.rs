@@ -1,4 +1,5 @@
-//! What is inside the program, so that it works wherever its file is copied alone: the gear library and the first-party plugins.
+//! What is inside the program, so that it works wherever its file is copied alone: the gear library, the first-party plugins and
+//! the documents.
 //!
 //! Folders come first: a gear library that is found, and a plugin's file of the same id, serve instead.
 
@@ -10,6 +11,13 @@ use endline_session::{plugin_loader as loader_of, shipped};
 
 /// Files of the gear library as it was when the program was built (`build.rs` lists them).
 pub const GEAR_LIBRARY: shipped::Files = include!(concat!(env!("OUT_DIR"), "/gear_library.rs"));
+
+/// The documents, as Markdown.
+pub const DOCUMENTS: shipped::Files = include!(concat!(env!("OUT_DIR"), "/documents.rs"));
+
+/// The pictures of the documents.
+#[cfg(feature = "gui")]
+pub const PICTURES: shipped::Files = include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
 
 /// A loader of plugins in these folders, with the first-party ones for what they lack.
 #[must_use]

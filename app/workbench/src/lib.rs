@@ -4,11 +4,13 @@
 //! |---|---|---|
 //! | [`cli`] | | the command line |
 //! | [`scene`] | `scene` | what a frame looks like, as plain data; drawing it with or without a display |
-//! | [`inside`] | | the gear library and the first-party plugins inside the program |
+//! | [`documents`] | | the documents, and as pages for a browser |
+//! | [`inside`] | | the gear library, the first-party plugins and the documents inside the program |
 //! | [`input`] | `gui` | gamepad and keyboard as the pilot's controls |
 //! | [`gui`] | `gui` | the workbench |
 
 pub mod cli;
+pub mod documents;
 #[cfg(feature = "gui")]
 pub mod gui;
 #[cfg(feature = "gui")]

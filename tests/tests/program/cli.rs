@@ -267,6 +267,16 @@ fn shells_complete_every_command_and_each_has_a_manual_page() {
 }
 
 #[test]
+fn documents_are_inside_the_program() {
+    let place = Place::new("documents");
+    let listed = place.endline(&["docs"]).done().stdout;
+    assert!(listed.contains("gear-format") && listed.contains("Physics: what is solved"));
+    let physics = fs::read_to_string(endline_tests::root().join("docs/physics.md")).unwrap();
+    assert_eq!(place.endline(&["docs", "physics"]).done().stdout, physics);
+    place.endline(&["docs", "zeppelins"]).fails(2, &["zeppelins", "gear-format"]);
+}
+
+#[test]
 fn missing_files_are_named() {
     let place = Place::new("missing");
     place.endline(&["run", "no-such.toml"]).fails(1, &["no-such.toml", "cannot be read"]);

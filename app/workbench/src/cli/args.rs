@@ -100,6 +100,11 @@ pub(super) enum Command {
         /// Form, such as endline.run/1, or a command that prints it, such as "study report".
         form: Option<String>,
     },
+    /// Print a document, or list the documents.
+    Docs {
+        /// Document, such as physics.
+        document: Option<String>,
+    },
     /// Print the script by which a shell completes the arguments of this program.
     Completions {
         /// Shell that it is for.

@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod docs;
 mod export;
 mod failure;
 mod film;
@@ -78,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Haul(args)) => haul::haul_gear(args, library),
         Some(Command::Sheet(args)) => sheet::sheet(args, library),
         Some(Command::Schema { form }) => schema::schema(form.as_deref()),
+        Some(Command::Docs { document }) => docs::docs(document.as_deref()),
         Some(Command::Completions { shell }) => Ok(manual::completions(*shell)),
         Some(Command::Man { out }) => manual::man(out),
         Some(Command::Plugins { what }) => plugins::plugins(what),

@@ -4,7 +4,7 @@ use egui::{Button, MenuBar, RichText, Ui};
 use egui_dock::DockState;
 use endline_session::units::Units;
 
-use super::command::action::PanelAction;
+use super::command::action::{PanelAction, WindowAction};
 use super::command::{Offer, find};
 use super::layout::{self, Layout};
 use super::panel_id::PanelId;
@@ -93,7 +93,8 @@ pub fn show(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
                 ui.close();
             }
             HELP.iter().for_each(|id| command(ui, shared, id));
-            if ui.button("Documents, version, how to cite").clicked() {
+            ui.menu_button("Documents", |ui| documents(ui, shared));
+            if ui.button("Version, how to cite").clicked() {
                 shared.give(PanelAction::Show(PanelId::HELP));
                 ui.close();
             }
@@ -168,6 +169,21 @@ fn show_offer(ui: &mut Ui, shared: &mut Shared, offer: Offer) {
     if response.clicked() {
         shared.give(offer.command);
         ui.close();
+    }
+}
+
+/// The documents, group by group.
+fn documents(ui: &mut Ui, shared: &mut Shared) {
+    for (index, group) in crate::documents::groups().iter().enumerate() {
+        if index > 0 {
+            ui.separator();
+        }
+        for document in &group.documents {
+            if ui.button(document.title).on_hover_text(document.contents).clicked() {
+                shared.give(WindowAction::Read(*document));
+                ui.close();
+            }
+        }
     }
 }
 

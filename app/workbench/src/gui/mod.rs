@@ -95,6 +95,7 @@ pub fn open(options: Options) -> Result<(), String> {
             shared.workbench.recordings = Some(folder.join("recordings"));
             shared.workbench.studies.folder = Some(folder.join("studies"));
             shared.workbench.searches.folder = Some(folder.join("searches"));
+            shared.pages = Some(folder.join("documents"));
         }
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, shared));
         Ok(app)

@@ -1,5 +1,6 @@
 //! What all panels share: the workbench, the pilot's hands, what is chosen, and the commands they give.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use endline_gear::Kind;
@@ -39,6 +40,8 @@ pub struct Shared {
     pub film: Option<FilmJob>,
     /// The picture of a kept run that is being drawn.
     pub kept_picture: KeptPicture,
+    /// Where documents are written as pages; none where the system names no home.
+    pub pages: Option<PathBuf>,
     /// Commands given by panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
@@ -97,6 +100,7 @@ impl Shared {
             selection: Selection::default(),
             film: None,
             kept_picture: KeptPicture::default(),
+            pages: None,
             commands: Vec::new(),
         }
     }

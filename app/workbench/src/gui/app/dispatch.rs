@@ -12,6 +12,7 @@ use endline_session::edit::Documents;
 use endline_session::workbench::{Event, Notice};
 
 use super::App;
+use crate::documents::{Document, page};
 use crate::gui::command::action::{
     FlightAction, PanelAction, ViewAction, WindowAction, WindowCommand,
 };
@@ -239,11 +240,22 @@ impl App {
                     open_folder(&page)?;
                 }
             }
+            WindowAction::Read(document) => self.read(document)?,
             WindowAction::OpenFolder(folder) => open_folder(&folder)?,
             WindowAction::Ask(id) => self.ask(id)?,
             WindowAction::Present => self.present(context),
             WindowAction::Quit => context.send_viewport_cmd(ViewportCommand::Close),
         }
+        Ok(())
+    }
+
+    /// A document in the system's browser.
+    fn read(&mut self, document: Document) -> Result<(), String> {
+        let folder = self.shared.pages.as_ref();
+        let folder = folder.ok_or("the system names no home, where documents could be written")?;
+        let page = page::written(folder, document)?;
+        open_folder(&page)?;
+        self.shared.workbench.notice = Some(Notice::done(format!("opened {}", page.display())));
         Ok(())
     }
 

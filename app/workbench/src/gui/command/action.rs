@@ -9,6 +9,7 @@ use endline_session::command::{
 };
 use endline_session::units::Units;
 
+use crate::documents::Document;
 use crate::gui::layout::Layout;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
@@ -123,6 +124,8 @@ pub enum WindowAction {
     CopySearchLine,
     /// Open the report of the results shown.
     OpenReport,
+    /// Open a document as a page.
+    Read(Document),
     /// Show a folder in the system's file manager, or open a file.
     OpenFolder(PathBuf),
     /// Ask for the file of the command of this identity.
@@ -224,6 +227,7 @@ impl WindowAction {
             Self::CopyStudyLine => "window.copy-study",
             Self::CopySearchLine => "window.copy-search",
             Self::OpenReport => "window.open-report",
+            Self::Read(_) => "window.read",
             Self::OpenFolder(_) => "window.open-folder",
             Self::Ask(id) => id,
             Self::Present => "window.present",

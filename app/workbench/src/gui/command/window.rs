@@ -6,6 +6,7 @@ use endline_session::units::Units;
 use super::WindowInfo;
 use super::action::WindowAction;
 use super::view::shown;
+use crate::documents;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
@@ -86,6 +87,17 @@ pub static COMMANDS: &[WindowInfo] = &[
         Make::Plain(|| WindowAction::CopySearchLine.into()),
     )
     .only_if(observation_opened),
+    WindowInfo::new(
+        "window.read",
+        "Read",
+        "Opens a document with the program that is usual for pages; it is inside the program.",
+        Make::Choices(|_| {
+            let choice = |document: documents::Document| {
+                Choice::new(document.title, WindowAction::Read(document).into())
+            };
+            documents::all().map(choice).collect()
+        }),
+    ),
     WindowInfo::new(
         "window.open-folder",
         "Open a folder",

@@ -1,10 +1,9 @@
 //! Which Endline this is, under which licence, how to cite it, and its documents.
 
-use std::path::PathBuf;
-
-use egui::{Grid, RichText, Ui};
+use egui::{RichText, Ui};
 use endline_session::VERSION;
 
+use crate::documents;
 use crate::gui::command::action::WindowAction;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -12,25 +11,6 @@ use crate::gui::widgets;
 
 /// Where Endline is kept.
 const REPOSITORY: &str = env!("CARGO_PKG_REPOSITORY");
-
-/// The documents by what they are about.
-const DOCUMENTS: [(&str, &str); 15] = [
-    ("The workbench, panel by panel", "workbench.md"),
-    ("The gear library's files", "gear-format.md"),
-    ("Gear types", "gear-types.md"),
-    ("Studies and their statistics", "studies.md"),
-    ("Rules and compliance", "rules.md"),
-    ("Hauling", "hauling.md"),
-    ("The sheet for a hearing", "sheet.md"),
-    ("Entanglement: what is counted", "entanglement.md"),
-    ("Search for a real case", "search.md"),
-    ("Whales and their motions", "motions.md"),
-    ("Physics and its equations", "physics.md"),
-    ("Validation against measurements", "validation.md"),
-    ("Recordings and films", "recording.md"),
-    ("Writing a plugin", "plugin-tutorial.md"),
-    ("Python", "python.md"),
-];
 
 /// Draws it.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
@@ -48,25 +28,17 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
             ui.ctx().copy_text(citation());
         }
     });
-    widgets::caption(ui, "Documents");
-    let folder = folder(shared);
-    Grid::new("documents").num_columns(2).spacing([22.0, 4.0]).show(ui, |ui| {
-        for pair in DOCUMENTS.chunks(2) {
-            for (title, file) in pair {
-                match folder.as_ref().map(|folder| folder.join(file)) {
-                    Some(path) => {
-                        if ui.link(*title).on_hover_text(path.display().to_string()).clicked() {
-                            shared.give(WindowAction::OpenFolder(path));
-                        }
-                    }
-                    None => {
-                        ui.hyperlink_to(*title, format!("{REPOSITORY}/blob/main/docs/{file}"));
-                    }
+    for group in documents::groups() {
+        widgets::caption(ui, group.title);
+        ui.horizontal_wrapped(|ui| {
+            for document in &group.documents {
+                if ui.link(document.title).on_hover_text(document.contents).clicked() {
+                    shared.give(WindowAction::Read(*document));
                 }
+                ui.add_space(14.0);
             }
-            ui.end_row();
-        }
-    });
+        });
+    }
 }
 
 /// How a paper names this version.
@@ -76,24 +48,13 @@ fn citation() -> String {
     )
 }
 
-/// The folder of documents beside the gear library, as a source folder has it.
-fn folder(shared: &Shared) -> Option<PathBuf> {
-    let folder = shared.workbench.project.documents.root().parent()?.join("docs");
-    folder.join(DOCUMENTS[0].1).is_file().then_some(folder)
-}
-
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
 
     #[test]
-    fn every_document_that_is_listed_is_there() {
-        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
-        for (title, file) in DOCUMENTS {
-            assert!(docs.join(file).is_file(), "{title}: {file}");
-        }
-        assert!(citation().contains(VERSION));
+    fn the_citation_names_version_and_place() {
+        assert!(citation().contains(VERSION) && citation().ends_with(REPOSITORY));
+        assert!(REPOSITORY.starts_with("https://"), "{REPOSITORY}");
     }
 }

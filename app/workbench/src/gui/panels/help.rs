@@ -33,12 +33,12 @@ impl Panel for HelpPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            about::show(ui, shared);
+            widgets::caption(ui, "Files");
+            ui.label("Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".");
             for when in When::ALL {
                 table(ui, when.title(), &keys(when));
             }
-            widgets::caption(ui, "Files");
-            ui.label("Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".");
-            about::show(ui, shared);
         });
     }
 }
