@@ -1,7 +1,7 @@
 //! Kinds of quantities: their SI units, and how a value is written for people.
 
 use super::Value;
-use crate::units::{ForceUnit, Units};
+use crate::units::{ForceUnit, Units, rounded};
 
 /// Kind of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ impl Quantity {
                 written.collect::<Vec<_>>().join(", ")
             }
             Value::Measured { value, unit: "N" } => units.force().text(*value),
-            Value::Measured { value, unit } => format!("{value:.2} {unit}"),
+            Value::Measured { value, unit } => format!("{} {unit}", rounded(*value, 2)),
             Value::Group(_) | Value::List(_) => String::new(),
         }
     }
@@ -115,21 +115,26 @@ impl Quantity {
         match self {
             Self::Force | Self::ForceVector => units.force().text(value),
             Self::Length | Self::Place => units.length(value),
-            Self::SmallLength => format!("{:.2} mm", 1e3 * value),
+            Self::SmallLength => format!("{} mm", rounded(1e3 * value, 2)),
             Self::Depth => units.depth(value),
-            Self::Moment | Self::Duration => format!("{value:.2} s"),
+            Self::Moment | Self::Duration => format!("{} s", rounded(value, 2)),
             Self::Step => format!("{value} s"),
             Self::Speed => units.speed(value),
-            Self::Power => format!("{value:.0} W"),
+            Self::Power => format!("{} W", rounded(value, 0)),
             Self::Pressure => units.force().pressure(value),
             Self::LineLoad => line_load(value, units.force()),
-            Self::Work => format!("{value:.*} J", usize::from(value.abs() < 100.0)),
-            Self::Impulse => format!("{value:.*} N s", usize::from(value.abs() < 100.0)),
-            Self::Share => format!("{:.4} %", 100.0 * value),
-            Self::Frequency => format!("{value:.3} Hz"),
-            _ => format!("{value:.2}"),
+            Self::Work => format!("{} J", rounded(value, tenths(value))),
+            Self::Impulse => format!("{} N s", rounded(value, tenths(value))),
+            Self::Share => format!("{} %", rounded(100.0 * value, 4)),
+            Self::Frequency => format!("{} Hz", rounded(value, 3)),
+            _ => rounded(value, 2),
         }
     }
+}
+
+/// Decimals of a number that is told with three figures or so: one below a hundred.
+fn tenths(value: f64) -> usize {
+    usize::from(value.abs() < 100.0)
 }
 
 /// A force by length with its unit.
@@ -137,7 +142,21 @@ fn line_load(n_per_m: f64, force: ForceUnit) -> String {
     /// Newtons by metre in a pound-force by foot.
     const N_M_PER_LBF_FT: f64 = 14.593_903;
     match force {
-        ForceUnit::Lbf => format!("{:.1} lbf/ft", n_per_m / N_M_PER_LBF_FT),
-        ForceUnit::Newton => format!("{n_per_m:.0} N/m"),
+        ForceUnit::Lbf => format!("{} lbf/ft", rounded(n_per_m / N_M_PER_LBF_FT, 1)),
+        ForceUnit::Newton => format!("{} N/m", rounded(n_per_m, 0)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_nothing_has_no_sign() {
+        let text = |quantity: Quantity, value| quantity.text(&Value::Number(value), Units::Si);
+        assert_eq!(text(Quantity::Turns, -0.001), "0.00");
+        assert_eq!(text(Quantity::Turns, -0.5), "-0.50");
+        assert_eq!(text(Quantity::Work, -0.01), "0.0 J");
+        assert_eq!(text(Quantity::Moment, -1e-9), "0.00 s");
     }
 }
