@@ -1,5 +1,6 @@
 //! Tests of the physics through the crate's own door: known answers, published figures, invariants.
 
+mod any_gear;
 mod balance;
 mod bodies_meet;
 mod bodies_on_obstacles;
@@ -24,7 +25,6 @@ mod rope_law;
 mod rope_on_bodies;
 mod ropes;
 mod solids;
-mod sound;
 mod step_accuracy;
 mod water;
 mod whale;
