@@ -6,8 +6,8 @@ use endline_gear::Library as Items;
 use endline_session::check::check_path;
 use endline_session::locate;
 use endline_session::source::AssemblyFile;
-use endline_session::statics::TrialSea;
 use endline_session::statics::preview::{alone, settled};
+use endline_session::statics::{TrialGear, TrialSea};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -88,7 +88,8 @@ impl Assembly {
         let (_, scenario) = text_of(scenario, Some(&self.file.root))?;
         let sea = TrialSea { depth, current_m_s };
         let rest = python.detach(|| {
-            let text = alone(&scenario, &self.file.id, &sea, &self.items)?;
+            let gear = TrialGear::Assembly(self.file.id.clone());
+            let text = alone(&scenario, &gear, &sea, &self.items)?;
             settled(&self.file.id, &text, &self.items, host())
         });
         Ok(rest.map_err(raised)?.shape.json())

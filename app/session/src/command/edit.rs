@@ -12,6 +12,7 @@ use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::edit::saving::Keep;
 use crate::locate;
+use crate::statics::TrialGear;
 use crate::workbench::Workbench;
 
 /// An action on texts.
@@ -47,8 +48,8 @@ pub enum EditAction {
     Recover(UnsavedEdits),
     /// Weak links on or off, in the scenario.
     ToggleWeakLinks,
-    /// Put the usual weak inserts along the endlines of an assembly, by its id.
-    AddInserts(String),
+    /// Put the usual weak inserts along the endlines of an assembly, or of the scenario's own parts.
+    AddInserts(TrialGear),
     /// Copy an entry of the library, by its path, to a file of its own.
     Duplicate(String),
     /// Delete an entry of the library, by its path. The file goes with the next save.
@@ -198,8 +199,8 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "edit.add-inserts",
         "Put in weak inserts",
-        "Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly.",
-        Make::Values("assembly"),
+        "Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly, or of the scenario's own parts.",
+        Make::Values("gear"),
     ),
     Info::new(
         "edit.duplicate",
@@ -249,7 +250,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(
         EditAction::OpenScenario(path) => workbench.open_scenario(&path),
         EditAction::Recover(edits) => workbench.recover(&edits),
         EditAction::ToggleWeakLinks => workbench.toggle_weak_links(),
-        EditAction::AddInserts(assembly) => workbench.add_inserts(&assembly),
+        EditAction::AddInserts(gear) => workbench.add_inserts(&gear),
         EditAction::Duplicate(path) => workbench.duplicate(path),
         EditAction::Remove(path) => workbench.remove(&path),
         EditAction::ImportTable { kind, file } => workbench.import_table(kind, &file),

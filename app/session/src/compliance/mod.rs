@@ -24,7 +24,7 @@ use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
 use crate::source::assembly::library_of;
 use crate::source::{Overrides, Prepared, Source};
-use crate::statics::preview::{TrialSea, alone};
+use crate::statics::preview::{TrialGear, TrialSea, alone};
 
 pub use comparison::comparison;
 use threat::ThreatOfGear;
@@ -90,7 +90,7 @@ impl ComplianceSheet {
             };
             let source = Source {
                 scenario_name: (*id).to_owned(),
-                scenario: alone(SEA, id, &sea, &library)?,
+                scenario: alone(SEA, &TrialGear::Assembly((*id).to_owned()), &sea, &library)?,
                 library: (*sources).clone(),
                 overrides: Overrides::default(),
             };

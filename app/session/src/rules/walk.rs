@@ -76,7 +76,7 @@ impl Reader<'_> {
                 if !path.iter().any(|(line, _)| taken[*line]) {
                     gear.surface_m.push(path.iter().map(|(line, _)| self.length_m(*line)).sum());
                 }
-            } else if ends_at.is_some() || self.steps(last).len() > 1 {
+            } else if ends_at.is_some() || self.is_fixture(last) || self.steps(last).len() > 1 {
                 let buoy = spec.bodies[buoy].id.clone();
                 gear.endlines.push(Endline { buoy, ..self.endline(&path) });
             } else {
@@ -123,6 +123,11 @@ impl Reader<'_> {
             JointKind::Body { body, .. } => Some(self.made.spec.bodies[body].role),
             _ => None,
         }
+    }
+
+    /// A place that does not move, such as the foot of a scenario's own endline.
+    fn is_fixture(&self, joint: usize) -> bool {
+        matches!(self.made.spec.joints[joint].kind, JointKind::Fixed)
     }
 
     fn length_m(&self, line: usize) -> f64 {

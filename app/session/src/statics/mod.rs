@@ -1,12 +1,12 @@
-//! Gear at rest without a run: one assembly settled while it is edited.
+//! Gear at rest without a run: settled while it is edited.
 //!
 //! | module | what |
 //! |---|---|
-//! | [`preview`] | one assembly alone in a chosen sea, settled |
+//! | [`preview`] | one gear alone in a chosen sea, settled |
 //! | [`worker`] | previews on a thread of their own |
 
 pub mod preview;
 pub mod worker;
 
-pub use preview::{RigAtRest, TrialSea};
+pub use preview::{RigAtRest, TrialGear, TrialSea};
 pub use worker::{StaticsWorker, Trial};

@@ -1,8 +1,8 @@
-//! One assembly alone in a chosen sea, settled: a preview of gear while it is edited.
+//! One gear alone in a chosen sea, settled: a preview of gear while it is edited.
 //!
-//! The sea is a scenario's. The whale of the scenario is left out, as are lines and bodies that
-//! belong to no assembly. Where the assembly is the scenario's only gear, it keeps the scenario's
-//! settings of it.
+//! The sea is a scenario's. The whale of the scenario is left out. Of an assembly the lines and bodies that belong to none are left
+//! out too; where it is the scenario's only gear, it keeps the scenario's settings of it. A scenario that is made of parts of its
+//! own is previewed with these.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,7 +18,7 @@ use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
 /// Tables of a scenario that a preview does not use.
-const LEFT_OUT: [&str; 19] = [
+const LEFT_OUT: [&str; 12] = [
     "whale",
     "friction",
     "probe",
@@ -30,15 +30,37 @@ const LEFT_OUT: [&str; 19] = [
     "rope_nodes",
     "segment",
     "segments",
-    "line",
-    "fixture",
-    "body",
-    "joint",
-    "link",
-    "obstacle",
-    "rope",
     "step",
 ];
+
+/// Tables of a scenario's own parts, which a preview of an assembly does not use.
+const OWN: [&str; 7] = ["line", "fixture", "body", "joint", "link", "obstacle", "rope"];
+
+/// Whose gear is previewed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TrialGear {
+    /// An assembly of the library, by its id.
+    Assembly(String),
+    /// The parts that the scenario has of its own.
+    Own,
+}
+
+impl TrialGear {
+    /// Whether a scenario has parts of its own, and no gear that it places.
+    #[must_use]
+    pub fn is_own(scenario: &Document) -> bool {
+        scenario.has("line.0") && !scenario.has("gear.0")
+    }
+
+    /// What messages call it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Assembly(id) => id,
+            Self::Own => "scenario",
+        }
+    }
+}
 
 /// The sea of a preview, where it differs from the scenario's.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,21 +82,19 @@ pub struct RigAtRest {
     pub frame: Arc<Frame>,
 }
 
-/// The text of a scenario that holds one assembly alone, in the sea of `scenario` changed by `sea`.
+/// The text of a scenario that holds one gear alone, in the sea of `scenario` changed by `sea`.
 ///
 /// # Errors
 /// Where `scenario` is not TOML.
 pub fn alone(
     scenario: &str,
-    assembly: &str,
+    gear: &TrialGear,
     sea: &TrialSea,
     library: &Library,
 ) -> Result<String, Error> {
     let failed =
         |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
     let mut document = Document::parse(scenario).map_err(|error| failed(error.to_string()))?;
-    let only =
-        document.get("gear.0.assembly").as_deref() == Some(assembly) && !document.has("gear.1");
     let toward = document.get("current.toward").unwrap_or_else(|| "90 deg".to_owned());
     let strip = |document: &mut Document, key: &str| {
         // A key that is missing needs no removing.
@@ -92,10 +112,15 @@ pub fn alone(
         settings.push(("site.item", site.to_owned()));
     }
     settings.extend(sea.depth.iter().map(|depth| ("site.depth", depth.clone())));
-    if !only {
-        strip(&mut document, "gear");
-        settings.push(("gear.0.assembly", assembly.to_owned()));
-        settings.push(("gear.0.heading", toward));
+    if let TrialGear::Assembly(assembly) = gear {
+        OWN.iter().for_each(|key| strip(&mut document, key));
+        let only =
+            document.get("gear.0.assembly").as_ref() == Some(assembly) && !document.has("gear.1");
+        if !only {
+            strip(&mut document, "gear");
+            settings.push(("gear.0.assembly", assembly.clone()));
+            settings.push(("gear.0.heading", toward));
+        }
     }
     for (field, text) in settings {
         let put = document.put(field, &Setting::text(&text));
@@ -138,10 +163,26 @@ mod tests {
     const SCENARIO: &str = "format = 1\nkind = \"scenario\"\nname = \"s\"\nduration = \"1 s\"\n# the sea\n[site]\nitem = \"bay\"\n\n\
         [current]\nspeed = \"1 kn\"\ntoward = \"45 deg\"\n\n[[gear]]\nassembly = \"single\"\n\n[whale]\nlength = \"9 m\"\n";
 
+    fn assembly(id: &str) -> TrialGear {
+        TrialGear::Assembly(id.to_owned())
+    }
+
+    #[test]
+    fn a_scenarios_own_parts_stay_without_the_whale() {
+        let own = SCENARIO.replace("[[gear]]\nassembly = \"single\"", "[[line]]\nid = \"endline\"");
+        let document = |text: &str| Document::parse(text).unwrap();
+        assert!(TrialGear::is_own(&document(&own)) && !TrialGear::is_own(&document(SCENARIO)));
+        let library = Library::default();
+        let kept = alone(&own, &TrialGear::Own, &TrialSea::default(), &library).unwrap();
+        assert!(kept.contains("endline") && !kept.contains("whale"), "{kept}");
+        let other = alone(&own, &assembly("pair"), &TrialSea::default(), &library).unwrap();
+        assert!(other.contains("pair") && !other.contains("endline"), "{other}");
+    }
+
     #[test]
     fn the_whale_goes_and_the_sea_is_what_is_asked_for() {
         let sea = TrialSea { depth: Some("40 fathom".to_owned()), current_m_s: Some(0.0) };
-        let text = alone(SCENARIO, "single", &sea, &Library::default()).unwrap();
+        let text = alone(SCENARIO, &assembly("single"), &sea, &Library::default()).unwrap();
         assert!(!text.contains("whale") && text.contains("# the sea"), "{text}");
         let document = Document::parse(&text).unwrap();
         let field = |name: &str| document.get(name).unwrap_or_default();
@@ -156,7 +197,7 @@ mod tests {
     fn another_assembly_takes_the_place_of_all_gear() {
         let two = format!("{SCENARIO}\n[[gear]]\nassembly = \"pair\"\nid = \"b\"\n");
         let document = Document::parse(
-            &alone(&two, "trawl-10", &TrialSea::default(), &Library::default()).unwrap(),
+            &alone(&two, &assembly("trawl-10"), &TrialSea::default(), &Library::default()).unwrap(),
         )
         .unwrap();
         assert_eq!(document.get("gear.0.assembly").as_deref(), Some("trawl-10"));

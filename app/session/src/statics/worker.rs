@@ -11,13 +11,13 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::task::Waker;
 
-use super::preview::{RigAtRest, TrialSea, alone, settled};
+use super::preview::{RigAtRest, TrialGear, TrialSea, alone, settled};
 
 /// One rig in one sea.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Id of the assembly.
-    pub assembly: String,
+    /// The gear.
+    pub gear: TrialGear,
     /// Its sea.
     pub sea: TrialSea,
 }
@@ -71,7 +71,7 @@ impl StaticsWorker {
     ) {
         self.number += 1;
         let same = |index: usize| {
-            self.trials.get(index).is_some_and(|before| before.assembly == trials[index].assembly)
+            self.trials.get(index).is_some_and(|before| before.gear == trials[index].gear)
         };
         self.last = (0..trials.len())
             .map(|index| self.rest(index).filter(|_| same(index)).cloned())
@@ -180,6 +180,6 @@ fn answer(request: &Request, trial: &Trial, host: &PluginHost) -> Answer {
         other => other.to_string(),
     };
     let text =
-        alone(&request.scenario, &trial.assembly, &trial.sea, &request.library).map_err(reason)?;
-    settled(&trial.assembly, &text, &request.library, host).map(Arc::new).map_err(reason)
+        alone(&request.scenario, &trial.gear, &trial.sea, &request.library).map_err(reason)?;
+    settled(trial.gear.name(), &text, &request.library, host).map(Arc::new).map_err(reason)
 }

@@ -11,7 +11,8 @@ use super::notice::{Event, Notice};
 use crate::edit::recovery::{Autosave, UnsavedEdits};
 use crate::edit::saving::Keep;
 use crate::edit::{Documents, library_table, pilot_program};
-use crate::rules::mend::{Asked, usual_inserts};
+use crate::rules::mend::{Asked, usual_inserts, usual_inserts_of_own};
+use crate::statics::TrialGear;
 
 /// The texts, and what is wrong with them.
 pub struct Project {
@@ -86,16 +87,25 @@ impl Workbench {
         Ok(())
     }
 
-    /// Puts the usual weak inserts along the endlines of an assembly, in the scenario's depth.
-    pub(crate) fn add_inserts(&mut self, assembly: &str) -> Result<(), String> {
+    /// Puts the usual weak inserts along the endlines of an assembly, in the scenario's depth, or of the scenario's own parts.
+    pub(crate) fn add_inserts(&mut self, gear: &TrialGear) -> Result<(), String> {
         let documents = &self.project.documents;
-        let path = format!("assemblies/{assembly}.toml");
+        let path = match gear {
+            TrialGear::Assembly(id) => format!("assemblies/{id}.toml"),
+            TrialGear::Own => Documents::SCENARIO.to_owned(),
+        };
         let text = documents.text(&path).ok_or_else(|| format!("there is no `{path}`"))?;
-        let depth = documents.field(Documents::SCENARIO, "site.depth");
-        let depth_m = depth.and_then(|text| units::parse(&text, Quantity::Length).ok());
-        let asked = Asked { id: assembly, text, sources: &documents.sources() };
         let (host, _) = self.helpers();
-        let made = usual_inserts(asked, depth_m, &host).map_err(|error| error.to_string())?;
+        let made = match gear {
+            TrialGear::Assembly(id) => {
+                let depth = documents.field(Documents::SCENARIO, "site.depth");
+                let depth_m = depth.and_then(|text| units::parse(&text, Quantity::Length).ok());
+                let asked = Asked { id, text, sources: &documents.sources() };
+                usual_inserts(asked, depth_m, &host)
+            }
+            TrialGear::Own => usual_inserts_of_own(text, documents.library(), &host),
+        };
+        let made = made.map_err(|error| error.to_string())?;
         self.project.documents.put_all(vec![(path, made.text)]);
         self.notice = Some(Notice::done(format!("{} Undo takes it back.", made.says)));
         Ok(())

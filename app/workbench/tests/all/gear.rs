@@ -9,6 +9,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::{import, to_csv};
 use endline_session::live::engine;
+use endline_session::statics::TrialGear;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::fields::{edit_id, go_to};
@@ -222,7 +223,7 @@ fn inserts_are_counted_along_the_whole_endline_and_a_bad_share_leaves_form_and_d
 fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     let folder = Folder::new("split");
     let mut harness = assembly(&folder);
-    harness.state_mut().panels.assembly.shown = Some("massachusetts-single".into());
+    give(&mut harness, PanelAction::Assembly("massachusetts-single".to_owned()));
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     let lines = |harness: &Harness<'static, App>| {
@@ -249,6 +250,44 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
         (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
         ("4.05 m".to_owned(), "4.05 m".to_owned())
     );
+}
+
+fn gear_shown(harness: &Harness<'static, App>) -> Option<TrialGear> {
+    let app = harness.state();
+    app.panels.assembly.shown(&app.shared)
+}
+
+#[test]
+fn a_scenario_of_parts_of_its_own_shows_them_and_takes_inserts() {
+    let folder = Folder::new("own-parts");
+    let mut harness = assembly(&folder);
+    give(&mut harness, PanelAction::Assembly("massachusetts-single".to_owned()));
+    // Whatever was chosen before, a scenario that is opened shows its own gear.
+    let held = folder.0.join("scenarios/study-endline-held.toml");
+    harness.state_mut().shared.perform(EditAction::OpenScenario(held));
+    harness.run_steps(2);
+    assert_eq!(gear_shown(&harness), Some(TrialGear::Own));
+    wait(&mut harness, |app| app.panels.assembly.settled());
+    let lines = |harness: &Harness<'static, App>| -> Vec<String> {
+        let rest = harness.state().panels.assembly.answers()[1].unwrap().as_ref().unwrap().clone();
+        assert!(rest.shape.converged && rest.model.spec.whale.is_none(), "{}", rest.shape.outcome);
+        rest.shape.lines.iter().map(|line| line.id.clone()).collect()
+    };
+    assert_eq!(lines(&harness), ["endline-bottom", "endline-top"]);
+    let [slack, running] = tensions(&harness);
+    assert!(running > slack, "the tide pulls: {slack} N, {running} N");
+
+    harness.get_by_label("Put in every 60 ft").click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.panels.assembly.settled());
+    let pieces = lines(&harness);
+    let inserts = pieces.iter().filter(|id| id.contains(".insert-")).count();
+    // 32.5 m of endline: 12 ft and 72 ft from the buoy lie in its top three quarters.
+    assert_eq!(inserts, 2, "{pieces:?}");
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert!(documents.has(Documents::SCENARIO, "line.1.inserts"));
+    assert!(documents.problems().is_empty(), "{:?}", documents.problems());
+    assert_eq!(documents.unsaved(), [Documents::SCENARIO], "no assembly of the library is edited");
 }
 
 #[test]
@@ -371,7 +410,7 @@ fn gear_is_chosen_by_its_picture() {
         .unwrap();
     harness.get_all_by_label(&name).last().unwrap().click();
     harness.run_steps(3);
-    assert_eq!(harness.state().panels.assembly.shown.as_deref(), Some("single"));
+    assert_eq!(gear_shown(&harness), Some(TrialGear::Assembly("single".to_owned())));
     assert!(!harness.state().panels.assembly.selecting, "the picture is taken and the gear shown");
 }
 

@@ -38,7 +38,7 @@ use candidate::Candidate;
 use propose::Scene;
 
 pub use candidate::Change;
-pub use usual::{Edited, usual_inserts};
+pub use usual::{Edited, usual_inserts, usual_inserts_of_own};
 
 /// Name and version of the JSON.
 const SCHEMA: &str = "endline.rules.mend/1";

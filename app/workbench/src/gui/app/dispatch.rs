@@ -181,7 +181,7 @@ impl App {
             }
             PanelAction::Assembly(id) => {
                 layout::open(dock, PanelId::ASSEMBLY);
-                panels.assembly.choose(id);
+                panels.assembly.choose(shared, id);
             }
             PanelAction::Duplicate => {
                 let path = shared.selection.entry.clone();

@@ -5,6 +5,7 @@ use endline_gear::Kind;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
+use endline_session::statics::TrialGear;
 
 use super::AssemblyPanel;
 use super::{inserts, item};
@@ -18,10 +19,10 @@ pub(super) fn show(
     ui: &mut Ui,
     panel: &AssemblyPanel,
     shared: &mut Shared,
-    id: &str,
+    shown: &TrialGear,
     gear_type: &str,
 ) {
-    let file = &super::path(id);
+    let file = &super::path(shown);
     let Some(gear) =
         shared.workbench.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type)
     else {
@@ -35,7 +36,8 @@ pub(super) fn show(
         scope_slider(ui, shared, file, scope);
     }
     let placed = shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
-    inserts::of_built(ui, panel, shared, (id, placed.as_deref() == Some(id)));
+    let is_placed = placed.is_some_and(|id| *shown == TrialGear::Assembly(id));
+    inserts::of_built(ui, panel, shared, (shown, is_placed));
     widgets::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {

@@ -5,6 +5,7 @@ use endline_gear::Kind;
 use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::assembly;
+use endline_session::statics::TrialGear;
 
 use super::AssemblyPanel;
 use super::item;
@@ -19,10 +20,10 @@ pub(super) fn of_built(
     ui: &mut Ui,
     panel: &AssemblyPanel,
     shared: &mut Shared,
-    (id, is_placed): (&str, bool),
+    (gear, is_placed): (&TrialGear, bool),
 ) {
-    let file = &super::path(id);
-    whole(ui, shared, id);
+    let file = &super::path(gear);
+    whole(ui, shared, gear);
     for line in built_lines(panel) {
         let (own, placed) = (format!("lines.{line}"), format!("gear.0.lines.{line}"));
         let documents = &shared.workbench.project.documents;
@@ -37,14 +38,14 @@ pub(super) fn of_built(
 }
 
 /// Head of the inserts, and those of whole endlines, whatever lines they are made of.
-pub(super) fn whole(ui: &mut Ui, shared: &mut Shared, id: &str) {
+pub(super) fn whole(ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
     widgets::caption(ui, "Weak inserts");
     ui.horizontal(|ui| {
         ui.label("whole endline");
         let button = ui.small_button("Put in every 60 ft");
         let help = "3 ft of weak rope every 60 ft over the top three quarters, from the buoy through every line of each endline";
         if button.on_hover_text(help).clicked() {
-            shared.perform(EditAction::AddInserts(id.to_owned()));
+            shared.perform(EditAction::AddInserts(gear.clone()));
         }
     });
 }

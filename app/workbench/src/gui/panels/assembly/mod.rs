@@ -1,4 +1,4 @@
-//! Gear from buoy to trap: its parts or attributes at the left, the rig at rest drawn to scale at slack and at running
+//! Gear from buoy to trap, of an assembly or of the scenario itself: its parts or attributes at the left, the rig at rest drawn to scale at slack and at running
 //! tide beside it, tensions and float height below.
 
 mod form;
@@ -11,7 +11,7 @@ mod sweep;
 mod table;
 mod toolbar;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{ScrollArea, Ui};
@@ -21,7 +21,7 @@ use endline_session::edit::library_table::id_of;
 use endline_session::export;
 use endline_session::scene::{Scene, Show};
 use endline_session::statics::worker::Answer;
-use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialSea};
+use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialGear, TrialSea};
 
 use crate::gui::fields;
 use crate::gui::panel::Panel;
@@ -32,8 +32,8 @@ use crate::gui::widgets::{self, problem};
 /// Gear from buoy to trap, at rest.
 #[derive(Default)]
 pub struct AssemblyPanel {
-    /// The gear shown; the scenario's where `None`.
-    pub shown: Option<String>,
+    /// The assembly that was chosen, and the scenario that was open; the scenario's gear is shown where there is none of this scenario.
+    chosen: Option<(PathBuf, String)>,
     /// The gear it is compared with.
     pub other: Option<String>,
     /// Surface speed at running tide [m/s]; the scenario's where `None`.
@@ -47,7 +47,7 @@ pub struct AssemblyPanel {
     pictured: StaticsWorker,
     pictured_for: Option<u64>,
     swept: StaticsWorker,
-    swept_for: Option<(u64, String)>,
+    swept_for: Option<(u64, TrialGear)>,
 }
 
 /// The four rigs drawn: A and B, each at slack and at running tide.
@@ -98,18 +98,18 @@ impl Panel for AssemblyPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let Some(id) = self.shown(shared) else {
+        let Some(gear) = self.shown(shared) else {
             return widgets::nothing(
                 ui,
                 "No assembly here. Take one from a gear type with the New menu, or place one in the scenario.",
             );
         };
-        self.ask(shared, &id);
-        self.toolbar(ui, shared, &id);
+        self.ask(shared, &gear);
+        self.toolbar(ui, shared, &gear);
         ui.separator();
         if self.selecting {
             if let Some(taken) = selector::show(ui, self, shared) {
-                self.choose(taken);
+                self.choose(shared, taken);
             }
             return;
         }
@@ -119,7 +119,7 @@ impl Panel for AssemblyPanel {
         widgets::within(ui, at_left, |ui| {
             ScrollArea::vertical().id_salt("assembly-form").auto_shrink(false).show(ui, |ui| {
                 ui.set_width(left - 16.0);
-                self.make(ui, shared, &id);
+                self.make(ui, shared, &gear);
             });
         });
         let rest = rest.with_min_x(rest.left() + 8.0);
@@ -132,15 +132,16 @@ impl Panel for AssemblyPanel {
             ScrollArea::both()
                 .id_salt("assembly-table")
                 .auto_shrink(false)
-                .show(ui, |ui| self.foot(ui, shared, &id))
+                .show(ui, |ui| self.foot(ui, shared, &gear))
         });
     }
 }
 
 impl AssemblyPanel {
-    /// Shows an assembly.
-    pub fn choose(&mut self, id: String) {
-        (self.shown, self.selecting) = (Some(id), false);
+    /// Shows an assembly, until another scenario is opened.
+    pub fn choose(&mut self, shared: &Shared, id: String) {
+        let scenario = shared.workbench.project.documents.scenario_path().to_owned();
+        (self.chosen, self.selecting) = (Some((scenario, id)), false);
     }
 
     /// Writes the gear shown, at rest in running tide, as a 3-D model in the format of the file's ending.
@@ -155,48 +156,43 @@ impl AssemblyPanel {
     }
 
     /// Below the drawings: the table of tensions, or of depths and currents.
-    fn foot(&mut self, ui: &mut Ui, shared: &Shared, id: &str) {
+    fn foot(&mut self, ui: &mut Ui, shared: &Shared, gear: &TrialGear) {
         if self.sweep {
-            sweep::show(ui, self, shared, id);
+            sweep::show(ui, self, shared, gear);
         } else {
             table::show(ui, self, shared.workbench.preferences.units);
         }
     }
 
-    /// Id of the assembly shown: the one chosen, or the scenario's.
-    fn shown(&self, shared: &Shared) -> Option<String> {
-        let there = |id: &String| shared.workbench.project.documents.text(&path(id)).is_some();
-        let chosen = self.shown.clone().filter(there);
-        let of_scenario = || {
-            shared
-                .workbench
-                .project
-                .documents
-                .field(Documents::SCENARIO, "gear.0.assembly")
-                .filter(there)
-        };
-        let first = || {
-            shared
-                .workbench
-                .project
-                .documents
-                .files("assemblies")
-                .next()
-                .map(|path| id_of(path).to_owned())
-        };
-        chosen.or_else(of_scenario).or_else(first)
+    /// The gear shown: the assembly that was chosen, or the scenario's gear; without either the first assembly.
+    #[must_use]
+    pub fn shown(&self, shared: &Shared) -> Option<TrialGear> {
+        let documents = &shared.workbench.project.documents;
+        let there = |id: &String| documents.text(&path_of(id)).is_some();
+        let open = documents.scenario_path();
+        let chosen = self.chosen.as_ref().filter(|(scenario, _)| scenario.as_path() == open);
+        let chosen = chosen.map(|(_, id)| id.clone()).filter(there);
+        let placed = || documents.field(Documents::SCENARIO, "gear.0.assembly").filter(there);
+        if let Some(id) = chosen.or_else(placed) {
+            return Some(TrialGear::Assembly(id));
+        }
+        if has_own(shared) {
+            return Some(TrialGear::Own);
+        }
+        let first = documents.files("assemblies").next();
+        first.map(|path| TrialGear::Assembly(id_of(path).to_owned()))
     }
 
     /// Asks for statics where gear or sea have changed since.
-    fn ask(&mut self, shared: &Shared, id: &str) {
-        let at = |assembly: &str, current_m_s: Option<f64>| Trial {
-            assembly: assembly.to_owned(),
+    fn ask(&mut self, shared: &Shared, gear: &TrialGear) {
+        let at = |gear: &TrialGear, current_m_s: Option<f64>| Trial {
+            gear: gear.clone(),
             sea: TrialSea { depth: None, current_m_s },
         };
         let running = self.running_m_s;
-        let mut trials = vec![at(id, Some(0.0)), at(id, running)];
-        if let Some(other) = &self.other {
-            trials.extend([at(other, Some(0.0)), at(other, running)]);
+        let mut trials = vec![at(gear, Some(0.0)), at(gear, running)];
+        if let Some(other) = self.other.clone().map(TrialGear::Assembly) {
+            trials.extend([at(&other, Some(0.0)), at(&other, running)]);
         }
         self.statics.poll();
         let wanted = (shared.workbench.project.documents.version(), trials);
@@ -216,8 +212,8 @@ impl AssemblyPanel {
     }
 
     /// What the gear is made of: a gear type's attributes, or its parts.
-    fn make(&self, ui: &mut Ui, shared: &mut Shared, id: &str) {
-        let file = path(id);
+    fn make(&self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
+        let file = path(gear);
         if let Some(name) = fields::edit(
             ui,
             &shared.workbench.project.documents,
@@ -229,8 +225,8 @@ impl AssemblyPanel {
             shared.workbench.set(&file, "name", &name);
         }
         match shared.workbench.project.documents.field(&file, "gear_type") {
-            Some(gear_type) => form::show(ui, self, shared, id, &gear_type),
-            None => parts::show(ui, shared, &file),
+            Some(gear_type) => form::show(ui, self, shared, gear, &gear_type),
+            None => parts::show(ui, shared, gear),
         }
         let problems: Vec<_> = shared
             .workbench
@@ -248,8 +244,22 @@ impl AssemblyPanel {
 }
 
 /// Path of an assembly's file.
-fn path(id: &str) -> String {
+fn path_of(id: &str) -> String {
     format!("assemblies/{id}.toml")
+}
+
+/// Path of the text that gear is written in.
+fn path(gear: &TrialGear) -> String {
+    match gear {
+        TrialGear::Assembly(id) => path_of(id),
+        TrialGear::Own => Documents::SCENARIO.to_owned(),
+    }
+}
+
+/// Whether the open scenario is made of parts of its own.
+fn has_own(shared: &Shared) -> bool {
+    let scenario = shared.workbench.project.documents.document(Documents::SCENARIO);
+    scenario.is_ok_and(|scenario| TrialGear::is_own(&scenario))
 }
 
 /// Surface speed of the current of a model at the start [m/s].

@@ -1,10 +1,13 @@
-//! An assembly written out part by part, as a tree from buoy to trap: add, split, take out.
+//! Gear written out part by part, in an assembly or in the scenario, as a tree from buoy to trap: add, split, take out.
+//!
+//! The bodies of a scenario have their figures beside them, those of an assembly name items; where parts lie at first is asked of an
+//! assembly alone.
 
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
 use endline_session::edit::assembly;
-use endline_session::edit::library_table::id_of;
+use endline_session::statics::TrialGear;
 
 use super::{inserts, item, said};
 use crate::gui::fields;
@@ -15,14 +18,29 @@ use crate::gui::widgets::{self, words};
 /// Longest a line may be made with the slider, over its length when taken up.
 const LONGEST: f64 = 2.0;
 
+/// Figures of a scenario's body: name, key and meaning.
+const OF_OWN_BODY: [(&str, &str, &str); 4] = [
+    ("Mass", "mass", "Mass, such as 1.8 kg"),
+    ("Volume", "volume", "Volume of water that it displaces under water, such as 26.5 L"),
+    ("Radius", "radius", "Radius, such as 0.19 m"),
+    ("Drag area", "drag_area", "Drag coefficient times frontal area, such as 0.054 m2"),
+];
+
 /// Draws the tree.
-pub(super) fn show(ui: &mut Ui, shared: &mut Shared, file: &str) {
-    add(ui, shared, file);
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
+    let (file, is_own) = (&super::path(gear), *gear == TrialGear::Own);
+    if !is_own {
+        add(ui, shared, file);
+    }
     widgets::caption(ui, "Bodies");
     for index in (0..count(shared, file, "body")).rev() {
-        body(ui, shared, file, index);
+        if is_own {
+            own_body(ui, shared, file, index);
+        } else {
+            body(ui, shared, file, index);
+        }
     }
-    inserts::whole(ui, shared, id_of(file));
+    inserts::whole(ui, shared, gear);
     widgets::caption(ui, "Lines, from the buoy down");
     for index in (0..count(shared, file, "line")).rev() {
         line(ui, shared, file, index);
@@ -33,12 +51,11 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, file: &str) {
     for index in 0..count(shared, file, "link") {
         link(ui, shared, file, index);
     }
-    if count(shared, file, "joint") > 0 {
+    let splices = if is_own { 0 } else { count(shared, file, "joint") };
+    if splices > 0 {
         widgets::caption(ui, "Splices");
     }
-    for index in 0..count(shared, file, "joint") {
-        joint(ui, shared, file, index);
-    }
+    (0..splices).for_each(|index| joint(ui, shared, file, index));
 }
 
 /// How many tables of a list there are.
@@ -183,6 +200,26 @@ fn body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     }
 }
 
+/// A body of the scenario: the figures that it has.
+fn own_body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
+    let at = format!("body.{index}");
+    let [id, role] = ["id", "role"].map(|key| text(shared, file, &format!("{at}.{key}")));
+    let part = Part { file, list: "body", index };
+    let out = head(ui, part, &format!("{id} ({role})"), |ui| {
+        Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+            for (name, key, help) in OF_OWN_BODY {
+                let field = format!("{at}.{key}");
+                if !text(shared, file, &field).is_empty() {
+                    row(ui, shared, file, name, &field, help);
+                }
+            }
+        });
+    });
+    if out {
+        take_out(shared, part);
+    }
+}
+
 fn joint(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("joint.{index}");
     let id = text(shared, file, &format!("{at}.id"));
@@ -222,7 +259,21 @@ fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     );
     let part = Part { file, list: "link", index };
     let out = head(ui, part, &title, |ui| {
-        item(ui, shared, file, &format!("{at}.item"), Kind::WeakLink, false);
+        let rating = format!("{at}.rating");
+        if text(shared, file, &rating).is_empty() {
+            item(ui, shared, file, &format!("{at}.item"), Kind::WeakLink, false);
+        } else {
+            Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+                row(
+                    ui,
+                    shared,
+                    file,
+                    "Rating",
+                    &rating,
+                    "Force at which it parts, such as 600 lbf",
+                );
+            });
+        }
     });
     if out {
         take_out(shared, part);

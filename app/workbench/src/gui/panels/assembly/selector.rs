@@ -5,7 +5,7 @@ use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, v
 use endline_session::edit::Documents;
 use endline_session::statics::Trial;
 use endline_session::statics::worker::Answer;
-use endline_session::statics::{RigAtRest, TrialSea};
+use endline_session::statics::{RigAtRest, TrialGear, TrialSea};
 use endline_sim::model::BodyRole;
 use glam::DVec2;
 
@@ -29,7 +29,12 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> O
         ui.horizontal_wrapped(|ui| {
             for (index, (id, name)) in all.iter().enumerate() {
                 let answer = panel.pictured.newest(index).cloned();
-                if card(ui, name, answer.as_ref(), chosen.as_ref() == Some(id)) {
+                if card(
+                    ui,
+                    name,
+                    answer.as_ref(),
+                    chosen.as_ref().is_some_and(|gear| *gear == TrialGear::Assembly(id.clone())),
+                ) {
                     taken = Some(id.clone());
                 }
             }
@@ -46,7 +51,7 @@ fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
         return;
     }
     let trial = |(id, _): &(String, String)| Trial {
-        assembly: id.clone(),
+        gear: TrialGear::Assembly(id.clone()),
         sea: TrialSea { depth: None, current_m_s: None },
     };
     let trials = all.iter().map(trial).collect();

@@ -3,7 +3,7 @@
 use egui::{Grid, ProgressBar, RichText, Ui};
 use endline_session::edit::Documents;
 use endline_session::statics::Trial;
-use endline_session::statics::{RigAtRest, TrialSea};
+use endline_session::statics::{RigAtRest, TrialGear, TrialSea};
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
@@ -18,9 +18,9 @@ const DEPTHS: [u32; 6] = [5, 10, 20, 40, 60, 100];
 const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// Draws the table.
-pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, id: &str) {
+pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, gear: &TrialGear) {
     panel.swept.poll();
-    let wanted = (shared.workbench.project.documents.version(), id.to_owned());
+    let wanted = (shared.workbench.project.documents.version(), gear.clone());
     let (done, all) = panel.swept.progress();
     ui.horizontal(|ui| {
         let fresh = panel.swept_for.as_ref() == Some(&wanted);
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, id: 
                 .on_hover_text("Settle the gear in every depth and current")
                 .clicked()
             {
-                start(panel, shared, id);
+                start(panel, shared, gear);
             }
             if !fresh && done > 0 {
                 ui.label(
@@ -59,13 +59,12 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, id: 
     }
 }
 
-fn start(panel: &mut AssemblyPanel, shared: &Shared, id: &str) {
+fn start(panel: &mut AssemblyPanel, shared: &Shared, gear: &TrialGear) {
     let sea = |fathom: u32, knots: f64| TrialSea {
         depth: Some(format!("{fathom} fathom")),
         current_m_s: Some(Units::Noaa.to_m_s(knots)),
     };
-    let trial =
-        |fathom: u32, knots: f64| Trial { assembly: id.to_owned(), sea: sea(fathom, knots) };
+    let trial = |fathom: u32, knots: f64| Trial { gear: gear.clone(), sea: sea(fathom, knots) };
     let trials = DEPTHS
         .iter()
         .flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current)))
@@ -75,7 +74,7 @@ fn start(panel: &mut AssemblyPanel, shared: &Shared, id: &str) {
     let (library, (host, waker)) =
         (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
     panel.swept.ask(&scenario, &library, trials, &host, &waker);
-    panel.swept_for = Some((shared.workbench.project.documents.version(), id.to_owned()));
+    panel.swept_for = Some((shared.workbench.project.documents.version(), gear.clone()));
 }
 
 fn table(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {

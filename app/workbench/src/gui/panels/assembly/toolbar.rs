@@ -5,8 +5,9 @@ use crate::gui::widgets::command::command;
 use egui::{RichText, Slider, SliderClamping, Ui};
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
+use endline_session::statics::TrialGear;
 
-use super::{AssemblyPanel, assemblies, path, side, surface_m_s};
+use super::{AssemblyPanel, assemblies, has_own, path, side, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
@@ -15,21 +16,12 @@ const FASTEST_M_S: f64 = 1.03;
 
 impl AssemblyPanel {
     /// Which gear is shown, and what can be done with it.
-    pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
+    pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
         ui.horizontal_wrapped(|ui| {
-            self.choose_gear(ui, shared, id);
+            self.choose_gear(ui, shared, gear);
             ui.menu_button("New ⏷", |ui| self.new_gear(ui, shared));
-            if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-                match shared.workbench.project.documents.duplicate(&path(id)) {
-                    Ok(fresh) => self.shown = Some(id_of(&fresh).to_owned()),
-                    Err(error) => shared.fault(error),
-                }
-            }
-            let placed =
-                shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
-            let other = placed.is_some_and(|placed| placed != id);
-            if other && primary(ui, true, "Use in scenario").clicked() {
-                shared.workbench.set(Documents::SCENARIO, "gear.0.assembly", id);
+            if let TrialGear::Assembly(id) = gear {
+                self.of_assembly(ui, shared, id);
             }
             ui.menu_button("Model ⏷", |ui| model_menu(ui, shared));
             ui.separator();
@@ -39,17 +31,41 @@ impl AssemblyPanel {
         self.tide(ui, shared);
     }
 
+    /// What can be done with an assembly.
+    fn of_assembly(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
+        if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
+            let file = path(&TrialGear::Assembly(id.to_owned()));
+            match shared.workbench.project.documents.duplicate(&file) {
+                Ok(fresh) => self.choose(shared, id_of(&fresh).to_owned()),
+                Err(error) => shared.fault(error),
+            }
+        }
+        let placed =
+            shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+        let other = placed.is_some_and(|placed| placed != id);
+        if other && primary(ui, true, "Use in scenario").clicked() {
+            shared.workbench.set(Documents::SCENARIO, "gear.0.assembly", id);
+        }
+    }
+
     /// The gear shown, A, and the gear it is compared with, B.
-    fn choose_gear(&mut self, ui: &mut Ui, shared: &Shared, id: &str) {
+    fn choose_gear(&mut self, ui: &mut Ui, shared: &Shared, gear: &TrialGear) {
         let choices = assemblies(shared);
+        let own = has_own(shared).then_some("The scenario's own gear");
+        let chosen = match gear {
+            TrialGear::Assembly(id) => Some(id.as_str()),
+            TrialGear::Own => None,
+        };
         ui.label(RichText::new("A").strong().color(side::A.color(ui)));
-        if let Some(Some(taken)) = pick(ui, "gear-a", &choices, Some(id), None) {
-            self.shown = Some(taken);
+        match pick(ui, "gear-a", &choices, chosen, own.map(|own| [own; 2])) {
+            Some(Some(taken)) => self.choose(shared, taken),
+            Some(None) => self.chosen = None,
+            None => {}
         }
         ui.label(RichText::new("B").strong().color(side::B.color(ui)));
         let other = self.other.clone();
-        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …"))
-        {
+        let none = Some(["compare with …", "nothing"]);
+        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), none) {
             self.other = taken;
         }
         ui.toggle_value(&mut self.selecting, "Pictures").on_hover_text(
@@ -104,7 +120,7 @@ impl AssemblyPanel {
                     descriptor.id
                 );
                 shared.workbench.project.documents.put_all(vec![(fresh.clone(), text)]);
-                self.shown = Some(id_of(&fresh).to_owned());
+                self.choose(shared, id_of(&fresh).to_owned());
                 ui.close();
             }
         }
@@ -120,13 +136,14 @@ fn model_menu(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// A choice among assemblies; the outer answer says whether something was taken, the inner one what.
+/// A choice among assemblies, or none of them: what is shown where it is, and its name in the list. The outer answer says whether
+/// something was taken, the inner one what.
 fn pick(
     ui: &mut Ui,
     salt: &str,
     choices: &[(String, String)],
     chosen: Option<&str>,
-    none: Option<&str>,
+    none: Option<[&str; 2]>,
 ) -> Option<Option<String>> {
     let name = |id: &str| {
         choices
@@ -134,12 +151,14 @@ fn pick(
             .find(|(known, _)| known == id)
             .map_or(id.to_owned(), |(_, name)| name.clone())
     };
-    let shown = chosen.map_or(none.unwrap_or_default().to_owned(), name);
+    let shown = chosen.map_or_else(|| none.map_or("", |[shown, _]| shown).to_owned(), name);
     let mut taken = None;
     egui::ComboBox::from_id_salt(salt).width(150.0).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            if none.is_some() && ui.selectable_label(chosen.is_none(), "nothing").clicked() {
+            if let Some([_, listed]) = none
+                && ui.selectable_label(chosen.is_none(), listed).clicked()
+            {
                 taken = Some(None);
             }
             for (id, name) in choices {
