@@ -276,6 +276,8 @@ fn a_scenario_of_parts_of_its_own_shows_them_and_takes_inserts() {
     assert_eq!(lines(&harness), ["endline-bottom", "endline-top"]);
     let [slack, running] = tensions(&harness);
     assert!(running > slack, "the tide pulls: {slack} N, {running} N");
+    harness.run_steps(1);
+    assert!(harness.query_all_by_label("600 lbf").next().is_some(), "the link's rating is told");
 
     harness.get_by_label("Put in every 60 ft").click();
     harness.run_steps(2);

@@ -17,10 +17,10 @@ pub(super) fn of<'a>(rest: &'a RigAtRest, part: &str) -> Option<&'a PartStrength
     rest.shape.strengths.iter().find(|strength| strength.part == part)
 }
 
-/// The mean delivered, with its budget on hover; nothing where a part has none, such as a link rated in its scenario.
-pub(super) fn cell(ui: &mut Ui, strength: Option<&PartStrength>, units: Units) {
+/// The mean delivered, with its budget on hover; its rating where a part has none, such as a link rated in its scenario.
+pub(super) fn cell(ui: &mut Ui, strength: Option<&PartStrength>, rating_n: f64, units: Units) {
     let Some(strength) = strength else {
-        ui.label("");
+        ui.label(units.force().text(rating_n)).on_hover_text("As rated here, without variation");
         return;
     };
     let spread = 100.0 * strength.variation.as_ref().map_or(0.0, |variation| variation.value);

@@ -72,7 +72,7 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, rigs: [Rig<'_>; 2], units:
         let strength_n = strength.map_or(f64::INFINITY, |strength| strength.drawn_N);
         ui.label(used(running, index, strength_n))
             .on_hover_text("Greatest tension at running tide over strength");
-        strength::cell(ui, strength, units);
+        strength::cell(ui, strength, rope.strength_n, units);
         ui.label(units.length(line.segments_m.iter().sum()));
         ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
         ui.end_row();
@@ -82,7 +82,7 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, rigs: [Rig<'_>; 2], units:
         ui.label(&link.id);
         (0..3).for_each(|_| drop(ui.label("")));
         let strength = slack.or(running).and_then(|rest| strength::of(rest, &link.id));
-        strength::cell(ui, strength, units);
+        strength::cell(ui, strength, link.rating_n, units);
         ui.end_row();
     }
     for (index, body) in

@@ -1,6 +1,8 @@
 //! Options of a study: each a list of differences from the baseline scenario.
 
-use egui::{Frame, RichText, ScrollArea, Ui};
+use std::path::{Path, PathBuf};
+
+use egui::{Align, Frame, RichText, ScrollArea, Ui};
 use endline_gear::Setting;
 use endline_session::command::StudyAction;
 use endline_session::edit::Documents;
@@ -38,14 +40,17 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         command(ui, shared, "From the present design", StudyAction::OptionFromEdits);
         ui.menu_button("With other gear ⏷", |ui| other_gear(ui, shared));
     });
+    let is_longer = is_longer(ui, shared, count);
     for index in 0..count {
-        Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(
-            ui,
-            |ui| {
-                act = head(ui, shared, index, &baseline, edits).or(act.take());
-                settings(ui, shared, index, edits);
-            },
-        );
+        let frame =
+            Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0);
+        let drawn = frame.show(ui, |ui| {
+            act = head(ui, shared, index, &baseline, edits).or(act.take());
+            settings(ui, shared, index, edits);
+        });
+        if is_longer && index + 1 == count {
+            drawn.response.scroll_to_me(Some(Align::Center));
+        }
         ui.add_space(4.0);
     }
     match act {
@@ -61,6 +66,16 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         }
         None => {}
     }
+}
+
+/// Whether the open study has more options than when it was drawn last: the new one stands at the end, and is to be seen.
+fn is_longer(ui: &Ui, shared: &Shared, count: usize) -> bool {
+    let id = ui.id().with("options drawn");
+    let study = shared.workbench.project.documents.study_path().map(Path::to_owned);
+    let before = ui.data(|data| data.get_temp::<(Option<PathBuf>, usize)>(id));
+    let is_longer = before.is_some_and(|(of, before)| of == study && before < count);
+    ui.data_mut(|data| data.insert_temp(id, (study, count)));
+    is_longer
 }
 
 /// The assemblies of the library by their names; one that is chosen is an option.
