@@ -13,29 +13,41 @@ use crate::gui::widgets;
 const ROW: f32 = 26.0;
 /// Room for the axis above the rows.
 const HEAD: f32 = 20.0;
-/// Room for names at the left.
-const NAMES: f32 = 190.0;
+/// Least room for names at the left, and the most as a share of the whole width.
+const NAMES: (f32, f32) = (120.0, 0.42);
+
+/// Letters of names and numbers.
+const NAME_FONT: FontId = FontId::proportional(12.5);
 
 /// A figure being drawn: rows below one another between two axes of values, of which one is in sight however the figure is scrolled.
 struct Figure {
     painter: Painter,
     rect: Rect,
+    /// Room for names at the left.
+    names: f32,
     values: [f64; 2],
     palette: Palette,
 }
 
 impl Figure {
-    /// Room for so many rows, with an axis above and below.
-    fn new(ui: &mut Ui, rows: usize, values: [f64; 2]) -> Self {
+    /// Room for rows of these names, so many for each name, with an axis above and below.
+    fn new(ui: &mut Ui, names: &[String], each: usize, values: [f64; 2]) -> Self {
+        let rows = each * names.len();
         let size = vec2(ui.available_width().max(420.0), HEAD + ROW * rows as f32 + 34.0);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        Self { painter: ui.painter_at(rect), rect, values, palette: Theme::palette_of(ui) }
+        let (painter, palette) = (ui.painter_at(rect), Theme::palette_of(ui));
+        let (least, share) = NAMES;
+        let width = |name: &String| {
+            painter.layout_no_wrap(name.clone(), NAME_FONT, palette.text).size().x + 16.0
+        };
+        let names = names.iter().map(width).fold(least, f32::max).min(share * rect.width());
+        Self { painter, rect, names, values, palette }
     }
 
     fn x(&self, value: f64) -> f32 {
         let [least, most] = self.values;
         let share = ((value - least) / (most - least)).clamp(0.0, 1.0) as f32;
-        self.rect.left() + NAMES + share * (self.rect.width() - NAMES - 24.0)
+        self.rect.left() + self.names + share * (self.rect.width() - self.names - 24.0)
     }
 
     fn y(&self, row: usize) -> f32 {
@@ -43,16 +55,15 @@ impl Figure {
     }
 
     fn text(&self, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
-        self.painter.text(at, align, text, FontId::proportional(12.5), colour)
+        self.painter.text(at, align, text, NAME_FONT, colour)
     }
 
     fn name(&self, row: usize, name: &str, colour: Color32) {
-        let font = FontId::proportional(12.5);
-        let galley = self.painter.layout(name.to_owned(), font, colour, NAMES - 14.0);
+        let galley = self.painter.layout(name.to_owned(), NAME_FONT, colour, self.names - 12.0);
         let first = galley.rows.first().map_or(0.0, |row| row.height());
         let clipped = self.painter.with_clip_rect(Rect::from_min_size(
             pos2(self.rect.left(), self.y(row) - first / 2.0),
-            vec2(NAMES, first),
+            vec2(self.names, first),
         ));
         clipped.galley(pos2(self.rect.left() + 2.0, self.y(row) - first / 2.0), galley, colour);
     }
@@ -106,9 +117,18 @@ pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let ends = groups.iter().flat_map(|(_, rows)| rows);
     let ends = ends.map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
     let widest = ends.fold(0.02, f64::max);
-    let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum();
-    let figure = Figure::new(ui, count, [-widest, widest]);
-    figure.axis(|tick| format!("{:+.*}", usize::from(widest < 0.1), 100.0 * tick));
+    let names: Vec<String> = groups
+        .iter()
+        .flat_map(|(name, rows)| {
+            let options = rows.iter().map(|(option, ..)| format!("   {option}"));
+            std::iter::once(name.clone()).chain(options)
+        })
+        .collect();
+    let figure = Figure::new(ui, &names, 1, [-widest, widest]);
+    figure.axis(|tick| match 100.0 * tick {
+        points if points.abs() < 1e-6 => "0".to_owned(),
+        points => format!("{points:+.*}", usize::from(widest < 0.1)),
+    });
     figure.zero();
     let mut row = 0;
     for (kind, (name, rows)) in groups.iter().enumerate() {
@@ -176,7 +196,15 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
         found.iter().map(|bands| band_rows(bands)).collect();
     let ends = rows.iter().flatten().map(|(_, [.., high], _)| *high);
     let most = ends.fold(0.02, f64::max);
-    let figure = Figure::new(ui, rows.iter().map(|rows| rows.len() + 1).sum(), [0.0, most]);
+    let names: Vec<String> = found
+        .iter()
+        .zip(&rows)
+        .flat_map(|(bands, own)| {
+            let kinds = own.iter().map(|(kind, ..)| format!("   {kind}"));
+            std::iter::once(bands.name.clone()).chain(kinds)
+        })
+        .collect();
+    let figure = Figure::new(ui, &names, 1, [0.0, most]);
     figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
     let mut row = 0;
     for (bands, own) in found.iter().zip(rows) {
@@ -227,7 +255,9 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
     let words = endline_gear::StudyEvent::find(&findings.event)
         .map_or_else(|| findings.event.clone(), |event| event.words());
     ui.label(format!("Rate of \"{words}\" with the baseline, by parts of each input's range"));
-    let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);
+    let names: Vec<String> =
+        findings.inputs.iter().map(|input| input.name.replace('_', " ")).collect();
+    let figure = Figure::new(ui, &names, 2, [0.0, 1.15 * most]);
     figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
     for (index, input) in findings.inputs.iter().enumerate() {
         let mut parts: Vec<_> = input.parts.iter().filter(|part| part.rate.runs > 0).collect();
@@ -244,7 +274,7 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
             egui::StrokeKind::Inside,
         );
         let mark = if input.same_best { "" } else { "  (another option is best)" };
-        figure.name(row, &input.name.replace('_', " "), figure.palette.text);
+        figure.name(row, &names[index], figure.palette.text);
         let below = figure.y(row + 1) - 6.0;
         let left =
             figure.text(pos2(from, below), Align2::RIGHT_CENTER, &least.name, figure.palette.faint);

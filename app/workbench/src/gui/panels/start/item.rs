@@ -119,10 +119,10 @@ pub(super) fn words(sought: &str) -> Vec<String> {
     sought.to_lowercase().split_whitespace().map(str::to_owned).collect()
 }
 
-/// Notes up to the end of their first sentence, or so many letters of it.
+/// Notes up to the end of their first sentence, or so many letters of it, without the marks of code.
 fn first_words(notes: &str) -> String {
     const MOST: usize = 120;
-    let notes = notes.split_whitespace().collect::<Vec<_>>().join(" ");
+    let notes = notes.replace('`', "").split_whitespace().collect::<Vec<_>>().join(" ");
     let sentence = notes.split_inclusive(". ").next().unwrap_or_default().trim_end();
     if sentence.chars().count() <= MOST {
         return sentence.to_owned();
