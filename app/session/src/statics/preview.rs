@@ -46,12 +46,6 @@ pub enum TrialGear {
 }
 
 impl TrialGear {
-    /// Whether a scenario has parts of its own, and no gear that it places.
-    #[must_use]
-    pub fn is_own(scenario: &Document) -> bool {
-        scenario.has("line.0") && !scenario.has("gear.0")
-    }
-
     /// What messages call it.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -170,8 +164,6 @@ mod tests {
     #[test]
     fn a_scenarios_own_parts_stay_without_the_whale() {
         let own = SCENARIO.replace("[[gear]]\nassembly = \"single\"", "[[line]]\nid = \"endline\"");
-        let document = |text: &str| Document::parse(text).unwrap();
-        assert!(TrialGear::is_own(&document(&own)) && !TrialGear::is_own(&document(SCENARIO)));
         let library = Library::default();
         let kept = alone(&own, &TrialGear::Own, &TrialSea::default(), &library).unwrap();
         assert!(kept.contains("endline") && !kept.contains("whale"), "{kept}");

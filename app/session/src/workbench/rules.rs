@@ -11,6 +11,7 @@ use endline_gear::{Date, Sources};
 use super::Workbench;
 use super::notice::Notice;
 use crate::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S};
+use crate::edit::Documents;
 use crate::plugins::PluginHost;
 use crate::rules::mend::{self, Asked, Mends, Proposal};
 use crate::rules::study::{self, USUAL_LIKE};
@@ -20,6 +21,9 @@ use crate::task::{Fault, Task};
 
 /// Seconds in a day.
 const DAY_S: u64 = 86_400;
+
+/// What is said where the scenario places no assembly.
+const CHOOSE: &str = "choose an assembly: rules are checked on those of the library";
 
 /// What is asked, as it is typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,6 +93,8 @@ pub struct RuleChecks {
     /// Why nothing came of it; empty where something did.
     pub why: String,
     asked: Option<(u64, RuleQuestion)>,
+    /// The scenario that was open when it was asked last.
+    scenario: Option<PathBuf>,
     checking: Task<Checked>,
     mending: Task<Result<Mends, String>>,
     comparing: Task<Result<String, String>>,
@@ -131,11 +137,14 @@ impl Workbench {
     pub fn ask_for_rules(&mut self) {
         let version = self.project.documents.version();
         let checks = &mut self.rules;
-        if checks.question.assembly.is_empty() {
-            let scenario = crate::edit::Documents::SCENARIO;
-            let own = self.project.documents.field(scenario, "gear.0.assembly");
-            checks.question.assembly = own.unwrap_or_default();
+        // Another scenario asks about its own gear, whatever was chosen before.
+        let open = self.project.documents.scenario_path();
+        let is_another = checks.scenario.as_deref().is_some_and(|before| before != open);
+        if is_another || checks.question.assembly.is_empty() {
+            let placed = self.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+            checks.question.assembly = placed.unwrap_or_default();
         }
+        checks.scenario = Some(open.to_owned());
         let wanted = (version, checks.question.clone());
         if checks.asked.as_ref() == Some(&wanted) || checks.busy() {
             return;
@@ -151,7 +160,7 @@ impl Workbench {
         let documents = &self.project.documents;
         let question = self.rules.question.clone();
         let path = path(&question.assembly);
-        let text = documents.text(&path).ok_or("choose an assembly")?.to_owned();
+        let text = documents.text(&path).ok_or(CHOOSE)?.to_owned();
         let (sources, root) = (Arc::new(documents.sources()), documents.root().to_owned());
         let version = documents.version();
         let known = self.rules.packs.clone();

@@ -117,6 +117,23 @@ fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
 }
 
 #[test]
+fn a_scenario_that_is_opened_asks_about_its_own_gear() {
+    let folder = Folder::new("rules-scenario");
+    let mut harness = checking(&folder);
+    let asked = |harness: &mut Harness<'static, App>, scenario: &str| {
+        let path = folder.0.join("scenarios").join(scenario).with_extension("toml");
+        harness.state_mut().shared.perform(EditAction::OpenScenario(path));
+        wait(harness, |app| !app.shared.workbench.rules.busy());
+        harness.state().shared.workbench.rules.question.assembly.clone()
+    };
+    assert_eq!(asked(&mut harness, "trawl-10"), "trawl-10");
+    assert_eq!(asked(&mut harness, "study-endline-held"), "", "made of parts of its own");
+    let why = &harness.state().shared.workbench.rules.why;
+    assert!(why.contains("choose an assembly"), "{why}");
+    assert_eq!(asked(&mut harness, "hello-endline"), "single");
+}
+
+#[test]
 fn the_compliance_sheet_is_written_by_a_button_with_what_stands_in_the_window() {
     let folder = Folder::new("rules-sheet");
     let mut harness = checking(&folder);

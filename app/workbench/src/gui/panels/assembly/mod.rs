@@ -1,5 +1,5 @@
-//! Gear from buoy to trap, of an assembly or of the scenario itself: its parts or attributes at the left, the rig at rest drawn to scale at slack and at running
-//! tide beside it, tensions and float height below.
+//! Gear from buoy to trap, of an assembly or of the scenario itself: its parts or attributes at the left, the rig at rest drawn to
+//! scale at slack and at running tide beside it, tensions and float height below.
 
 mod form;
 mod inserts;
@@ -258,8 +258,8 @@ fn path(gear: &TrialGear) -> String {
 
 /// Whether the open scenario is made of parts of its own.
 fn has_own(shared: &Shared) -> bool {
-    let scenario = shared.workbench.project.documents.document(Documents::SCENARIO);
-    scenario.is_ok_and(|scenario| TrialGear::is_own(&scenario))
+    let has = |field| shared.workbench.project.documents.has(Documents::SCENARIO, field);
+    has("line.0") && !has("gear.0")
 }
 
 /// Surface speed of the current of a model at the start [m/s].

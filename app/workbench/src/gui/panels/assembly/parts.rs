@@ -6,7 +6,7 @@
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
-use endline_session::edit::assembly;
+use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
 use super::{inserts, item, said};
@@ -312,11 +312,11 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
         });
         inserts::one(ui, shared, file, &at, "Weak inserts");
         ui.horizontal(|ui| {
-            if ui
+            // A splice of the scenario's own has a place that only its author knows.
+            let split = (file != Documents::SCENARIO).then(|| ui
                 .small_button("Split")
-                .on_hover_text("Two lines of half the length with a splice between, to give them ropes of their own")
-                .clicked()
-            {
+                .on_hover_text("Two lines of half the length with a splice between, to give them ropes of their own"));
+            if split.is_some_and(|button| button.clicked()) {
                 change(shared, file, |document| assembly::split_line(document, index));
             }
             let ends = [("top", "to"), ("foot", "from")];
