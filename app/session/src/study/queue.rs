@@ -163,6 +163,16 @@ impl Job {
         !matches!(self.state(), State::Done | State::Cancelled | State::Failed(_))
     }
 
+    /// Whether nothing of it goes on any more: of a cancelled study, the encounters that were under way have ended too.
+    #[must_use]
+    pub fn ended(&self) -> bool {
+        match *lock(&self.shared.state) {
+            State::Waiting => self.shared.control.is_cancelled(),
+            State::Opening | State::Running | State::Paused | State::Reporting => false,
+            State::Done | State::Cancelled | State::Failed(_) => true,
+        }
+    }
+
     /// Holds the study after the encounters under way.
     pub fn pause(&self) {
         self.shared.control.pause();

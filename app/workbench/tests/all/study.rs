@@ -225,7 +225,8 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     });
     give(&mut harness, StudyAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    std::thread::sleep(std::time::Duration::from_millis(400));
+    // The encounter under way comes to its end, and is kept.
+    wait(&mut harness, |app| app.shared.workbench.studies.queue.jobs[0].ended());
     let kept = harness.state().shared.workbench.studies.queue.jobs[0].progress().blocks.done;
 
     harness.state_mut().shared.workbench.set(Documents::STUDY, "encounters", "8");
