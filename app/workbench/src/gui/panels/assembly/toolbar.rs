@@ -7,7 +7,7 @@ use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 use endline_session::statics::TrialGear;
 
-use super::{AssemblyPanel, assemblies, has_own, path, side, surface_m_s};
+use super::{AssemblyPanel, assemblies, has_own, path_of, side, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
@@ -34,8 +34,7 @@ impl AssemblyPanel {
     /// What can be done with an assembly.
     fn of_assembly(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
         if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-            let file = path(&TrialGear::Assembly(id.to_owned()));
-            match shared.workbench.project.documents.duplicate(&file) {
+            match shared.workbench.project.documents.duplicate(&path_of(id)) {
                 Ok(fresh) => self.choose(shared, id_of(&fresh).to_owned()),
                 Err(error) => shared.fault(error),
             }

@@ -132,10 +132,10 @@ pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     figure.zero();
     let mut row = 0;
     for (kind, (name, rows)) in groups.iter().enumerate() {
-        figure.name(row, name, figure.palette.faint);
+        figure.name(row, &names[row], figure.palette.faint);
         row += 1;
         for (option, difference, interval) in rows {
-            figure.name(row, &format!("   {option}"), figure.palette.text);
+            figure.name(row, &names[row], figure.palette.text);
             whisker(&figure, row, [interval.low, *difference, interval.high], kind);
             let points = points(*difference, *interval);
             figure.hover(ui, row, &format!("{option}, {name}: {points} points"));
@@ -208,10 +208,10 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
     figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
     let mut row = 0;
     for (bands, own) in found.iter().zip(rows) {
-        figure.name(row, &bands.name, figure.palette.text);
+        figure.name(row, &names[row], figure.palette.text);
         row += 1;
         for (kind, (name, ends, told)) in own.into_iter().enumerate() {
-            figure.name(row, &format!("   {name}"), figure.palette.faint);
+            figure.name(row, &names[row], figure.palette.faint);
             whisker(&figure, row, ends, kind);
             figure.hover(ui, row, &format!("{}, {name}: {told}", bands.name));
             row += 1;
