@@ -13,13 +13,14 @@ const PICTURES: &str = "pictures/validation";
 
 const HEAD: &str = "# Validation
 
-This page compares what Endline computes with what is known: reference problems, measured gear and conserved quantities.
+This page compares results of Endline with known values: reference problems, measured gear and conserved quantities.
 `endline validate --write docs/validation.md` writes this page and its plots from the case files in `gear-library/cases`; edit those files, not this page.
 
-A case is a text file that names a scenario, what is compared, the expected values and their source (docs/gear-format.md).
+A case is a text file that names a scenario, the compared quantities, the expected values and their source (docs/gear-format.md).
 `endline validate` runs all cases, and `endline validate CASE` runs one.
-\"Expected\" is 0 where the result itself is a difference: an RMS distance, or a share gained or lost.
-The order of convergence follows from the results at full, half and quarter step or segment length and needs no exact answer; a dash means that they do not differ.
+\"Expected\" is 0 if the result itself is a difference: an RMS distance, or a share gained or lost.
+The order of convergence follows from the results at full, half and quarter step or segment length; it needs no exact answer.
+A dash means that they do not differ.
 ";
 
 /// Writes the document and a plot beside it for each case that has curves or points.
