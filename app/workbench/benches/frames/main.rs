@@ -24,7 +24,7 @@ use endline_session::scene::Scene;
 use common::Folder;
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use endline_workbench::gui::layout::Layout;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::scene::{Drawer, offscreen::Offscreen};
 use screen::{Screen, thread_cpu_s};
 

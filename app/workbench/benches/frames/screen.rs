@@ -10,10 +10,10 @@ use egui_dock::{DockState, NodeIndex};
 use endline_session::edit::Documents;
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::canvas::Canvas;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
+use endline_workbench::scene::draw::Canvas;
 
 use crate::common::linked;
 

@@ -1,10 +1,9 @@
-//! Files of a library that a user chooses among.
+//! Files and tables of a gear library that a user chooses among.
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::Document;
+use endline_gear::{Document, Kind};
 use endline_session::locate;
-
 pub use endline_session::locate::{scenarios, studies};
 
 /// The observations of a library, each by its file and its name.
@@ -42,3 +41,16 @@ pub fn open_folder(folder: &Path) -> Result<(), String> {
         .map(|_| ())
         .map_err(|error| format!("{}: {program} cannot show it: {error}", folder.display()))
 }
+
+/// Kinds with a table, in the order of their tabs.
+pub const KINDS: [(Kind, &str); 9] = [
+    (Kind::Rope, "Ropes"),
+    (Kind::Trap, "Traps"),
+    (Kind::Buoy, "Buoys"),
+    (Kind::WeakLink, "Weak links"),
+    (Kind::Knot, "Knots"),
+    (Kind::Anchor, "Anchors"),
+    (Kind::Site, "Sites"),
+    (Kind::Friction, "Friction"),
+    (Kind::Whale, "Whales"),
+];

@@ -2,7 +2,7 @@
 
 use egui_dock::{DockState, NodeIndex};
 
-use super::panel_id::PanelId;
+use super::panel::PanelId;
 
 /// A named arrangement of panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,31 +5,22 @@
 //! [commands](command).
 
 pub mod app;
+pub mod bars;
 pub mod bodymap;
-pub mod canvas;
 pub mod command;
-pub mod dialogs;
 pub mod fields;
 pub mod files;
-pub mod film;
 pub mod inspector;
-pub mod kept_picture;
-pub mod keys;
 pub mod layout;
-pub mod menus;
 pub mod palette;
 pub mod panel;
-pub mod panel_id;
 pub mod panels;
-pub mod preferences;
+pub mod pictures;
 pub mod questions;
 pub mod scenario_fields;
 pub mod shared;
-pub mod status;
-pub mod tables;
 pub mod theme;
 pub mod widgets;
-pub mod wraps;
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What all panels share: the workbench, the pilot's hands, what is chosen, and the commands they give.
+//! What all panels share: the workbench, the pilot, the selection, the user's preferences, and the commands that panels give.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,14 +9,14 @@ use endline_session::command::Command;
 use endline_session::edit::Documents;
 use endline_session::live::engine::Launch;
 use endline_session::task::Waker;
-use endline_session::workbench::{Notice, Workbench};
+use endline_session::workbench::{Notice, Preferences as WorkbenchPreferences, Workbench};
+use serde::{Deserialize, Serialize};
 
-use super::command::action::WindowCommand;
-use super::film::FilmJob;
-use super::kept_picture::KeptPicture;
-use super::panel_id::PanelId;
-use super::preferences::Preferences;
-use crate::input::{Pilot, Rumble};
+use crate::gui::command::action::WindowCommand;
+use crate::gui::panel::PanelId;
+use crate::gui::pictures::{FilmJob, KeptPicture};
+use crate::gui::theme::Theme;
+use crate::input::{Mapping, Pilot, Rumble};
 
 /// What all panels share.
 pub struct Shared {
@@ -143,5 +143,57 @@ impl Shared {
             Ok(()) => Notice::done(format!("saved {}", path.display())),
             Err(error) => Notice::fault(format!("{}: {error}", path.display())),
         });
+    }
+}
+
+/// What a user prefers of the window.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// Dark or light.
+    pub theme: Theme,
+    /// Whether pushing the stick puts the nose down.
+    pub invert_pitch: bool,
+    /// What the pad does.
+    pub mapping: Mapping,
+    /// Size of everything on screen, 1 for usual; larger for a projector.
+    pub scale: Scale,
+}
+
+/// Preferences of window and workbench, as they are kept in one place.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Kept {
+    /// Those of the window.
+    #[serde(flatten)]
+    pub window: Preferences,
+    /// Those of the workbench.
+    #[serde(flatten)]
+    pub workbench: WorkbenchPreferences,
+}
+
+/// Size of everything on screen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scale(pub f32);
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+
+    use super::*;
+
+    #[test]
+    fn preferences_of_window_and_workbench_are_kept_in_one_text_and_read_from_an_older_one() {
+        let text = r#"{"theme":"Light","units":"Noaa","invert_pitch":true,"scale":1.5,"recent":["a.toml"]}"#;
+        let kept: Kept = serde_json::from_str(text).unwrap();
+        assert_eq!((kept.window.theme, kept.window.scale), (Theme::Light, Scale(1.5)));
+        assert_eq!(kept.workbench.recent, [PathBuf::from("a.toml")]);
+        let again: Kept = serde_json::from_str(&serde_json::to_string(&kept).unwrap()).unwrap();
+        assert_eq!((again.window, again.workbench), (kept.window, kept.workbench));
     }
 }

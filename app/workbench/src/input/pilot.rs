@@ -7,8 +7,7 @@ use std::time::Duration;
 
 use endline_sdk::Controls;
 
-use super::keys::HeldKeys;
-use super::mapping::{Mapping, Pressed, Steered};
+use super::mapping::{HeldKeys, Mapping, Pressed, Steered};
 use super::pad::{PadAxis, PadButton, PadEvent, PadSource};
 
 /// What a pilot asks for besides steering.

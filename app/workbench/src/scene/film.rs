@@ -4,8 +4,16 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
 
-use gif::{Encoder, Frame, Repeat};
+use endline_session::scene::Show;
+use endline_session::units::Units;
+use endline_sim::{Frame, Model};
+use gif::{Encoder, Repeat};
+
+use crate::scene::camera::Camera;
+use crate::scene::draw::Water;
+use crate::scene::picture::{RenderRequest, Renderer};
 
 /// How finely a GIF's palette is sought: 1 best and slowest, 30 fastest.
 const PALETTE_SPEED: i32 = 10;
@@ -52,7 +60,7 @@ impl Film {
                 let [width, height] = self.size.map(|side| side as u16);
                 let bytes: Vec<u8> =
                     pixels.iter().flat_map(|[red, green, blue, _]| [*red, *green, *blue]).collect();
-                let mut frame = Frame::from_rgb_speed(width, height, &bytes, PALETTE_SPEED);
+                let mut frame = gif::Frame::from_rgb_speed(width, height, &bytes, PALETTE_SPEED);
                 frame.delay = hundredths(self.fps);
                 encoder.write_frame(&frame).map_err(|error| error.to_string())
             }
@@ -135,8 +143,68 @@ fn begin_ffmpeg(out: &Path, size: [u32; 2], fps: u32, format: &str) -> Result<Ch
     })
 }
 
+/// What a film shows.
+pub struct Reel<'a> {
+    /// The gear, sea and whale.
+    pub model: &'a Model,
+    /// A moment for each picture.
+    pub frames: &'a [Arc<Frame>],
+    /// Width and height [px].
+    pub size: [u32; 2],
+    /// Where each moment is seen from.
+    pub camera: &'a dyn Fn(&Frame) -> Camera,
+    /// What is drawn.
+    pub show: Show,
+    /// Dark or light.
+    pub water: Water,
+    /// Line of text at the top left.
+    pub caption: &'a str,
+    /// Units of the scale bar.
+    pub units: Units,
+}
+
+impl Reel<'_> {
+    /// Draws every moment into a film and ends it; `go_on` hears of each picture and ends the film there where it
+    /// answers `false`. Answers how many were drawn.
+    ///
+    /// # Errors
+    /// Without OpenGL, or where the film cannot be written.
+    pub fn draw(
+        &self,
+        mut film: Film,
+        mut go_on: impl FnMut(usize) -> bool,
+    ) -> Result<usize, String> {
+        let mut renderer = Renderer::new(self.size)?;
+        let tensions = self.frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
+        let scale_n = Some(tensions.fold(0.0, f64::max));
+        let show = Show { scale_n, ..self.show };
+        let mut drawn = 0;
+        for frame in self.frames {
+            let request = RenderRequest {
+                model: self.model,
+                frame,
+                size: self.size,
+                view: "",
+                scale_n,
+                fit: &[],
+                caption: self.caption,
+                out: Path::new(""),
+                units: self.units,
+            };
+            film.add(&renderer.seen_by(&request, &show, &(self.camera)(frame), self.water))?;
+            drawn += 1;
+            if !go_on(drawn) {
+                break;
+            }
+        }
+        film.end()?;
+        Ok(drawn)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+
     use super::*;
 
     #[test]

@@ -1,10 +1,14 @@
-//! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar.
+//! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar, names of small bodies.
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
-use endline_session::units::{N_PER_LBF, Units};
-
 use endline_session::scales::{decimals, nice_below, ticks};
 use endline_session::scene::colour::tension_colour;
+use endline_session::units::{N_PER_LBF, Units};
+use endline_sim::{Frame, Model};
+use glam::DVec2;
+
+use crate::scene::camera::Camera;
+use crate::scene::silhouette::silhouette;
 
 /// What the overlay says.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,8 +189,45 @@ pub fn scale_colour(share: f64) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
+/// A body that looks larger than this needs no name [points].
+const LARGE: f64 = 36.0;
+/// From the middle of a body to its name [points].
+const AWAY: f32 = 13.0;
+
+const NAME_INK: Color32 = Color32::from_rgb(0xdf, 0xea, 0xec);
+const NAME_PLATE: Color32 = Color32::from_black_alpha(120);
+
+/// Writes the ids of small bodies beside them; a name that would lie on another is left out.
+pub fn paint_names(painter: &Painter, rect: Rect, camera: &Camera, model: &Model, frame: &Frame) {
+    let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+    let mut taken: Vec<Rect> = Vec::new();
+    for (body, at) in model.spec.bodies.iter().zip(&frame.bodies) {
+        let Some(middle) = camera.project(at.0, size) else { continue };
+        let outlines = silhouette(body, *at, camera, size).flatten();
+        let across = outlines.map(|seen| seen.distance(middle)).fold(0.0, f64::max) * 2.0;
+        let middle = rect.min + vec2(middle.x as f32, middle.y as f32);
+        if across > LARGE || !rect.shrink(4.0).contains(middle) {
+            continue;
+        }
+        let text = painter.layout_no_wrap(body.id.clone(), FontId::proportional(11.5), NAME_INK);
+        let left = pos2(middle.x + AWAY, middle.y - text.size().y / 2.0);
+        let plate = Rect::from_min_size(left, text.size()).expand2(vec2(4.0, 1.0));
+        if taken.iter().any(|other| other.intersects(plate)) {
+            continue;
+        }
+        painter.line_segment(
+            [middle + vec2(5.0, 0.0), plate.left_center()],
+            Stroke::new(1.0, NAME_INK.gamma_multiply(0.6)),
+        );
+        painter.rect_filled(plate, 3.0, NAME_PLATE);
+        painter.text(left, Align2::LEFT_TOP, &body.id, FontId::proportional(11.5), NAME_INK);
+        taken.push(plate);
+    }
+}
+
 #[cfg(test)]
 mod tests {
+
     use super::*;
 
     #[test]

@@ -11,7 +11,6 @@ use three_d::{Context, RenderTarget, ScissorBox, Viewport};
 
 use super::camera::{Camera, View};
 use super::draw::{Drawer, Water};
-use super::labels;
 use super::offscreen::Offscreen;
 use super::overlay::{self, Overlay};
 
@@ -135,7 +134,7 @@ impl Renderer {
         };
         self.write_over(|painter, rect| {
             if show.names {
-                labels::paint(painter, rect, camera, request.model, request.frame);
+                overlay::paint_names(painter, rect, camera, request.model, request.frame);
             }
             overlay::paint(painter, rect, &overlay);
         });

@@ -9,7 +9,7 @@ use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::{PanelAction, WindowAction, WindowCommand};
 use endline_workbench::gui::command::{Declared, declared};
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::help::markdown;
 use endline_workbench::input::Pilot;
 

@@ -15,7 +15,7 @@ use endline_session::figures::{
 };
 use endline_session::live::{Engine, Launch, LiveView, RunCommand, Status};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
 

@@ -13,7 +13,7 @@ use endline_session::statics::TrialGear;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::fields::{edit_id, go_to};
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, give, linked, on_disk, opened_with, wait, workbench};

@@ -14,7 +14,7 @@ use endline_session::live::{Channel, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout::{self, Layout};
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
 
 use crate::common::{Folder, flown, give, wait, workbench};

@@ -15,7 +15,7 @@ use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, 
 use endline_session::workbench::plugins::Load;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::fields;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, linked, opened_with, wait};

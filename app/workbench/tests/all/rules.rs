@@ -12,7 +12,7 @@ use endline_session::live::engine;
 use endline_session::rules::Verdict;
 use endline_session::workbench::RuleAnswer;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, give, linked, on_disk, opened_with, retype};

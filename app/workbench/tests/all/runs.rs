@@ -15,7 +15,7 @@ use endline_session::figures::compare::groups;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 
 use crate::common::{Folder, drag, flown, give, only, wait};
 

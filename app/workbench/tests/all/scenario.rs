@@ -11,9 +11,9 @@ use endline_session::live::engine;
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::ViewAction;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::inspector::wraps;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::view::pose::Start;
-use endline_workbench::gui::wraps::wraps;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::View;
 

@@ -15,7 +15,7 @@ use endline_session::search::job::State;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::{PanelAction, WindowCommand};
 use endline_workbench::gui::layout::Layout;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::{self, Folder, linked, opened_with, retype};

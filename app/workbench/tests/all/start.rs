@@ -7,8 +7,8 @@ use egui_kittest::kittest::Queryable;
 use endline_session::command::RunAction;
 use endline_session::live::engine;
 use endline_session::recording::kept::Kept;
-use endline_workbench::gui::kept_picture;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
+use endline_workbench::gui::pictures;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, flown, give, linked, only, opened_with, retype, wait};
@@ -42,8 +42,8 @@ fn a_recording_tells_how_it_ended_and_takes_a_name_and_a_note() {
     only(&mut harness, PanelId::RECORDINGS);
     harness.get_by_label("No contact");
     // How it ended, drawn meanwhile.
-    wait(&mut harness, |_| kept_picture::read(&kept).is_some());
-    let picture = kept_picture::read(&kept).unwrap();
+    wait(&mut harness, |_| pictures::of_recording(&kept).is_some());
+    let picture = pictures::of_recording(&kept).unwrap();
     let colours: BTreeSet<[u8; 4]> = picture.pixels.iter().map(|pixel| pixel.to_array()).collect();
     assert!(
         picture.size == [256, 144] && colours.len() > 100,
@@ -57,7 +57,7 @@ fn a_recording_tells_how_it_ended_and_takes_a_name_and_a_note() {
     retype(&mut harness, "hello-endline 0001", "first flight");
     let renamed = kept.with_file_name("first flight.endline");
     wait(&mut harness, |_| renamed.exists());
-    assert!(!kept.exists() && kept_picture::read(&renamed).is_some());
+    assert!(!kept.exists() && pictures::of_recording(&renamed).is_some());
     harness.run_steps(2);
     retype(&mut harness, "", "too far to starboard");
     wait(&mut harness, |_| Kept::beside(&renamed).unwrap().note == "too far to starboard");

@@ -16,7 +16,7 @@ use endline_session::study::queue::{Job, State};
 use endline_session::study::stats::answer;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout::Layout;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::results::Part;
 use endline_workbench::input::Pilot;
 

@@ -20,9 +20,9 @@ use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::command::action::WindowCommand;
 use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::offers;
-use endline_workbench::gui::panel_id::PanelId;
-use endline_workbench::gui::panels::view::Eye;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
+use endline_workbench::scene::Eye;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
 

@@ -16,7 +16,7 @@ use endline_session::units::Units;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::view::hud::{readings, waiting};
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
 

@@ -19,7 +19,7 @@ use crate::gui::command::action::{
 use crate::gui::command::{Declared, find};
 use crate::gui::files::open_folder;
 use crate::gui::layout;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::shared::Selection;
 
 /// Simulated seconds in a real one while a hand steers.

@@ -4,6 +4,7 @@ mod dispatch;
 mod tabs;
 
 use crate::gui::command::action::FlightAction;
+use crate::gui::command::keys;
 use endline_session::command::{EditAction, RunAction};
 use std::sync::{Arc, Mutex};
 
@@ -11,16 +12,15 @@ use eframe::{CreationContext, Storage};
 use egui::{CentralPanel, Context, Frame as Margins, Panel as Bar, Ui};
 use egui_dock::{DockArea, DockState};
 
-use crate::gui::canvas::Canvas;
-use crate::gui::dialogs::Dialogs;
 use crate::gui::layout::{self, Layout};
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::panels::Panels;
-use crate::gui::preferences::Kept;
-use crate::gui::questions::{self, Questions};
+use crate::gui::questions::{self, Dialogs, Questions};
+use crate::gui::shared::Kept;
 use crate::gui::shared::Shared;
-use crate::gui::{fields, keys, menus, status};
+use crate::gui::{bars, fields};
 use crate::input::{HeldKeys, PilotAction};
+use crate::scene::Canvas;
 use tabs::Tabs;
 
 const LAYOUT_KEY: &str = "layout";
@@ -135,7 +135,7 @@ impl App {
         Bar::top("menus")
             .frame(bar)
             .show_separator_line(false)
-            .show(ui, |ui| menus::show(ui, &mut self.shared, &self.dock));
+            .show(ui, |ui| bars::menus(ui, &mut self.shared, &self.dock));
         if !self.questions.left_behind.is_empty() {
             Bar::top("recovery")
                 .frame(bar)
@@ -144,7 +144,7 @@ impl App {
         Bar::bottom("status")
             .frame(bar)
             .show_separator_line(false)
-            .show(ui, |ui| status::show(ui, &mut self.shared));
+            .show(ui, |ui| bars::status(ui, &mut self.shared));
         CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
             let style = theme.dock(ui.style());
             let mut tabs = Tabs { panels: &mut self.panels, shared: &mut self.shared };

@@ -3,7 +3,7 @@
 use egui::{Id, Ui};
 use egui_dock::TabViewer;
 
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::panels::Panels;
 use crate::gui::shared::Shared;
 

@@ -11,7 +11,7 @@ use endline_session::units::Units;
 
 use crate::documents::Document;
 use crate::gui::layout::Layout;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::theme::Theme;
 use crate::scene::{Picked, View};
 

@@ -5,8 +5,8 @@
 
 pub mod action;
 mod flight;
+pub mod keys;
 mod panel;
-mod shortcut;
 mod view;
 mod window;
 
@@ -16,7 +16,7 @@ use endline_session::command::{self, Choice, CommandInfo, FileQuestion, Info, Ma
 
 use super::shared::Shared;
 use action::{WindowAction, WindowCommand};
-pub use shortcut::{spelled, to_egui};
+pub use keys::{spelled, to_egui};
 
 /// Declaration of a command that only a window has.
 pub type WindowInfo = CommandInfo<Shared, WindowCommand>;

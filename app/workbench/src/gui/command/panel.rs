@@ -7,10 +7,10 @@ use endline_session::command::{Choice, FileQuestion, Make, Shortcut, When};
 use super::WindowInfo;
 use super::action::{PanelAction, WindowCommand};
 use super::view::shown;
+use crate::gui::files::KINDS;
 use crate::gui::layout::Layout;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::shared::Shared;
-use crate::gui::tables::KINDS;
 
 /// The actions on panels, declared.
 pub static COMMANDS: &[WindowInfo] = &[

@@ -4,10 +4,10 @@ use endline_session::command::{Choice, FileQuestion, Make, Shortcut, When};
 
 use super::WindowInfo;
 use super::action::{ViewAction, WindowCommand};
-use crate::gui::canvas::MOST_PANES;
 use crate::gui::files::stem;
 use crate::gui::inspector::worst_m;
 use crate::gui::shared::Shared;
+use crate::scene::draw::MOST_PANES;
 use crate::scene::{Picked, View};
 
 /// The actions in the 3-D view, declared.

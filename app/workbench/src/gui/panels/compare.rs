@@ -1,14 +1,13 @@
 //! Two runs beside one another: A as shown, B held or opened; their key figures and what differs.
 
 use crate::gui::command::action::PanelAction;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
 use endline_session::figures::compare::{Group, SAME, groups};
 use endline_session::live::{LiveView, Status};
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;

@@ -7,8 +7,7 @@ use endline_sim::Model;
 use endline_sim::metrics::Event;
 
 use crate::gui::command::action::{ViewAction, WindowCommand};
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};

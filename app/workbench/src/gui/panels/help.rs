@@ -7,12 +7,11 @@ use endline_session::command::When;
 
 use super::about;
 use crate::gui::command::{declared, spelled};
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-use crate::input::keys::STEERING;
+use crate::input::mapping::STEERING;
 
 /// What the mouse does in the 3-D view.
 pub const MOUSE: [(&str, &str); 4] = [

@@ -25,8 +25,7 @@ pub mod summary;
 pub mod tension;
 pub mod view;
 
-use super::panel::Panel;
-use super::panel_id::PanelId;
+use super::panel::{Panel, PanelId};
 
 /// Every panel of the window.
 #[derive(Default)]

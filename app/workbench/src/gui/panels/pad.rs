@@ -4,8 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Grid, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui, vec2};
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;

@@ -1,15 +1,14 @@
 //! Plots of the run, one below the other; written to files as pictures and tables.
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use endline_session::command::ExportAction;
 use std::path::PathBuf;
 
 use egui::{ScrollArea, Ui};
 use endline_session::export::chart::Kind;
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::widgets;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD, LEAST};

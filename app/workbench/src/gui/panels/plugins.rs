@@ -13,8 +13,7 @@ use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
 use endline_session::workbench::plugins::{Switchable, place_of};
 
 use crate::gui::fields;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};

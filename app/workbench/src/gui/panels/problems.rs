@@ -6,12 +6,11 @@ use endline_gear::Diagnostic;
 use endline_gear::Kind;
 use endline_session::edit::Documents;
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::files::KINDS;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
-use crate::gui::tables::KINDS;
 use crate::gui::theme::Theme;
-use crate::gui::widgets::{self, problem};
+use crate::gui::widgets;
 
 /// The list of problems.
 #[derive(Debug, Default)]
@@ -39,7 +38,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for problem in &problems {
-            if problem::entry(ui, problem) {
+            if widgets::problem(ui, problem) {
                 go_to(shared, problem);
             }
         }

@@ -1,7 +1,7 @@
 //! Runs that were kept by themselves, to be opened and seen again.
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use endline_session::command::RunAction;
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -14,9 +14,8 @@ use endline_session::recording::{self, kept::Kept};
 use endline_sim::metrics::Outcome;
 
 use crate::gui::files;
-use crate::gui::kept_picture;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
+use crate::gui::pictures;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
@@ -93,7 +92,7 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
 
 fn picture(ui: &Ui, rect: Rect, file: &mut Recorded) {
     let shown = file.picture.get_or_insert_with(|| {
-        let image = kept_picture::read(&file.path)?;
+        let image = pictures::of_recording(&file.path)?;
         let name = file.path.display().to_string();
         Some(ui.ctx().load_texture(name, image, TextureOptions::LINEAR))
     });

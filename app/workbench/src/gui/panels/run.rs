@@ -1,7 +1,7 @@
 //! The run's controls and how it does.
 
 use crate::gui::command::action::{FlightAction, WindowAction};
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
 use endline_session::figures::{Figure, shares};
@@ -11,8 +11,7 @@ use endline_session::units::Units;
 use endline_session::workbench::SPEEDS;
 use endline_sim::Cost;
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};

@@ -6,8 +6,7 @@ use endline_session::figures::{LINE, LINK, PART, Part, View, WHALE, lines, parts
 use endline_session::live::LiveView;
 use endline_sim::metrics::{Summary, WhaleSummary};
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
@@ -36,7 +35,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
         return widgets::nothing(ui, "The gear is being settled.");
     };
     let style = Style { view: View::Summary, units: shared.workbench.preferences.units };
-    widgets::steered::warning(ui, shared, &view);
+    widgets::steered_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(

@@ -3,11 +3,10 @@
 use egui::Ui;
 use endline_session::export::chart::Kind;
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
+use crate::gui::widgets;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD};
-use crate::gui::widgets::steered;
 
 /// Tension of every line over time.
 #[derive(Default)]
@@ -22,7 +21,7 @@ impl Panel for TensionPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         if let Some(view) = shared.workbench.view().cloned() {
-            steered::warning(ui, shared, &view);
+            widgets::steered_whale(ui, shared, &view);
         }
         let height = ui.available_height() - HEAD;
         self.drawn.show(ui, shared, Kind::Tension, "", height);

@@ -1,16 +1,23 @@
 //! Pieces of the screen that several panels draw.
 
-pub mod command;
 pub mod figures;
 pub mod plot;
-pub mod plot_key;
-pub mod problem;
-pub mod steered;
 pub mod words;
 
-use egui::{Align2, FontId, Grid, Id, Rect, RichText, Sense, Ui, UiBuilder, Vec2, vec2};
+use egui::{
+    Align2, Button, FontId, Grid, Id, Label, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2,
+    vec2,
+};
+use endline_gear::Diagnostic;
+use endline_session::command::{Command, EditAction};
+use endline_session::edit::Documents;
+use endline_session::edit::problems::place;
+use endline_session::live::LiveView;
 
-use super::theme::Theme;
+use crate::gui::command::action::WindowCommand;
+use crate::gui::command::find;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
 
 /// A line of small grey text above a group.
 pub fn caption(ui: &mut Ui, text: &str) {
@@ -77,6 +84,92 @@ pub fn numbers(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
             ui.label(RichText::new(*name).color(faint));
             ui.label(RichText::new(value));
             ui.end_row();
+        }
+    });
+}
+
+/// A button that gives a command: its help text is the command's, and it is grey with the reason where that does nothing now.
+pub fn command(
+    ui: &mut Ui,
+    shared: &mut Shared,
+    text: &str,
+    command: impl Into<WindowCommand>,
+) -> Response {
+    styled(ui, shared, Button::new(text), command)
+}
+
+/// A button of any look that gives a command.
+pub fn styled(
+    ui: &mut Ui,
+    shared: &mut Shared,
+    button: Button<'_>,
+    command: impl Into<WindowCommand>,
+) -> Response {
+    let command = command.into();
+    let declared = find(command.id());
+    let enabled = declared.is_none_or(|info| info.enabled(shared).is_ok());
+    let hint = declared.map(|info| info.hint(shared)).unwrap_or_default();
+    let response = ui.add_enabled(enabled, button);
+    let response =
+        if enabled { response.on_hover_text(hint) } else { response.on_disabled_hover_text(hint) };
+    if response.clicked() {
+        shared.give(command);
+    }
+    response
+}
+
+/// One problem in two lines; answers whether it was clicked.
+pub fn problem(ui: &mut Ui, problem: &Diagnostic) -> bool {
+    let palette = Theme::palette_of(ui);
+    let (mark, colour) =
+        if problem.is_error() { ("✖", palette.error) } else { ("⚠", palette.warning) };
+    let row = ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(mark).color(colour));
+            ui.label(RichText::new(place(problem)).monospace().size(12.0).color(palette.faint));
+            if !problem.field.is_empty() {
+                ui.label(
+                    RichText::new(&problem.field).monospace().size(12.0).color(palette.accent),
+                );
+            }
+            ui.add(Label::new(RichText::new(&problem.message).color(colour)).truncate());
+        });
+        if !problem.help.is_empty() {
+            ui.horizontal(|ui| {
+                ui.add_space(20.0);
+                ui.add(Label::new(RichText::new(&problem.help).color(palette.faint)).truncate());
+            });
+        }
+    });
+    ui.add_space(4.0);
+    row.response.interact(Sense::click()).on_hover_text(problem.to_string()).clicked()
+}
+
+/// Field by which a whale feels the gear, and its value.
+const FEELS: [&str; 2] = ["whale.dynamics", "kinetic"];
+
+/// Draws the warning where it holds, with the button that changes the scenario.
+pub fn steered_whale(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
+    let whale = view.model.spec.whale.as_ref();
+    if view.model.spec.lines.is_empty() || whale.is_none_or(|whale| whale.kinetic.is_some()) {
+        return;
+    }
+    let text = "This whale does not feel the gear: it goes as it is steered, whatever pulls. \
+                Peak tensions are those of a whale that nothing slows.";
+    let colour = Theme::palette_of(ui).warning;
+    ui.horizontal_wrapped(|ui| {
+        ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
+        let documents = &shared.workbench.project.documents;
+        let of_scenario = !shared.workbench.shows_guest()
+            && documents.field(Documents::SCENARIO, FEELS[0]).is_none();
+        let help = "Sets dynamics = \"kinetic\" in the scenario; the next run uses it";
+        if of_scenario && ui.small_button("Let it feel gear").on_hover_text(help).clicked() {
+            shared.give(Command::from(EditAction::Set {
+                path: Documents::SCENARIO.to_owned(),
+                field: FEELS[0].to_owned(),
+                value: FEELS[1].to_owned(),
+            }));
         }
     });
 }

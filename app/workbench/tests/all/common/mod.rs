@@ -21,7 +21,7 @@ use endline_session::live::engine::{Engine, Launch, live};
 use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
 

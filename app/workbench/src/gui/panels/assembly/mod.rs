@@ -24,10 +24,9 @@ use endline_session::statics::worker::Answer;
 use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialGear, TrialSea};
 
 use crate::gui::fields;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
-use crate::gui::widgets::{self, problem};
+use crate::gui::widgets;
 
 /// Gear from buoy to trap, at rest.
 #[derive(Default)]
@@ -238,7 +237,7 @@ impl AssemblyPanel {
             .cloned()
             .collect();
         for problem in &problems {
-            problem::entry(ui, problem);
+            widgets::problem(ui, problem);
         }
     }
 }

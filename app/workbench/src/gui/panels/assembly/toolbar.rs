@@ -1,7 +1,7 @@
 //! Which gear is shown, which it is compared with, and the tide it stands in.
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use egui::{RichText, Slider, SliderClamping, Ui};
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;

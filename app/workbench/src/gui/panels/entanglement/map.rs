@@ -11,8 +11,8 @@ use endline_session::units::Units;
 use endline_sim::metrics::{RegionSummary, WhaleSummary};
 
 use crate::gui::bodymap::{BodyMap, Face};
+use crate::gui::inspector::turns;
 use crate::gui::theme::Theme;
-use crate::gui::wraps::turns;
 use crate::scene::overlay::{gradient, scale_colour};
 
 /// What the map is coloured by.

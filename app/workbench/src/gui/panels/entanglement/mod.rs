@@ -9,14 +9,13 @@ use endline_session::live::LiveView;
 use endline_session::units::Units;
 use endline_sim::metrics::WhaleSummary;
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::inspector::wraps;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::words::spoken;
 use crate::gui::widgets::{self, words};
-use crate::gui::wraps::wraps;
 use map::SkinMap;
 
 /// Rope on the whale's body, and the outcome.

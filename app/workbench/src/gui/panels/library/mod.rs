@@ -9,7 +9,7 @@ mod table;
 mod walk;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use endline_session::command::{EditAction, ExportAction};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,12 +20,11 @@ use endline_session::edit::library_table;
 
 pub use detail::{Against, Uses};
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::files::KINDS;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
-use crate::gui::tables::KINDS;
 use crate::gui::theme::primary;
-use crate::gui::widgets::{self, problem};
+use crate::gui::widgets;
 use rows::{Row, Wanted};
 
 /// Tables of the gear library.
@@ -213,7 +212,7 @@ fn reasons(ui: &mut Ui, problems: &[Diagnostic]) {
     ui.separator();
     ScrollArea::vertical().id_salt("reasons").auto_shrink(false).show(ui, |ui| {
         for problem in problems {
-            problem::entry(ui, problem);
+            widgets::problem(ui, problem);
         }
     });
 }

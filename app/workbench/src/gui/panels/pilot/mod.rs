@@ -12,8 +12,7 @@ use endline_gear::Document;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, entries};
 
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;

@@ -16,12 +16,11 @@ use endline_session::study::StudyResults;
 use endline_session::study::stats::answer;
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use runs::{Listed, Sort};
 use spread::Placed;
 

@@ -11,12 +11,11 @@ use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 
 /// Least width at which the chosen rule stands beside the table.
 const WIDE: f32 = 820.0;

@@ -11,7 +11,7 @@ use super::{colour, on_screen};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 
 /// Fields shown of an edit.
 const MOST_FIELDS: usize = 6;

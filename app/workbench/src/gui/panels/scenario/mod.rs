@@ -13,8 +13,7 @@ use endline_session::edit::{Documents, scenario};
 
 use crate::gui::fields;
 use crate::gui::files;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::scenario_fields::{FLAGS, Flag, RUN, Row, SEA, SWIMS, TIDE, WAVES, WHALE};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};

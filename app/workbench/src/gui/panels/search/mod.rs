@@ -17,12 +17,11 @@ use endline_session::edit::observation::{self, Range};
 use crate::gui::command::action::WindowAction;
 use crate::gui::fields::{self, Said};
 use crate::gui::files;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets::command::command;
-use crate::gui::widgets::{self, problem};
+use crate::gui::widgets;
+use crate::gui::widgets::command;
 
 /// Edits of the observation's text, each one step to be taken back.
 type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;
@@ -191,6 +190,6 @@ fn problems(ui: &mut Ui, shared: &Shared) {
     let own = documents.problems().iter().filter(|problem| problem.file == file);
     let own: Vec<Diagnostic> = own.cloned().collect();
     for problem in &own {
-        problem::entry(ui, problem);
+        widgets::problem(ui, problem);
     }
 }

@@ -10,7 +10,7 @@ use endline_session::search::job::{Found, State};
 use crate::gui::command::action::WindowAction;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use crate::gui::widgets::words::time_left;
 
 /// Draws what begins a search, and the search at work.

@@ -8,7 +8,7 @@ use endline_session::command::SearchAction;
 use super::item::What;
 use crate::gui::command::action::{FlightAction, PanelAction};
 use crate::gui::layout::Layout;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 

@@ -11,8 +11,7 @@ use endline_session::search::job::State;
 use endline_session::search::{Job, LIKE, Stories, Story};
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;

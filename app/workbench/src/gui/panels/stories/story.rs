@@ -8,7 +8,7 @@ use endline_session::study::in_words;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use crate::gui::widgets::words::{capital, spoken};
 
 /// Width of the longest bar.

@@ -6,7 +6,7 @@ mod queue;
 mod settable;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use endline_session::command::{EditAction, StudyAction};
 use std::path::Path;
 
@@ -17,11 +17,10 @@ use endline_session::edit::Documents;
 use crate::gui::fields::{self, Said};
 use crate::gui::files;
 use crate::gui::layout::Layout;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::widgets::{self, problem};
+use crate::gui::widgets;
 
 /// An edit of the study's text: a dotted path, and its value as TOML; `None` takes it away.
 type Edits = Vec<(String, Option<Setting>)>;
@@ -313,7 +312,7 @@ fn problems(ui: &mut Ui, shared: &Shared) {
         .collect();
     let check = &shared.workbench.studies.check;
     for problem in own.iter().chain(check.problems()) {
-        problem::entry(ui, problem);
+        widgets::problem(ui, problem);
     }
     if let Some(fault) = check.fault() {
         ui.label(RichText::new(fault).color(Theme::palette_of(ui).error));

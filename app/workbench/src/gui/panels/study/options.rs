@@ -13,7 +13,7 @@ use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 
 /// What is often set, as a hint where a setting is typed.
 const SUCH_AS: &str =

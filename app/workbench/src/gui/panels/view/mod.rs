@@ -1,7 +1,6 @@
 //! The 3-D view: up to four panes, what is shown, what is read, the pilot's head-up display.
 
 mod card;
-mod eye;
 pub mod hud;
 mod marks;
 mod pane;
@@ -20,17 +19,15 @@ use egui::{Rect, Ui, pos2};
 use endline_session::live::LiveView;
 use endline_session::scene::Show;
 
-pub use eye::Eye;
 pub use state::{Drawn, ScaleTop, ViewPanel};
 
-use crate::gui::canvas::MOST_PANES;
-use crate::gui::panel::Panel;
-use crate::gui::panel_id::PanelId;
+use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets::command::command;
+use crate::gui::widgets::command;
 use crate::gui::widgets::words::capital;
 use crate::scene::View;
+use crate::scene::draw::MOST_PANES;
 use split::{Pane, places};
 
 impl Panel for ViewPanel {

@@ -6,10 +6,9 @@ use endline_session::scene::forces::greatest_n;
 
 use super::split::Pane;
 use super::{ViewPanel, hud, marks, picking, pose, spoken};
-use crate::gui::canvas::Canvas;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::scene::{Camera, Overlay, Water, labels, overlay};
+use crate::scene::{Camera, Canvas, Overlay, Water, overlay};
 
 /// Width from which a pane names the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
@@ -118,7 +117,7 @@ fn write_over(
     let scale_n = if last { panel.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
     if panel.show.names {
-        labels::paint(&painter, rect, camera, &view.model, &view.frame);
+        overlay::paint_names(&painter, rect, camera, &view.model, &view.frame);
     }
     overlay::paint(
         &painter,

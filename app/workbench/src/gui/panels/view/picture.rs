@@ -6,7 +6,7 @@ use std::sync::Arc;
 use endline_session::scene::Show;
 
 use super::ViewPanel;
-use crate::gui::film::{FilmJob, FilmOrder};
+use crate::gui::pictures::{FilmJob, FilmOrder};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::{RenderRequest, Renderer, Water, write_png};

@@ -6,12 +6,11 @@ use endline_session::live::{LiveView, Status};
 use endline_session::scene::{Scene, Show};
 use endline_sim::{Frame, Model};
 
-use super::eye::Eye;
 use super::picking::Picks;
 use super::pose::Start;
-use crate::gui::canvas::{Canvas, MOST_PANES};
 use crate::gui::shared::Shared;
-use crate::scene::{CameraPath, View};
+use crate::scene::draw::MOST_PANES;
+use crate::scene::{CameraPath, Canvas, Eye, View};
 
 /// What the top of the tension scale is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

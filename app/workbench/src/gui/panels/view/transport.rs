@@ -5,13 +5,11 @@ use endline_session::command::{RunAction, TimeAction};
 use endline_session::live::LiveView;
 use endline_sim::metrics::EventKind;
 
-use super::Eye;
 use crate::gui::command::action::WindowCommand;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets::command::styled;
-use crate::gui::widgets::words;
-use crate::scene::CameraPath;
+use crate::gui::widgets::{styled, words};
+use crate::scene::{CameraPath, Eye};
 
 /// Height of the bar with the space above it.
 pub const HEIGHT: f32 = 34.0;

@@ -1,18 +1,18 @@
-//! The whale's skin laid flat: four views of it at rest, each region in a colour, for pressures and wraps to be read off and parts to
-//! be chosen.
+//! The whale's skin laid flat: four views of it at rest, each region in a colour. Pressures and wraps are read off it, and parts are
+//! chosen on it.
 
-mod faces;
-mod pick;
-
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use egui::epaint::{Mesh, Vertex, WHITE_UV};
-use egui::{Color32, Pos2, Rect, Vec2, vec2};
+use egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+};
 use endline_sdk::Region;
 use endline_sim::whale::Skin;
 use endline_sim::{ContactPoint, DVec3};
 
-pub use pick::Edge;
+use crate::gui::theme::Theme;
 
 /// From where the whale is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,4 +204,143 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
 fn shade(colour: Color32, light: f32) -> Color32 {
     let part = |value: u8| (f32::from(value) * light) as u8;
     Color32::from_rgb(part(colour.r()), part(colour.g()), part(colour.b()))
+}
+
+/// A line of an outline: its ends from the middle of the picture, in widths of it, y down.
+pub type Edge = [Vec2; 2];
+
+impl BodyMap {
+    /// The region at a place of a face; `None` beside the whale.
+    #[must_use]
+    pub fn hit(&self, face: Face, rect: Rect, place: Pos2) -> Option<Region> {
+        let flat = (place - rect.center()) / rect.width();
+        // The nearest to the eye comes last.
+        let mut seen = self.seen[face as usize].iter().rev();
+        seen.find(|triangle| holds(triangle.corners, flat)).map(|triangle| triangle.region)
+    }
+
+    /// The middle of what a face shows of some regions, on one side where `to_port` says which; `None` where it shows nothing of them.
+    #[must_use]
+    pub fn middle(
+        &self,
+        face: Face,
+        rect: Rect,
+        is_it: impl Fn(Region) -> bool,
+        to_port: Option<bool>,
+    ) -> Option<Pos2> {
+        let (mut sum, mut whole) = (Vec2::ZERO, 0.0);
+        let side = |port: bool| to_port.is_none_or(|wanted| wanted == port);
+        let seen = self.seen[face as usize].iter();
+        for triangle in seen.filter(|triangle| is_it(triangle.region) && side(triangle.to_port)) {
+            let [a, b, c] = triangle.corners;
+            let area = cross(b - a, c - a).abs();
+            sum += (a + b + c) / 3.0 * area;
+            whole += area;
+        }
+        (whole > 0.0).then(|| rect.center() + sum / whole * rect.width())
+    }
+
+    /// The outline of what a face shows of some regions; what lies behind other skin is left out.
+    #[must_use]
+    pub fn outline(&self, face: Face, is_it: impl Fn(Region) -> bool) -> Vec<Edge> {
+        let mut edges: BTreeMap<[u32; 2], (Edge, u32, u32)> = BTreeMap::new();
+        for triangle in self.seen[face as usize].iter().filter(|seen| is_it(seen.region)) {
+            let vertices = self.skin.triangles[triangle.triangle as usize];
+            for (one, other) in [(0, 1), (1, 2), (2, 0)] {
+                let (a, b) = (vertices[one], vertices[other]);
+                let ends = [triangle.corners[one], triangle.corners[other]];
+                let of = triangle.triangle;
+                edges.entry([a.min(b), a.max(b)]).or_insert((ends, of, 0)).2 += 1;
+            }
+        }
+        let border = edges.into_values().filter(|(.., count)| *count == 1);
+        border
+            .filter(|(edge, of, _)| self.is_seen(face, *edge, *of))
+            .map(|(edge, ..)| edge)
+            .collect()
+    }
+
+    /// Whether a triangle is the nearest to the eye just inside one of its edges.
+    fn is_seen(&self, face: Face, [one, other]: Edge, triangle: u32) -> bool {
+        let seen = &self.seen[face as usize];
+        let Some(own) = seen.iter().find(|seen| seen.triangle == triangle) else { return false };
+        let middle = own.corners.iter().fold(Vec2::ZERO, |sum, corner| sum + *corner / 3.0);
+        let inside = (one + other) * 0.45 + middle * 0.1;
+        let nearest = seen.iter().rev().find(|seen| holds(seen.corners, inside));
+        nearest.is_some_and(|nearest| nearest.triangle == triangle)
+    }
+}
+
+fn cross(one: Vec2, other: Vec2) -> f32 {
+    one.x * other.y - one.y * other.x
+}
+
+/// Whether a triangle holds a point, in either sense of rotation.
+fn holds([a, b, c]: [Vec2; 3], point: Vec2) -> bool {
+    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| cross(to - from, point - from));
+    sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+}
+
+/// Room for the name of a face above it.
+const NAME: f32 = 16.0;
+
+impl BodyMap {
+    /// Colour of skin of which nothing is told.
+    #[must_use]
+    pub fn plain(ui: &Ui) -> Color32 {
+        if ui.visuals().dark_mode {
+            Color32::from_rgb(0x6d, 0x7b, 0x84)
+        } else {
+            Color32::from_rgb(0xb4, 0xc0, 0xc7)
+        }
+    }
+
+    /// Draws every face, each region in its colour, and `over` on top of it. Answers the region under the pointer, and whether it
+    /// was clicked.
+    pub fn faces(
+        &mut self,
+        ui: &mut Ui,
+        sense: Sense,
+        colour: impl Fn(Region) -> Color32,
+        over: impl Fn(&Self, &Painter, Face, Rect),
+    ) -> Option<(Region, bool)> {
+        let mut at = None;
+        let width = (ui.available_width() - 16.0) / 2.0;
+        for faces in Face::ALL.chunks(2) {
+            let heights = faces.iter().map(|face| width * self.aspect(*face));
+            let size = vec2(width, heights.fold(0.0, f32::max) + NAME + 2.0);
+            ui.horizontal(|ui| {
+                for face in faces {
+                    let (rect, response) = ui.allocate_exact_size(size, sense);
+                    if !ui.is_rect_visible(rect) {
+                        continue;
+                    }
+                    let told = || WidgetInfo::labeled(WidgetType::Image, true, face.name());
+                    response.widget_info(told);
+                    let below = rect.with_min_y(rect.top() + NAME).shrink(2.0);
+                    self.face(ui, *face, rect, below, &colour);
+                    over(self, &ui.painter_at(rect), *face, below);
+                    let pointer = response.hover_pos();
+                    let region = pointer.and_then(|pointer| self.hit(*face, below, pointer));
+                    at = region.map(|region| (region, response.clicked())).or(at);
+                }
+            });
+        }
+        at
+    }
+
+    fn face(
+        &mut self,
+        ui: &Ui,
+        face: Face,
+        rect: Rect,
+        below: Rect,
+        colour: &impl Fn(Region) -> Color32,
+    ) {
+        let painter = ui.painter_at(rect);
+        let faint = Theme::palette_of(ui).faint;
+        let font = FontId::proportional(11.0);
+        painter.text(rect.left_top(), Align2::LEFT_TOP, face.name(), font, faint);
+        painter.add(self.mesh(face, below, colour));
+    }
 }

@@ -1,23 +1,29 @@
-//! A film of the run shown, made on a thread of its own from the moments that are kept: nothing is run again.
+//! Pictures of runs, drawn on threads of their own: a film of the run shown, and the picture beside a recording.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-use endline_session::scene::Show;
+use egui::ColorImage;
+use endline_session::live::LiveView;
+use endline_session::recording::kept;
+use endline_session::scene::{Scene, Show};
 use endline_session::task::{Task, Waker};
 use endline_session::units::Units;
 use endline_session::workbench::Notice;
 use endline_sim::{Frame, Model};
 
-use super::panels::view::Eye;
 use crate::scene::film::Film;
-use crate::scene::{CameraPath, Reel, Water};
+use crate::scene::{
+    Camera, CameraPath, Eye, Reel, RenderRequest, Renderer, View, Water, write_png,
+};
 
 /// Width and height [px], and pictures a second.
-const SIZE: [u32; 2] = [1280, 720];
+const FILM_SIZE: [u32; 2] = [1280, 720];
 const FPS: u32 = 20;
 
 /// How long the run may take to hand over what it keeps.
@@ -66,7 +72,7 @@ impl FilmJob {
     /// # Errors
     /// A file that cannot be begun, or no thread.
     pub fn begin(order: FilmOrder, waker: Waker) -> Result<Self, String> {
-        let film = Film::begin(&order.out, SIZE, FPS)?;
+        let film = Film::begin(&order.out, FILM_SIZE, FPS)?;
         let (progress, mut task) = (Arc::new(Progress::default()), Task::default());
         let (out, told) = (order.out.clone(), Arc::clone(&progress));
         let awake = Arc::clone(&waker);
@@ -110,7 +116,7 @@ impl FilmOrder {
         let kept = self.frames.recv_timeout(PATIENCE);
         let frames = paced(&kept.map_err(|_| "the run does not hand over its moments")?);
         progress.of.store(frames.len(), Ordering::Relaxed);
-        let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+        let aspect = f64::from(FILM_SIZE[0]) / f64::from(FILM_SIZE[1]);
         let camera = |frame: &Frame| {
             let placed = |eye: &Eye| eye.at_moment(&self.model, frame, aspect);
             self.path.camera(frame.time_s, placed).unwrap_or_else(|| placed(&self.eye))
@@ -118,7 +124,7 @@ impl FilmOrder {
         let reel = Reel {
             model: &self.model,
             frames: &frames,
-            size: SIZE,
+            size: FILM_SIZE,
             camera: &camera,
             show: self.show,
             water: self.water,
@@ -146,6 +152,74 @@ fn paced(kept: &[Arc<Frame>]) -> Vec<Arc<Frame>> {
         Arc::clone(&kept[if off(before) < off(after) { before } else { after }])
     };
     (0..count).map(at).collect()
+}
+
+/// Width and height [px].
+const KEPT_SIZE: [u32; 2] = [256, 144];
+
+/// The picture that is being drawn.
+#[derive(Debug, Default)]
+pub struct KeptPicture {
+    task: Task<()>,
+}
+
+impl KeptPicture {
+    /// Draws the moment that a view shows beside a recording. A recording without a picture is as good: nobody is told
+    /// where none can be drawn.
+    pub fn begin(&mut self, view: Arc<LiveView>, recording: &Path, waker: Waker) {
+        let file = kept::picture(recording);
+        let _ = self.task.start("endline-picture", move || drop(draw_ending(&view, &file)), waker);
+    }
+
+    /// Whether one has been drawn, or given up, since the last call.
+    pub fn ended(&mut self) -> bool {
+        self.task.poll().is_some()
+    }
+}
+
+/// The whale from its side where rope or gear has touched it, else everything.
+fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
+    let (model, frame) = (&view.model, &view.frame);
+    let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
+    let touched =
+        whale.is_some_and(|whale| whale.first_contact_s.is_some() || whale.peak_body_push_n > 0.0);
+    let from = if touched { View::WhaleSide } else { View::Orbit };
+    let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
+    let aspect = f64::from(KEPT_SIZE[0]) / f64::from(KEPT_SIZE[1]);
+    let places = Scene::places_of(model, frame);
+    let camera = Camera::of_view(from, &places, frame.whale.as_ref(), length_m, aspect);
+    let request = RenderRequest {
+        model,
+        frame,
+        size: KEPT_SIZE,
+        view: "",
+        scale_n: None,
+        fit: &[],
+        caption: "",
+        out: file,
+        units: Units::Mixed,
+    };
+    let show = Show { names: false, ..Show::default() };
+    write_png(
+        file,
+        KEPT_SIZE,
+        &Renderer::new(KEPT_SIZE)?.bare(&request, &show, &camera, Water::DARK),
+    )
+}
+
+/// The picture beside a recording; none where there is none that can be read.
+#[must_use]
+pub fn of_recording(recording: &Path) -> Option<ColorImage> {
+    let file = File::open(kept::picture(recording)).ok()?;
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().ok()?;
+    let info = reader.info();
+    let ([width, height], right) = (
+        [info.width as usize, info.height as usize],
+        info.width <= 1024 && info.height <= 1024 && info.color_type == png::ColorType::Rgb,
+    );
+    let mut bytes = vec![0; reader.output_buffer_size().filter(|_| right)?];
+    reader.next_frame(&mut bytes).ok()?;
+    (bytes.len() == 3 * width * height).then(|| ColorImage::from_rgb([width, height], &bytes))
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
-//! Keys of the window, given as commands by the declared shortcuts.
+//! Keys of the window: shortcuts as egui has them, as they are spelled on screen, and the commands they give.
 
-use egui::{Context, Event, KeyboardShortcut, Modifiers};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 use endline_session::command::When;
 
-use super::command::action::{WindowAction, WindowCommand};
-use super::command::{declared, to_egui};
-use super::fields;
-use super::shared::Shared;
+use crate::gui::command::action::{WindowAction, WindowCommand};
+use crate::gui::command::declared;
+use crate::gui::fields;
+use crate::gui::shared::Shared;
 
 /// A key and the command it gives.
 struct Bound {
@@ -73,10 +73,39 @@ fn count(modifiers: Modifiers) -> u32 {
         .sum()
 }
 
+/// A shortcut as egui has it; `None` where a key is not known.
+#[must_use]
+pub fn to_egui(keys: &str) -> Option<KeyboardShortcut> {
+    let mut modifiers = Modifiers::NONE;
+    let mut rest = keys;
+    while let Some((held, more)) = rest.split_once('+').filter(|(_, more)| !more.is_empty()) {
+        modifiers = modifiers.plus(match held {
+            "Ctrl" => Modifiers::COMMAND,
+            "Shift" => Modifiers::SHIFT,
+            "Alt" => Modifiers::ALT,
+            _ => return None,
+        });
+        rest = more;
+    }
+    Key::from_name(rest).map(|key| KeyboardShortcut::new(modifiers, key))
+}
+
+/// A shortcut as it is spelled on screen.
+#[must_use]
+pub fn spelled(keys: &str) -> String {
+    match keys {
+        "Left" => "⏴".to_owned(),
+        "Right" => "⏵".to_owned(),
+        "-" => "−".to_owned(),
+        "Escape" => "Esc".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::keys::STEERING;
+    use crate::input::mapping::STEERING;
 
     #[test]
     fn every_shortcut_is_a_key_of_a_plain_command_and_none_is_given_twice() {
