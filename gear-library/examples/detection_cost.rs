@@ -10,8 +10,8 @@ use endline_gear::whale::bones::Skeleton;
 use endline_gear::whale::section::Sections;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::Posture;
-use endline_sim::contact::distance::segment_triangle;
-use endline_sim::contact::sweep::{SweptSegment, safe_fraction};
+use endline_sim::geometry::distance::segment_triangle;
+use endline_sim::geometry::sweep::{SweptSegment, safe_fraction};
 use endline_sim::whale::{Skin, SkinTree, Surface, pose};
 use endline_sim::{DAffine3, DQuat, DVec3};
 

@@ -8,8 +8,8 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use allocation_counter::measure;
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Obstacle, ROPE_ON_HARD_N_M2, Resolution};
-use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 use linked::{built, spec};
 

@@ -85,7 +85,7 @@ pub fn bodies_on(frame: &Frame, part: BodyPart) -> Vec<(usize, f64)> {
 #[cfg(test)]
 mod tests {
     use endline_sdk::Region;
-    use endline_sim::contact::bodies::BodyContact;
+    use endline_sim::contact::body_on_skin::BodyContact;
 
     use super::*;
 

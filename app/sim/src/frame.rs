@@ -4,7 +4,7 @@ use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
 
 use crate::contact::ContactPoint;
-use crate::contact::bodies::BodyContact;
+use crate::contact::body_on_skin::BodyContact;
 use crate::state::State;
 use crate::whale::Exertion;
 

@@ -8,13 +8,17 @@
 
 mod assembly;
 pub mod balance;
+mod broad_phase;
 pub mod contact;
 pub mod cost;
 pub mod float;
+mod forces;
 pub mod frame;
 mod gear_hook;
+pub mod geometry;
 pub mod haul;
 mod in_place;
+mod matrix;
 pub mod metrics;
 pub mod model;
 mod model_check;
@@ -30,6 +34,8 @@ pub mod statics;
 pub mod step;
 mod step_control;
 mod strands;
+mod system;
+mod trial;
 pub mod water;
 pub mod whale;
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use crate::forces::suction::LOOSE_M;
 use crate::model::{Body, JointKind, Model, Whale};
-use crate::solver::LOOSE_M;
 use crate::state::{
     BodyGrips, BodyState, FrictionState, PilotMemory, RopeState, State, StepControl, WhaleState,
 };

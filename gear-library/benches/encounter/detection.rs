@@ -1,8 +1,8 @@
 //! What finding contacts costs in a step: the search of the tree, distances of what is near, and sweeps, made once more and timed.
 
 use cpu_time::ThreadTime;
-use endline_sim::contact::distance::segment_triangle;
-use endline_sim::contact::sweep::{SweptSegment, safe_fraction};
+use endline_sim::geometry::distance::segment_triangle;
+use endline_sim::geometry::sweep::{SweptSegment, safe_fraction};
 use endline_sim::whale::{Candidate, Surface, pose};
 use endline_sim::{DAffine3, Model, State};
 

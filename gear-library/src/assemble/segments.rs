@@ -1,8 +1,8 @@
 //! Lines cut into segments, so that there are as many rope nodes as asked for.
 
 use endline_sim::DVec3;
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::JointKind;
-use endline_sim::solids::SolidShape;
 
 use crate::diagnostic::{At, Place};
 use crate::limits;

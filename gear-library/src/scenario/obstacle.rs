@@ -1,7 +1,7 @@
 //! Obstacles of a scenario: solid things that stand still and that rope and bodies meet.
 
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::ROPE_ON_HARD_N_M2;
-use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::At;

@@ -11,7 +11,7 @@ use crate::fins::bodies::adrift;
 use crate::fins::rig::{sea, whale};
 use crate::mouth::{LENGTH_M, motion, open, open_mouth};
 use endline_gear::whale::{WhaleForm, build_skin};
-use endline_sim::contact::distance::{point_triangle, segment_triangle};
+use endline_sim::geometry::distance::{point_triangle, segment_triangle};
 use endline_sim::model::{Body, PlacedShape, Settings, Shape, Whale};
 use endline_sim::whale::{JawStrength, Skin};
 use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, step};

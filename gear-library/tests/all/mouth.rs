@@ -11,7 +11,7 @@ use crate::fins::rig::{Taut, whale};
 use crate::fins::tally::is_pierced;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, Posture, Region, WhaleMotion};
-use endline_sim::contact::distance::segment_triangle;
+use endline_sim::geometry::distance::segment_triangle;
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Settings, Whale};
 use endline_sim::whale::{Skin, pose, skin_all};

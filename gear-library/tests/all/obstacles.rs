@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use endline_gear::{Diagnostic, Hooks, Library, Options, Scenario, Sources, assemble};
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::JointKind;
-use endline_sim::solids::SolidShape;
 use endline_sim::{DVec3, ModelSpec};
 
 /// The drum as its file has it, and a box in its place.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::{Posture, Region};
-use endline_sim::contact::crossing::first_meeting;
-use endline_sim::contact::sweep::{SweptSegment, safe_fraction};
+use endline_sim::geometry::crossing::first_meeting;
+use endline_sim::geometry::sweep::{SweptSegment, safe_fraction};
 use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, pose, skin_vertex};
 use endline_sim::{DAffine3, DQuat, DVec3};
 

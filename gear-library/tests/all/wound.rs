@@ -5,7 +5,7 @@
 use crate::idle::{Idle, library};
 use endline_gear::{Diagnostic, Options, Scenario, assemble};
 use endline_sdk::BodyPart;
-use endline_sim::contact::distance::segment_triangle;
+use endline_sim::geometry::distance::segment_triangle;
 use endline_sim::metrics::Metrics;
 use endline_sim::whale::axes::{PosedAxis, axes_of};
 use endline_sim::whale::{pose, skin_all};

@@ -2,7 +2,7 @@
 
 use crate::linked::{Linked, library, root, told};
 use endline_gear::{Options, Scenario, assemble};
-use endline_sim::contact::distance::segment_segment;
+use endline_sim::geometry::distance::segment_segment;
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 
 /// The endline of the studies at slack water, both parts made to deliver a strength.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::common::Place;
 use endline_session::{Overrides, PluginHost, Prepared, Report, Run, RunOptions, prepare};
-use endline_sim::contact::crossing::pierces;
+use endline_sim::geometry::crossing::pierces;
 use endline_sim::model::Settings;
 use endline_sim::whale::{pose, skin_all};
 use endline_sim::{Model, ModelSpec};

@@ -1,7 +1,7 @@
 //! Forces of rope and bodies on skin: arrows, and marks where they press.
 
 use endline_sim::contact::ContactPoint;
-use endline_sim::contact::bodies::BodyContact;
+use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::{DVec3, Frame};
 
 use super::colour::{CONTACT, FORCE};

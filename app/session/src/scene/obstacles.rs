@@ -1,7 +1,7 @@
 //! Obstacles of a scenario: solid shapes that stand still.
 
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::Obstacle;
-use endline_sim::solids::SolidShape;
 use endline_sim::{DAffine3, Model};
 use glam::{DVec3, Vec3};
 

@@ -1,8 +1,8 @@
 //! Energy that the gear holds: of motion, and of stretch and bending.
 
+use crate::forces::bending::bending_energy;
 use crate::metrics::energy;
 use crate::model::{EnergyForm, Model};
-use crate::solver::bending_energy;
 use crate::state::State;
 
 /// Energy that the gear holds [J].

@@ -1,7 +1,7 @@
 //! Momentum and energy of the gear: what each source gives rope and bodies together, and what the solver misses of it.
 //!
 //! A source `s` pushes with the force `F_s` and the power `P_s = Σ F·v` of its points, both at the end of a solver step, where the
-//! solver balances forces. Its impulse `J_s` and work `W_s` are two more unknowns of the same time scheme (`solver/scheme.rs`):
+//! solver balances forces. Its impulse `J_s` and work `W_s` are two more unknowns of the same time scheme (`trial/scheme.rs`):
 //! `dJ/dt = F`, `dW/dt = P` are integrated as `dx/dt = v` is. With `ĵ = J - J₋` what a step adds, `h` the scheme's and `e` the share of the earlier
 //! value in its history,
 //!

@@ -1,29 +1,14 @@
 //! Rope against the skinned whale: detection that cannot miss, response inside the rope solve.
 
-mod account;
-pub(crate) mod barrier;
-pub mod bodies;
-pub(crate) mod body_pairs;
-mod crease;
-pub mod crossing;
-pub mod distance;
-pub(crate) mod friction_arrays;
-mod grain;
-mod kept;
-pub(crate) mod near;
-pub(crate) mod pieces;
-pub(crate) mod placed;
-pub(crate) mod points;
-mod polygon;
-pub mod ropes;
-pub(crate) mod site;
-pub(crate) mod skin_friction;
-pub mod step_sums;
-pub mod sweep;
-pub(crate) mod touch;
-pub(crate) mod workspace;
+pub mod body_on_body;
+pub mod body_on_skin;
+pub(crate) mod law;
+pub mod rope_on_rope;
+pub mod rope_on_skin;
+pub mod rope_on_solid;
 
-pub use body_pairs::bodies_touching;
+pub use body_on_body::bodies_touching;
+
 use endline_sdk::Region;
 use glam::DVec3;
 
@@ -60,4 +45,29 @@ pub struct ContactPoint {
     pub slip_m: DVec3,
     /// Length of that solver step [s].
     pub dt_s: f64,
+}
+
+/// What rope on rope and on obstacles may miss is so many times less: their grips creep by what passes leave.
+pub(crate) const GRIP_STRICTER: f64 = 10.0;
+/// What rope on bodies of the rig may miss is so many times less: the two answer each other from pass to pass, and momentum is lost by
+/// what they differ.
+pub(crate) const ANSWER_STRICTER: f64 = 100.0;
+
+/// What contact misses after a pass.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ContactMissed {
+    /// Greatest difference between push and friction as solved for and as they are [N].
+    pub gap_n: f64,
+    /// Greatest push and friction [N].
+    pub greatest_n: f64,
+}
+
+impl ContactMissed {
+    /// The worse of two.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            gap_n: self.gap_n.max(other.gap_n),
+            greatest_n: self.greatest_n.max(other.greatest_n),
+        }
+    }
 }

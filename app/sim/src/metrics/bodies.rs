@@ -6,7 +6,7 @@ use super::body_on_whale::Touching;
 use super::event::{EventKind, Log};
 use super::gear_loads::body_drag;
 use super::summary::BodySummary;
-use crate::contact::bodies::sums::{BodySum, BodySums};
+use crate::contact::body_on_skin::sums::{BodySum, BodySums};
 use crate::model::{Body, BodyRole, Model};
 use crate::state::{BodyState, State};
 

@@ -5,7 +5,7 @@ use endline_sdk::BodyPart;
 use super::event::{EventKind, Log};
 use super::outcome::LOST_S;
 use super::summary::BodyOnWhale;
-use crate::contact::bodies::sums::BodySum;
+use crate::contact::body_on_skin::sums::BodySum;
 use crate::model::{Body, BodyRole};
 
 /// A body that has been on the whale for so long, but for gaps of less than a second, is caught there [s]; estimate.

@@ -12,7 +12,7 @@ use super::CAUGHT_S;
 use super::event::{EventKind, Log};
 use super::outcome::LOST_S;
 use crate::contact::ContactPoint;
-use crate::contact::ropes::RopeTouch;
+use crate::contact::rope_on_rope::RopeTouch;
 use crate::model::{Knot, Model};
 use crate::state::State;
 

@@ -59,9 +59,9 @@ pub use window::DRAG_WINDOW_S;
 pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
-use crate::contact::bodies::sums::BodySums;
-use crate::contact::ropes::RopeTouch;
-use crate::contact::step_sums::{SkinContact, StepSums};
+use crate::contact::body_on_skin::sums::BodySums;
+use crate::contact::rope_on_rope::RopeTouch;
+use crate::contact::rope_on_skin::step_sums::{SkinContact, StepSums};
 use crate::model::Model;
 use crate::state::State;
 use crate::step::Workspace;

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::summary::PatchSummary;
 use crate::contact::ContactPoint;
-use crate::contact::step_sums::{RegionMean, StepSums};
+use crate::contact::rope_on_skin::step_sums::{RegionMean, StepSums};
 use crate::model::Model;
 use crate::state::State;
 

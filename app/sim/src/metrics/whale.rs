@@ -22,7 +22,7 @@ use super::unchanged::{Hold, Unchanged};
 use super::winding::Winding;
 use super::window::Window;
 use super::wraps::WrapMeter;
-use crate::contact::step_sums::SkinContact;
+use crate::contact::rope_on_skin::step_sums::SkinContact;
 use crate::model::Model;
 use crate::state::State;
 use crate::strands::Strands;

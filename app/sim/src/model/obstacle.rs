@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::solids::shape::SolidShape;
+use crate::geometry::shape::SolidShape;
 
 /// Stiffness of rope pressed on something hard, by length of rope [N/m²]: of the order of the transverse modulus of
 /// laid polypropylene, so that a kilonewton over a hand's breadth sinks in by half a millimetre (estimate).

@@ -8,8 +8,8 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::wanted::is_far;
+use crate::forces::axial::Axial;
 use crate::model::{Model, Resolution, Rope};
-use crate::solver::Axial;
 use crate::state::{RopeState, State};
 
 /// How much more a split must gain than its merge loses.

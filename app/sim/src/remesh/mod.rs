@@ -15,8 +15,8 @@ mod criteria;
 mod split_merge;
 mod wanted;
 
-use crate::contact::pieces::Pieces;
-use crate::contact::ropes::near::RopeWorkspace;
+use crate::broad_phase::pieces::Pieces;
+use crate::contact::rope_on_rope::near::RopeWorkspace;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::approach::Approach;

@@ -1,11 +1,12 @@
 //! Assembles forces and matrix at the trial places.
 
-use super::interface::Attachment;
-use super::scheme::Scheme;
-use super::solid::ActiveSet;
-use super::{Solver, body, tilt};
+use crate::contact::rope_on_solid::kind::ActiveSet;
+use crate::forces::{body, tilt};
 use crate::model::Model;
+use crate::solver::Solver;
 use crate::state::State;
+use crate::trial::plan::Attachment;
+use crate::trial::scheme::Scheme;
 
 impl Solver {
     /// Assembles forces and matrix at the trial places.
@@ -59,7 +60,7 @@ impl Solver {
     }
 
     /// Keeps the turning stiffness of rope pulling on bodies (see [`body::turn_stiffness`]).
-    pub(super) fn add_end_turns(&mut self, model: &Model, scheme: &Scheme) {
+    pub(crate) fn add_end_turns(&mut self, model: &Model, scheme: &Scheme) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let segments = &model.line_segments[index];
             for (joint, segment, sign) in

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::Solver;
-use super::context::StepContext;
-use super::newton::Skin;
+use crate::contact::rope_on_solid::{MARGIN_M, UNWATCHED_M};
 use crate::cost::CostPart;
 use crate::model::Model;
-use crate::solids::workspace::{MARGIN_M, UNWATCHED_M};
+use crate::solver::Solver;
+use crate::solver::newton::Skin;
 use crate::state::{RopeState, State};
+use crate::trial::StepContext;
 
 impl Solver {
     /// Begins a step: in the lanes of the processor where they know all that touches rope, else line by line.

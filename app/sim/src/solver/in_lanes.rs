@@ -2,15 +2,15 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::Solver;
-use super::body;
-use super::forces::Shared;
-use super::interface::Attachment;
-use super::plan::Plan;
-use super::scheme::Scheme;
 use crate::cost::CostPart;
+use crate::forces::body;
+use crate::forces::laws::Shared;
 use crate::model::Model;
+use crate::solver::Solver;
 use crate::state::State;
+use crate::trial::plan::Attachment;
+use crate::trial::plan::Plan;
+use crate::trial::scheme::Scheme;
 
 /// Rope nearer to the seabed than this is not free [m].
 const SEABED_MARGIN_M: f64 = 0.05;
@@ -46,7 +46,7 @@ impl Solver {
     }
 
     /// Begins a step in the lanes, from a guess that may be changed.
-    pub(super) fn begin_in_lanes(
+    pub(crate) fn begin_in_lanes(
         &mut self,
         model: &Model,
         state: &State,
@@ -127,7 +127,7 @@ impl Solver {
     }
 
     /// Writes the solved step into the state.
-    pub(super) fn keep_from_lanes(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(crate) fn keep_from_lanes(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         if self.near_seabed {
             self.lanes.give_places(&mut self.trial.place);
             self.keep_grips(model, scheme, state);
@@ -153,7 +153,7 @@ impl Solver {
     }
 
     /// Moves the bodies by a share of the solved step; the longest solved move and whether all are finite.
-    pub(super) fn advance_bodies(&mut self, share: f64) -> (f64, bool) {
+    pub(crate) fn advance_bodies(&mut self, share: f64) -> (f64, bool) {
         let (mut longest, mut finite) = (0.0_f64, true);
         for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held)
         {
@@ -185,4 +185,4 @@ impl Solver {
 
 #[cfg(test)]
 #[path = "in_lanes_tests.rs"]
-pub(super) mod tests;
+pub(crate) mod tests;

@@ -3,12 +3,12 @@
 use glam::{DQuat, DVec3};
 use pulp::Arch;
 
-use super::*;
+use crate::matrix::outer;
 use crate::model::{
     Body, BodyRole, Joint, JointKind, Line, ModelSpec, PlacedShape, Rope, Seabed, Settings, Shape,
     Strength,
 };
-use crate::solver::outer;
+use crate::solver::*;
 use crate::water::{Current, Water};
 
 /// Passes after which Newton has long come to rest, though bending is solved for only roughly in each.
@@ -58,7 +58,7 @@ fn buoy() -> Body {
 }
 
 /// Three lines of unlike length and rope from an anchor over a splice to a buoy, with a tail that may lie on the seabed.
-pub(in crate::solver) fn model(depth_m: f64, current_m_s: f64) -> Model {
+pub(crate) fn model(depth_m: f64, current_m_s: f64) -> Model {
     let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
     let line = |id: &str, rope, from, to, length_m: f64, segments: usize| Line {
         id: id.into(),
@@ -137,7 +137,7 @@ fn in_lanes(
     after.rope.position
 }
 
-pub(in crate::solver) fn moving(model: &Model) -> State {
+pub(crate) fn moving(model: &Model) -> State {
     let mut state = State::start(model);
     let mut workspace = crate::Workspace::new(model);
     for _ in 0..5 {

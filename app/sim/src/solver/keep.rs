@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::Solver;
-use super::scheme::Scheme;
 use crate::model::Model;
+use crate::solver::Solver;
 use crate::state::State;
+use crate::trial::scheme::Scheme;
 
 impl Solver {
     /// Writes the solved step into the state.
@@ -36,7 +36,7 @@ impl Solver {
     }
 
     /// Writes bodies and time into the state.
-    pub(super) fn keep_bodies(&self, scheme: &Scheme, state: &mut State) {
+    pub(crate) fn keep_bodies(&self, scheme: &Scheme, state: &mut State) {
         self.keep_pair_grips(state);
         for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
             body.earlier_position = body.position;

@@ -7,10 +7,10 @@
 //! drag, seabed and bodies are linear along the step by their assembled blocks.
 //! Reference: Nocedal and Wright 2006, Numerical Optimization, section 3.5 (doi:10.1007/978-0-387-40065-5).
 
-use super::Solver;
-use super::scheme::Scheme;
 use crate::model::Model;
+use crate::solver::Solver;
 use crate::state::State;
+use crate::trial::scheme::Scheme;
 
 /// Share of the first slope at which a trial is good enough.
 const ENOUGH: f64 = 0.5;

@@ -6,110 +6,74 @@
 //! no stiffness or mass ratio limits the step.
 
 mod assemble;
-mod axial;
 mod begin;
-mod bending;
-mod block_tridiagonal;
-mod body;
-mod body_pairs;
-mod body_skin;
-mod columns;
-mod condensed;
-mod context;
-mod dense;
-mod elastic_grip;
-mod forces;
 mod given;
-mod in_lanes;
-mod interface;
+pub(crate) mod in_lanes;
 mod keep;
-mod lanes;
-mod lengths;
 mod line_search;
-mod newton;
-mod plan;
-mod pulled;
+pub(crate) mod newton;
 mod residual;
-mod rope;
-mod rope_on_rope;
-mod scheme;
-mod seabed;
-mod skin;
-mod solid;
 mod solve;
 mod statics;
-mod stopping;
-mod suction;
-mod tilt;
-mod trial;
-mod water;
-mod woodbury;
+pub(crate) mod stopping;
 
 use glam::{DMat3, DVec3};
 
-use crate::contact::bodies::BodySkin;
-use crate::contact::body_pairs::{BodyPairs, Coupled};
-use crate::contact::pieces::Pieces;
-use crate::contact::ropes::near::RopeWorkspace;
+use crate::broad_phase::pieces::Pieces;
+use crate::contact::body_on_body::{BodyPairs, Coupled};
+use crate::contact::body_on_skin::BodySkin;
+use crate::contact::rope_on_rope::near::RopeWorkspace;
+use crate::contact::rope_on_solid::SolidWorkspace;
 use crate::cost::{CostClock, CostPart};
+use crate::forces::lengths::Lengths;
+use crate::forces::rope::Pull;
 use crate::model::Model;
-use crate::solids::workspace::SolidWorkspace;
 use crate::state::State;
+use crate::system::block_tridiagonal::BlockTridiagonal;
+use crate::system::interface::InterfaceSystem;
+use crate::system::lanes::Lanes;
+use crate::system::woodbury::Woodbury;
+use crate::trial::plan::{Attachment, Plan};
+use crate::trial::scheme::Scheme;
+use crate::trial::{BodyTrial, Trial};
 use crate::water::WaterAt;
 use crate::water::field::Walk;
 use crate::whale::hitch::Hitches;
-pub(crate) use axial::Axial;
-pub(crate) use bending::bending_energy;
-use block_tridiagonal::BlockTridiagonal;
-pub(crate) use context::StepContext;
-pub(crate) use elastic_grip::{Grip, Push};
 pub(crate) use given::SkinTouches;
-use interface::{Attachment, InterfaceSystem};
-use lanes::Lanes;
-use lengths::Lengths;
 pub(crate) use newton::{NewtonEnd, Skin, Solved};
-use plan::Plan;
-use rope::Pull;
-pub(crate) use rope::outer;
-pub(crate) use scheme::{FIRST_SHARE, Scheme};
 pub(crate) use statics::{WorstAt, is_laid};
-pub(crate) use stopping::ContactMissed;
-pub(crate) use suction::LOOSE_M;
-pub(crate) use trial::BodyTrial;
-use trial::Trial;
-use woodbury::Woodbury;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Solver {
     pub(crate) plan: Plan,
     pub(crate) trial: Trial,
-    lengths: Lengths,
-    tridiagonal: BlockTridiagonal,
-    lanes: Lanes,
+    pub(crate) lengths: Lengths,
+    pub(crate) tridiagonal: BlockTridiagonal,
+    pub(crate) lanes: Lanes,
     /// Whether the step is solved in the lanes.
-    in_lanes: bool,
+    pub(crate) in_lanes: bool,
     /// Whether rope may touch skin, rope, obstacles or bodies in the step.
-    in_contact: bool,
+    pub(crate) in_contact: bool,
     /// Whether rope may touch the seabed in a step of free rope.
-    near_seabed: bool,
-    interface: InterfaceSystem,
-    pull: Vec<Pull>,
-    cut: Vec<bool>,
+    pub(crate) near_seabed: bool,
+    pub(crate) interface: InterfaceSystem,
+    pub(crate) pull: Vec<Pull>,
+    pub(crate) cut: Vec<bool>,
     /// What the pseudo-mass of each line is multiplied by in anchored passes of statics.
-    pseudo_mass_scale: Vec<f64>,
-    linear_part: LinearPart,
+    pub(crate) pseudo_mass_scale: Vec<f64>,
+    pub(crate) linear_part: LinearPart,
     /// Velocity of the water at each node: current and waves [m/s].
-    flow: Vec<DVec3>,
+    pub(crate) flow: Vec<DVec3>,
     /// Acceleration of the water at each node; empty where there are no waves [m/s²].
-    flow_acceleration: Vec<DVec3>,
+    pub(crate) flow_acceleration: Vec<DVec3>,
     /// Height of the surface above each node's z = 0; empty where there are no waves [m].
-    surface: Vec<f64>,
+    pub(crate) surface: Vec<f64>,
     /// What the water's acceleration does to each node through pressure and added mass; empty where there are no waves [N].
-    push: Vec<DVec3>,
+    pub(crate) push: Vec<DVec3>,
     /// The water at each body.
-    flow_bodies: Vec<WaterAt>,
-    wave_walk: Walk,
+    pub(crate) flow_bodies: Vec<WaterAt>,
+    pub(crate) wave_walk: Walk,
     /// Rope in pieces, measured over the step.
     pub(crate) pieces: Pieces,
     /// Rope near obstacles and bodies.
@@ -120,23 +84,23 @@ pub(crate) struct Solver {
     pub(crate) body_skin: Option<Box<BodySkin>>,
     /// Bodies near each other, and those that the interface couples for it.
     pub(crate) body_pairs: BodyPairs,
-    coupled: Vec<Coupled>,
-    woodbury: Woodbury,
+    pub(crate) coupled: Vec<Coupled>,
+    pub(crate) woodbury: Woodbury,
     /// Rope and bodies before a move.
-    before: Vec<DVec3>,
-    bodies_before: Vec<BodyTrial>,
+    pub(crate) before: Vec<DVec3>,
+    pub(crate) bodies_before: Vec<BodyTrial>,
     /// Attachment and arm of each joint, for a solve again.
-    attachments: Vec<(Attachment, DVec3)>,
+    pub(crate) attachments: Vec<(Attachment, DVec3)>,
     /// What the time of the step goes to.
     pub(crate) cost: CostClock,
 }
 
 /// Forces and blocks that the search along a step holds linear.
 #[derive(Clone, Debug, Default)]
-struct LinearPart {
+pub(crate) struct LinearPart {
     diagonal: Vec<DMat3>,
     force: Vec<DVec3>,
-    interface: InterfaceSystem,
+    pub(crate) interface: InterfaceSystem,
 }
 
 /// What is fine enough for a small rig or short segments, below the usual tolerances.
@@ -158,7 +122,7 @@ impl Solver {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
-        let interface = plan.interface(model, &[]);
+        let interface = InterfaceSystem::of_model(&plan, model, &[]);
         Self {
             linear_part: LinearPart { interface: interface.clone(), ..LinearPart::default() },
             interface,

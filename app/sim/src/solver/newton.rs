@@ -8,16 +8,17 @@
 //! When passes stop is decided in `stopping.rs`. A step that has not converged is made shorter (`step/substeps.rs`). No path is looked at here:
 //! whether the step leads through skin or rope is judged by where it ends (`step/contact.rs`).
 
-use super::Solver;
-use super::context::StepContext;
-use super::in_lanes::LanePass;
-use super::scheme::Scheme;
-use super::solid::ActiveSet;
-use super::stopping::{ContactMissed, PassCount, PassDone, SHORT_S, Stopping};
-use crate::contact::friction_arrays::Failed;
-use crate::contact::workspace::ContactWorkspace;
+use crate::contact::ContactMissed;
+use crate::contact::law::friction_arrays::Failed;
+use crate::contact::rope_on_skin::ContactWorkspace;
+use crate::contact::rope_on_solid::kind::ActiveSet;
 use crate::cost::CostPart;
 use crate::model::Model;
+use crate::solver::Solver;
+use crate::solver::in_lanes::LanePass;
+use crate::solver::stopping::{PassCount, PassDone, SHORT_S, Stopping};
+use crate::trial::StepContext;
+use crate::trial::scheme::Scheme;
 
 /// Most solutions for rope in a pass, with contact linear.
 const MOST_ROPE_SOLUTIONS: usize = 4;

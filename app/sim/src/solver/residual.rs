@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::Solver;
-use super::interface::Attachment;
 use crate::model::Model;
+use crate::solver::Solver;
+use crate::trial::plan::Attachment;
 
 impl Solver {
     /// Greatest force out of balance at any node or interface block, as last assembled (before [`solve`](Self::solve)) [N].

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::Solver;
-use super::block_tridiagonal::Ends;
-use super::interface::Attachment;
-use super::plan::Plan;
 use crate::model::Model;
+use crate::solver::Solver;
+use crate::system::block_tridiagonal::Ends;
+use crate::trial::plan::Attachment;
+use crate::trial::plan::Plan;
 
 impl Solver {
     /// Solves the assembled system; the moves lie in `tridiagonal.step` and `interface.step`.
@@ -50,13 +50,13 @@ impl Solver {
     }
 
     /// Longest solved move of any body [m].
-    pub(super) fn longest_of_bodies(&self) -> f64 {
+    pub(crate) fn longest_of_bodies(&self) -> f64 {
         let moves = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
         moves.fold(0.0, f64::max)
     }
 
     /// Adds what a line leaves on its ends to the interface system.
-    pub(super) fn join(&mut self, attachment_a: Attachment, attachment_b: Attachment, ends: &Ends) {
+    pub(crate) fn join(&mut self, attachment_a: Attachment, attachment_b: Attachment, ends: &Ends) {
         let (arm_a, arm_b) = (self.arm(attachment_a), self.arm(attachment_b));
         self.interface.push(attachment_a, arm_a, ends.force_a);
         self.interface.push(attachment_b, arm_b, ends.force_b);
@@ -66,7 +66,7 @@ impl Solver {
         self.interface.add(attachment_b, arm_b, attachment_b, arm_b, ends.bb);
     }
 
-    pub(super) fn arm(&self, attachment: Attachment) -> DVec3 {
+    pub(crate) fn arm(&self, attachment: Attachment) -> DVec3 {
         Plan::arm(attachment, |body| self.trial.bodies[body].orientation)
     }
 }

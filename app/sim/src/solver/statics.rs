@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 
-use super::Solver;
-use super::interface::Attachment;
-use super::rope::outer;
+use crate::matrix::outer;
 use crate::model::{BodyRole, Model};
+use crate::solver::Solver;
 use crate::state::State;
+use crate::trial::plan::Attachment;
 
 /// Where the greatest force out of balance is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

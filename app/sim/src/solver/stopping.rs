@@ -21,9 +21,10 @@
 //! rope is in contact. A free step takes two passes unless the first was as good as exact.
 //! Of moves that shrink by `θ` in each pass, `θ/(1-θ)` of the last is left (Hairer and Wanner 1996, section IV.8).
 
-use super::Tolerance;
-use super::context::StepContext;
+use crate::contact::ContactMissed;
 use crate::model::CONTACT_TOLERANCE;
+use crate::solver::Tolerance;
+use crate::trial::StepContext;
 
 /// Difference of tension [N], and as a share of the greatest.
 const TENSION_N: f64 = 2.0;
@@ -32,11 +33,6 @@ const TENSION_SHARE: f64 = 0.02;
 const STAGE_LENIENCY: f64 = 0.1;
 /// Difference of push and friction [N].
 const CONTACT_N: f64 = 0.1;
-/// What rope on rope and on obstacles may miss is so many times less: their grips creep by what passes leave.
-pub(super) const GRIP_STRICTER: f64 = 10.0;
-/// What rope on bodies of the rig may miss is so many times less: the two answer each other from pass to pass, and momentum is lost by
-/// what they differ.
-pub(super) const ANSWER_STRICTER: f64 = 100.0;
 /// Move of the last solution, of free rope and of a body [m].
 const MOVE_M: f64 = 1e-3;
 const BODY_MOVE_M: f64 = 1e-4;
@@ -68,7 +64,7 @@ const MOST_SHORT_PASSES: usize = 24;
 
 /// What a pass did.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PassDone {
+pub(crate) struct PassDone {
     /// Longest move of a node or body that it solved for [m].
     pub longest_m: f64,
     /// Longest move of a body, and of one that stands on the seabed [m].
@@ -84,28 +80,9 @@ pub(super) struct PassDone {
     pub near_seabed: bool,
 }
 
-/// What contact misses after a pass.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ContactMissed {
-    /// Greatest difference between push and friction as solved for and as they are [N].
-    pub gap_n: f64,
-    /// Greatest push and friction [N].
-    pub greatest_n: f64,
-}
-
-impl ContactMissed {
-    /// The worse of two.
-    pub fn and(self, other: Self) -> Self {
-        Self {
-            gap_n: self.gap_n.max(other.gap_n),
-            greatest_n: self.greatest_n.max(other.greatest_n),
-        }
-    }
-}
-
 /// What is allowed in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stopping {
+pub(crate) struct Stopping {
     in_contact: bool,
     /// Whether the step is free and in two stages.
     in_stages: bool,
@@ -201,7 +178,7 @@ impl Stopping {
 
 /// Passes of a step so far.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PassCount {
+pub(crate) struct PassCount {
     pub all: usize,
     /// Since the last contact points were opened.
     since_opened: usize,

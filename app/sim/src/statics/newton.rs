@@ -12,8 +12,9 @@ use glam::DVec3;
 
 use super::trail::Trail;
 use crate::model::Model;
-use crate::solver::{Scheme, Solver, WorstAt, is_laid};
+use crate::solver::{Solver, WorstAt, is_laid};
 use crate::state::State;
+use crate::trial::scheme::Scheme;
 
 /// Residual at which the rig is at rest [N].
 pub(super) const TOLERANCE_N: f64 = 1e-4;

@@ -17,10 +17,10 @@ use glam::DVec3;
 
 use super::outcome::Outcome;
 use super::{Found, lengths};
-use crate::contact::distance::segment_segment;
-use crate::contact::pieces::Pieces;
-use crate::contact::ropes::broad::{Broad, Found as Near, Moves, Rope as Searched};
-use crate::contact::ropes::reach::Reach;
+use crate::broad_phase::pieces::Pieces;
+use crate::broad_phase::reach::Reach;
+use crate::broad_phase::ropes::{Broad, Found as Near, Moves, Rope as Searched};
+use crate::geometry::distance::segment_segment;
 use crate::model::{Body, BodyRole, Model, PlacedShape, Seabed};
 use crate::solids::lies_in_body;
 use crate::state::State;

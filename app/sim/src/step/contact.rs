@@ -4,12 +4,13 @@
 
 use super::audit::Audit;
 use super::rejection::Rejection;
-use crate::contact::bodies::path::Refused;
-use crate::contact::workspace::ContactWorkspace;
+use crate::contact::body_on_skin::path::Refused;
+use crate::contact::rope_on_skin::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
-use crate::solver::{NewtonEnd, Skin, Solved, Solver, StepContext};
+use crate::solver::{NewtonEnd, Skin, Solved, Solver};
 use crate::state::State;
+use crate::trial::StepContext;
 
 /// Most times a step is solved again with rope that came near to something that its drift would not have brought it near to.
 const MOST_GATHERED: usize = 4;

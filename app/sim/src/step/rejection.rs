@@ -1,7 +1,7 @@
 //! What a solver step was, or why it was rejected.
 
 use super::stop::Stop;
-use crate::contact::friction_arrays::Failed;
+use crate::contact::law::friction_arrays::Failed;
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
@@ -94,7 +94,7 @@ impl Rejection {
             }
             Self::BodiesMeet([body, other]) => {
                 let [part, other] =
-                    [body, other].map(|thing| crate::contact::body_pairs::name_of(model, thing));
+                    [body, other].map(|thing| crate::contact::body_on_body::name_of(model, thing));
                 (part, format!("it is pressed into {other} harder than either bears"))
             }
             Self::WentThrough(segment, solid) => {

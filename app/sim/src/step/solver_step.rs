@@ -7,13 +7,15 @@ use super::stages::Way;
 use super::workspace::Workspace;
 use crate::balance::Weights;
 use crate::contact::ContactPoint;
-use crate::contact::bodies::BodyContact;
-use crate::contact::workspace::ContactWorkspace;
+use crate::contact::body_on_skin::BodyContact;
+use crate::contact::rope_on_skin::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
 use crate::parting;
-use crate::solver::{Scheme, Skin, SkinTouches, Solver, StepContext};
+use crate::solver::{Skin, SkinTouches, Solver};
 use crate::state::State;
+use crate::trial::StepContext;
+use crate::trial::scheme::Scheme;
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
 pub(super) fn solver_step(

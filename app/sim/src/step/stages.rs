@@ -7,9 +7,9 @@ use glam::{DQuat, DVec3};
 
 use super::rejection::StepKind;
 use crate::model::Model;
-use crate::solver::FIRST_SHARE;
 use crate::state::State;
 use crate::step_control::Taken;
+use crate::trial::scheme::FIRST_SHARE;
 
 /// How a solver step of free rope is taken; with contact every step is backward Euler.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use super::rejection::{Rejection, StepKind};
 use super::solver_step::{look, solver_step};
 use super::stop::Stop;
 use super::workspace::Workspace;
-use crate::contact::step_sums::StepSums;
+use crate::contact::rope_on_skin::step_sums::StepSums;
 use crate::cost::CostPart;
 use crate::model::{Model, Settings, Whale};
 use crate::remesh::remesh;

@@ -10,7 +10,7 @@ use glam::{DAffine3, DVec3};
 use super::bounds::Bounds;
 use super::pose::skin_vertex;
 use super::tree::SkinTree;
-use crate::contact::sweep::{SweptSegment, SweptTriangle};
+use crate::geometry::sweep::{SweptSegment, SweptTriangle};
 
 /// A segment and a triangle that may come near one another within a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

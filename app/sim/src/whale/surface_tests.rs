@@ -2,8 +2,8 @@ use endline_sdk::{Posture, Region};
 use glam::DQuat;
 
 use super::*;
-use crate::contact::distance::segment_triangle;
-use crate::contact::sweep::triangle_at;
+use crate::geometry::distance::segment_triangle;
+use crate::geometry::sweep::triangle_at;
 use crate::whale::{Angle, Bone, Channel, Skin, pose, skin_all};
 
 /// Repeatable numbers in -1..1 for tests.

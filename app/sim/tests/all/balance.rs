@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 
 use crate::common::{fixed, line, model, model_with, on_body, rope, water, weight};
 use endline_sim::balance::{BalanceSummary, Source};
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, Seabed, Settings};
-use endline_sim::solids::SolidShape;
 use endline_sim::water::Water;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 

@@ -1,8 +1,8 @@
 //! Bodies on obstacles: they slide and roll by Newton's and Coulomb's laws, and none goes in.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Body, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Settings, Shape};
-use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 use crate::common::{model_with, water, weight};

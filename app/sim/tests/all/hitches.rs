@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::{line, model_with, water};
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, RopeOnRope, Settings};
-use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 /// Radius of the rope's centre line on the post [m].

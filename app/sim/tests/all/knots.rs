@@ -5,8 +5,8 @@
 use crate::common::drum::{coulomb, still};
 use crate::common::{line, model, water};
 use endline_sdk::Region;
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, Settings};
-use endline_sim::solids::SolidShape;
 use endline_sim::whale::{Bone, Skin};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 

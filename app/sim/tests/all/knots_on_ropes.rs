@@ -116,7 +116,7 @@ fn touches_m(knot_m: f64, gap_m: f64) -> f64 {
     -libm::sqrt((reach * reach - aside * aside).max(0.0))
 }
 
-/// Greatest force of two ropes that a knot spreads, without friction (`app/sim/src/contact/ropes/knots.rs`).
+/// Greatest force of two ropes that a knot spreads, without friction (`app/sim/src/broad_phase/knots.rs`).
 fn spreading_n(knot_m: f64, gap_m: f64) -> f64 {
     let (reach, aside) = (knot_m + ROPE_M, 0.5 * gap_m + ROPE_M);
     if reach < aside {

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::{fixed, line, model, water};
-use endline_sim::contact::crossing::first_crossing;
-use endline_sim::contact::sweep::SweptSegment;
+use endline_sim::geometry::crossing::first_crossing;
+use endline_sim::geometry::sweep::SweptSegment;
 use endline_sim::model::{Joint, JointKind, Line, RopeOnRope, Settings};
 use endline_sim::water::Water;
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};

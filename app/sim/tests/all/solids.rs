@@ -5,10 +5,10 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::{line, model_with, water, weight};
+use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{
     Joint, JointKind, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Settings, Shape,
 };
-use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 
 const RADIUS: f64 = 0.5;

@@ -6,7 +6,7 @@
 use endline_session::scene::Show;
 use endline_session::scene::forces::{Presser, SkinForce, greatest_n, on_skin};
 use endline_sim::contact::ContactPoint;
-use endline_sim::contact::bodies::BodyContact;
+use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::whale::{pose, skin_all, skin_vertex};
 use endline_sim::{Frame, Model};
 use glam::{DVec2, DVec3};

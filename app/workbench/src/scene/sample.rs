@@ -7,7 +7,7 @@ use endline_sdk::{
     Region, WhaleMotion,
 };
 use endline_sim::contact::ContactPoint;
-use endline_sim::contact::bodies::BodyContact;
+use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::model::{
     Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, PlacedShape,
     Rope, Seabed, Settings, Shape, Strength, Whale,

@@ -44,8 +44,8 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
 
 #[test]
 fn obstacles_stand_where_they_are_and_as_large() {
+    use endline_sim::geometry::shape::SolidShape;
     use endline_sim::model::{Obstacle, ROPE_ON_HARD_N_M2};
-    use endline_sim::solids::SolidShape;
     let mut spec = sample::model().spec;
     let drum = SolidShape::Cylinder { radius_m: 0.5, half_length_m: 2.0 };
     for (shape, half) in [

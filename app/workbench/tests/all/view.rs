@@ -12,7 +12,7 @@ use endline_session::live::engine;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_sim::Frame;
-use endline_sim::contact::bodies::BodyContact;
+use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::metrics::{Event, EventKind};
 use endline_sim::model::BodyRole;
 use endline_workbench::gui::app::App;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use endline_sdk::{BodyPart, Region};
-use endline_sim::contact::distance::segment_triangle;
-use endline_sim::contact::sweep::SweptSegment;
+use endline_sim::geometry::distance::segment_triangle;
+use endline_sim::geometry::sweep::SweptSegment;
 use endline_sim::model::Whale;
 use endline_sim::whale::axes::{PosedAxis, axes_of};
 use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, pose, skin_all};

@@ -1,6 +1,6 @@
 //! Encounters run and counted.
 
-use endline_sim::contact::crossing::pierces;
+use endline_sim::geometry::crossing::pierces;
 use endline_sim::whale::{pose, skin_all};
 use endline_sim::{Input, Model, State, Workspace, step};
 

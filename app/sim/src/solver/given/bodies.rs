@@ -3,13 +3,14 @@
 use glam::{DMat3, DVec3};
 
 use crate::balance::{Given, Source};
-use crate::solver::context::StepContext;
-use crate::solver::trial::rotation::momentum_rate;
-use crate::solver::{Solver, body};
+use crate::forces::body;
+use crate::solver::Solver;
+use crate::trial::StepContext;
+use crate::trial::rotation::momentum_rate;
 
 /// Velocity and spin of a body [m/s, rad/s].
 #[derive(Clone, Copy)]
-pub(super) struct BodyMotion {
+pub(crate) struct BodyMotion {
     pub velocity: DVec3,
     pub spin: DVec3,
 }
@@ -26,14 +27,14 @@ type Wrench = [DVec3; 2];
 
 impl Solver {
     /// How a body moves at the end of the step.
-    pub(super) fn motion_of(&self, context: &StepContext<'_>, index: usize) -> BodyMotion {
+    pub(crate) fn motion_of(&self, context: &StepContext<'_>, index: usize) -> BodyMotion {
         let (trial, scheme) = (&self.trial.bodies[index], context.scheme);
         let velocity = (trial.place - trial.place_history) * scheme.rate;
         BodyMotion { velocity, spin: trial.spin(scheme) }
     }
 
     /// Weight, water and seabed of every body.
-    pub(super) fn give_bodies(&mut self, context: &StepContext<'_>, given: &mut Given) {
+    pub(crate) fn give_bodies(&mut self, context: &StepContext<'_>, given: &mut Given) {
         for index in 0..context.model.spec.bodies.len() {
             self.give_body(context, index, given);
         }

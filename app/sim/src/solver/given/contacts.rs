@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 
-use super::SkinTouches;
 use crate::balance::{Given, Source};
 use crate::solver::Solver;
-use crate::solver::context::StepContext;
-use crate::solver::interface::Attachment;
+use crate::solver::given::SkinTouches;
+use crate::trial::StepContext;
+use crate::trial::plan::Attachment;
 
 impl Solver {
     /// Push and friction of all that touches.
-    pub(super) fn give_contacts(
+    pub(crate) fn give_contacts(
         &mut self,
         context: &StepContext<'_>,
         skin: &SkinTouches<'_>,

@@ -5,12 +5,12 @@ use glam::DVec3;
 use crate::balance::{Given, Source};
 use crate::model::JointKind;
 use crate::solver::Solver;
-use crate::solver::context::StepContext;
-use crate::solver::interface::Attachment;
+use crate::trial::StepContext;
+use crate::trial::plan::Attachment;
 
 impl Solver {
     /// What holds or pulls the ends of lines and the bodies that are held.
-    pub(super) fn give_ends(
+    pub(crate) fn give_ends(
         &mut self,
         context: &StepContext<'_>,
         on_nodes: &[DVec3],

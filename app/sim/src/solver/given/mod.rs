@@ -10,12 +10,12 @@ mod ends;
 
 use glam::DVec3;
 
-use super::context::StepContext;
-use super::forces::{self, PerMetre, Shared};
-use super::{Solver, forces::NodeAt};
 use crate::balance::{Given, Source};
 use crate::contact::ContactPoint;
-use crate::contact::bodies::BodyContact;
+use crate::contact::body_on_skin::BodyContact;
+use crate::forces::laws::{self as forces, NodeAt, PerMetre, Shared};
+use crate::solver::Solver;
+use crate::trial::StepContext;
 
 /// Least chord that is divided by [m].
 const TINY_M: f64 = 1e-9;

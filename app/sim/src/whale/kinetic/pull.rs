@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::{Exertion, Kinetic};
 use crate::contact::ContactPoint;
-use crate::contact::bodies::BodyContact;
+use crate::contact::body_on_skin::BodyContact;
 use crate::state::WhaleState;
 
 /// Impulse and turning impulse of rope on the whale over the solver steps so far.

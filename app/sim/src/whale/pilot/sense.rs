@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
 
-use crate::contact::distance::segment_segment;
+use crate::geometry::distance::segment_segment;
 use crate::model::{Model, Target, Trigger};
 use crate::state::{Seen, State, WhaleState};
 

@@ -1,0 +1,93 @@
+//! Friction of an elastic grip that slips at its limit.
+//!
+//! With `z*` the grip stretched by this step's move across the normal, `k` its stiffness and `N` the normal force:
+//! `f = -k z*` while `k|z*| <= μN`, else `f = -μN z*/|z*|`; the grip keeps `f/k`. It holds without creep.
+//! Reference: Cundall and Strack 1979 (doi:10.1680/geot.1979.29.1.47).
+
+use glam::{DMat3, DVec3};
+
+use crate::matrix::outer;
+
+/// A normal force.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Push {
+    /// Force [N].
+    pub force: f64,
+    /// Its growth with depth [N/m].
+    pub rate: f64,
+}
+
+/// Friction of an elastic grip.
+pub(crate) struct Grip {
+    /// Force on the moving part [N].
+    pub force: DVec3,
+    /// `-d force / d place` [N/m].
+    pub block: DMat3,
+    /// The grip's stretch kept for the next step [m].
+    pub kept: DVec3,
+    /// Whether it slips.
+    pub slips: bool,
+}
+
+impl Grip {
+    /// No friction at all.
+    pub fn none() -> Self {
+        Self { force: DVec3::ZERO, block: DMat3::ZERO, kept: DVec3::ZERO, slips: false }
+    }
+
+    /// Grip of stiffness `stiffness` stretched to `stretch` across `normal`, under the normal force `push`.
+    pub fn new(stretch: DVec3, normal: DVec3, stiffness: f64, friction: f64, push: Push) -> Self {
+        let plane = DMat3::IDENTITY - outer(normal, normal);
+        let stretch = plane * stretch;
+        let (length, limit) = (stretch.length(), friction * push.force);
+        if stiffness * length <= limit || length <= 0.0 {
+            return Self {
+                force: stretch * -stiffness,
+                block: plane * stiffness,
+                kept: stretch,
+                slips: false,
+            };
+        }
+        let direction = stretch / length;
+        let block = (plane - outer(direction, direction)) * (limit / length)
+            - outer(direction, normal) * (friction * push.rate);
+        Self {
+            force: direction * -limit,
+            block,
+            kept: direction * (limit / stiffness),
+            slips: true,
+        }
+    }
+
+    /// The grip of statics, which has no corner where it begins to slip: `f = -k z / √(1 + (k|z|/μN)²)`.
+    ///
+    /// With a `trust` below one its block yields less along the slip than the force does; at zero it is the secant `k/√…`,
+    /// with which passes never overshoot.
+    pub fn smooth(stretch: DVec3, normal: DVec3, stiffness: f64, limit: f64, trust: f64) -> Self {
+        let plane = DMat3::IDENTITY - outer(normal, normal);
+        let stretch = plane * stretch;
+        if limit <= 0.0 {
+            return Self { force: DVec3::ZERO, block: DMat3::ZERO, kept: DVec3::ZERO, slips: true };
+        }
+        let reach = stretch * (stiffness / limit);
+        let less = 1.0 / libm::sqrt(1.0 + reach.length_squared());
+        let block = (plane - outer(reach, reach) * (trust * less * less)) * (stiffness * less);
+        let kept = stretch * less;
+        Self { force: kept * -stiffness, block, kept, slips: reach.length_squared() > 1.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grip_holds_below_its_limit_and_slips_at_it() {
+        let push = Push { force: 100.0, rate: 0.0 };
+        let holds = Grip::new(DVec3::new(0.004, 0.0, 0.3), DVec3::Z, 1e4, 0.5, push);
+        assert!(!holds.slips && (holds.force - DVec3::new(-40.0, 0.0, 0.0)).length() < 1e-12);
+        let slips = Grip::new(DVec3::new(0.006, 0.0, 0.0), DVec3::Z, 1e4, 0.5, push);
+        assert!(slips.slips && (slips.force - DVec3::new(-50.0, 0.0, 0.0)).length() < 1e-12);
+        assert!((slips.kept.x - 0.005).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,307 @@
+//! Arrays for the friction laws: contacts law by law, their floats from step to step, and what the laws answer.
+//!
+//! Contacts are handed over law by law (`model::Friction`), one call each. With every contact the state keeps, ahead of the law's
+//! own floats, the law that it belongs to and an account of the energy that friction has taken there and given back (`account.rs`).
+
+use std::ops::Range;
+
+use endline_sdk::{Contacts, FrictionResponse};
+use glam::{DMat3, DVec3};
+
+use crate::contact::law::friction_energy::Account;
+use crate::matrix::outer;
+use crate::model::{Friction, FrictionLaw};
+
+/// Floats of the state ahead of the law's own: number of the law, energy taken, energy given.
+const KEPT: usize = 3;
+
+/// Why friction failed, and whose fault it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Failed {
+    /// Id of the plugin.
+    pub id: String,
+    /// What went wrong.
+    pub message: String,
+}
+
+/// Contacts of one law: places in the arrays, and in the floats.
+#[derive(Clone, Debug)]
+struct Group {
+    law: usize,
+    contacts: Range<usize>,
+    floats: Range<usize>,
+}
+
+/// A contact as a law of friction is asked about it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// Number of the law.
+    pub law: usize,
+    /// Push [N], and what its linear course grows by to where it was measured [N].
+    pub normal_force: f64,
+    pub growth_n: f64,
+    pub normal: DVec3,
+    pub grain: DVec3,
+    /// Along the rope, or the normal where there is no such direction.
+    pub along: DVec3,
+    pub slip: DVec3,
+    /// Length of rope, the share of the face taken in [m].
+    pub length: f64,
+    /// Share of the face.
+    pub share: f64,
+    pub coefficient: f64,
+    pub region: u32,
+    pub rope: u32,
+}
+
+/// Arrays handed to the friction laws in a pass, one entry for each contact, law by law.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FrictionArrays {
+    groups: Vec<Group>,
+    normal_force: Vec<f64>,
+    growth_n: Vec<f64>,
+    normal: Vec<[f64; 3]>,
+    grain: Vec<[f64; 3]>,
+    along: Vec<[f64; 3]>,
+    slip: Vec<[f64; 3]>,
+    length: Vec<f64>,
+    share: Vec<f64>,
+    coefficient: Vec<f64>,
+    region: Vec<u32>,
+    rope: Vec<u32>,
+    floats: Vec<f64>,
+    floats_at_end: Vec<f64>,
+    account: Vec<Account>,
+    /// What the laws answered.
+    pub response: Vec<FrictionResponse>,
+}
+
+impl FrictionArrays {
+    pub fn clear(&mut self) {
+        self.groups.clear();
+        self.normal_force.clear();
+        self.growth_n.clear();
+        self.normal.clear();
+        self.grain.clear();
+        self.along.clear();
+        self.slip.clear();
+        self.length.clear();
+        self.share.clear();
+        self.coefficient.clear();
+        self.region.clear();
+        self.rope.clear();
+        self.floats.clear();
+        self.account.clear();
+        self.response.clear();
+    }
+
+    /// Puts a contact at the end of the arrays, in rising order of law; `kept` are its floats at the end of the last solver step.
+    pub fn put(&mut self, friction: &Friction, asked: Asked, kept: Option<&[f64]>) {
+        let place = self.normal_force.len();
+        self.normal_force.push(asked.normal_force);
+        self.growth_n.push(asked.growth_n);
+        self.normal.push(asked.normal.to_array());
+        self.grain.push(asked.grain.to_array());
+        self.along.push(asked.along.to_array());
+        self.slip.push((asked.slip - asked.normal * asked.slip.dot(asked.normal)).to_array());
+        self.length.push(asked.length);
+        self.share.push(asked.share);
+        self.coefficient.push(asked.coefficient);
+        self.region.push(asked.region);
+        self.rope.push(asked.rope);
+        self.put_floats(friction, asked.law, kept);
+        self.put_in_group(asked.law, place);
+    }
+
+    /// The law's floats and the account as the step began; zero where the contact is new or another law held there.
+    fn put_floats(&mut self, friction: &Friction, law: usize, kept: Option<&[f64]>) {
+        let width = friction.laws[law].model.descriptor().state_len;
+        match kept {
+            Some([of, taken_j, given_j, floats @ ..]) if of.to_bits() == (law as f64).to_bits() => {
+                self.account.push(Account { taken_j: *taken_j, given_j: *given_j });
+                self.floats.extend_from_slice(&floats[..width]);
+            }
+            _ => {
+                self.account.push(Account::default());
+                self.floats.resize(self.floats.len() + width, 0.0);
+            }
+        }
+    }
+
+    fn put_in_group(&mut self, law: usize, place: usize) {
+        match self.groups.last_mut() {
+            Some(group) if group.law == law => {
+                group.contacts.end = place + 1;
+                group.floats.end = self.floats.len();
+            }
+            last => {
+                let from = last.map_or(0, |group| group.floats.end);
+                self.groups.push(Group {
+                    law,
+                    contacts: place..place + 1,
+                    floats: from..self.floats.len(),
+                });
+            }
+        }
+    }
+
+    /// Asks the laws for forces and derivatives.
+    pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
+        let mut response = std::mem::take(&mut self.response);
+        response.resize(self.normal_force.len(), FrictionResponse::default());
+        let answer = self.groups.iter().try_for_each(|group| {
+            let law = &friction.laws[group.law];
+            let out = &mut response[group.contacts.clone()];
+            law.model
+                .respond(&law.attributes, &self.contacts(group, dt_s), out)
+                .map_err(|error| failed(law, error.message))?;
+            if out.iter().all(is_finite) {
+                Ok(())
+            } else {
+                Err(failed(law, "gave a force or derivative that is not a finite number"))
+            }
+        });
+        self.response = response;
+        answer
+    }
+
+    /// Asks the laws for their floats at the end of the step, and books the work of the step.
+    pub fn advance(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
+        let mut ends = std::mem::take(&mut self.floats_at_end);
+        ends.clear();
+        ends.resize(self.floats.len(), 0.0);
+        let advanced = self.groups.iter().try_for_each(|group| {
+            let (law, out) = (&friction.laws[group.law], &mut ends[group.floats.clone()]);
+            law.model
+                .advance(&law.attributes, &self.contacts(group, dt_s), out)
+                .map_err(|error| failed(law, error.message))?;
+            if out.iter().all(|x| x.is_finite()) {
+                Ok(())
+            } else {
+                Err(failed(law, "gave a state that is not a finite number"))
+            }
+        });
+        self.floats_at_end = ends;
+        advanced?;
+        self.settle_accounts(friction)
+    }
+
+    /// Books the work of the step, as if each face had no other beside it; a law that gives more than it can have taken ends the run.
+    fn settle_accounts(&mut self, friction: &Friction) -> Result<(), Failed> {
+        for group in &self.groups {
+            for place in group.contacts.clone() {
+                let work_j = self.friction_of(place).dot(self.slip_of(place));
+                self.account[place]
+                    .book(work_j / self.share[place])
+                    .map_err(|message| failed(&friction.laws[group.law], message))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the floats of a contact to those kept, as many as every contact has there.
+    pub fn keep(&self, friction: &Friction, place: usize, kept: &mut Vec<f64>) {
+        let Some(group) = self.groups.iter().find(|group| group.contacts.contains(&place)) else {
+            return;
+        };
+        let width = friction.laws[group.law].model.descriptor().state_len;
+        let from = group.floats.start + (place - group.contacts.start) * width;
+        let Account { taken_j, given_j } = self.account[place];
+        let end = kept.len() + stride(friction);
+        kept.extend_from_slice(&[group.law as f64, taken_j, given_j]);
+        kept.extend_from_slice(&self.floats_at_end[from..from + width]);
+        kept.resize(end, 0.0);
+    }
+
+    /// `-d force / d place` of a contact whose push goes along `normal` and grows with depth by `stiffness`, distance by place `away` [N/m].
+    pub fn block_of(&self, place: usize, (normal, away): (DVec3, DVec3), stiffness: f64) -> DMat3 {
+        let response = &self.response[place];
+        let growth = away * stiffness;
+        outer(normal + DVec3::from_array(response.by_normal_force), growth)
+            - matrix(&response.by_slip)
+    }
+
+    /// Takes what the push grows by from where friction was asked for to where it is now linear [N].
+    pub fn set_push(&mut self, place: usize, push_n: f64) {
+        self.growth_n[place] = push_n - self.normal_force[place];
+    }
+
+    /// Push of a contact, linear about where it was asked for, never negative; as if it had no other beside it [N].
+    pub fn whole_push_n(&self, place: usize) -> f64 {
+        let push_n = (self.normal_force[place] + self.growth_n[place]).max(0.0);
+        push_n / self.share[place]
+    }
+
+    /// Push and friction of a contact together, linear about the push that they were asked for [N].
+    pub fn force_of(&self, place: usize) -> DVec3 {
+        let (response, normal) = (&self.response[place], DVec3::from_array(self.normal[place]));
+        normal * self.normal_force[place]
+            + DVec3::from_array(response.force_n)
+            + (normal + DVec3::from_array(response.by_normal_force)) * self.growth_n[place]
+    }
+
+    /// Direction of the push of a contact.
+    pub fn normal_of(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.normal[place])
+    }
+
+    /// Friction of a contact, as asked for [N].
+    pub fn friction_of(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.response[place].force_n)
+    }
+
+    /// Slip of a contact in this step.
+    pub fn slip_of(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.slip[place])
+    }
+
+    fn contacts(&self, group: &Group, dt_s: f64) -> Contacts<'_> {
+        let at = group.contacts.clone();
+        Contacts {
+            dt_s,
+            normal_force_n: &self.normal_force[at.clone()],
+            normal: &self.normal[at.clone()],
+            grain: &self.grain[at.clone()],
+            along: &self.along[at.clone()],
+            slip_m: &self.slip[at.clone()],
+            length_m: &self.length[at.clone()],
+            coefficient: &self.coefficient[at.clone()],
+            region: &self.region[at.clone()],
+            rope: &self.rope[at],
+            state: &self.floats[group.floats.clone()],
+        }
+    }
+}
+
+/// Floats that are kept of a contact, by its place among those kept; `None` where there is no such place.
+pub(crate) fn kept_floats<'a>(
+    friction: &Friction,
+    floats: &'a [f64],
+    place: usize,
+) -> Option<&'a [f64]> {
+    let stride = stride(friction);
+    floats.get(place * stride..(place + 1) * stride)
+}
+
+/// Floats that are kept of each contact.
+fn stride(friction: &Friction) -> usize {
+    KEPT + friction.state_len()
+}
+
+fn failed(law: &FrictionLaw, message: impl Into<String>) -> Failed {
+    Failed { id: law.model.descriptor().id.to_string(), message: message.into() }
+}
+
+fn is_finite(answer: &FrictionResponse) -> bool {
+    answer
+        .force_n
+        .iter()
+        .chain(answer.by_slip.iter().flatten())
+        .chain(&answer.by_normal_force)
+        .all(|x| x.is_finite())
+}
+
+/// Rows of a plugin's answer as a matrix.
+fn matrix(rows: &[[f64; 3]; 3]) -> DMat3 {
+    DMat3::from_cols_array_2d(rows).transpose()
+}

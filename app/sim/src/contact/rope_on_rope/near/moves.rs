@@ -1,0 +1,114 @@
+//! How far rope may move without crossing rope, and what a move does to the bounds of distance.
+
+use glam::DVec3;
+
+use crate::broad_phase::pieces::Pieces;
+use crate::contact::rope_on_rope::near::{Pair, RopeWorkspace, TOUCH_M, between};
+use crate::geometry::crossing::first_crossing;
+use crate::geometry::segment_pair::{greatest_approach, nearest, safe_fraction};
+use crate::geometry::sweep::{SweptSegment, walk};
+use crate::model::Model;
+use crate::state::State;
+
+/// Rope that moved less than this from its drift has met nothing but what was gathered: two ropes less than the margin [m].
+const UNWATCHED_M: f64 = 0.014;
+
+/// That move as a share of the shortest segment, so that a straight piece stayed straight.
+const UNWATCHED_SHARE: f64 = 0.125;
+
+/// Share of their contact distance to which ropes may come by their velocities before the guess is held off.
+const HELD_OFF_SHARE: f64 = 0.3;
+
+/// Share of their contact distance by which a knot and what it meets may move relative to each other in a step: a knot that flies past
+/// rope within a step would else be pushed at neither end of it.
+const FOLLOWED_SHARE: f64 = 0.5;
+
+impl RopeWorkspace {
+    /// Ends a step on the straight path from where it began; the number of crossings that an exact test finds on it, or `None` where
+    /// ropes may cross on it.
+    pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
+        let mut crossings = 0;
+        for pair in &self.pairs {
+            let [one, other] = pair.sweeps(from, |node| to[node]);
+            if pair.is_of_knot() && !pair.is_followed(&one, &other) {
+                return None;
+            }
+            if pair.first - pair.min_separation > greatest_approach(&one, &other) {
+                continue;
+            }
+            if safe_fraction(&one, &other, pair.min_separation, pair.first) < 1.0 {
+                return None;
+            }
+            crossings += u64::from(!pair.is_of_knot() && first_crossing(&one, &other).is_some());
+        }
+        Some(crossings)
+    }
+
+    /// Takes from the move `from` -> `target` what brings ropes nearer to each other than they may touch, or than they are.
+    pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
+        for pair in &self.pairs {
+            let [one, other] = pair.sweeps(from, |node| target[node]);
+            if pair.first - greatest_approach(&one, &other) > HELD_OFF_SHARE * pair.contact_distance
+            {
+                continue;
+            }
+            let (fractions, distance) = {
+                let nearest = nearest(one.at(0.0), other.at(0.0));
+                (nearest.fractions, nearest.distance)
+            };
+            let (before, _) = between(one.at(0.0), other.at(0.0), fractions);
+            let (after, _) = between(one.at(1.0), other.at(1.0), fractions);
+            let normal = before / distance.max(1e-12);
+            let approach = normal.dot(before - after);
+            let too_near = approach - (distance - pair.contact_distance).max(0.0);
+            if too_near > 0.0 {
+                for (node, sign) in pair.nodes.into_iter().zip([0.5, -0.5]) {
+                    target[node] += normal * (sign * too_near);
+                    target[node + 1] += normal * (sign * too_near);
+                }
+            }
+        }
+    }
+
+    /// Whether free rope that was moved by this much from its drift may have met rope on its way to these places.
+    pub fn met(&mut self, model: &Model, state: &State, pieces: &Pieces, to: &[DVec3]) -> bool {
+        self.met_known(&state.rope.position, to);
+        self.gather_to(model, state, pieces, |node| to[node], TOUCH_M);
+        self.touching
+    }
+
+    /// The same among what was gathered, where rope strayed too little to have met anything else.
+    pub fn met_known(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
+        self.touching = self.met_gathered(from, to);
+        self.touching
+    }
+
+    /// Move from the drift up to which rope that was not gathered has met nothing [m].
+    pub fn unwatched_m(&self) -> f64 {
+        if self.law.is_none() {
+            f64::INFINITY
+        } else {
+            UNWATCHED_M.min(UNWATCHED_SHARE * self.shortest_m)
+        }
+    }
+
+    fn met_gathered(&self, from: &[DVec3], to: &[DVec3]) -> bool {
+        let near = |pair: &Pair| {
+            let [one, other] = pair.sweeps(from, |node| to[node]);
+            pair.first - greatest_approach(&one, &other) < pair.contact_distance
+        };
+        self.pairs.iter().any(near)
+    }
+}
+
+impl Pair {
+    /// Whether a step follows how a knot meets rope: it moves little relative to it, or does not touch it on its way.
+    fn is_followed(&self, one: &SweptSegment, other: &SweptSegment) -> bool {
+        let (reach, approach) = (self.contact_distance, greatest_approach(one, other));
+        if approach <= FOLLOWED_SHARE * reach || self.first - approach > reach {
+            return true;
+        }
+        let apart = |at: f64| nearest(one.at(at), other.at(at)).distance;
+        self.first > reach && walk(self.first, reach, approach, apart) >= 1.0
+    }
+}

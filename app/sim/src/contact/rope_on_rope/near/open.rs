@@ -1,0 +1,110 @@
+//! Opens contact points of pairs and lets them follow the ropes.
+
+use glam::DVec3;
+
+use crate::contact::rope_on_rope::near::{Pair, RopeWorkspace, between};
+use crate::contact::rope_on_rope::points::{RopeContactPoint, point_of_ball, points_of};
+use crate::geometry::segment_pair::nearest;
+use crate::state::{RopeGrip, State};
+
+/// How far a point may have moved along either rope in a step and be the same grip [m].
+const FOLLOWED_M: f64 = 0.05;
+
+/// Passes in which points follow the ropes; then they stay, so that Newton can finish.
+const FOLLOWING_PASSES: usize = 6;
+
+/// A place of a pair that is nearer than its points by this share calls for new ones.
+const NEARER: f64 = 0.9;
+
+impl RopeWorkspace {
+    /// Opens the points of every pair at these places, with the grips that they continue.
+    pub fn open(&mut self, state: &State, places: &[DVec3]) {
+        self.passes = 0;
+        for index in 0..self.pairs.len() {
+            self.open_pair(index, state, places, false);
+        }
+    }
+
+    fn open_pair(&mut self, index: usize, state: &State, places: &[DVec3], only: bool) {
+        let pair = &self.pairs[index];
+        let [one, other] = pair.shapes(|node| places[node]);
+        let mut points = if pair.is_of_knot() {
+            let point = point_of_ball([one, other], pair.knots_at, pair.contact_distance);
+            [point, RopeContactPoint::default()]
+        } else {
+            points_of(one, other, pair.contact_distance, only)
+        };
+        for point in points.iter_mut().filter(|point| point.length > 0.0) {
+            let along = self.along_of(pair, point);
+            match grip_at(&state.rope.rope_grips, pair, along) {
+                Some(grip) => (point.kept, point.forgiven_m) = (grip.stretch, grip.forgiven_m),
+                // What touches already and holds no grip lay so when the run began.
+                None => point.forgiven_m = (pair.contact_distance - pair.first).max(0.0),
+            }
+        }
+        self.pairs[index].points = points;
+    }
+
+    /// Unstretched length along both lines to a point [m].
+    pub fn along_of(&self, pair: &Pair, point: &RopeContactPoint) -> [f64; 2] {
+        [0, 1].map(|k| {
+            self.along_m[pair.segments[k]] + point.fractions[k] * self.lengths[pair.segments[k]]
+        })
+    }
+
+    /// The grip of a point that has been solved for.
+    pub fn grip_of(
+        &self,
+        pair: &Pair,
+        point: &RopeContactPoint,
+        stretch: DVec3,
+        forgiven_m: f64,
+    ) -> RopeGrip {
+        let along_m = self.along_of(pair, point);
+        RopeGrip { lines: pair.lines, knots: pair.knots, along_m, stretch, forgiven_m }
+    }
+
+    /// Lets points follow the ropes in the first passes.
+    pub fn follow(&mut self, places: &[DVec3]) {
+        self.passes += 1;
+        if self.passes > FOLLOWING_PASSES {
+            return;
+        }
+        for pair in self.pairs.iter_mut().filter(|pair| pair.knots[1].is_none()) {
+            let [one, other] = pair.places(|node| places[node]);
+            for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
+                point.fractions = point.followed(one, other);
+            }
+        }
+    }
+
+    /// Opens points anew where ropes have come nearer than at those they have; whether there were any.
+    pub fn open_more(&mut self, state: &State, places: &[DVec3]) -> bool {
+        let mut opened = false;
+        for index in 0..self.pairs.len() {
+            let pair = &self.pairs[index];
+            let [one, other] = pair.shapes(|node| places[node]);
+            let least = nearest(one, other).distance;
+            let [one, other] = pair.places(|node| places[node]);
+            let known = pair.points.iter().filter(|point| point.length > 0.0);
+            let known = known
+                .map(|point| between(one, other, point.fractions).1)
+                .fold(f64::INFINITY, f64::min);
+            if least < pair.contact_distance && least < NEARER * known {
+                self.open_pair(index, state, places, true);
+                opened = true;
+            }
+        }
+        opened
+    }
+}
+
+/// The nearest grip of a pair's lines or knots at these lengths along them, if any is near enough.
+fn grip_at<'a>(grips: &'a [RopeGrip], pair: &Pair, along: [f64; 2]) -> Option<&'a RopeGrip> {
+    let away = |grip: &RopeGrip| {
+        (grip.along_m[0] - along[0]).abs().max((grip.along_m[1] - along[1]).abs())
+    };
+    let is_mine = |grip: &RopeGrip| grip.lines == pair.lines && grip.knots == pair.knots;
+    let mine = grips.iter().filter(|grip| is_mine(grip) && away(grip) <= FOLLOWED_M);
+    mine.min_by(|a, b| away(a).total_cmp(&away(b)))
+}

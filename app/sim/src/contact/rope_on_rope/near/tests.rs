@@ -1,0 +1,176 @@
+//! What is found with a list of neighbours kept for steps against what is found anew, and against all pairs looked at one by one.
+
+use glam::DVec3;
+
+use crate::broad_phase::pieces::{Piece, Pieces};
+use crate::broad_phase::reach::Reach;
+use crate::broad_phase::ropes::{Moves, Rope};
+use crate::contact::rope_on_rope::near::*;
+use crate::metrics::tests::{model, spec};
+use crate::model::Joint;
+use crate::random::unit;
+use crate::whale::Bounds;
+
+/// Steps looked at, and their length [s].
+const STEPS: u64 = 400;
+const DT_S: f64 = 0.01;
+/// Segments of each of three lines, not a multiple of those in a piece, and their length [m].
+const SEGMENTS: usize = 37;
+const LENGTH_M: f64 = 0.1;
+
+/// Three lines with knots at their ends.
+fn three_lines() -> Model {
+    let mut spec = spec(vec![LENGTH_M; SEGMENTS]);
+    spec.settings.rope_on_rope = Some(RopeOnRope::default());
+    spec.lines[0].knots_m = [0.06, 0.02];
+    for id in ["second", "third"] {
+        let mut line = spec.lines[0].clone();
+        (line.id, line.from, line.to) = (id.into(), spec.joints.len(), spec.joints.len() + 1);
+        spec.lines.push(line);
+        let ends = spec.joints[..2].to_vec();
+        spec.joints.extend(ends.into_iter().map(|end| Joint { id: end.id + id, ..end }));
+    }
+    model(spec)
+}
+
+fn vector(seed: u64, index: usize) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|axis| 2.0 * unit(seed, 3 * index as u64 + axis) - 1.0))
+}
+
+/// Lines in waves about each other, some straight; they go about at a speed that is now slow, now fast, and once in a while are elsewhere.
+fn go(state: &mut State, step: u64) {
+    let (nodes, jumps) = (SEGMENTS + 1, step.is_multiple_of(97));
+    let speed_m_s = [0.05, 0.5, 3.0, 60.0][(step / 40 % 4) as usize];
+    for node in 0..state.rope.position.len() {
+        let (line, along) = (node / nodes, (node % nodes) as f64 * LENGTH_M);
+        let bends = if line == 0 { 0.0 } else { 0.3 };
+        if jumps {
+            let turn = vector(step, 1000 + line);
+            let wave = DVec3::Y * (bends * libm::sin(6.0 * along + turn.x));
+            state.rope.position[node] =
+                (turn + DVec3::X * 0.3).normalize() * (along - 0.2) + wave + 0.1 * turn;
+        } else {
+            state.rope.position[node] += state.rope.velocity[node] * DT_S;
+        }
+        let wild = if line == 2 { 0.3 } else { 0.01 };
+        state.rope.velocity[node] =
+            speed_m_s * (vector(step / 10, 2000 + line) + wild * vector(step, node));
+    }
+}
+
+fn drift(state: &State, node: usize) -> DVec3 {
+    state.rope.position[node] + state.rope.velocity[node] * DT_S
+}
+
+/// Segments and knots of a pair, bits of its distance, and whether it may touch.
+type Told = ([usize; 2], [Option<usize>; 2], u64, bool);
+
+fn pairs_of(work: &RopeWorkspace) -> Vec<Told> {
+    let told = |pair: &Pair| (pair.segments, pair.knots, pair.first.to_bits(), pair.may_touch);
+    work.pairs.iter().map(told).collect()
+}
+
+/// To the bit; the list holds for more than one step where rope goes slowly.
+#[test]
+fn a_kept_list_gathers_what_a_new_one_gathers() {
+    let model = three_lines();
+    let mut state = State::start(&model);
+    let (mut kept, mut kept_pieces) = (RopeWorkspace::new(&model), Pieces::new(&model));
+    let mut counts = [0; 3];
+    for step in 0..STEPS {
+        go(&mut state, step);
+        if step == 250 {
+            state.rope.segment_length[5] *= 1.5;
+        }
+        let (mut new, mut pieces) = (RopeWorkspace::new(&model), Pieces::new(&model));
+        for (work, pieces) in [(&mut kept, &mut kept_pieces), (&mut new, &mut pieces)] {
+            pieces.measure(
+                &state.rope.position,
+                |node| drift(&state, node),
+                &state.rope.segment_length,
+            );
+            work.gather(&model, &state, pieces, DT_S);
+        }
+        let pairs = pairs_of(&kept);
+        assert_eq!(pairs, pairs_of(&new), "step {step}");
+        assert_eq!((kept.touching, kept.count_through()), (new.touching, new.count_through()));
+        counts[0] += pairs.len();
+        counts[1] += pairs.iter().filter(|pair| pair.1 != [None; 2]).count();
+        counts[2] += pairs.iter().filter(|pair| pair.1[1].is_some()).count();
+    }
+    println!("{counts:?} pairs, with a knot, and of knots; {} lists", kept_pieces.holding);
+    assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
+    let holding = kept_pieces.holding;
+    assert!(holding > 10 && holding < STEPS / 2, "{holding} lists in {STEPS} steps");
+}
+
+/// Which piece a segment belongs to, and the box around its way.
+fn segments_of<'a>(pieces: &'a Pieces, state: &State) -> Vec<(&'a Piece, Bounds)> {
+    let of = |piece: &'a Piece| {
+        let nodes = piece.nodes.clone().zip(piece.nodes.clone().skip(1));
+        nodes.map(move |(node, next)| {
+            let at = [node, next].map(|node| [state.rope.position[node], drift(state, node)]);
+            (piece, Bounds::around(at.as_flattened()))
+        })
+    };
+    pieces.pieces.iter().flat_map(of).collect()
+}
+
+/// Whether two segments of two pieces, or of one, are left out: of one straight run, or of pieces apart and never to touch.
+fn is_left_out([one, other]: [&Piece; 2], may_touch: bool) -> bool {
+    if one.segments == other.segments {
+        one.is_straight
+    } else if one.follows(other) {
+        one.runs_on(other)
+    } else {
+        !may_touch
+    }
+}
+
+/// With some segments left out, as what never touches.
+#[test]
+fn what_is_found_is_all_that_comes_within_reach() {
+    let model = three_lines();
+    let knots: Vec<Ball> =
+        Ball::all(&model).into_iter().map(|ball| Ball { fraction: 0.4, ..ball }).collect();
+    let may_touch = |[one, other]: [usize; 2], _: Option<usize>| (one + other) % 5 != 0;
+    let farthest = Reach { ropes_m: 0.06, knots_m: 0.1 };
+    let (mut state, mut pieces) = (State::start(&model), Pieces::new(&model));
+    let (mut broad, mut found, mut counts) = (Broad::default(), Found::default(), [0; 2]);
+    for step in 0..STEPS {
+        go(&mut state, step);
+        let reach = if step % 3 == 0 { farthest } else { Reach { ropes_m: 0.02, knots_m: 0.03 } };
+        let to = |node: usize| drift(&state, node);
+        pieces.measure(&state.rope.position, to, &state.rope.segment_length);
+        let rope = Rope { pieces: &pieces, knots: &knots, may_touch: &may_touch };
+        let moves = Moves { from: &state.rope.position, to };
+        broad.collect(rope, &moves, reach, farthest, &mut found);
+        let segments = segments_of(&pieces, &state);
+        let (mut expected, half_m) = (Found::default(), 0.5 * reach.ropes_m);
+        for (one, (piece, bounds)) in segments.iter().enumerate() {
+            let later = segments.iter().enumerate().skip(one + 1);
+            let near = later.filter(|(index, (other, beside))| {
+                bounds.grown(half_m).meets(&beside.grown(half_m))
+                    && !is_left_out([piece, other], may_touch([one, *index], None))
+            });
+            expected.segments.extend(near.map(|(other, _)| [one, other]));
+        }
+        for (knot, ball) in knots.iter().enumerate() {
+            let way = [ball.middle(|node| state.rope.position[node]), ball.middle(to)];
+            let around = Bounds::around(&way).grown(reach.knots_m);
+            let near = segments.iter().enumerate().filter(|(segment, (piece, bounds))| {
+                let pieces = [segments[ball.segment].0, *piece];
+                *segment != ball.segment
+                    && around.meets(bounds)
+                    && !is_left_out(pieces, may_touch([ball.segment, *segment], Some(knot)))
+            });
+            expected.knots.extend(near.map(|(segment, _)| [knot, segment]));
+        }
+        assert_eq!(found.segments, expected.segments, "step {step}");
+        assert_eq!(found.knots, expected.knots, "step {step}");
+        counts[0] += found.segments.len();
+        counts[1] += found.knots.len();
+    }
+    println!("{counts:?} pairs of segments, and of a knot and a segment; {} lists", pieces.holding);
+    assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+}

@@ -1,0 +1,236 @@
+//! Scratch of a solver step with contact, and what such a step leaves behind.
+
+mod crease;
+mod kind;
+pub(crate) mod near;
+pub(crate) mod points;
+pub(crate) mod site;
+pub(crate) mod skin_friction;
+pub mod step_sums;
+mod stored_faces;
+pub(crate) mod touch;
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use crate::contact::ContactMissed;
+use crate::contact::ContactPoint;
+use crate::contact::law::barrier::PINCHED_SHARE;
+use crate::contact::law::friction_arrays::Failed;
+use crate::contact::law::skin_direction::Grains;
+use crate::contact::rope_on_skin::near::Near;
+use crate::contact::rope_on_skin::points::{SkinContactPoint, SkinContactPoints};
+use crate::contact::rope_on_skin::skin_friction::Touching;
+use crate::contact::rope_on_skin::touch::Touch;
+use crate::model::{Friction, Model};
+use crate::state::State;
+
+/// Rope that begins a step pinched may end it this much nearer to skin, as a share.
+const STILL_PINCHED: f64 = 0.99;
+
+/// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactWorkspace {
+    pub near: Near,
+    pub points: SkinContactPoints,
+    pub touching: Touching,
+    /// Bones at the start and the end of the solver step.
+    pub bones: [Vec<DAffine3>; 2],
+    /// Places where contact was measured last.
+    pub before: Vec<DVec3>,
+    /// Where rope goes by its velocities.
+    pub target: Vec<DVec3>,
+    /// Greatest contact distance of any rope [m].
+    pub greatest_contact_distance: f64,
+}
+
+impl ContactWorkspace {
+    /// Scratch for a model, where it has a whale.
+    pub fn new(model: &Model) -> Option<Self> {
+        let tree = model.skin_tree.clone()?;
+        let touching = Touching::new(Arc::new(Grains::new(tree.skin())));
+        Some(Self {
+            near: Near::new(model, tree),
+            points: SkinContactPoints::default(),
+            touching,
+            bones: [Vec::new(), Vec::new()],
+            before: Vec::new(),
+            target: Vec::new(),
+            greatest_contact_distance: model
+                .spec
+                .ropes
+                .iter()
+                .map(|rope| 0.5 * rope.diameter_m)
+                .chain(model.knots.iter().map(|knot| knot.radius_m))
+                .fold(0.0, f64::max),
+        })
+    }
+
+    /// Notes the block `-dF/dx` of every contact as measured last.
+    pub fn note_blocks(&mut self) {
+        let Self { points, touching, .. } = self;
+        touching.block.clear();
+        for (place, index) in touching.point.iter().enumerate() {
+            let touch = &points.touches(&points.list[*index])[touching.face[place]];
+            touching.block.push(touching.block_of(place, touch));
+        }
+    }
+
+    /// Push and friction of every contact as measured last, with its block as noted.
+    pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
+        let Self { points, touching, .. } = self;
+        touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
+            (&points.list[*index], touching.arrays.force_of(place), block)
+        })
+    }
+
+    /// The same, linear about where it was measured (`before`), with the rope at other places.
+    pub fn contacts_at<'a>(
+        &'a self,
+        places: &'a [DVec3],
+    ) -> impl Iterator<Item = (&'a SkinContactPoint, DVec3, &'a DMat3)> {
+        self.contacts().map(|(point, force, block)| {
+            let step = point.on_rope(|node| places[node] - self.before[node]);
+            (point, force - *block * step, block)
+        })
+    }
+
+    /// How far the push of the last solution is from the law's at the places given, with skin as measured last.
+    pub fn law_missed(&self, places: &[DVec3]) -> ContactMissed {
+        let Self { points, touching, before, .. } = self;
+        let mut missed = ContactMissed::default();
+        for (place, index) in touching.point.iter().enumerate() {
+            let step = points.list[*index].on_rope(|node| places[node] - before[node]);
+            let gap_n = points.law_missed(*index, touching.face[place], step);
+            let force = touching.arrays.force_of(place) - touching.block[place] * step;
+            missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
+        }
+        missed
+    }
+
+    /// Takes the push of every contact as linear about what the last solution found.
+    pub fn follow_law(&mut self, places: &[DVec3]) {
+        let Self { points, touching, before, .. } = self;
+        for place in 0..touching.point.len() {
+            let index = touching.point[place];
+            let step = points.list[index].on_rope(|node| places[node] - before[node]);
+            let touch = points.follow_law(index, touching.face[place], step);
+            touching.follow_law(place, touch);
+        }
+    }
+
+    /// After a solution: push and friction of every contact point by it.
+    pub fn note_solved(&mut self, places: &[DVec3]) {
+        let Self { points, touching, before, .. } = self;
+        points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
+        for (place, index) in touching.point.iter().enumerate() {
+            let point = &mut points.list[*index];
+            let step = point.on_rope(|node| places[node] - before[node]);
+            point.missed += touching.arrays.force_of(place) - touching.block[place] * step;
+            points.note_solved(*index, touching.face[place], step);
+        }
+    }
+
+    /// What push and friction of the last solution miss as measured last.
+    pub fn missed(&mut self) -> ContactMissed {
+        let Self { points, touching, .. } = self;
+        let mut greatest = 0.0_f64;
+        for (place, index) in touching.point.iter().enumerate() {
+            let force = touching.arrays.force_of(place);
+            points.list[*index].missed -= force;
+            greatest = greatest.max(force.length_squared());
+        }
+        let gap = points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
+        ContactMissed { gap_n: gap.sqrt(), greatest_n: greatest.sqrt() }
+    }
+
+    /// Opens the contact points of rope that may touch, as its predicted places lie.
+    pub fn open_active_points(
+        &mut self,
+        model: &Model,
+        state: &State,
+        lengths: &[f64],
+        places: &[DVec3],
+    ) {
+        let Some(whale) = &model.spec.whale else { return };
+        let (stiffness, friction) = (whale.contact_stiffness_n_m2, &state.rope.friction);
+        self.points.open(model, &self.near, lengths, stiffness, friction);
+        self.points.measure(&self.near, places);
+        while self.points.open_more(&self.near, places) > 0 {
+            self.points.measure(&self.near, places);
+        }
+        self.points.begin(model, &state.rope.position);
+    }
+
+    /// Whether rope has left the margin in which skin near it was gathered.
+    pub fn strayed(&self, places: &[DVec3]) -> bool {
+        self.near.strayed(places, self.near.margin_m - self.greatest_contact_distance)
+    }
+
+    /// A segment and triangle nearer than this share of the contact distance, if any.
+    pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
+        self.points.list.iter().find_map(|point| {
+            let touch = self
+                .points
+                .touches(point)
+                .iter()
+                .find(|touch| touch.distance < share * point.contact_distance)?;
+            Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
+        })
+    }
+
+    /// A segment and triangle between which rope is pinched at the end of a step from `from`, if any. Rope that began it pinched may stay,
+    /// and come out again.
+    /// A knot may be pressed flat: the rope in its middle has contact points of its own.
+    pub fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
+        self.points.list.iter().filter(|point| !point.is_knot).find_map(|point| {
+            let is_pinched = |touch: &&Touch| {
+                let share = touch.distance / point.contact_distance;
+                share < PINCHED_SHARE && {
+                    let began = self.near.began_at(touch.pair, point.on_rope(|node| from[node]));
+                    touch.distance < STILL_PINCHED * began
+                }
+            };
+            let touch = self.points.touches(point).iter().find(is_pinched)?;
+            Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
+        })
+    }
+
+    /// Contacts at the end of an accepted step; the friction model's floats move on.
+    pub fn keep(
+        &mut self,
+        model: &Model,
+        friction: &Friction,
+        dt_s: f64,
+        state: &mut State,
+        contacts: &mut Vec<ContactPoint>,
+    ) -> Result<(), Failed> {
+        contacts.clear();
+        let Some(whale) = &model.spec.whale else { return Ok(()) };
+        for place in self.touching.in_order.iter().copied() {
+            let point = &self.points.list[self.touching.point[place]];
+            let touch = self.points.touches(point).get(self.touching.face[place]);
+            let Some(touch) = touch else { continue };
+            let triangle = self.near.skin_of(touch.pair).triangle as usize;
+            contacts.push(ContactPoint {
+                line: model.segment_line[point.segment],
+                segment: point.segment,
+                fraction: point.fraction,
+                triangle,
+                barycentric: touch.barycentric,
+                region: whale.skin.regions[triangle],
+                position: touch.place,
+                normal: touch.normal,
+                distance_m: touch.distance,
+                length_m: point.length,
+                is_knot: point.is_knot,
+                normal_force_n: touch.barrier.force,
+                friction_n: self.touching.arrays.friction_of(place),
+                slip_m: self.touching.arrays.slip_of(place),
+                dt_s,
+            });
+        }
+        self.touching.advance(friction, dt_s, &self.points, &mut state.rope.friction)
+    }
+}

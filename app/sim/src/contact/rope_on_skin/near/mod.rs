@@ -1,0 +1,239 @@
+//! Rope near skin: pairs of segment and triangle that may touch within a solver step, and how far
+//! rope may move without crossing.
+//!
+//! The invariant is that the rope's centre line never crosses the skin: the path of every solver step, of rope and skin together, is
+//! proved free by additive continuous collision detection (`sweep.rs`), and checked again by an independent exact test (`crossing.rs`).
+
+mod group;
+mod solver_step;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use crate::broad_phase::pieces::Pieces;
+use crate::geometry::distance::segment_triangle;
+use crate::geometry::placed::Placed;
+use crate::geometry::sweep::{SweptSegment, triangle_at};
+use crate::model::Model;
+use crate::whale::{Bounds, Candidate, SkinTree, Surface};
+pub(crate) use group::Group;
+
+/// Rope within this distance of the path of skin is looked at [m].
+pub(crate) const MARGIN_M: f64 = 0.04;
+
+/// Least separation kept, as a share of the rope's radius.
+const MIN_SEPARATION_SHARE: f64 = 0.08;
+
+/// A segment and a triangle that may touch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub segment: usize,
+    /// Place of the triangle in [`Near::skin`].
+    skin: usize,
+    /// Lower bound of their distance when it was measured [m].
+    gap_bound: f64,
+    /// Whether it was their distance.
+    exact: bool,
+    /// How far the group had moved relative to its skin by then [m].
+    measured_at: f64,
+    /// Separation kept [m].
+    min_separation: f64,
+}
+
+/// All pairs of a step of the model, in rising order of segment, with the surface they come from.
+///
+/// Skin goes straight from where the model's step begins to where it ends; a solver step takes it from `start` to `goal`.
+#[derive(Clone, Debug)]
+pub(crate) struct Near {
+    surface: Surface,
+    sweeps: Vec<SweptSegment>,
+    candidates: Vec<Candidate>,
+    /// Triangles that have pairs.
+    skin: Vec<Placed>,
+    /// Where each triangle of the skin lies among them, with the number of the step for which that holds.
+    placed_at: Vec<(u64, usize)>,
+    number: u64,
+    pub pairs: Vec<Pair>,
+    /// Pairs of each segment that has any.
+    pub groups: Vec<Group>,
+    /// Pairs that may touch in this solver step, group after group.
+    pub active: Vec<usize>,
+    /// First node of each segment.
+    segment_node: Vec<usize>,
+    /// Share of the model's step at which the solver step begins.
+    pub start: f64,
+    /// Share of the model's step at which the solver step ends.
+    pub goal: f64,
+    /// Share of the model's step up to which rope and skin have been moved.
+    pub fraction: f64,
+    /// How far beyond rope skin is gathered [m].
+    pub margin_m: f64,
+    /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
+    swept: bool,
+}
+
+impl Near {
+    pub fn new(model: &Model, tree: Arc<SkinTree>) -> Self {
+        let nodes = model.line_nodes.iter().flat_map(|nodes| nodes.start..nodes.end - 1);
+        Self {
+            skin: Vec::new(),
+            placed_at: vec![(0, 0); tree.skin().triangles.len()],
+            number: 0,
+            surface: Surface::new(tree),
+            sweeps: vec![SweptSegment::default(); model.segment_count],
+            candidates: Vec::new(),
+            pairs: Vec::new(),
+            groups: Vec::new(),
+            active: Vec::new(),
+            segment_node: nodes.collect(),
+            start: 0.0,
+            goal: 1.0,
+            fraction: 0.0,
+            margin_m: MARGIN_M + model.knots.iter().map(|knot| knot.radius_m).fold(0.0, f64::max),
+            swept: model.spec.settings.swept,
+        }
+    }
+
+    /// Whether rope that moves from `places` by `moves` may come near skin between two poses; its pieces are measured over that move.
+    pub fn any(
+        &mut self,
+        bones: [&[DAffine3]; 2],
+        pieces: &Pieces,
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) -> bool {
+        self.surface.begin(bones[0], bones[1]);
+        let skin = self.surface.whole().grown(margin);
+        let mut lines = pieces.lines.iter().filter(|(_, bounds)| skin.meets(bounds));
+        if !lines
+            .any(|(own, _)| pieces.pieces[own.clone()].iter().any(|one| skin.meets(&one.bounds)))
+        {
+            return false;
+        }
+        self.sweep(places, moves);
+        self.surface.is_any_near(&self.sweeps, margin)
+    }
+
+    /// The box around all skin over the step that was looked at last.
+    pub fn whole(&mut self) -> Bounds {
+        self.surface.whole()
+    }
+
+    fn sweep(&mut self, places: &[DVec3], moves: impl Fn(usize) -> DVec3) {
+        for (sweep, &node) in self.sweeps.iter_mut().zip(&self.segment_node) {
+            let (a0, b0) = (places[node], places[node + 1]);
+            *sweep = SweptSegment { a0, b0, a1: a0 + moves(node), b1: b0 + moves(node + 1) };
+        }
+    }
+
+    /// Gathers the pairs of uncut rope near skin over a step of the model, of which a share has passed.
+    pub fn gather(
+        &mut self,
+        model: &Model,
+        bones: [&[DAffine3]; 2],
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        (cut, passed): (&[bool], f64),
+    ) {
+        self.surface.begin(bones[0], bones[1]);
+        self.sweep(places, moves);
+        self.gather_swept(model, (cut, passed));
+    }
+
+    /// Gathers the pairs of uncut rope near skin for the moves that were swept last.
+    pub fn gather_swept(&mut self, model: &Model, (cut, passed): (&[bool], f64)) {
+        self.surface.gather(&self.sweeps, self.margin_m, &mut self.candidates);
+        (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
+        self.number += 1;
+        self.skin.clear();
+        self.pairs.clear();
+        self.groups.clear();
+        self.active.clear();
+        for place in 0..self.candidates.len() {
+            let Candidate { segment, triangle } = self.candidates[place];
+            let segment = segment as usize;
+            if cut[segment] {
+                continue;
+            }
+            let skin = self.place_of(triangle);
+            let radius = 0.5 * model.rope_of_segment(segment).diameter_m;
+            let min_separation = MIN_SEPARATION_SHARE * radius;
+            let node = self.segment_node[segment];
+            let index = self.pairs.len();
+            self.pairs.push(Pair {
+                segment,
+                skin,
+                gap_bound: 0.0,
+                exact: false,
+                measured_at: 0.0,
+                min_separation,
+            });
+            match self.groups.last_mut() {
+                Some(group) if group.segment == segment => group.pairs.end = index + 1,
+                _ => {
+                    let knots = model.knots_of_segment(segment).iter().map(|knot| knot.radius_m);
+                    let reach = knots.fold(radius, f64::max);
+                    self.groups.push(Group::new(segment, node, [radius, reach], index));
+                }
+            }
+        }
+        for group in &mut self.groups {
+            let moves = self.pairs[group.pairs.clone()].iter().map(|pair| &self.skin[pair.skin]);
+            group.follow_skin(moves);
+        }
+    }
+
+    /// Where a triangle lies among those that have pairs; put there where it is new.
+    fn place_of(&mut self, triangle: u32) -> usize {
+        let at = &mut self.placed_at[triangle as usize];
+        if at.0 != self.number {
+            *at = (self.number, self.skin.len());
+            let sweep = self.surface.triangle_sweep(triangle);
+            self.skin.push(Placed::new(triangle, sweep, self.fraction));
+        }
+        at.1
+    }
+
+    /// The triangle of a pair, by the place of the pair.
+    pub fn skin_of(&self, pair: usize) -> &Placed {
+        &self.skin[self.pairs[pair].skin]
+    }
+
+    /// Lower bound of the distance of a group's pair where the trial stands [m].
+    pub fn bound(&self, pair: usize, group: &Group) -> f64 {
+        let pair = &self.pairs[pair];
+        pair.gap_bound - (group.moved - pair.measured_at) - group.moving
+    }
+
+    /// A segment that crosses skin where a solver step begins, if any.
+    pub fn crossed(&self) -> Option<usize> {
+        let pairs = self.active.iter().map(|index| &self.pairs[*index]);
+        let mut crossed = pairs.filter(|pair| self.swept && pair.exact && pair.gap_bound <= 0.0);
+        crossed.next().map(|pair| pair.segment)
+    }
+
+    /// Goes back to where a refused solver step began; where its path had been ended, everything is to be measured anew.
+    #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    pub fn go_back(&mut self) {
+        if self.fraction == self.start {
+            return;
+        }
+        self.fraction = self.start;
+        for pair in &mut self.pairs {
+            (pair.gap_bound, pair.exact, pair.measured_at) = (0.0, false, 0.0);
+        }
+        for group in &mut self.groups {
+            (group.clear, group.moved, group.moving) = (0.0, 0.0, 0.0);
+        }
+    }
+
+    /// How far a point of rope was from the triangle of a pair where the solver step began [m].
+    pub fn began_at(&self, pair: usize, place: DVec3) -> f64 {
+        let skin = self.skin_of(pair);
+        segment_triangle([place, place], triangle_at(&skin.sweep, self.start)).distance
+    }
+}

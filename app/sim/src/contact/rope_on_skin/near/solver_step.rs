@@ -1,0 +1,213 @@
+//! One solver step of rope near skin: which pairs may touch in it, and whether its path is free.
+//!
+//! Newton goes where it likes; what counts is the straight path from where the step began to where it ended. It is proved free
+//! by how far a segment moved relative to its skin, else by additive continuous collision detection (`sweep.rs`), and checked by an exact
+//! test (`crossing.rs`).
+
+use glam::DVec3;
+
+use crate::contact::rope_on_skin::near::{Group, Near};
+use crate::geometry::crossing::first_meeting;
+use crate::geometry::distance::{Nearest, segment_triangle};
+use crate::geometry::placed::on_triangle;
+use crate::geometry::sweep::{SweptSegment, safe_fraction_from, triangle_at};
+
+/// How far beyond its reach and its move rope looks for skin [m].
+const LOOK_M: f64 = 1.5e-3;
+/// Times the predicted move that it looks.
+const LOOK_MOVES: f64 = 1.5;
+/// Longest predicted move that it looks along [m].
+const LONGEST_MOVE_M: f64 = 0.02;
+/// Debt of a distance beyond which it is measured anew [m].
+const STALE_M: f64 = 5e-4;
+
+/// Share of its radius to which rope may come to skin by its velocity before its guess is held off.
+const HELD_OFF_SHARE: f64 = 0.3;
+
+/// How far a place lies from the straight path between two others [m].
+fn away(from: DVec3, to: DVec3, place: DVec3) -> f64 {
+    let path = to - from;
+    let along = ((place - from).dot(path) / path.length_squared().max(1e-30)).clamp(0.0, 1.0);
+    (place - from - path * along).length()
+}
+
+impl Near {
+    /// Takes skin to the end of a solver step, and finds what may touch on the way from where rope is to where it is guessed to go.
+    pub fn look(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
+        (self.start, self.goal) = (self.fraction, goal);
+        self.active.clear();
+        let share = goal - self.start;
+        for group in &mut self.groups {
+            // Without sweeps rope sees only what is near where the step begins.
+            group.moving = if self.swept { group.relative_move(from, to, share) } else { 0.0 };
+            let look = group.reach + LOOK_M + LOOK_MOVES * group.moving.min(LONGEST_MOVE_M);
+            let first = self.active.len();
+            (group.active, group.far) = (first..first, group.clear - group.moved);
+            if group.far > look {
+                continue;
+            }
+            let segment = [from[group.node], from[group.node + 1]];
+            let mut least = f64::INFINITY;
+            group.far = f64::INFINITY;
+            for index in group.pairs.clone() {
+                let pair = &mut self.pairs[index];
+                let debt = group.moved - pair.measured_at;
+                let mut bound = pair.gap_bound - debt;
+                if bound <= look && (debt > STALE_M || !pair.exact) {
+                    let skin = &mut self.skin[pair.skin];
+                    skin.stand(self.start);
+                    let gap = skin.gap(segment);
+                    pair.exact = gap <= look;
+                    bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
+                    (pair.gap_bound, pair.measured_at) = (bound, group.moved);
+                }
+                least = least.min(bound);
+                if bound <= look {
+                    self.active.push(index);
+                } else {
+                    group.far = group.far.min(bound);
+                }
+            }
+            group.clear = least + group.moved;
+            group.active = first..self.active.len();
+        }
+        for index in &self.active {
+            self.skin[self.pairs[*index].skin].stand(goal);
+        }
+    }
+
+    /// Whether anything may touch in the solver step looked at.
+    pub fn may_touch(&self) -> bool {
+        !self.active.is_empty()
+    }
+
+    /// Takes in where the trial stands.
+    pub fn follow(&mut self, from: &[DVec3], to: &[DVec3]) {
+        let share = self.goal - self.start;
+        for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
+            group.moving = group.relative_move(from, to, share);
+        }
+    }
+
+    /// Ends the solver step where its path is free; gives the number of crossings that an exact test finds on it. `None` where it
+    /// may lead through skin, or came near skin that was not looked at.
+    pub fn end(&mut self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
+        let share = self.goal - self.start;
+        let mut crossings = 0;
+        for index in 0..self.groups.len() {
+            let moving = self.groups[index].relative_move(from, to, share);
+            let group = &mut self.groups[index];
+            group.moving = moving;
+            if !self.swept {
+                crossings += self.crossings_of(index, (from, to));
+                continue;
+            }
+            if group.far - moving < group.reach {
+                return None;
+            }
+            for place in self.groups[index].active.clone() {
+                crossings += self.check(index, self.active[place], (from, to))?;
+            }
+        }
+        for group in &mut self.groups {
+            group.moved += group.moving;
+            group.moving = 0.0;
+        }
+        self.fraction = self.goal;
+        Some(crossings)
+    }
+
+    /// Crossings found on the path of a group with all its pairs.
+    fn crossings_of(&self, group: usize, (from, to): (&[DVec3], &[DVec3])) -> u64 {
+        let Group { node, ref pairs, .. } = self.groups[group];
+        let segment =
+            SweptSegment { a0: from[node], b0: from[node + 1], a1: to[node], b1: to[node + 1] };
+        let met = self.pairs[pairs.clone()].iter().filter(|pair| {
+            let sweep = &self.skin[pair.skin].sweep;
+            let triangle = [triangle_at(sweep, self.start), triangle_at(sweep, self.goal)];
+            first_meeting(&segment, &triangle).is_some()
+        });
+        met.count() as u64
+    }
+
+    /// Crossings found on the path of a pair; `None` where it is not free.
+    fn check(
+        &mut self,
+        group: usize,
+        index: usize,
+        (from, to): (&[DVec3], &[DVec3]),
+    ) -> Option<u64> {
+        let group = &self.groups[group];
+        let pair = &mut self.pairs[index];
+        if pair.gap_bound - (group.moved - pair.measured_at) - pair.min_separation > group.moving {
+            return Some(0);
+        }
+        let skin = &self.skin[pair.skin];
+        let triangle = [triangle_at(&skin.sweep, self.start), triangle_at(&skin.sweep, self.goal)];
+        let node = group.node;
+        let segment =
+            SweptSegment { a0: from[node], b0: from[node + 1], a1: to[node], b1: to[node + 1] };
+        let gap = segment_triangle(segment.at(0.0), triangle[0]).distance;
+        (pair.gap_bound, pair.exact, pair.measured_at) = (gap, true, group.moved);
+        if safe_fraction_from(&segment, &triangle, pair.min_separation, gap) < 1.0 {
+            return None;
+        }
+        Some(u64::from(first_meeting(&segment, &triangle).is_some()))
+    }
+
+    /// Whether any segment's end lies farther than `most_m` from the straight path by which its pairs were gathered.
+    pub fn strayed(&self, places: &[DVec3], most_m: f64) -> bool {
+        // Half of it from where the path begins is near the path, whatever the rounding.
+        let near = 0.25 * most_m * most_m.abs();
+        let strays = |from: DVec3, to: DVec3, place: DVec3| {
+            place.distance_squared(from) > near && away(from, to, place) > most_m
+        };
+        let mut last = None;
+        for (sweep, node) in self.sweeps.iter().zip(&self.segment_node) {
+            // Where the segment before ends at its first node, that node has been looked at.
+            let begins = last != Some(*node);
+            if (begins && strays(sweep.a0, sweep.a1, places[*node]))
+                || strays(sweep.b0, sweep.b1, places[*node + 1])
+            {
+                return true;
+            }
+            last = Some(*node + 1);
+        }
+        false
+    }
+
+    /// Takes from the move `from` → `target` of a solver step what brings rope nearer to skin than its radius, or than it is.
+    pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
+        if !self.swept {
+            return;
+        }
+        let share = self.goal - self.start;
+        let near = |group: &&Group| {
+            !group.active.is_empty()
+                && group.clear - group.moved - group.moving < HELD_OFF_SHARE * group.radius
+        };
+        for group in self.groups.iter().filter(near) {
+            let segment = [from[group.node], from[group.node + 1]];
+            let mut best: Option<(usize, Nearest)> = None;
+            for index in &self.active[group.active.clone()] {
+                let skin = self.skin_of(*index);
+                let nearest = segment_triangle(segment, triangle_at(&skin.sweep, self.start));
+                if best.is_none_or(|(_, found)| nearest.distance < found.distance) {
+                    best = Some((*index, nearest));
+                }
+            }
+            let Some((index, nearest)) = best else { continue };
+            let skin = self.skin_of(index);
+            let between = |at: &[DVec3]| at[group.node].lerp(at[group.node + 1], nearest.fraction);
+            let closest = on_triangle(triangle_at(&skin.sweep, self.start), nearest.barycentric);
+            let normal = (between(from) - closest) / nearest.distance.max(1e-12);
+            let skin_move = skin.move_of(nearest.barycentric) * share;
+            let approach = normal.dot(skin_move - (between(target) - between(from)));
+            let too_near = approach - (nearest.distance - group.radius).max(0.0);
+            if too_near > 0.0 {
+                target[group.node] += normal * too_near;
+                target[group.node + 1] += normal * too_near;
+            }
+        }
+    }
+}

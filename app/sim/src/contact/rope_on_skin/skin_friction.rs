@@ -1,0 +1,163 @@
+//! Friction between rope and skin: the contact points in touch, in the arrays of the friction laws (`friction_arrays.rs`).
+
+use std::sync::Arc;
+
+use glam::DMat3;
+
+use crate::contact::law::friction_arrays::{Asked, Failed, FrictionArrays, kept_floats};
+use crate::contact::law::skin_direction::Grains;
+use crate::contact::rope_on_skin::near::Near;
+use crate::contact::rope_on_skin::points::SkinContactPoints;
+use crate::contact::rope_on_skin::touch::Touch;
+use crate::model::{Friction, Model};
+use crate::state::{FrictionState, State};
+
+/// A contact point in touch, and the law that holds there.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    law: usize,
+    point: usize,
+    face: usize,
+}
+
+/// Contact points in touch, one entry for each face, in the order of the arrays.
+#[derive(Clone, Debug)]
+pub(crate) struct Touching {
+    grains: Arc<Grains>,
+    /// Index of the contact point.
+    pub point: Vec<usize>,
+    /// Which of the faces that the contact point touches.
+    pub face: Vec<usize>,
+    /// Places in the arrays, in rising order of contact point.
+    pub in_order: Vec<usize>,
+    found: Vec<Found>,
+    pub arrays: FrictionArrays,
+    /// `-d force / d place` of each contact as it went into the last solve [N/m].
+    pub block: Vec<DMat3>,
+}
+
+impl Touching {
+    /// No contacts yet, on a skin of these grains.
+    pub fn new(grains: Arc<Grains>) -> Self {
+        Self {
+            grains,
+            point: Vec::new(),
+            face: Vec::new(),
+            in_order: Vec::new(),
+            found: Vec::new(),
+            arrays: FrictionArrays::default(),
+            block: Vec::new(),
+        }
+    }
+
+    /// Collects what contact points touch, as measured last.
+    pub fn collect(
+        &mut self,
+        model: &Model,
+        near: &Near,
+        points: &SkinContactPoints,
+        state: &State,
+    ) {
+        self.clear();
+        let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else {
+            return;
+        };
+        for (point, at) in points.list.iter().enumerate() {
+            for (face, touch) in points.touches(at).iter().enumerate() {
+                let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
+                let rope = model.spec.lines[model.segment_line[at.segment]].rope;
+                self.found.push(Found { law: friction.law_of[rope][region as usize], point, face });
+            }
+        }
+        if friction.laws.len() > 1 {
+            self.found.sort_unstable_by_key(|found| (found.law, found.point, found.face));
+        }
+        for place in 0..self.found.len() {
+            self.put(model, friction, near, points, state, place);
+        }
+        self.in_order.extend(0..self.point.len());
+        if friction.laws.len() > 1 {
+            self.in_order.sort_unstable_by_key(|place| (self.point[*place], self.face[*place]));
+        }
+    }
+
+    fn clear(&mut self) {
+        self.point.clear();
+        self.face.clear();
+        self.in_order.clear();
+        self.found.clear();
+        self.arrays.clear();
+    }
+
+    /// Puts the contact found at a place into the arrays.
+    fn put(
+        &mut self,
+        model: &Model,
+        friction: &Friction,
+        near: &Near,
+        points: &SkinContactPoints,
+        state: &State,
+        place: usize,
+    ) {
+        let Some(whale) = &model.spec.whale else { return };
+        let Found { law, point: index, face } = self.found[place];
+        let point = &points.list[index];
+        let touch = &points.touches(point)[face];
+        let pair = near.skin_of(touch.pair);
+        let region = whale.skin.regions[pair.triangle as usize];
+        let rope = model.spec.lines[model.segment_line[point.segment]].rope;
+        let rope_move = touch.place - point.began.place;
+        let skin_move = pair.move_of(touch.barycentric) * (pair.stands - near.start);
+        let coefficient = friction.coefficients[rope][region as usize];
+        self.point.push(index);
+        self.face.push(face);
+        let asked = Asked {
+            law,
+            normal_force: touch.barrier.force,
+            growth_n: touch.growth_n,
+            normal: touch.normal,
+            grain: self.grains.at(pair.triangle as usize, &pair.now, touch.normal),
+            along: point.began.along.normalize_or(touch.normal),
+            slip: rope_move - skin_move,
+            length: point.length * touch.share,
+            share: touch.share,
+            coefficient: coefficient * point.began.friction_factor,
+            region: region as u32,
+            rope: u32::try_from(rope).unwrap_or(u32::MAX),
+        };
+        let kept =
+            touch.kept.and_then(|kept| kept_floats(friction, &state.rope.friction.floats, kept));
+        self.arrays.put(friction, asked, kept);
+    }
+
+    /// Asks the laws for their floats at the end of the step and keeps them for the sites in touch.
+    pub fn advance(
+        &mut self,
+        friction: &Friction,
+        dt_s: f64,
+        points: &SkinContactPoints,
+        grips: &mut FrictionState,
+    ) -> Result<(), Failed> {
+        self.arrays.advance(friction, dt_s)?;
+        grips.clear();
+        for place in self.in_order.iter().copied() {
+            let (point, face) = (&points.list[self.point[place]], self.face[place]);
+            grips.sites.push(point.site(face));
+            grips.push_n.push(self.arrays.whole_push_n(place));
+            grips.normals.push(self.arrays.normal_of(place));
+            self.arrays.keep(friction, place, &mut grips.floats);
+        }
+        Ok(())
+    }
+
+    /// `-d force / d place` of a contact with what it touches [N/m].
+    pub fn block_of(&self, place: usize, touch: &Touch) -> DMat3 {
+        self.arrays.block_of(place, (touch.normal, touch.away), touch.barrier.stiffness)
+    }
+
+    /// Takes the push of a contact as linear about another one, where it was measured; friction goes on from the push it was asked for.
+    pub fn follow_law(&mut self, place: usize, touch: &Touch) {
+        self.arrays.set_push(place, touch.barrier.force + touch.growth_n);
+        self.block[place] = self.block_of(place, touch);
+    }
+}

@@ -1,0 +1,133 @@
+//! What contact points keep from one solver step to the next: the push on each face that they touched, and the friction law's floats.
+//!
+//! A face is known again by the direction of its push. Its place in the row of faces will not do: where a second wall comes near, the row
+//! shifts, and each face would take over the grip of another.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::contact::rope_on_skin::site::{FACE_BITS, MOST_POINTS, PIECE_BITS};
+use crate::contact::rope_on_skin::touch::{SAME_FACE, Touch};
+use crate::state::FrictionState;
+
+/// Share of the greatest push on its piece from which a further contact point is opened again in the next solver step.
+const BEARING_SHARE: f64 = 0.5;
+
+/// A face that was touched at the end of the last solver step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct KeptFace {
+    /// Site.
+    site: u64,
+    /// Push, as if it had no other face beside it [N].
+    pub push_n: f64,
+    /// Direction of the push.
+    normal: DVec3,
+}
+
+/// Takes the faces that were touched at the end of the last solver step from the state, in rising order of site.
+pub(crate) fn take(state: &FrictionState, kept: &mut Vec<KeptFace>) {
+    kept.clear();
+    let faces = state.sites.iter().zip(&state.push_n).zip(&state.normals);
+    kept.extend(faces.map(|((site, push_n), normal)| KeptFace {
+        site: *site,
+        push_n: *push_n,
+        normal: *normal,
+    }));
+}
+
+/// The faces of the contact point whose first face has this site.
+pub(crate) fn of_point(kept: &[KeptFace], site: u64) -> Range<usize> {
+    let from = kept.partition_point(|face| face.site < site);
+    let faces = kept[from..].iter().take_while(|face| face.site >> FACE_BITS == site >> FACE_BITS);
+    from..from + faces.count()
+}
+
+/// Gives each face touched the kept one of the same contact point, if any, whose push goes nearest to its own. Each kept one is given once;
+/// a face that is left without goes on as the one that goes almost its way, for it takes over a share of its push.
+pub(crate) fn assign(touches: &mut [Touch], kept: &[KeptFace], of_point: Range<usize>) {
+    touches.iter_mut().for_each(|touch| touch.kept = None);
+    for _ in 0..touches.len().min(of_point.len()) {
+        let free =
+            of_point.clone().filter(|face| touches.iter().all(|touch| touch.kept != Some(*face)));
+        let mut best = (f64::NEG_INFINITY, 0, 0);
+        for face in free {
+            for (place, touch) in
+                touches.iter().enumerate().filter(|(_, touch)| touch.kept.is_none())
+            {
+                let alike = touch.normal.dot(kept[face].normal);
+                if alike > best.0 {
+                    best = (alike, place, face);
+                }
+            }
+        }
+        let (_, place, face) = best;
+        touches[place].kept = Some(face);
+    }
+    for touch in touches.iter_mut().filter(|touch| touch.kept.is_none()) {
+        let alike = |face: &usize| touch.normal.dot(kept[*face].normal);
+        touch.kept = of_point
+            .clone()
+            .filter(|face| alike(face) > SAME_FACE)
+            .max_by(|one, other| alike(one).total_cmp(&alike(other)));
+    }
+}
+
+/// Contact points beside its middle one that bore much of the push on a piece of rope in the last solver step.
+pub(crate) fn points_beside(kept: &[KeptFace], piece: u64) -> usize {
+    let from = kept.partition_point(|face| face.site >> PIECE_BITS < piece);
+    let of_piece = kept[from..].iter().take_while(|face| face.site >> PIECE_BITS == piece);
+    let greatest_n = of_piece.clone().map(|face| face.push_n).fold(0.0, f64::max);
+    let bearing = of_piece.filter(|face| face.push_n >= BEARING_SHARE * greatest_n);
+    let numbers = bearing.map(|face| (face.site >> FACE_BITS) as usize & (MOST_POINTS - 1));
+    numbers.max().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(normal: DVec3) -> Touch {
+        Touch::new((0, [1.0, 0.0, 0.0]), DVec3::ZERO, (normal, 0.003))
+    }
+
+    fn state(faces: &[(u64, DVec3)]) -> FrictionState {
+        FrictionState {
+            sites: faces.iter().map(|(site, _)| *site).collect(),
+            push_n: faces.iter().map(|(site, _)| *site as f64).collect(),
+            normals: faces.iter().map(|(_, normal)| *normal).collect(),
+            floats: Vec::new(),
+        }
+    }
+
+    /// The kept faces that the faces touched are given at a contact point.
+    fn assigned(state: &FrictionState, site: u64, normals: &[DVec3]) -> Vec<Option<usize>> {
+        let mut kept = Vec::new();
+        take(state, &mut kept);
+        let mut touches: Vec<Touch> = normals.iter().copied().map(touch).collect();
+        assign(&mut touches, &kept, of_point(&kept, site));
+        touches.iter().map(|touch| touch.kept).collect()
+    }
+
+    #[test]
+    fn a_face_keeps_its_grip_as_another_comes_before_it_in_the_row() {
+        let point = 5 << PIECE_BITS;
+        let alone = state(&[(point, DVec3::Z)]);
+        let wall = DVec3::new(0.98, 0.0, 0.2).normalize();
+        assert_eq!(assigned(&alone, point, &[wall, DVec3::Z]), [None, Some(0)]);
+        assert_eq!(assigned(&alone, point, &[DVec3::Z, wall]), [Some(0), None]);
+        let leaning = DVec3::new(0.2, 0.0, 0.98).normalize();
+        assert_eq!(assigned(&alone, point, &[DVec3::Z, leaning]), [Some(0), Some(0)]);
+        let two = state(&[(point, leaning), (point + 1, DVec3::Z)]);
+        assert_eq!(assigned(&two, point, &[DVec3::Z]), [Some(1)]);
+        assert_eq!(assigned(&two, point, &[DVec3::Z, leaning]), [Some(1), Some(0)]);
+    }
+
+    #[test]
+    fn faces_of_other_contact_points_are_not_given() {
+        let point = 5 << PIECE_BITS;
+        let others =
+            state(&[(point - (1 << FACE_BITS), DVec3::Z), (point + (1 << FACE_BITS), DVec3::Z)]);
+        assert_eq!(assigned(&others, point, &[DVec3::Z]), [None]);
+    }
+}

@@ -1,0 +1,115 @@
+//! A point of rope that touches a face of skin.
+
+use glam::DVec3;
+
+use crate::contact::law::barrier::BarrierForce;
+
+/// A contact point in touch with one face of skin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    pub pair: usize,
+    pub barycentric: [f64; 3],
+    pub place: DVec3,
+    /// Direction of the push: across the rope, for skin cannot pull rope along itself.
+    pub normal: DVec3,
+    /// Direction in which the distance grows: from the closest point of the skin to the place.
+    pub away: DVec3,
+    pub distance: f64,
+    /// The push, and its growth with depth, where it is taken as linear.
+    pub barrier: BarrierForce,
+    /// What that linear push grows by from there to this distance; nothing where it is the law's at this distance [N].
+    pub growth_n: f64,
+    /// Share of the push that this face has beside others, and of the rope's length that lies on it.
+    pub share: f64,
+    /// Push found by the last solution, or where there was none yet, expected [N].
+    pub solved_n: Option<f64>,
+    /// The same face at the end of the last solver step, in `SkinContactPoints::kept`, which is in the order of `FrictionState`.
+    pub kept: Option<usize>,
+}
+
+/// Length of `away` across the rope up to which the push goes along `away`, and from which it goes wholly across the rope.
+const ACROSS: (f64, f64) = (0.2, 0.4);
+/// Cosine of the angle of two normals above which a face is the one that was touched before.
+pub(crate) const SAME_FACE: f64 = 0.7;
+
+impl Touch {
+    /// Skin at a distance along `away`, without a push as yet.
+    pub fn new(
+        (pair, barycentric): (usize, [f64; 3]),
+        place: DVec3,
+        (away, distance): (DVec3, f64),
+    ) -> Self {
+        Self {
+            pair,
+            barycentric,
+            place,
+            normal: away,
+            away,
+            distance,
+            barrier: BarrierForce::default(),
+            growth_n: 0.0,
+            share: 1.0,
+            solved_n: None,
+            kept: None,
+        }
+    }
+
+    /// Takes the push from the law at this distance, with a contact distance and the stiffness of a face alone.
+    pub fn take_law(&mut self, (contact_distance, stiffness): (f64, f64)) {
+        self.barrier = BarrierForce::new(self.distance, contact_distance, stiffness * self.share);
+    }
+
+    /// Turns the push across a rope that goes along `along`.
+    ///
+    /// Rope that slides over an edge would otherwise be pushed back by each contact point before the edge and drawn on by each
+    /// behind it, and the push would turn as the contact point passes.
+    pub fn turn_across(&mut self, along: DVec3) {
+        let ahead = along * along.dot(self.away);
+        let length = (self.away - ahead).length();
+        let part = ((length - ACROSS.0) / (ACROSS.1 - ACROSS.0)).clamp(0.0, 1.0);
+        self.normal = (self.away - ahead * part).normalize_or(self.away);
+    }
+
+    /// The push that the last solution found for the same face, as if it had no other beside it, if it is among those touched `before` [N].
+    pub fn solved_before(&self, before: &[Self]) -> Option<f64> {
+        let alike = |other: &&Self| other.normal.dot(self.normal);
+        let same = before
+            .iter()
+            .filter(|other| alike(other) > SAME_FACE)
+            .max_by(|one, other| alike(one).total_cmp(&alike(other)));
+        same.and_then(|same| Some(same.solved_n? / same.share))
+    }
+
+    /// Takes the push as linear about the solved one where the law is steep.
+    pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
+        let law = (self.distance, contact_distance, stiffness * self.share);
+        (self.barrier, self.growth_n) = self.barrier.about_solved(self.solved_n, law);
+    }
+
+    /// How far the push found by a solution that moves rope by `step` is from the law's there [N].
+    pub fn law_missed(&self, step: DVec3, contact_distance: f64, stiffness: f64) -> f64 {
+        let distance = self.distance + self.away.dot(step);
+        let law = BarrierForce::new(distance, contact_distance, stiffness * self.share);
+        (self.push_after(step) - law.force).abs()
+    }
+
+    /// Takes the push as linear about what a solution found that moves rope by `step`; where that pulls, about the law's there.
+    pub fn follow_law(&mut self, step: DVec3, contact_distance: f64, stiffness: f64) {
+        let (stiffness, solved_n) = (stiffness * self.share, self.push_after(step));
+        let depth = contact_distance - self.distance;
+        let (depth_there, barrier) = if solved_n > 0.0 {
+            BarrierForce::at_force(solved_n, contact_distance, stiffness)
+        } else {
+            let distance = self.distance + self.away.dot(step);
+            let law = BarrierForce::new(distance, contact_distance, stiffness);
+            (contact_distance - distance, law)
+        };
+        self.barrier = barrier;
+        self.growth_n = barrier.stiffness * (depth - depth_there);
+    }
+
+    /// The push here after the rope has moved by a solved step [N].
+    pub fn push_after(&self, step: DVec3) -> f64 {
+        self.barrier.force + self.growth_n - self.barrier.stiffness * self.away.dot(step)
+    }
+}

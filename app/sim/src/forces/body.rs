@@ -1,0 +1,210 @@
+//! Rigid bodies with six degrees of freedom: traps, buoys, anchors.
+//!
+//! Newton and Euler about the centre of mass, in the world frame:
+//! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
+//! Floats lift by what they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
+//! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
+//! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
+//! Place and rotation (`rotation.rs`) follow the step's scheme. Rope ends pull on the body inside the same linear solve (`interface.rs`).
+
+use glam::{DMat3, DVec3};
+
+use crate::matrix::outer;
+use crate::model::{Body, Float, Model, Wet};
+use crate::solver::Solver;
+use crate::state::State;
+use crate::trial::BodyTrial;
+use crate::trial::plan::Attachment;
+use crate::trial::rotation::momentum_rate;
+use crate::trial::scheme::Scheme;
+
+/// Stiffness that keeps a held body where it is.
+pub(crate) const HELD: f64 = 1e30;
+
+impl Solver {
+    /// Adds inertia, weight, floats, drag and seabed of every body.
+    pub(crate) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        for (index, body) in model.spec.bodies.iter().enumerate() {
+            self.add_body_in_water(model, state, index, scheme);
+            if scheme.exact {
+                self.add_slopes(model, index, body);
+            }
+            self.add_feet(model, state, index, scheme);
+        }
+        self.push_bodies_off_skin();
+        self.push_bodies_apart();
+    }
+
+    /// Adds inertia, weight and the water's forces of a body.
+    pub(crate) fn add_body_in_water(
+        &mut self,
+        model: &Model,
+        state: &State,
+        index: usize,
+        scheme: &Scheme,
+    ) {
+        let body = &model.spec.bodies[index];
+        self.interface.force[self.plan.body_block[index]].z -=
+            body.mass_kg * model.spec.water.gravity_m_s2;
+        let [wet, facing] = self.add_floats(model, index, body, scheme);
+        self.add_body_inertia(state, index, body, wet, scheme);
+        self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * facing, scheme);
+        self.add_turn_drag(model, index, body, wet, scheme);
+        self.add_body_push(model, index, body, wet);
+    }
+
+    /// Buoyancy and drag of a body's floats; gives the wet shares of its volume, for added mass, and of the area that
+    /// faces the flow, for drag as a whole.
+    fn add_floats(
+        &mut self,
+        model: &Model,
+        index: usize,
+        body: &Body,
+        scheme: &Scheme,
+    ) -> [f64; 2] {
+        let (mut wet, mut facing, mut whole) = (0.0, 0.0, 0.0);
+        for float in &body.floats {
+            let under = self.add_float(model, index, float, scheme);
+            let area = float.drag_area_m2 * under.facing;
+            self.add_part_drag(model, index, float.offset_m, area, scheme);
+            wet += under.share * float.volume_m3;
+            facing += under.facing * float.volume_m3;
+            whole += float.volume_m3;
+        }
+        if body.wetted_drag && whole > 0.0 { [wet / whole, facing / whole] } else { [1.0; 2] }
+    }
+
+    /// Buoyancy of a float; gives how much of it is under water.
+    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> Wet {
+        let water = &model.spec.water;
+        let trial = self.trial.bodies[index];
+        let block = self.plan.body_block[index];
+        let arm = trial.orientation * float.offset_m;
+        let wet = float.form.wet(
+            trial.place.z + arm.z - self.flow_bodies[index].surface_m,
+            trial.orientation * DVec3::Z,
+        );
+        let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
+        let attachment = Attachment::Body { block, body: index, offset: float.offset_m };
+        let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
+        self.interface.push(attachment, arm, force);
+        self.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
+        if scheme.exact {
+            return wet;
+        }
+        self.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
+        *self.interface.at(block + 1, block + 1) +=
+            turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
+        wet
+    }
+
+    fn add_body_inertia(
+        &mut self,
+        state: &State,
+        index: usize,
+        body: &Body,
+        wet: f64,
+        scheme: &Scheme,
+    ) {
+        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let block = self.plan.body_block[index];
+        let axes = DMat3::from_quat(trial.orientation);
+        let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
+        let mass =
+            DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
+        let moments = body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet;
+        let inertia = turned(moments);
+        let share = scheme.inertia * trial.pseudo_mass_scale;
+        *self.interface.at(block, block) += mass * share;
+        if scheme.is_static() {
+            *self.interface.at(block + 1, block + 1) += inertia * share;
+            if scheme.anchored {
+                self.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
+                self.interface.force[block + 1] -= inertia * (trial.turn() * share);
+            }
+        } else {
+            let (turning, growth) = momentum_rate(&trial, now, moments, scheme);
+            self.interface.force[block] -= inertial(&trial, scheme, mass);
+            self.interface.force[block + 1] -= turning;
+            *self.interface.at(block + 1, block + 1) += growth;
+        }
+        if trial.held {
+            *self.interface.at(block, block) += DMat3::IDENTITY * HELD;
+        }
+        if trial.held || trial.upright {
+            *self.interface.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
+        }
+    }
+
+    /// Drag of a part of a body, its coefficient times area given by body axis, at a place in the body's frame.
+    fn add_part_drag(
+        &mut self,
+        model: &Model,
+        index: usize,
+        offset: DVec3,
+        area: DVec3,
+        scheme: &Scheme,
+    ) {
+        if area == DVec3::ZERO {
+            return;
+        }
+        let trial = self.trial.bodies[index];
+        let block = self.plan.body_block[index];
+        let (axes, arm) = (DMat3::from_quat(trial.orientation), trial.orientation * offset);
+        let half_density = 0.5 * model.spec.water.density_kg_m3;
+        let mut velocity = (trial.place - trial.place_history) * scheme.rate;
+        if !scheme.is_static() {
+            velocity += trial.spin(scheme).cross(arm);
+        }
+        let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
+        let speed = relative.length();
+        let attachment = Attachment::Body { block, body: index, offset };
+        self.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
+        if !scheme.is_static() {
+            let slope =
+                area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
+            let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
+            self.interface.add(attachment, arm, attachment, arm, slope);
+        }
+    }
+
+    /// Drag that a body's turning meets besides that of its parts.
+    fn add_turn_drag(
+        &mut self,
+        model: &Model,
+        index: usize,
+        body: &Body,
+        wet: f64,
+        scheme: &Scheme,
+    ) {
+        if scheme.is_static() {
+            return;
+        }
+        let trial = self.trial.bodies[index];
+        let block = self.plan.body_block[index];
+        let axes = DMat3::from_quat(trial.orientation);
+        let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
+        let spin = axes.transpose() * trial.spin(scheme);
+        self.interface.force[block + 1] -=
+            axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
+        let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density * scheme.rate);
+        *self.interface.at(block + 1, block + 1) +=
+            axes * DMat3::from_diagonal(slope) * axes.transpose();
+    }
+}
+
+/// Force that gives a mass the acceleration of a body's step.
+pub(crate) fn inertial(trial: &BodyTrial, scheme: &Scheme, mass: DMat3) -> DVec3 {
+    let velocity = (trial.place - trial.place_history) * scheme.rate;
+    mass * ((velocity - trial.velocity_history) * scheme.rate)
+}
+
+/// How stiffly a force at the end of an arm keeps the arm turned: the part of its derivative that
+/// is never negative, so that the matrix stays definite while a body capsizes.
+pub(crate) fn turn_stiffness(arm: DVec3, force: DVec3) -> DMat3 {
+    let square = arm.length_squared();
+    if square < 1e-18 {
+        return DMat3::ZERO;
+    }
+    (DMat3::IDENTITY - outer(arm, arm) * (1.0 / square)) * arm.dot(force).max(0.0)
+}

@@ -1,0 +1,365 @@
+//! Forces along and on a rope line by line: where the laws of `forces.rs` go in the matrix, node after node.
+//!
+//! Statics adds what the laws leave out: with `D` the drag, `d` the chord between a node's neighbours and `t` its direction,
+//! `∂D/∂t (1 - t tᵀ)/|d|` couples a node to its neighbours, and makes passes converge quadratically.
+
+use core::ops::Range;
+
+use glam::{DMat3, DVec3};
+
+use crate::forces::laws::{self as forces, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
+use crate::matrix::outer;
+use crate::model::Model;
+use crate::solver::Solver;
+use crate::system::lanes::space::Sym3;
+use crate::trial::scheme::Scheme;
+
+/// Least chord that is divided by [m].
+const TINY_M: f64 = 1e-9;
+
+impl Solver {
+    /// Adds inertia, weight, buoyancy and drag of every node.
+    pub(crate) fn add_nodes(&mut self, model: &Model, scheme: &Scheme) {
+        let shared = Shared::of(model, scheme);
+        // An anchored pass has its pseudo-mass from `add_anchors`.
+        let shared = if scheme.anchored { Shared { inertia: 0.0, ..shared } } else { shared };
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let rope = PerMetre::of(&model.spec.ropes[line.rope], &model.spec.water);
+            let nodes = &model.line_nodes[index];
+            for node in nodes.clone() {
+                let at = self.node_at(node, nodes);
+                let (force, block) = forces::node(&rope, &shared, &at);
+                self.tridiagonal.force[node] += DVec3::from(force);
+                self.tridiagonal.diagonal[node] += DMat3::from(block);
+                if scheme.is_static() {
+                    self.add_drag_turn(node, nodes, node - index, &rope, &shared);
+                }
+            }
+            if scheme.anchored {
+                self.add_anchors(
+                    nodes,
+                    (rope.mass + rope.added) * scheme.inertia * self.pseudo_mass_scale[index],
+                );
+            }
+        }
+    }
+
+    /// Adds the pull back to where an anchored pass of statics began, by pseudo-mass per metre [kg/m/s²].
+    fn add_anchors(&mut self, nodes: &Range<usize>, pull: f64) {
+        for node in nodes.clone() {
+            let stiffness = pull * self.lengths.node[node];
+            self.tridiagonal.force[node] -=
+                (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
+            self.tridiagonal.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
+        }
+    }
+
+    pub(crate) fn node_at(&self, node: usize, nodes: &Range<usize>) -> NodeAt<f64> {
+        let [before, after] = neighbours(node, nodes);
+        NodeAt {
+            place: self.trial.place[node].into(),
+            before: self.trial.place[before].into(),
+            after: self.trial.place[after].into(),
+            place_history: self.trial.place_history[node].into(),
+            velocity_history: self.trial.velocity_history[node].into(),
+            flow: self.flow[node].into(),
+            surface: self.surface_at(node),
+            length: self.lengths.node[node],
+        }
+    }
+
+    /// Adds the change of a node's drag at rest as its neighbours turn it.
+    fn add_drag_turn(
+        &mut self,
+        node: usize,
+        nodes: &Range<usize>,
+        segment: usize,
+        rope: &PerMetre<f64>,
+        shared: &Shared<f64>,
+    ) {
+        let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node))
+            * self.lengths.node[node];
+        let (tangent, inverse_chord) = tangent(&self.trial.place, node, nodes);
+        let turn = drag_by_tangent(self.flow[node], tangent, rope, wet) * inverse_chord;
+        if node + 1 < nodes.end {
+            self.tridiagonal.up[segment] -= turn;
+        } else {
+            self.tridiagonal.diagonal[node] -= turn;
+        }
+        if node > nodes.start {
+            self.tridiagonal.low[segment - 1] += turn;
+        } else {
+            self.tridiagonal.diagonal[node] += turn;
+        }
+    }
+
+    /// Adds the pull of every segment that is taut.
+    pub(crate) fn add_tension(&mut self, model: &Model, scheme: &Scheme) {
+        for index in 0..model.spec.lines.len() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in model.line_segments[index].clone().enumerate() {
+                self.add_segment(segment, first_node + k, scheme);
+            }
+        }
+    }
+
+    fn add_segment(&mut self, segment: usize, node: usize, scheme: &Scheme) {
+        if self.cut[segment] {
+            self.pull[segment] = Pull::default();
+            return;
+        }
+        let pull = self.law_between(
+            segment,
+            node,
+            scheme,
+            self.trial.place[node + 1] - self.trial.place[node],
+        );
+        let taut = self.trial.tension[segment] > 0.0;
+        let across = self.trial.tension[segment].max(0.0) * pull.inverse_chord;
+        self.pull[segment] = Pull { taut, across, ..Pull::of(&pull) };
+        if taut {
+            self.add_pull(segment, node, 1.0);
+        }
+    }
+
+    /// Adds the pull of a segment and its block, or takes them away with a sign below zero.
+    fn add_pull(&mut self, segment: usize, node: usize, sign: f64) {
+        let Pull { direction, tension, stiffness, across, .. } = self.pull[segment];
+        let force = direction * (sign * tension);
+        let block =
+            DMat3::from(Sym3::round(sign * across, direction.into(), sign * (stiffness - across)));
+        self.tridiagonal.force[node] += force;
+        self.tridiagonal.force[node + 1] -= force;
+        self.tridiagonal.diagonal[node] += block;
+        self.tridiagonal.diagonal[node + 1] += block;
+        self.tridiagonal.up[segment] -= block;
+        self.tridiagonal.low[segment] -= block;
+    }
+
+    /// After a solve: lets those segments pull, and those alone, that are taut by the linear solution; how many that changes.
+    pub(crate) fn change_taut(&mut self, model: &Model) -> usize {
+        let mut changed = 0;
+        for (index, segments) in model.line_segments.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in segments.clone().enumerate() {
+                let tension = self.trial.tension[segment];
+                let pull = self.pull[segment];
+                if pull.taut == (tension > 0.0) || self.cut[segment] {
+                    continue;
+                }
+                changed += 1;
+                if pull.taut {
+                    self.add_pull(segment, first_node + k, -1.0);
+                    self.pull[segment].taut = false;
+                } else {
+                    let chord = self.trial.place[first_node + k + 1]
+                        .distance(self.trial.place[first_node + k]);
+                    self.pull[segment].across = tension / chord.max(TINY_M);
+                    self.pull[segment].taut = true;
+                    self.add_pull(segment, first_node + k, 1.0);
+                }
+            }
+        }
+        changed
+    }
+
+    /// Tension of a segment at the trial places, before it is judged taut or slack.
+    pub(crate) fn pull_of(&self, segment: usize, node: usize, scheme: &Scheme) -> Pull {
+        let between = self.trial.place[node + 1] - self.trial.place[node];
+        Pull::of(&self.law_between(segment, node, scheme, between))
+    }
+
+    /// Tension of a segment with the trial moved by a share of the solved step.
+    pub(crate) fn pull_moved(
+        &self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        share: f64,
+    ) -> Pull {
+        let between = self.trial.place[node + 1] - self.trial.place[node];
+        let moved = (self.tridiagonal.step[node + 1] - self.tridiagonal.step[node]) * share;
+        Pull::of(&self.law_between(segment, node, scheme, between + moved))
+    }
+
+    fn law_between(
+        &self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        between: DVec3,
+    ) -> PullOf<f64> {
+        let length = self.lengths.segment[segment];
+        let at = SegmentAt {
+            between: between.into(),
+            history: (self.trial.place_history[node + 1] - self.trial.place_history[node]).into(),
+            length,
+            inverse_length: 1.0 / length,
+            law: self.lengths.axial[segment],
+            predicted: self.trial.tension[segment],
+        };
+        forces::pull(&at, scheme.rate)
+    }
+
+    /// After a solve: the tension each segment will have by the linear solution.
+    pub(crate) fn predict_tension(&mut self, model: &Model, share: f64) {
+        for (index, _) in model.spec.lines.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in model.line_segments[index].clone().enumerate() {
+                let pull = &self.pull[segment];
+                self.trial.tension[segment] = pull.tension
+                    + pull.stiffness * pull.stretch(&self.tridiagonal.step, first_node + k) * share;
+            }
+        }
+    }
+}
+
+/// Axial law of a segment at the trial places.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pull {
+    pub direction: DVec3,
+    pub tension: f64,
+    pub stiffness: f64,
+    /// Stiffness across: predicted tension over length [N/m].
+    pub across: f64,
+    /// Whether the last solve let it pull.
+    pub taut: bool,
+}
+
+impl Pull {
+    fn of(pull: &PullOf<f64>) -> Self {
+        Self {
+            direction: pull.direction.into(),
+            tension: pull.tension,
+            stiffness: pull.stiffness,
+            across: 0.0,
+            taut: false,
+        }
+    }
+
+    /// How much the solved step stretches the segment [m].
+    pub fn stretch(&self, step: &[DVec3], node: usize) -> f64 {
+        self.direction.dot(step[node + 1] - step[node])
+    }
+}
+
+/// Derivative of the drag on a wet length by the tangent, kept a unit vector [N].
+fn drag_by_tangent(relative: DVec3, tangent: DVec3, rope: &PerMetre<f64>, wet: f64) -> DMat3 {
+    let (across, along) = (rope.across * wet, rope.along * wet);
+    let along_speed = relative.dot(tangent);
+    let normal = relative - tangent * along_speed;
+    let normal_speed = normal.length();
+    let mut of_normal = DMat3::from_diagonal(DVec3::splat(across * normal_speed));
+    if normal_speed > 1e-12 {
+        of_normal += outer(normal, normal) * (across / normal_speed);
+    }
+    let identity = DMat3::IDENTITY;
+    let turn_of_normal = (outer(tangent, relative) + identity * along_speed) * -1.0;
+    let speed = along_speed.abs();
+    let turn_of_along = outer(tangent, relative) * (2.0 * speed) + identity * (speed * along_speed);
+    let unit = identity - outer(tangent, tangent);
+    let mut turn = of_normal * turn_of_normal + turn_of_along * along;
+    if rope.along_root > 0.0 {
+        let root = rope.along_root * wet * speed.sqrt();
+        turn += outer(tangent, relative) * (1.5 * root) + identity * (root * along_speed);
+    }
+    turn * unit
+}
+
+/// The nodes before and after one in its line, or itself at an end.
+fn neighbours(node: usize, nodes: &Range<usize>) -> [usize; 2] {
+    [
+        if node > nodes.start { node - 1 } else { node },
+        if node + 1 < nodes.end { node + 1 } else { node },
+    ]
+}
+
+/// Direction of a line at a node from its neighbours, and the inverse of the chord it was taken over.
+pub(crate) fn tangent(place: &[DVec3], node: usize, nodes: &Range<usize>) -> (DVec3, f64) {
+    let [before, after] = neighbours(node, nodes);
+    let chord = place[after] - place[before];
+    let length = chord.length();
+    if length > 1e-12 { (chord / length, 1.0 / length) } else { (DVec3::Z, 0.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rope of one metre in water that flows past it, its neighbours at either end, moving.
+    fn moving() -> (PerMetre<f64>, Shared<f64>, NodeAt<f64>) {
+        let rope = PerMetre {
+            mass: 0.07,
+            added: 0.05,
+            spared: 0.04,
+            weight: 0.7,
+            lift: 0.6,
+            across: 6.0,
+            along: 0.3,
+            along_root: 0.2,
+        };
+        let shared =
+            Shared { rate: 150.0, inertia: 22_500.0, wet: 0.5, drying: 10.0, viscous: true };
+        let (place, tangent) = (DVec3::new(0.3, -0.2, 0.01), DVec3::new(0.1, 0.2, 0.9).normalize());
+        let at = NodeAt {
+            place: place.into(),
+            before: (place - tangent).into(),
+            after: (place + tangent).into(),
+            place_history: (place - DVec3::new(2e-3, -1e-3, 3e-3)).into(),
+            velocity_history: DVec3::new(0.2, -0.1, 0.3).into(),
+            flow: DVec3::new(0.4, -0.3, 0.2).into(),
+            surface: 0.0,
+            length: 1.0,
+        };
+        (rope, shared, at)
+    }
+
+    fn force(rope: &PerMetre<f64>, shared: &Shared<f64>, at: &NodeAt<f64>) -> DVec3 {
+        forces::node(rope, shared, at).0.into()
+    }
+
+    /// The block against central differences of the force; at a height where drag and buoyancy are whole or gone, and at one
+    /// where only buoyancy fades.
+    #[test]
+    fn the_block_of_a_node_is_the_derivative_of_its_force() {
+        for (surface, across) in [(1.0, 6.0), (-1.0, 6.0), (0.0, 0.0)] {
+            let (rope, shared, at) = moving();
+            let rope = if across > 0.0 {
+                rope
+            } else {
+                PerMetre { across, along: 0.0, along_root: 0.0, added: 0.0, spared: 0.0, ..rope }
+            };
+            let at = NodeAt { surface, ..at };
+            let block = DMat3::from(forces::node(&rope, &shared, &at).1);
+            let step = 1e-6;
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let [ahead, behind] = [step, -step].map(|by| {
+                    let place = (DVec3::from(at.place) + axis * by).into();
+                    force(&rope, &shared, &NodeAt { place, ..at })
+                });
+                let difference = (behind - ahead) / (2.0 * step);
+                assert!(
+                    (block * axis - difference).length() < 1e-6 * difference.length(),
+                    "{surface}: {block} {difference}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn drag_turns_with_the_tangent_as_its_derivative_says() {
+        let (rope, shared, at) = moving();
+        let at = NodeAt { surface: 1.0, ..at };
+        let shared = Shared { inertia: 0.0, rate: 0.0, ..shared };
+        let chord = DVec3::from(at.after) - DVec3::from(at.before);
+        let turn = drag_by_tangent(at.flow.into(), chord.normalize(), &rope, 1.0) / chord.length();
+        let step = 1e-6;
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let [ahead, behind] = [step, -step].map(|by| {
+                let after = (DVec3::from(at.after) + axis * by).into();
+                force(&rope, &shared, &NodeAt { after, ..at })
+            });
+            assert!((turn * axis - (ahead - behind) / (2.0 * step)).length() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! The seabed under rope nodes and the feet of bodies.
+//!
+//! Depth `p` below the plane, stiffness `k`: `N = k p²/2e` for `0 < p < e`, `N = k (p - e/2)` beyond
+//! (smooth onset over `e`). A foot is a point of the body, or a ball about it, whose lowest place touches: it sinks by how the ball's middle moves, and
+//! grips by how the body's own point moves that touches as the step ends, so that a ball rolls. Friction is an elastic grip (`elastic_grip.rs`). A body's foot starts at `μ_start` and slides at `μ_slide`
+//! until it stands still again; lifted, it is held back until it has broken out (`suction.rs`).
+
+use glam::{DQuat, DVec3};
+
+use crate::contact::law::elastic_grip::{Grip, Push};
+use crate::forces::suction;
+use crate::matrix::outer;
+use crate::model::{Body, Model, Seabed};
+use crate::solver::Solver;
+use crate::state::State;
+use crate::trial::plan::Attachment;
+use crate::trial::scheme::Scheme;
+
+/// Depth over which the seabed's push sets in [m].
+const ONSET_M: f64 = 0.01;
+/// Speed below which a sliding foot takes hold again [m/s].
+const HOLD_SPEED_M_S: f64 = 1e-3;
+/// Pseudo-mass of statics at which half of a grip's yielding is trusted [1/s²].
+const TRUSTED_MASS: f64 = 0.01;
+/// Share of critical damping of a foot on the seabed.
+const FOOT_DAMPING: f64 = 0.5;
+
+/// Push of the seabed at a depth.
+fn push_at(depth: f64, stiffness: f64) -> Push {
+    if depth <= 0.0 {
+        Push::default()
+    } else if depth < ONSET_M {
+        Push { force: 0.5 * stiffness * depth * depth / ONSET_M, rate: stiffness * depth / ONSET_M }
+    } else {
+        Push { force: stiffness * (depth - 0.5 * ONSET_M), rate: stiffness }
+    }
+}
+
+/// A foot of a body.
+#[derive(Clone, Copy)]
+struct BodyFoot<'a> {
+    body: &'a Body,
+    /// Index of the body.
+    index: usize,
+    /// Index of the foot among those of the body.
+    foot: usize,
+}
+
+impl BodyFoot<'_> {
+    /// From a body turned like this to the foot's lowest place [m].
+    fn arm(&self, seabed: &Seabed, orientation: DQuat) -> DVec3 {
+        self.body.foot_arm(self.foot, orientation, seabed.normal)
+    }
+
+    /// Its lowest place when the step begins [m].
+    fn place_before(&self, seabed: &Seabed, state: &State) -> DVec3 {
+        let now = &state.bodies[self.index];
+        now.position + self.arm(seabed, now.orientation)
+    }
+
+    /// Where the point of the body was when the step began that is lowest with the body turned like this [m].
+    fn point_before(&self, seabed: &Seabed, state: &State, orientation: DQuat) -> DVec3 {
+        if self.body.foot_radius_m.get(self.foot).is_none_or(|radius| *radius <= 0.0) {
+            return self.place_before(seabed, state);
+        }
+        let now = &state.bodies[self.index];
+        now.position + now.orientation * (orientation.inverse() * self.arm(seabed, orientation))
+    }
+}
+
+impl Seabed {
+    /// Depth at which one foot bears a load [m].
+    pub(crate) fn depth_under(&self, load_n: f64) -> f64 {
+        let depth = load_n / self.foot_stiffness_n_m + 0.5 * ONSET_M;
+        if depth < ONSET_M {
+            (2.0 * ONSET_M * load_n / self.foot_stiffness_n_m).sqrt()
+        } else {
+            depth
+        }
+    }
+
+    /// Push on one foot at a place [N].
+    pub(crate) fn push_on_foot(&self, place: DVec3) -> f64 {
+        push_at(self.depth_of(place), self.foot_stiffness_n_m).force
+    }
+
+    /// Depth of a place below the plane [m].
+    pub(crate) fn depth_of(&self, place: DVec3) -> f64 {
+        -self.normal.dot(place + DVec3::Z * self.depth_m)
+    }
+}
+
+impl Solver {
+    /// Adds the seabed under every rope node.
+    pub(crate) fn add_seabed(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        for node in 0..model.node_count {
+            let Some((push, grip)) = self.seabed_at(seabed, state, scheme, node) else { continue };
+            self.tridiagonal.force[node] += seabed.normal * push.force;
+            self.tridiagonal.diagonal[node] += outer(seabed.normal, seabed.normal) * push.rate;
+            if let Some(grip) = grip {
+                self.tridiagonal.force[node] += grip.force;
+                self.tridiagonal.diagonal[node] += grip.block;
+            }
+        }
+    }
+
+    /// Push of the seabed on a rope node that lies on it, and its grip where it grips.
+    pub(crate) fn seabed_at(
+        &self,
+        seabed: &Seabed,
+        state: &State,
+        scheme: &Scheme,
+        node: usize,
+    ) -> Option<(Push, Option<Grip>)> {
+        let depth = seabed.depth_of(self.trial.place[node]);
+        if depth <= 0.0 {
+            return None;
+        }
+        let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
+        let grip = grips_rope(seabed, state, node, scheme)
+            .then(|| self.rope_grip(seabed, state, scheme, node, stiffness));
+        Some((push_at(depth, stiffness), grip))
+    }
+
+    fn rope_grip(
+        &self,
+        seabed: &Seabed,
+        state: &State,
+        scheme: &Scheme,
+        node: usize,
+        stiffness: f64,
+    ) -> Grip {
+        let stretch =
+            state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
+        let push = push_at(seabed.depth_of(self.trial.place[node]), stiffness);
+        if scheme.is_static() {
+            return Grip::smooth(
+                stretch,
+                seabed.normal,
+                stiffness,
+                seabed.rope_friction * push.force,
+                trust(scheme),
+            );
+        }
+        Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
+    }
+
+    /// Longest solved move of a body that stands on the seabed, and whose feet may then bear or hold otherwise than was solved for [m].
+    pub(crate) fn longest_of_standing(&self, model: &Model) -> f64 {
+        let Some(seabed) = &model.spec.seabed else { return 0.0 };
+        let stands = |index: usize| {
+            let (body, trial) = (&model.spec.bodies[index], self.trial.bodies[index]);
+            (0..body.feet_m.len()).any(|foot| {
+                let arm = body.foot_arm(foot, trial.orientation, seabed.normal);
+                seabed.depth_of(trial.place + arm) > 0.0
+            })
+        };
+        let moves = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        moves.enumerate().fold(0.0, |longest, (index, move_m)| {
+            if move_m > longest && stands(index) { move_m } else { longest }
+        })
+    }
+
+    /// Adds the seabed under a body's feet.
+    pub(crate) fn add_feet(&mut self, model: &Model, state: &State, index: usize, scheme: &Scheme) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        let body = &model.spec.bodies[index];
+        for foot in 0..body.feet_m.len() {
+            let (at, now) = (BodyFoot { body, index, foot }, self.trial.bodies[index]);
+            let arm = at.arm(seabed, now.orientation);
+            let place = now.place + arm;
+            let depth = seabed.depth_of(place);
+            let attachment = Attachment::Body {
+                block: self.plan.body_block[index],
+                body: index,
+                offset: body.feet_m[foot],
+            };
+            if depth <= 0.0 {
+                let (pull, rate) =
+                    suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
+                if pull > 0.0 && !scheme.is_static() {
+                    self.interface.push(attachment, arm, seabed.normal * -pull);
+                    self.interface.add(
+                        attachment,
+                        arm,
+                        attachment,
+                        arm,
+                        outer(seabed.normal, seabed.normal) * rate,
+                    );
+                }
+                continue;
+            }
+            let before = at.place_before(seabed, state);
+            let damping = if scheme.is_static() {
+                0.0
+            } else {
+                FOOT_DAMPING * (seabed.foot_stiffness_n_m * body.mass_kg).sqrt() / scheme.dt
+            };
+            let undamped = push_at(depth, seabed.foot_stiffness_n_m);
+            let push = Push {
+                force: (undamped.force + damping * seabed.normal.dot(before - place)).max(0.0),
+                rate: undamped.rate + damping,
+            };
+            let from = at.point_before(seabed, state, now.orientation);
+            let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
+            self.interface.push(attachment, arm, seabed.normal * push.force + grip.force);
+            self.interface.add(
+                attachment,
+                arm,
+                attachment,
+                arm,
+                outer(seabed.normal, seabed.normal) * push.rate + grip.block,
+            );
+        }
+    }
+
+    /// Moves the grips of rope and feet on; called while `state` still holds the places of the step's begin.
+    pub(crate) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        for node in 0..model.node_count {
+            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0
+                && grips_rope(seabed, state, node, scheme);
+            let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
+            state.rope.seabed_grip[node] = if on_ground {
+                self.rope_grip(seabed, state, scheme, node, stiffness).kept
+            } else {
+                DVec3::ZERO
+            };
+        }
+        self.keep_feet(model, scheme, state);
+    }
+
+    /// Moves the grips of feet on and clears those of rope, where no rope is near the seabed.
+    pub(crate) fn keep_grips_free(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        if model.spec.seabed.is_some() {
+            state.rope.seabed_grip.fill(DVec3::ZERO);
+            self.keep_feet(model, scheme, state);
+        }
+    }
+
+    fn keep_feet(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        for (index, body) in model.spec.bodies.iter().enumerate() {
+            for foot in 0..body.feet_m.len() {
+                self.keep_foot(seabed, scheme, BodyFoot { body, index, foot }, state);
+            }
+        }
+    }
+
+    fn keep_foot(&self, seabed: &Seabed, scheme: &Scheme, at: BodyFoot<'_>, state: &mut State) {
+        let BodyFoot { index, foot, .. } = at;
+        let now = self.trial.bodies[index];
+        let place = now.place + at.arm(seabed, now.orientation);
+        let push = push_at(seabed.depth_of(place), seabed.foot_stiffness_n_m);
+        let (kept, slides) = if push.force > 0.0 {
+            let from = at.point_before(seabed, state, now.orientation);
+            let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
+            let speed = (place - from).length() * scheme.rate;
+            // Statics says itself which feet slide.
+            let slides = if scheme.is_static() {
+                state.bodies[index].sliding[foot]
+            } else {
+                grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot])
+            };
+            (grip.kept, slides)
+        } else {
+            (DVec3::ZERO, false)
+        };
+        let lift = -seabed.depth_of(place);
+        state.bodies[index].lift_m[foot] =
+            suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
+        state.bodies[index].grip[foot] = kept;
+        state.bodies[index].sliding[foot] = slides;
+    }
+}
+
+/// How far statics trusts a grip to yield as it slips: little while passes are rough, wholly at the end.
+fn trust(scheme: &Scheme) -> f64 {
+    if scheme.anchored { 1.0 } else { 1.0 / (1.0 + scheme.inertia / TRUSTED_MASS) }
+}
+
+/// Whether the seabed grips a node that lies on it: in statics only one that lay on it before, for where another
+/// first touched is not known.
+fn grips_rope(seabed: &Seabed, state: &State, node: usize, scheme: &Scheme) -> bool {
+    !scheme.is_static() || seabed.depth_of(state.rope.position[node]) > 0.0
+}
+
+/// Friction of a foot that moved from one place to another: it starts to slide at one coefficient and slides on at another.
+fn foot_grip(
+    seabed: &Seabed,
+    state: &State,
+    scheme: &Scheme,
+    at: BodyFoot<'_>,
+    [from, to]: [DVec3; 2],
+    push: Push,
+) -> Grip {
+    let BodyFoot { body, index, foot } = at;
+    let stretch = state.bodies[index].grip[foot] + to - from;
+    let friction =
+        if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
+    if scheme.is_static() {
+        return Grip::smooth(
+            stretch,
+            seabed.normal,
+            seabed.foot_stiffness_n_m,
+            friction * push.force,
+            trust(scheme),
+        );
+    }
+    let mut grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction, push);
+    if grip.slips && !state.bodies[index].sliding[foot] {
+        // It broke loose in this very step: from here on it slides.
+        grip =
+            Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, body.slide_friction, push);
+    }
+    grip
+}

@@ -1,0 +1,198 @@
+//! Copies rope into the lanes: lengths, places, the seabed, and the ends of lines.
+
+use glam::{DMat3, DVec3};
+
+use crate::forces::lengths::Lengths;
+use crate::model::Model;
+use crate::same_bits::same_bits;
+use crate::state::RopeState;
+use crate::system::lanes::Lanes;
+use crate::system::lanes::layout::Piece;
+use crate::system::lanes::rows::{GroundRow, LANES, NodeRow, SegmentRow};
+use crate::trial::Trial;
+use crate::trial::scheme::Scheme;
+
+impl Lanes {
+    /// Takes over lengths, laws and what is cut, where they are not those there are.
+    pub fn take_lengths(&mut self, model: &Model, lengths: &Lengths, cut: &[bool]) {
+        if same_bits(&self.lengths, &lengths.segment) && self.cut == cut {
+            return;
+        }
+        self.lengths.clone_from(&lengths.segment);
+        cut.clone_into(&mut self.cut);
+        for group in &self.groups {
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let segments = &mut self.segments[group.segment_row..][..group.longest];
+                let nodes = &mut self.nodes[group.node_row..][..group.longest + 3];
+                let piece = &self.pieces[*piece];
+                let mut rows = PieceRows { lane, nodes, segments };
+                rows.take_lengths(piece, lengths, cut);
+                if group.bends {
+                    rows.take_hinges(model, piece, &lengths.segment, cut);
+                }
+            }
+        }
+    }
+
+    /// Takes over the rope as a step begins: `guess` of its places, and the water's velocity there.
+    pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
+        for group in &self.groups {
+            let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
+            let last_nodes = group
+                .pieces
+                .map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
+            for (k, row) in
+                self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate()
+            {
+                for lane in 0..LANES {
+                    let node = (first_nodes[lane] + k).min(last_nodes[lane]);
+                    row.place.set(lane, guess[node]);
+                    row.place_history.set(
+                        lane,
+                        scheme.history(state.position[node], state.earlier_position[node]),
+                    );
+                    row.velocity_history.set(
+                        lane,
+                        scheme.history(state.velocity[node], state.earlier_velocity[node]),
+                    );
+                    row.flow.set(lane, flow[node]);
+                }
+            }
+            for lane in 0..group.used {
+                let piece = &self.pieces[group.pieces[lane]];
+                let segments = &mut self.segments[group.segment_row..][..piece.segments];
+                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..])
+                {
+                    row.tension.0[lane] = *tension;
+                }
+            }
+        }
+        self.refresh_ghosts();
+    }
+
+    /// Takes over other places of all nodes.
+    pub fn take_places(&mut self, place: &[DVec3]) {
+        for group in &self.groups {
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let Piece { first_node, segments, .. } = self.pieces[*piece];
+                for k in 0..=group.longest {
+                    let row = &mut self.nodes[group.node_row + 1 + k];
+                    row.place.set(lane, place[first_node + k.min(segments)]);
+                }
+            }
+        }
+        self.refresh_ghosts();
+    }
+
+    /// Takes what the seabed does to nodes: forces and blocks, of which the symmetric part is kept (Newton then comes to the
+    /// same balance, a little slower where rope slides).
+    pub fn take_ground(&mut self, force: &[DVec3], block: &[DMat3]) {
+        self.ground.resize(self.nodes.len(), GroundRow::default());
+        for piece in &self.pieces {
+            let rows = &mut self.ground[self.groups[piece.group].node_row + 1..][..=piece.segments];
+            for (k, row) in rows.iter_mut().enumerate() {
+                let node = piece.first_node + k;
+                // Where two pieces meet, the first carries it.
+                let carried = k > 0 || !piece.follows;
+                row.set(
+                    piece.lane,
+                    if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) },
+                );
+            }
+        }
+    }
+
+    /// Forgets the seabed.
+    pub fn leave_ground(&mut self) {
+        self.ground.clear();
+    }
+
+    /// Takes the places of all line ends from the trial, where joints and bodies have put them.
+    pub fn take_ends(&mut self, model: &Model, trial: &Trial) {
+        for line in 0..self.line_pieces.len() {
+            let (pieces, nodes) = (self.line_pieces[line].clone(), &model.line_nodes[line]);
+            self.put_place(pieces.start, 0, trial.place[nodes.start]);
+            self.put_place(
+                pieces.end - 1,
+                self.pieces[pieces.end - 1].segments,
+                trial.place[nodes.end - 1],
+            );
+        }
+        self.refresh_ghosts();
+    }
+
+    fn put_place(&mut self, piece: usize, k: usize, place: DVec3) {
+        let Piece { group, lane, .. } = self.pieces[piece];
+        let row = self.groups[group].node_row + 1 + k;
+        self.nodes[row].place.set(lane, place);
+    }
+
+    /// Puts before and behind each piece the node that the line has there, or at a line's end that end again.
+    fn refresh_ghosts(&mut self) {
+        for index in 0..self.pieces.len() {
+            let piece = self.pieces[index];
+            let before = if piece.follows {
+                (index - 1, self.pieces[index - 1].segments - 1)
+            } else {
+                (index, 0)
+            };
+            let behind = if piece.goes_on { (index + 1, 1) } else { (index, piece.segments) };
+            let place_of = |(piece, k): (usize, usize)| {
+                self.node(piece, k).place.vector(self.pieces[piece].lane)
+            };
+            let (before, behind) = (place_of(before), place_of(behind));
+            let first = self.groups[piece.group].node_row;
+            self.nodes[first].place.set(piece.lane, before);
+            self.nodes[first + piece.segments + 2].place.set(piece.lane, behind);
+        }
+    }
+}
+
+/// Rows of a piece, and its lane in them.
+struct PieceRows<'a> {
+    lane: usize,
+    nodes: &'a mut [NodeRow],
+    segments: &'a mut [SegmentRow],
+}
+
+impl PieceRows<'_> {
+    /// Takes over lengths and laws of a piece.
+    fn take_lengths(&mut self, piece: &Piece, lengths: &Lengths, cut: &[bool]) {
+        let Self { lane, nodes, segments } = self;
+        let lane = *lane;
+        let mut half_before = 0.0;
+        for k in 0..piece.segments {
+            let (row, segment) = (&mut segments[k], piece.first_segment + k);
+            let (length, law) = (lengths.segment[segment], &lengths.axial[segment]);
+            let whole = if cut[segment] { 0.0 } else { 1.0 };
+            row.length.0[lane] = length;
+            row.inverse_length.0[lane] = 1.0 / length;
+            row.ea.0[lane] = law.ea * whole;
+            row.ea2.0[lane] = law.ea2 * whole;
+            row.damping.0[lane] = law.damping * whole;
+            nodes[k + 1].length.0[lane] = half_before + 0.5 * length;
+            half_before = 0.5 * length;
+        }
+        nodes[piece.segments + 1].length.0[lane] = half_before;
+    }
+
+    /// Hinges of a piece, those where it meets the next included: `c = EI/L` at a node that is neither a line's end nor at a cut.
+    fn take_hinges(&mut self, model: &Model, piece: &Piece, length: &[f64], cut: &[bool]) {
+        let Self { lane, nodes, segments } = self;
+        let lane = *lane;
+        let bending = model.spec.ropes[model.spec.lines[piece.line].rope].bending_stiffness_n_m2;
+        for (k, row) in nodes[1..][..=piece.segments].iter_mut().enumerate() {
+            let behind = piece.first_segment + k;
+            let is_inner = (k > 0 || piece.follows) && (k < piece.segments || piece.goes_on);
+            let bends = is_inner && !cut[behind - 1] && !cut[behind];
+            let [one, other] =
+                if bends { [length[behind - 1], length[behind]] } else { [1.0, 1.0] };
+            row.hinge.0[lane] = if bends { 2.0 * bending / (one + other) } else { 0.0 };
+            (row.inverse_before.0[lane], row.inverse_behind.0[lane]) = (1.0 / one, 1.0 / other);
+        }
+        for (k, row) in segments[..piece.segments].iter_mut().enumerate() {
+            let hinges = nodes[k + 1].hinge.0[lane] + nodes[k + 2].hinge.0[lane];
+            row.bending.0[lane] = hinges * row.inverse_length.0[lane] * row.inverse_length.0[lane];
+        }
+    }
+}
