@@ -1,5 +1,7 @@
-//! Tests that drive the built program from outside, by scripts, where the machine has what they need: the window by real mouse and
-//! keys on a screen of its own, a study by a real queue of a cluster, and the program for Windows under Wine.
+//! Scripts that test the built program from outside, if the machine has the tools they need.
+//!
+//! They drive the window with a real mouse and keyboard on a virtual screen, run a study in the queue of a cluster, and run
+//! the program for Windows under Wine.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,16 +10,16 @@ use crate::Outcome;
 use crate::system_packages::are_here;
 use crate::workspace::{Profile, Workspace, announce};
 
-/// A script that takes the program and a folder of its own.
+/// A script; its arguments are the program and an output folder.
 struct Script {
     file: &'static str,
-    /// What it drives.
+    /// Its subject, for messages.
     what: &'static str,
-    /// Programs that it needs.
+    /// Programs it needs.
     tools: &'static [&'static str],
-    /// Debian's packages of them.
+    /// Debian packages of these programs.
     packages: &'static str,
-    /// Name of its folder in that of the build.
+    /// Its output folder below the target folder.
     folder: &'static str,
 }
 
@@ -45,30 +47,31 @@ const WINDOWS: Script = Script {
     folder: "windows",
 };
 
-/// Rust's name of the system for which [`windows`] builds.
+/// Target triple of [`windows`].
 const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 
-/// Each user's first hour in a real window; its pictures go to `<target>/first-hours`.
+/// Plays each user's first hour in a real window; writes the pictures to `<target>/first-hours`.
 ///
 /// # Errors
-/// When a step of it fails.
+/// When a step fails.
 pub fn window(workspace: &Workspace) -> Outcome {
     drive(workspace, &WINDOW, workspace.program(Profile::Dev).as_path())
 }
 
-/// A study on a Slurm of its own, with a task that is killed and one that is put back; its results go to `<target>/slurm`.
+/// Runs a study on a Slurm of one node, kills one task and requeues another; writes the results to `<target>/slurm`.
 ///
 /// # Errors
-/// When its table is not that of one process.
+/// When the table differs from that of a single process.
 pub fn slurm(workspace: &Workspace) -> Outcome {
     drive(workspace, &SLURM, workspace.program(Profile::Dev).as_path())
 }
 
-/// The program and a plugin library built for Windows, run under Wine and held against the same code here; what they left goes to
-/// `<target>/windows`.
+/// Builds the program and a plugin library for Windows, runs them under Wine and compares their results with those of this
+/// system; writes the results to `<target>/windows`.
 ///
 /// # Errors
-/// When they cannot be built (`rustup target add x86_64-pc-windows-gnu` brings Rust's part), or a state or table differs.
+/// When the build fails (`rustup target add x86_64-pc-windows-gnu` installs the standard library), or a state or table
+/// differs.
 pub fn windows(workspace: &Workspace) -> Outcome {
     if !WINDOWS.is_skipped() {
         workspace.cargo(&["build", "--package", "endline"])?;
@@ -83,7 +86,7 @@ pub fn windows(workspace: &Workspace) -> Outcome {
 }
 
 impl Script {
-    /// Whether a tool is missing, which is told.
+    /// Whether a tool is missing; prints which.
     fn is_skipped(&self) -> bool {
         !are_here(self.what, self.tools, self.packages)
     }
@@ -103,9 +106,7 @@ fn drive(workspace: &Workspace, script: &Script, program: &Path) -> Outcome {
         .status();
     match status {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) => {
-            Err(format!("{what} went wrong, see above; what it left is in {}", folder.display()))
-        }
+        Ok(_) => Err(format!("{what} failed, see above; its output is in {}", folder.display())),
         Err(error) => Err(format!("bash cannot be started: {error}")),
     }
 }

@@ -1,22 +1,22 @@
-//! Tests that take seconds in the suite, for hours: `cargo xtask fuzz` and `cargo xtask soak`.
+//! Tests of the suite that take seconds there, run for hours: `cargo xtask fuzz` and `cargo xtask soak`.
 
 use crate::Outcome;
 use crate::workspace::Workspace;
 
-/// Feeds damaged files (`tests/tests/fuzz`) for so many hours.
+/// Feeds damaged files to every reader (`tests/tests/fuzz`) for a number of hours.
 ///
 /// # Errors
-/// When it cannot be built, or found something.
+/// When the build fails, or a reader panics or hangs.
 pub fn fuzz(workspace: &Workspace, hours: f64) -> Outcome {
     let arguments =
         ["test", "--release", "--package", "endline-tests", "--test", "fuzz", "--", "--nocapture"];
     workspace.cargo_with(&arguments, &[("ENDLINE_FUZZ_HOURS", &hours.to_string())])
 }
 
-/// Runs random sessions of the window on faults (`app/workbench/tests/all/soak`) for so many hours.
+/// Runs random sessions of the window on faults (`app/workbench/tests/all/soak`) for a number of hours.
 ///
 /// # Errors
-/// When it cannot be built, or a promise was broken.
+/// When the build fails, or a session loses or tears a file, or hangs.
 pub fn soak(workspace: &Workspace, hours: f64) -> Outcome {
     let random = "soak::random_sessions_on_faults_keep_every_promise";
     let arguments = ["test", "--package", "endline", "--test", "all", "--", "--nocapture", random];

@@ -1,4 +1,4 @@
-//! The house's own chores, run as `cargo xtask <chore>` from anywhere in the workspace.
+//! Chores of the repository, run as `cargo xtask <chore>` from anywhere in the workspace.
 //!
 //! Standard library only: this is the first thing a newcomer compiles, before any system package is there.
 
@@ -10,46 +10,41 @@ mod plugins;
 mod processors;
 mod python;
 mod run;
-mod shape;
 mod system_packages;
 mod test;
 mod workspace;
 
 use std::process::ExitCode;
 
-use shape::Part;
 use workspace::{Profile, Workspace};
 
-/// What every chore gives: nothing, or a sentence for the user.
+/// Result of a chore: nothing, or an error message for the user.
 type Outcome<T = ()> = Result<T, String>;
 
 const USAGE: &str = "\
 usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in release, open the workbench
                                          (with no display: simulate the bundled encounter and draw it);
-                                         ARGUMENTS, where given, go to the program instead
-       cargo xtask test                  install what is missing, then run the whole test suite; where Xvfb,
-                                         xdotool and imagemagick are, drive the window too
+                                         ARGUMENTS, if any, are passed to the program instead
+       cargo xtask test                  install what is missing, then run the whole test suite; drive the window
+                                         too if Xvfb, xdotool and imagemagick are installed
        cargo xtask test --quick          only formatting, lints, the tests inside the crates, the rules of the
                                          workspace, the golden states and calls of the program
-       cargo xtask golden                write the table of golden states anew, after the physics was changed
-                                         on purpose
+       cargo xtask golden                rewrite the table of golden states after an intended change of the
+                                         physics
        cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
                                          N hours; print inputs, panics, hangs and memory
-       cargo xtask soak --hours N        run random sessions of the window for N hours, with faults and kills, and look
-                                         after each for what is lost or broken
-       cargo xtask window                only drive the window that was built
-       cargo xtask slurm                 run a study on a Slurm of one node begun for it, as root, where Slurm is installed
-       cargo xtask windows               build for Windows and run it under Wine, where Wine and mingw-w64 are installed;
-                                         hashes and tables must be those of this system
+       cargo xtask soak --hours N        run random sessions of the window for N hours, with faults and kills, and check
+                                         after each that nothing is lost or broken
+       cargo xtask window                only drive the built window
+       cargo xtask slurm                 as root, start a Slurm of one node and run a study on it, if Slurm is installed
+       cargo xtask windows               build for Windows and run it under Wine, if Wine and mingw-w64 are installed;
+                                         hashes and tables must equal those of this system
        cargo xtask processors            run the golden states on older x86-64 processors and on ARM, emulated by qemu,
-                                         where that is installed
+                                         if that is installed
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask package               build a portable archive and a Debian package of the release
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
-                                         run its tests
-       cargo xtask shape [all | sizes | circles] [PACKAGE]
-                                         print how large files and functions are, and which files name each
-                                         other in circles; PACKAGE is the folder of one, such as sim";
+                                         run its tests";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -67,10 +62,10 @@ fn main() -> ExitCode {
     }
 }
 
-/// What is done in the workspace.
+/// A chore, applied to the workspace.
 type Chore<'a> = Box<dyn Fn(&Workspace) -> Outcome + 'a>;
 
-/// The chore that these words ask for; `None` where there is no such chore.
+/// Returns the chore that the arguments name; `None` if there is no such chore.
 fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
     Some(match words {
         ["run"] => Box::new(run::run),
@@ -94,11 +89,6 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         }
         ["python"] => Box::new(|workspace| python::test(workspace, Profile::Dev)),
         ["python", "--release"] => Box::new(|workspace| python::test(workspace, Profile::Release)),
-        ["shape"] => Box::new(|workspace| shape::print(workspace, Part::All, None)),
-        ["shape", part, package @ ..] if package.len() < 2 => {
-            let part = Part::named(part)?;
-            Box::new(move |workspace| shape::print(workspace, part, package.first().copied()))
-        }
         _ => return None,
     })
 }

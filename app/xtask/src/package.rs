@@ -1,9 +1,9 @@
-//! What people install who build nothing: a portable archive and a Debian package, both of the same tree.
+//! The packages for users who do not build Endline: a portable archive and a Debian package of the same tree.
 //!
 //! ```text
-//! bin/endline        share/man, share/doc        share/applications, share/icons        what shells complete
+//! bin/endline        share/man, share/doc        share/applications, share/icons        completions of shells
 //! ```
-//! The program's file has the gear library and the first-party plugins inside, so that nothing else needs to be found.
+//! The program contains the gear library and the first-party plugins, so that it needs no other files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,14 +12,14 @@ use std::process::Command;
 use crate::workspace::{Profile, Workspace, announce};
 use crate::{Outcome, materials};
 
-/// Shells, and where each looks for what it completes.
+/// Shells, and the path of each one's completions.
 const SHELLS: [(&str, &str); 3] = [
     ("bash", "share/bash-completion/completions/endline"),
     ("zsh", "share/zsh/vendor-completions/_endline"),
     ("fish", "share/fish/vendor_completions.d/endline.fish"),
 ];
 
-/// Files of the workspace, and where they stand in the tree.
+/// Files of the workspace, and their paths in the tree.
 const FILES: [(&str, &str); 7] = [
     ("README.md", "share/doc/endline/README.md"),
     ("CHANGELOG.md", "share/doc/endline/CHANGELOG.md"),
@@ -30,17 +30,17 @@ const FILES: [(&str, &str); 7] = [
     ("assets/icon/endline.png", "share/icons/hicolor/256x256/apps/endline.png"),
 ];
 
-/// What the window looks up when it opens, and films; the command line needs none of it.
+/// Packages for the window and for films; the command line needs none of them.
 const RECOMMENDS: &str = "libegl1, libgl1, libgl1-mesa-dri, libx11-6, libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 
-/// Makes both, in `<target>/package`.
+/// Builds both in `<target>/package`.
 ///
 /// # Errors
 /// When the program cannot be built, or a tool is missing.
 pub fn package(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["build", "--release", "--package", "endline"])?;
     let out = workspace.target.join("package");
-    // What an earlier call left may be of another version.
+    // An earlier call may have written files of another version.
     let _ = fs::remove_dir_all(&out);
     let name = format!("endline-{}-{}-{}", version(), std::env::consts::ARCH, std::env::consts::OS);
     let tree = out.join(&name);
@@ -56,7 +56,7 @@ pub fn package(workspace: &Workspace) -> Outcome {
     Ok(())
 }
 
-/// The tree that both hold.
+/// Writes the tree.
 fn fill(workspace: &Workspace, tree: &Path) -> Outcome {
     let program = tree.join("bin/endline");
     folder(tree.join("bin"))?;
@@ -77,7 +77,7 @@ fn fill(workspace: &Workspace, tree: &Path) -> Outcome {
         }
     }
     for (shell, to) in SHELLS {
-        let script = answer(&program, &["completions", shell])?;
+        let script = output_of(&program, &["completions", shell])?;
         write(&tree.join(to), &script)?;
     }
     let pages = tree.join("share/man/man1");
@@ -88,7 +88,7 @@ fn fill(workspace: &Workspace, tree: &Path) -> Outcome {
     Ok(())
 }
 
-/// The portable archive: unpacked anywhere, `bin/endline` runs.
+/// Builds the portable archive; unpacked in any folder, `bin/endline` runs.
 fn archive(out: &Path, name: &str, stamp: &str) -> Outcome<PathBuf> {
     let file = out.join(format!("{name}.tar.gz"));
     let time = format!("--mtime=@{stamp}");
@@ -98,7 +98,7 @@ fn archive(out: &Path, name: &str, stamp: &str) -> Outcome<PathBuf> {
     Ok(file)
 }
 
-/// The Debian package: the tree under `/usr`.
+/// Builds the Debian package: the tree under `/usr`.
 fn debian(out: &Path, tree: &Path, stamp: &str) -> Outcome<PathBuf> {
     let root = out.join("debian");
     folder(root.join("DEBIAN"))?;
@@ -131,13 +131,13 @@ fn debian(out: &Path, tree: &Path, stamp: &str) -> Outcome<PathBuf> {
     Ok(file)
 }
 
-/// The newest version of the C library whose symbols the program takes.
+/// Returns the newest version of the C library of which the program uses symbols.
 fn newest_libc(program: &Path) -> Outcome<String> {
-    let symbols = answer(Path::new("objdump"), &["-T", &text(program)])?;
-    newest(&symbols).ok_or_else(|| format!("{} takes nothing of libc", program.display()))
+    let symbols = output_of(Path::new("objdump"), &["-T", &text(program)])?;
+    newest(&symbols).ok_or_else(|| format!("{} uses no symbol of libc", program.display()))
 }
 
-/// The newest of the versions `GLIBC_x.y` that a list of symbols names.
+/// Returns the newest version `GLIBC_x.y` in a list of symbols.
 fn newest(symbols: &str) -> Option<String> {
     let is_number = |letter: char| letter.is_ascii_digit() || letter == '.';
     let versions = symbols.split("GLIBC_").skip(1).filter_map(|rest| {
@@ -148,12 +148,12 @@ fn newest(symbols: &str) -> Option<String> {
     versions.max().map(|(_, version)| version)
 }
 
-/// The version of the workspace, which is that of this crate.
+/// Returns the version of the workspace, which is that of this crate.
 fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
-/// When the last change was made, so that the same sources give the same bytes; where there is no history, the beginning of time.
+/// Returns the time of the last commit, so that equal sources give equal bytes; 0 without a history.
 fn stamp(workspace: &Workspace) -> String {
     let log = Command::new("git")
         .args(["log", "-1", "--format=%ct"])
@@ -204,8 +204,8 @@ fn call(program: &str, arguments: &[&str], variables: &[(&str, &str)]) -> Outcom
     }
 }
 
-/// What a program prints.
-fn answer(program: &Path, arguments: &[&str]) -> Outcome<String> {
+/// Returns the output of a program.
+fn output_of(program: &Path, arguments: &[&str]) -> Outcome<String> {
     let output = Command::new(program)
         .args(arguments)
         .output()

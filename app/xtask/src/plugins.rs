@@ -1,4 +1,4 @@
-//! The plugins that ship with Endline, built as libraries and put where the program looks for anyone's.
+//! Builds the plugins that ship with Endline as libraries, in the folder where the program finds plugins.
 
 use std::fs;
 use std::path::Path;
@@ -6,17 +6,17 @@ use std::path::Path;
 use crate::Outcome;
 use crate::workspace::{Profile, Workspace};
 
-/// The crates; each makes one library.
+/// The crates; each is one library.
 const CRATES: [&str; 3] =
     ["endline-whale-motions", "endline-friction-models", "endline-gear-types"];
 
-/// What every plugin library exports; a library built without its `entry` feature lacks it.
+/// The symbol that every plugin library exports if built with its feature `entry`.
 const ENTRY: &str = "endline_plugin_entry";
 
 /// Builds the plugins and copies them to `<target>/<profile>/plugins`.
 ///
-/// A cargo call of their own: with `entry` on, each exports the same symbol, so they must not be linked
-/// together into a test, as they would be if the whole workspace were built with it.
+/// This is a separate cargo call: with `entry`, each library exports the same symbol. A build of the whole workspace would
+/// link them together into tests.
 ///
 /// # Errors
 /// When cargo fails, or a library cannot be copied.
@@ -41,13 +41,13 @@ pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
     Ok(())
 }
 
-/// Copies a library beside its place and renames it there: a program that has the old one open keeps it whole.
+/// Copies a library by a temporary file and a rename, so that a program that has the old one open keeps a complete file.
 fn place(from: &Path, to: &Path) -> Outcome {
     let bytes =
         fs::read(from).map_err(|error| format!("cannot read {}: {error}", from.display()))?;
     if !bytes.windows(ENTRY.len()).any(|window| window == ENTRY.as_bytes()) {
         return Err(format!(
-            "{} does not export {ENTRY}: its crate must do so with its feature `entry`",
+            "{} does not export {ENTRY}: build its crate with the feature `entry`",
             from.display()
         ));
     }
@@ -62,22 +62,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_library_is_placed_whole_and_only_with_its_entry() {
+    fn a_library_is_placed_if_it_exports_the_entry() {
         let folder = std::env::temp_dir().join(format!("endline-xtask-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let (built, placed) = (folder.join("built.so"), folder.join("placed.so"));
-        fs::write(&placed, "the old one").unwrap();
+        fs::write(&placed, "the old library").unwrap();
 
         fs::write(&built, "a library without").unwrap();
         assert!(
             place(&built, &placed).unwrap_err().contains("does not export endline_plugin_entry")
         );
-        assert_eq!(fs::read(&placed).unwrap(), b"the old one");
+        assert_eq!(fs::read(&placed).unwrap(), b"the old library");
 
         fs::write(&built, "a library with endline_plugin_entry in it").unwrap();
         place(&built, &placed).unwrap();
         assert_eq!(fs::read(&placed).unwrap(), fs::read(&built).unwrap());
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "nothing is left beside it");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "the temporary file is gone");
         fs::remove_dir_all(&folder).unwrap();
     }
 }

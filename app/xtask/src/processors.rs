@@ -1,20 +1,21 @@
-//! The golden states on other processors, emulated by qemu: kinds of x86-64 without and with the wide lanes, and ARM.
+//! Runs the golden states on other processors that qemu emulates: x86-64 with and without wide vector registers, and ARM.
 
 use crate::Outcome;
 use crate::system_packages::are_here;
 use crate::workspace::Workspace;
 
-/// The test that is run on each.
+/// The test for each processor.
 const GOLDEN: [&str; 5] = ["test", "--package", "endline-tests", "--test", "golden"];
-/// Kinds of x86-64, by qemu's names: SSE2 alone, SSE4.2, AVX2, and AVX2 of another maker.
+/// x86-64 processors by qemu's names: SSE2 alone, SSE4.2, AVX2, and AVX2 of another manufacturer.
 const KINDS: [&str; 4] = ["qemu64", "Nehalem", "Haswell", "EPYC-Rome"];
-/// Rust's name of ARM.
+/// Target triple of ARM.
 const ARM: &str = "aarch64-unknown-linux-gnu";
 
-/// Runs the golden states on every processor that can be emulated here; the table is that of this machine.
+/// Compares the golden states on each processor that can be emulated with the table of this repository.
 ///
 /// # Errors
-/// When a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` brings Rust's part of ARM), or a state differs.
+/// When a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` installs the standard
+/// library of ARM), or a state differs.
 pub fn emulate(workspace: &Workspace) -> Outcome {
     if are_here("other x86-64 processors", &["qemu-x86_64"], "qemu-user") {
         for kind in KINDS {

@@ -1,5 +1,5 @@
-//! The Python package: built as a wheel with the command, its plugins and the gear library inside, installed in a virtual
-//! environment of its own, and tested there.
+//! Builds the Python package as a wheel that contains the command, its plugins and the gear library; installs and tests it
+//! in a virtual environment.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -28,17 +28,17 @@ pub fn test(workspace: &Workspace, profile: Profile) -> Outcome {
     call(&tool(&environment, "pytest"), &["--quiet", "app/python/tests"], workspace)
 }
 
-/// Builds the wheel; answers its file.
+/// Builds the wheel; returns its path.
 fn wheel(workspace: &Workspace, profile: Profile, environment: &Path) -> Outcome<PathBuf> {
-    // The command without its window: what a module draws with is all that it needs besides.
+    // The command without its window, and the drawing code of the module.
     let parts =
         ["--package", "endline-python", "--package", "endline", "--lib", "--bin", "endline"];
     let features = ["--no-default-features", "--features", "endline/scene"];
     workspace.cargo(&[&["build", profile.flag()], parts.as_slice(), &features].concat())?;
     plugins::build(workspace, profile)?;
-    bring(workspace, profile)?;
+    copy_contents(workspace, profile)?;
     let wheels = workspace.target.join("wheels");
-    // Of several versions pip would be given the wrong one.
+    // An earlier call may have written a wheel of another version.
     let _ = fs::remove_dir_all(&wheels);
     let out = wheels.display().to_string();
     let manifest = format!("{FOLDER}/Cargo.toml");
@@ -46,14 +46,14 @@ fn wheel(workspace: &Workspace, profile: Profile, environment: &Path) -> Outcome
     call(&tool(environment, "maturin"), &build, workspace)?;
     let mut files = fs::read_dir(&wheels).into_iter().flatten().flatten().map(|file| file.path());
     let wheel = files.find(|file| file.extension() == Some(OsStr::new("whl")));
-    let wheel = wheel.ok_or_else(|| format!("maturin has put no wheel into {out}"))?;
+    let wheel = wheel.ok_or_else(|| format!("maturin wrote no wheel to {out}"))?;
     let bytes = fs::metadata(&wheel).map_or(0, |file| file.len());
     eprintln!("{} ({:.1} MB)", wheel.display(), bytes as f64 / 1e6);
     Ok(wheel)
 }
 
-/// Puts command, plugins and gear library into the package.
-fn bring(workspace: &Workspace, profile: Profile) -> Outcome {
+/// Copies command, plugins and gear library into the package.
+fn copy_contents(workspace: &Workspace, profile: Profile) -> Outcome {
     let package = workspace.root.join(FOLDER).join("python/endline");
     let (bin, library) = (package.join("bin"), package.join("gear-library"));
     for folder in [&bin, &library] {
@@ -74,9 +74,9 @@ fn bring(workspace: &Workspace, profile: Profile) -> Outcome {
     Ok(())
 }
 
-/// Copies a folder with all it holds.
+/// Copies a folder with its contents.
 fn copy(from: &Path, to: &Path) -> Outcome {
-    fs::create_dir_all(to).map_err(|error| format!("cannot make {}: {error}", to.display()))?;
+    fs::create_dir_all(to).map_err(|error| format!("cannot create {}: {error}", to.display()))?;
     for entry in entries(from)? {
         let place = to.join(entry.file_name().unwrap_or_default());
         if entry.is_dir() {
@@ -95,7 +95,7 @@ fn entries(folder: &Path) -> Outcome<Vec<PathBuf>> {
     Ok(entries.flatten().map(|entry| entry.path()).collect())
 }
 
-/// A virtual environment with what building and testing need, made where it is not there.
+/// Returns a virtual environment with the packages for building and testing; creates it if it is missing.
 fn environment(workspace: &Workspace) -> Outcome<PathBuf> {
     let environment = workspace.target.join("python-env");
     let path = environment.display().to_string();
@@ -110,7 +110,7 @@ fn environment(workspace: &Workspace) -> Outcome<PathBuf> {
     Ok(environment)
 }
 
-/// A program of a virtual environment.
+/// Returns the path of a program in a virtual environment.
 fn tool(environment: &Path, name: &str) -> PathBuf {
     let folder = if cfg!(windows) { "Scripts" } else { "bin" };
     environment.join(folder).join(format!("{name}{}", std::env::consts::EXE_SUFFIX))

@@ -5,15 +5,15 @@ use std::process::ExitStatus;
 use crate::workspace::{Profile, Workspace};
 use crate::{Outcome, plugins, system_packages};
 
-/// The encounter that a machine without a display shows.
+/// The bundled encounter.
 const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
 
-/// Builds everything in release, then opens the workbench, or without a display shows the bundled encounter.
+/// Builds everything in release, then opens the workbench; without a display, runs the bundled encounter.
 ///
 /// # Errors
 /// When a package, the build or the program fails.
 pub fn run(workspace: &Workspace) -> Outcome {
-    make_ready(workspace)?;
+    build(workspace)?;
     if has_display() {
         return succeeded(workspace.call_program(Profile::Release, &[])?);
     }
@@ -28,25 +28,25 @@ pub fn run(workspace: &Workspace) -> Outcome {
 /// # Errors
 /// When a package, the build or the program fails.
 pub fn run_with(workspace: &Workspace, arguments: &[&str]) -> Outcome {
-    make_ready(workspace)?;
+    build(workspace)?;
     succeeded(workspace.call_program(Profile::Release, arguments)?)
 }
 
-fn make_ready(workspace: &Workspace) -> Outcome {
+fn build(workspace: &Workspace) -> Outcome {
     system_packages::ensure_for_run()?;
     workspace.cargo(&["build", Profile::Release.flag(), "--package", "endline"])?;
     plugins::build(workspace, Profile::Release)
 }
 
-/// Runs the bundled encounter, which prints its summary and draws it at its peak.
+/// Runs the bundled encounter, which prints a summary and draws the state of greatest tension.
 ///
 /// # Errors
-/// When the program fails, or draws nothing.
+/// When the program fails or writes no picture.
 pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
     let folder = workspace.target.join("hello");
     let picture = folder.join("picture.png");
     if picture.exists() {
-        // So that an old one is not taken for a new one.
+        // An old picture must not pass for a new one.
         std::fs::remove_file(&picture)
             .map_err(|error| format!("cannot remove {}: {error}", picture.display()))?;
     }
@@ -54,11 +54,11 @@ pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
     succeeded(workspace.call_program(profile, &["run", ENCOUNTER, "--out", folder])?)?;
     if !picture.is_file() {
         return Err(format!(
-            "the encounter ran, but {} was not drawn; see above",
+            "the encounter ran, but did not draw {}; see above",
             picture.display()
         ));
     }
-    eprintln!("summary, recording and picture are in {folder}");
+    eprintln!("wrote summary, recording and picture to {folder}");
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-//! System packages: what is needed, what is missing, and how to get it.
+//! System packages: which are needed, which are missing, and how to install them.
 
 use std::process::{Command, Stdio};
 
@@ -11,30 +11,30 @@ const BUILD: [&str; 4] = ["gcc", "libc6-dev", "pkg-config", "libudev-dev"];
 /// To draw, on a screen or without one.
 const DRAW: [&str; 2] = ["libegl1", "libgl1-mesa-dri"];
 
-/// To open a window on X11: looked up only when the window opens, so the build does not miss them.
+/// To open a window on X11; they are loaded only when the window opens.
 const WINDOW: [&str; 5] = ["libx11-6", "libxcursor1", "libxi6", "libxkbcommon-x11-0", "libudev1"];
 
-/// Makes sure of all that building, drawing and opening a window need.
+/// Ensures the packages for building, drawing and opening a window.
 ///
 /// # Errors
-/// When something needed to compile is missing and may not be installed from here.
+/// When a package needed to compile is missing and cannot be installed.
 pub fn ensure_for_run() -> Outcome {
     ensure(&[DRAW.as_slice(), &WINDOW].concat())
 }
 
-/// Makes sure of all that building and testing need; tests draw but open no window.
+/// Ensures the packages for building and testing; tests draw but open no window.
 ///
 /// # Errors
-/// When something needed to compile is missing and may not be installed from here.
+/// When a package needed to compile is missing and cannot be installed.
 pub fn ensure_for_test() -> Outcome {
     ensure(&DRAW)
 }
 
-/// Installs what is missing, or prints the line that does. Goes on without what is only needed later.
+/// Installs missing packages, or prints the command that does. Packages of `later` may remain missing.
 fn ensure(later: &[&'static str]) -> Outcome {
     if !on_path("dpkg-query") {
         eprintln!(
-            "this is not Debian, so I do not look for system packages; Debian calls them {} {}",
+            "this is not Debian: install the equivalents of its packages {} {}",
             BUILD.join(" "),
             later.join(" ")
         );
@@ -50,7 +50,7 @@ fn ensure(later: &[&'static str]) -> Outcome {
         return install(prefix, &all);
     }
     eprintln!(
-        "I may not install them here. This line does, then run the same command again:\n\n    sudo apt-get {INSTALL} {}\n",
+        "no permission to install them; run this command, then the former one again:\n\n    sudo apt-get {INSTALL} {}\n",
         all.join(" ")
     );
     if build.is_empty() { Ok(()) } else { Err(format!("cannot build without {}", build.join(" "))) }
@@ -61,7 +61,7 @@ fn missing(packages: &[&'static str]) -> Vec<&'static str> {
 }
 
 fn is_present(name: &str) -> bool {
-    // Any compiler driver and any pkg-config will do; libraries are asked of dpkg.
+    // Any compiler driver and any pkg-config is sufficient; dpkg reports libraries.
     match name {
         "gcc" if on_path("cc") => return true,
         "pkg-config" if on_path("pkg-config") => return true,
@@ -83,18 +83,16 @@ pub fn on_path(command: &str) -> bool {
     std::env::split_paths(&folders).any(|folder| folder.join(command).is_file())
 }
 
-/// Whether all the programs that `what` needs are there; one that is missing is told, with Debian's packages.
+/// Whether all programs that `what` needs are installed; prints the first missing one, with the Debian packages.
 pub fn are_here(what: &str, programs: &[&str], packages: &str) -> bool {
     let missing = programs.iter().find(|program| !on_path(program));
     if let Some(missing) = missing {
-        eprintln!(
-            "skipped: {what}, as there is no {missing} here; Debian: apt-get install {packages}"
-        );
+        eprintln!("skipped: {what} needs {missing}; Debian: apt-get install {packages}");
     }
     missing.is_none()
 }
 
-/// How to become administrator without asking anyone: nothing for root, `sudo -n` where it needs no password.
+/// Returns the prefix of a command with administrator rights: nothing for root, `sudo -n` if it needs no password.
 fn administrator() -> Option<&'static [&'static str]> {
     let is_root = Command::new("id").arg("-u").output().is_ok_and(|answer| answer.stdout == b"0\n");
     if is_root {
@@ -111,16 +109,16 @@ fn administrator() -> Option<&'static [&'static str]> {
 const INSTALL: &str = "install --yes --no-install-recommends";
 
 fn install(prefix: &[&str], packages: &[&str]) -> Outcome {
-    // A machine fresh from its image has no package lists; stale ones name files that are gone.
+    // A new machine has no package lists, and stale lists name files that no longer exist.
     if let Err(message) = apt_get(prefix, &["update", "--quiet"]) {
-        eprintln!("{message}; going on with the lists there are");
+        eprintln!("{message}; the present package lists are used");
     }
     let install: Vec<&str> = INSTALL.split(' ').chain(packages.iter().copied()).collect();
     apt_get(prefix, &install)
 }
 
 fn apt_get(prefix: &[&str], arguments: &[&str]) -> Outcome {
-    // `env` inside sudo, which would drop our own environment.
+    // `env` inside sudo, because sudo clears the environment.
     let words = [prefix, &["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"], arguments].concat();
     announce(words[0], &words[1..]);
     let status = Command::new(words[0])

@@ -8,20 +8,21 @@ use crate::{Outcome, driven, plugins, run, system_packages};
 /// Programs of the quick tier: the rules of the workspace and the golden states.
 const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
 
-/// Tests of the quick tier that call the program, by the start of their names.
+/// Tests of the quick tier that call the program, by module.
 const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
 
-/// Formatting, lints, every test of the workspace, the bundled encounter from start to picture, the window in use, and a study on Slurm where that is.
+/// Runs formatting, lints, every test of the workspace, the bundled encounter, the scripts of the window, and a study on Slurm
+/// if that is installed.
 ///
 /// # Errors
 /// When any of them fails; the first failure ends it.
 pub fn test(workspace: &Workspace) -> Outcome {
     check_sources(workspace)?;
-    // Before the tests: built after them, the plugins would replace libraries that the tests link, which would then be
-    // compiled twice.
+    // Plugins are built before the tests: built after them, they would replace libraries that the tests link, and these would
+    // be compiled twice.
     plugins::build(workspace, Profile::Dev)?;
-    // `--tests` leaves out benches, which clippy has compiled, and examples in documentation, of which there are none.
-    // The program is among what it builds: the tests of the command line call it.
+    // `--tests` omits benches, which clippy has compiled, and examples in documentation, which do not exist. It builds the
+    // program too, which the tests of the command line call.
     workspace.cargo(&["test", "--workspace", "--tests", "--no-run"])?;
     workspace.cargo(&["test", "--workspace", "--tests", "--no-fail-fast"])?;
     run::show_encounter(workspace, Profile::Dev)?;
@@ -29,8 +30,8 @@ pub fn test(workspace: &Workspace) -> Outcome {
     driven::slurm(workspace)
 }
 
-/// What everyday work runs: formatting, lints, the tests inside the crates, the rules of the workspace, the golden states,
-/// and the program called as a user calls it.
+/// Runs the checks for everyday work: formatting, lints, the tests inside the crates, the rules of the workspace, the golden
+/// states, and calls of the program.
 ///
 /// # Errors
 /// When any of them fails; the first failure ends it.
@@ -39,17 +40,17 @@ pub fn quick(workspace: &Workspace) -> Outcome {
     plugins::build(workspace, Profile::Dev)?;
     let inside = ["test", "--workspace", "--lib", "--bins"];
     workspace.cargo(&[inside.as_slice(), &QUICK_PROGRAMS].concat())?;
-    // The program is built for the tests of its window. `cargo build` would compile the outside crates once more, without
-    // the features that tests ask for; so would a choice of packages.
+    // This builds the program as well. `cargo build`, or a selection of packages, would compile the outside crates once
+    // more, without the features that tests enable.
     workspace.cargo(&["test", "--workspace", "--test", "all", "--no-run"])?;
     let calls = ["test", "--workspace", "--test", "program", "--"];
     workspace.cargo(&[calls.as_slice(), &QUICK_CALLS].concat())
 }
 
-/// Writes the table of golden states anew, after a change of the physics that was meant.
+/// Rewrites the table of golden states after an intended change of the physics.
 ///
 /// # Errors
-/// When a scenario of the table no longer shows what it is there for.
+/// When a scenario of the table no longer reaches the event it is meant to cover.
 pub fn write_golden(workspace: &Workspace) -> Outcome {
     let arguments = ["test", "--workspace", "--test", "golden", "--", "--nocapture"];
     workspace.cargo_with(&arguments, &[("ENDLINE_WRITE_GOLDEN", "1")])
@@ -62,7 +63,7 @@ fn check_sources(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
 }
 
-/// A minimal Rust toolchain comes without its formatter and linter; rustup can add them.
+/// Installs formatter and linter by rustup, because a minimal Rust toolchain lacks them.
 fn ensure_components(workspace: &Workspace) -> Outcome {
     let has = |tool: &str| workspace.quiet_cargo(&[tool, "--version"]);
     if has("fmt") && has("clippy") {

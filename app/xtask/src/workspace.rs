@@ -1,11 +1,11 @@
-//! Where things are, and how cargo and the program are called.
+//! Paths of the workspace, and calls of cargo and the program.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 
 use crate::Outcome;
 
-/// Which of the two builds.
+/// One of the two builds.
 #[derive(Clone, Copy)]
 pub enum Profile {
     /// `dev`: quick to build, used by the tests.
@@ -15,7 +15,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Its folder under the target folder.
+    /// Returns its folder below the target folder.
     fn folder(self) -> &'static str {
         match self {
             Self::Dev => "debug",
@@ -23,7 +23,7 @@ impl Profile {
         }
     }
 
-    /// What to tell cargo.
+    /// Returns cargo's argument for the profile.
     pub fn flag(self) -> &'static str {
         match self {
             Self::Dev => "--profile=dev",
@@ -36,45 +36,45 @@ impl Profile {
 pub struct Workspace {
     /// Folder of the workspace's Cargo.toml.
     pub root: PathBuf,
-    /// Cargo's target folder, wherever the user's settings put it.
+    /// Cargo's target folder.
     pub target: PathBuf,
 }
 
 impl Workspace {
-    /// Finds both: the root from the place cargo says this crate has, the target folder from the place of
-    /// this very executable (`<target>/<profile>/xtask`), which honours every setting cargo knows.
+    /// Finds both: the root from this crate's folder, which cargo reports, and the target folder from the path of this
+    /// executable (`<target>/<profile>/xtask`), which honours every setting of cargo.
     ///
     /// # Errors
     /// When not started through cargo.
     pub fn find() -> Outcome<Self> {
         let crate_folder = std::env::var_os("CARGO_MANIFEST_DIR")
-            .ok_or("start me as `cargo xtask`, so that I know where the workspace is")?;
+            .ok_or("start this program as `cargo xtask`, which reports the workspace's folder")?;
         let root = Path::new(&crate_folder)
             .ancestors()
             .nth(2)
             .ok_or("app/xtask is not inside a workspace")?
             .to_path_buf();
         let executable = std::env::current_exe()
-            .map_err(|error| format!("cannot tell where I run from: {error}"))?;
+            .map_err(|error| format!("cannot find the path of this program: {error}"))?;
         let target = executable
             .ancestors()
             .nth(2)
-            .ok_or("I do not run from a target folder; start me as `cargo xtask`")?
+            .ok_or("this program is in no target folder; start it as `cargo xtask`")?
             .to_path_buf();
         Ok(Self { root, target })
     }
 
-    /// Folder of the libraries and programs of a profile.
+    /// Returns the folder of the libraries and programs of a profile.
     pub fn products(&self, profile: Profile) -> PathBuf {
         self.target.join(profile.folder())
     }
 
-    /// The program.
+    /// Returns the path of the program.
     pub fn program(&self, profile: Profile) -> PathBuf {
         self.products(profile).join(format!("endline{}", std::env::consts::EXE_SUFFIX))
     }
 
-    /// Runs the program in the workspace root, on the user's own terminal.
+    /// Runs the program in the workspace root, on the user's terminal.
     ///
     /// # Errors
     /// When it cannot be started.
@@ -88,18 +88,18 @@ impl Workspace {
             .map_err(|error| format!("cannot start {}: {error}", program.display()))
     }
 
-    /// Runs cargo in the workspace root and insists that it succeeds.
+    /// Runs cargo in the workspace root.
     ///
     /// # Errors
-    /// When cargo fails; it has said why itself.
+    /// When cargo fails; cargo prints the reason.
     pub fn cargo(&self, arguments: &[&str]) -> Outcome {
         self.cargo_with(arguments, &[])
     }
 
-    /// Runs cargo with these variables in its environment, and insists that it succeeds.
+    /// Runs cargo with additional environment variables.
     ///
     /// # Errors
-    /// When cargo fails; it has said why itself.
+    /// When cargo fails; cargo prints the reason.
     pub fn cargo_with(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
         announce("cargo", arguments);
         let status = self
@@ -114,7 +114,7 @@ impl Workspace {
         }
     }
 
-    /// Whether a cargo call succeeds; shows nothing.
+    /// Whether a cargo call succeeds; prints nothing.
     pub fn quiet_cargo(&self, arguments: &[&str]) -> bool {
         let quiet =
             self.cargo_command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -128,7 +128,7 @@ impl Workspace {
     }
 }
 
-/// Shows a command before it runs, so that every step can be repeated by hand.
+/// Prints a command before it runs, so that every step can be repeated by hand.
 pub fn announce(program: &str, arguments: &[&str]) {
     eprintln!("$ {program} {}", arguments.join(" "));
 }

@@ -9,7 +9,7 @@ fn wrong_use_prints_the_chores_and_gives_2() {
         vec!["tset"],
         vec!["run", "--release"],
         vec!["plugins", "debug"],
-        vec!["shape", "files"],
+        vec!["golden", "soak"],
     ] {
         let answer = Command::new(env!("CARGO_BIN_EXE_xtask")).args(&words).output().unwrap();
         let said = String::from_utf8(answer.stderr).unwrap();
