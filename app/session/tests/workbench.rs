@@ -170,6 +170,27 @@ fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_command
 }
 
 #[test]
+fn a_duplicate_of_any_kind_has_no_error_and_claims_no_measurement() {
+    let folder = Folder::new("duplicate");
+    let mut workbench = folder.workbench();
+    for kind in Kind::ALL {
+        let mut files = workbench.project.documents.files(kind.folder());
+        let path = files.next().unwrap().to_owned();
+        drop(files);
+        workbench.perform(Command::Edit(EditAction::Duplicate(path.clone()))).unwrap();
+    }
+    let documents = &workbench.project.documents;
+    assert_eq!(documents.unsaved().len(), Kind::ALL.len());
+    assert_eq!(documents.problems(), []);
+    for path in documents.unsaved() {
+        let text = documents.text(path).unwrap();
+        assert!(!text.contains("\"measured\""), "{path}: {text}");
+        let has_figures = !path.starts_with("assemblies");
+        assert_eq!(text.contains("copied from "), has_figures, "{path}: {text}");
+    }
+}
+
+#[test]
 fn a_command_that_does_nothing_gives_the_reason_it_is_declared_with() {
     let folder = Folder::new("reasons");
     let mut workbench = folder.workbench();

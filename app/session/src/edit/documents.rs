@@ -389,14 +389,17 @@ impl Documents {
         self.change(vec![(path.to_owned(), None)]);
     }
 
-    /// Adds a copy of a library file under a fresh id and returns its path.
+    /// Adds a copy of a library file under a fresh id and returns its path. Its figures are marked as copied and not verified.
     ///
     /// # Errors
     /// Where there is no such file or it is not TOML.
     pub fn duplicate(&mut self, path: &str) -> Result<String, String> {
         let mut document = self.document(path)?;
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
-        let fresh = self.fresh_path(folder, file.trim_end_matches(".toml"));
+        let id = file.trim_end_matches(".toml");
+        let fresh = self.fresh_path(folder, id);
+        let original = document.clone();
+        figures::mark_copied(&mut document, id, &original).map_err(|error| error.to_string())?;
         let name = document.get("name").unwrap_or_default();
         document.set("name", &format!("{name} (copy)")).map_err(|error| error.to_string())?;
         self.change(vec![(fresh.clone(), Some(document.text()))]);

@@ -4,6 +4,8 @@
 use endline_gear::units::{self, Quantity};
 use endline_gear::{Confidence, Document, EditError, Field, Kind, UNSOURCED};
 
+use super::option::parts;
+
 /// A figure, and another that changes with it in proportion for the same material.
 const FOLLOWS: (&str, &str) = ("mass", "wet_weight");
 
@@ -41,6 +43,39 @@ pub(super) fn with_unit_before(typed: &str, before: &str) -> Option<String> {
     let measured = bare && measures.any(|quantity| units::parse(before, quantity).is_ok());
     let unit = before.trim().trim_start_matches(is_number);
     measured.then(|| format!("{typed} {unit}"))
+}
+
+/// Marks every source in the copy of a library item as copied from the item of an id, and every confidence as an estimate.
+///
+/// A source that differs from the one in `original` is the user's own and stays.
+pub(super) fn mark_copied(
+    copy: &mut Document,
+    id: &str,
+    original: &Document,
+) -> Result<(), EditError> {
+    mark_below(copy, "", id, original)
+}
+
+fn mark_below(
+    copy: &mut Document,
+    table: &str,
+    id: &str,
+    original: &Document,
+) -> Result<(), EditError> {
+    let parts = parts(copy, table);
+    let is_key = |part: &String, key: &str| part.rsplit('.').next() == Some(key);
+    if let Some(field) = parts.iter().find(|part| is_key(part, "source")) {
+        let source = copy.get(field).unwrap_or_default();
+        if original.get(field).as_ref() != Some(&source) {
+            return Ok(());
+        }
+        copy.set(field, &format!("copied from {id}, not verified; its source there: {source}"))?;
+    }
+    let is_confidence = |part: &&String| is_key(part, "confidence") || is_key(part, "sureness");
+    if let Some(field) = parts.iter().find(is_confidence) {
+        copy.set(field, Confidence::Estimate.word())?;
+    }
+    parts.iter().try_for_each(|part| mark_below(copy, part, id, original))
 }
 
 /// The kind of a library file by its path.
@@ -136,6 +171,20 @@ mod tests {
         set(&mut trap, path, "name", "Mine").unwrap();
         assert_eq!(trap.get("name").as_deref(), Some("Mine"));
         assert!(set(&mut trap, "scenario", "mass", "1 kg").unwrap().is_none());
+    }
+
+    #[test]
+    fn a_copy_claims_no_source_of_its_own_and_no_measurement() {
+        let original = trap();
+        let mut copy = trap();
+        set(&mut copy, "traps/copy.toml", "mass", "50 lb").unwrap();
+        copy.set_of_figure("mass", "source", "my scale").unwrap();
+        mark_copied(&mut copy, "my-trap", &original).unwrap();
+        let text = |field: &str| copy.get(field).unwrap();
+        let copied = "copied from my-trap, not verified; its source there: a shop";
+        assert_eq!([text("source"), text("confidence")], [copied, "estimate"]);
+        assert_eq!(text("mass.source"), "my scale", "a source that the user gave stays");
+        assert!(!copy.text().contains("measured"), "{}", copy.text());
     }
 
     #[test]

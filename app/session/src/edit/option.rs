@@ -185,23 +185,27 @@ fn highest_gone(document: &Document, leaf: &str) -> String {
 
 /// Paths of all values under a table or list; a figure with its source is one value.
 fn gather(document: &Document, table: &str, leaves: &mut Vec<String>) {
-    let below = |part: &str| {
-        if table.is_empty() { part.to_owned() } else { format!("{table}.{part}") }
-    };
-    let listed = (0..).map(|index| below(&index.to_string())).take_while(|path| document.has(path));
-    let listed = if table.is_empty() { Vec::new() } else { listed.collect() };
-    let parts: Vec<String> = if listed.is_empty() {
-        document.keys(table).iter().map(|key| below(key)).collect()
-    } else {
-        listed
-    };
-    for path in parts {
+    for path in parts(document, table) {
         let holds_values = document.keys(&path).is_empty() && !document.has(&format!("{path}.0"));
         if holds_values || document.has(&format!("{path}.value")) {
             leaves.push(path);
         } else {
             gather(document, &path, leaves);
         }
+    }
+}
+
+/// Paths of the fields of a table, or of the items of a list; the whole document has the path "".
+pub(super) fn parts(document: &Document, table: &str) -> Vec<String> {
+    let below = |part: &str| {
+        if table.is_empty() { part.to_owned() } else { format!("{table}.{part}") }
+    };
+    let items = (0..).map(|index| below(&index.to_string())).take_while(|path| document.has(path));
+    let items: Vec<String> = if table.is_empty() { Vec::new() } else { items.collect() };
+    if items.is_empty() {
+        document.keys(table).iter().map(|key| below(key)).collect()
+    } else {
+        items
     }
 }
 
