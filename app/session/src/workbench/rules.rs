@@ -1,6 +1,7 @@
 //! The rules of a user: an assembly checked where and when it is fished, the edits by which it would comply, the study
 //! made of options for rules, and its compliance sheet.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -81,6 +82,17 @@ struct Given {
 
 type Checked = Result<(Arc<Packs>, RuleAnswer), String>;
 
+/// A compliance sheet, with what it was written from.
+#[derive(Clone, Debug)]
+struct WrittenSheet {
+    page: PathBuf,
+    question: RuleQuestion,
+    given: Given,
+    packs: Arc<Packs>,
+    /// Whether it is outdated, computed for a version of the texts.
+    outdated: Cell<Option<(u64, bool)>>,
+}
+
 /// Rules checked on an assembly.
 #[derive(Default)]
 pub struct RuleChecks {
@@ -98,9 +110,8 @@ pub struct RuleChecks {
     checking: Task<Checked>,
     mending: Task<Result<Mends, String>>,
     comparing: Task<Result<String, String>>,
-    /// The compliance sheet written last.
-    pub page: Option<PathBuf>,
-    writing: Task<Result<PathBuf, String>>,
+    sheet: Option<WrittenSheet>,
+    writing: Task<Result<WrittenSheet, String>>,
 }
 
 impl RuleChecks {
@@ -120,6 +131,12 @@ impl RuleChecks {
     #[must_use]
     pub fn writing(&self) -> bool {
         self.writing.busy()
+    }
+
+    /// The page of the compliance sheet written last.
+    #[must_use]
+    pub fn page(&self) -> Option<&Path> {
+        self.sheet.as_ref().map(|sheet| sheet.page.as_path())
     }
 
     /// A proposal by its place among all, or all edits together.
@@ -212,12 +229,35 @@ impl Workbench {
         }
     }
 
-    fn take_sheet(&mut self, written: Result<PathBuf, String>) {
-        self.notice = Some(match &written {
-            Ok(page) => Notice::done(format!("the compliance sheet is {}", page.display())),
-            Err(why) => Notice::fault(why.clone()),
-        });
-        self.rules.page = written.ok();
+    fn take_sheet(&mut self, written: Result<WrittenSheet, String>) {
+        match written {
+            Ok(sheet) => {
+                let said = format!("the compliance sheet is {}", sheet.page.display());
+                self.notice = Some(Notice::done(said));
+                self.rules.sheet = Some(sheet);
+            }
+            Err(why) => self.notice = Some(Notice::fault(why)),
+        }
+    }
+
+    /// Whether the gear, the place or the rules have changed since the compliance sheet was written.
+    #[must_use]
+    pub fn sheet_is_outdated(&self) -> bool {
+        let (documents, checks) = (&self.project.documents, &self.rules);
+        let Some(sheet) = &checks.sheet else { return false };
+        let same_rules = checks.packs.as_ref().is_some_and(|now| Arc::ptr_eq(now, &sheet.packs));
+        if checks.question != sheet.question || !same_rules {
+            return true;
+        }
+        let version = documents.version();
+        if let Some((_, outdated)) = sheet.outdated.get().filter(|(known, _)| *known == version) {
+            return outdated;
+        }
+        let text = documents.text(&path(&sheet.question.assembly));
+        let outdated = text != Some(sheet.given.text.as_str())
+            || documents.sources() != *sheet.given.sources;
+        sheet.outdated.set(Some((version, outdated)));
+        outdated
     }
 
     fn take_verdicts(&mut self, checked: Checked) {
@@ -289,7 +329,10 @@ impl Workbench {
         let packs = self.rules.packs.clone().ok_or("no rules were read")?;
         let folder = self.studies.root().join("sheets");
         let (host, waker) = self.helpers();
-        let work = move || sheet(&question, &given, &packs, &folder, &host);
+        let work = move || {
+            let page = sheet(&question, &given, &packs, &folder, &host)?;
+            Ok(WrittenSheet { page, question, given, packs, outdated: Cell::default() })
+        };
         let started = self.rules.writing.start("endline-sheet", work, waker);
         started.map_err(|error| error.to_string())
     }

@@ -141,15 +141,27 @@ fn the_compliance_sheet_is_written_by_a_button_with_what_stands_in_the_window() 
     harness.state_mut().shared.workbench.rules.question.on = "2024-06-01".to_owned();
     wait_for_edits(&mut harness);
     harness.get_by_label("Compliance sheet").click();
-    wait(&mut harness, |app| app.shared.workbench.rules.page.is_some());
-    let page = harness.state().shared.workbench.rules.page.clone().unwrap();
+    wait(&mut harness, |app| app.shared.workbench.rules.page().is_some());
+    let page = harness.state().shared.workbench.rules.page().unwrap().to_owned();
     assert!(page.ends_with("results/sheets/single-me-b-2024-06-01.html"), "{}", page.display());
     let text = std::fs::read_to_string(&page).unwrap();
     let hauled = "at the hauler, with 1 of its traps and anchors off the seabed";
     for told in ["endline sheet single --area me-b --on 2024-06-01", hauled] {
         assert!(text.contains(told), "{told}: {text}");
     }
-    assert!(harness.query_by_label("Open it").is_some());
+    let offered = |harness: &Harness<'static, App>| {
+        ["Open it", "Open the outdated sheet"].map(|label| harness.query_by_label(label).is_some())
+    };
+    assert_eq!(offered(&harness), [true, false]);
+    give(&mut harness, RuleAction::TakeAll);
+    wait_for_edits(&mut harness);
+    assert_eq!(offered(&harness), [false, true], "the sheet is of the gear before the edits");
+    give(&mut harness, EditAction::Undo);
+    wait_for_edits(&mut harness);
+    assert_eq!(offered(&harness), [true, false]);
+    harness.state_mut().shared.workbench.rules.question.distance = "5 nmi".to_owned();
+    wait_for_edits(&mut harness);
+    assert_eq!(offered(&harness), [false, true], "the sheet is of another place");
 }
 
 #[test]

@@ -5,6 +5,8 @@ mod asked;
 mod rule;
 mod table;
 
+use std::path::Path;
+
 use egui::{Label, RichText, ScrollArea, Ui};
 use endline_session::command::RuleAction;
 use endline_session::rules::{RuleResult, Verdict};
@@ -137,16 +139,22 @@ impl RulesPanel {
     }
 }
 
-/// The button that writes the compliance sheet, and the one that opens it.
+/// The button that writes the compliance sheet, and the one that opens the sheet written last and says whether it is outdated.
 fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
     if shared.workbench.rules.writing() {
         ui.label(RichText::new("hauling the gear for its sheet …").color(palette.faint));
         return;
     }
     command(ui, shared, "Compliance sheet", RuleAction::Sheet);
-    if let Some(page) = shared.workbench.rules.page.clone()
-        && ui.button("Open it").on_hover_text(page.display().to_string()).clicked()
-    {
+    let Some(page) = shared.workbench.rules.page().map(Path::to_owned) else { return };
+    let file = page.display();
+    let (text, help) = if shared.workbench.sheet_is_outdated() {
+        let why = "The gear, its place or the rules have changed since this sheet was written. Compliance sheet writes it again.";
+        (RichText::new("Open the outdated sheet").color(palette.warning), format!("{why}\n{file}"))
+    } else {
+        (RichText::new("Open it"), file.to_string())
+    };
+    if ui.button(text).on_hover_text(help).clicked() {
         shared.give(WindowAction::OpenFolder(page));
     }
 }
