@@ -52,7 +52,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "rules.compare",
         "Compare options of rules",
-        "Saves all, and writes and opens a study of the assembly checked, mended for each of the chosen rules, in the same encounters.",
+        "Writes a study to a new file and opens it: the assembly checked, mended for each of the chosen rules, in the same encounters.",
         Make::Values("rules"),
     )
     .only_if(has_verdicts),

@@ -94,7 +94,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "search.run",
         "Run the search",
-        "Saves the open observation and searches for encounters that end like it, from where an earlier search stood.",
+        "Searches for encounters that end like the open observation as it stands in the window, from where an earlier search stopped. Saves nothing.",
         Make::Plain(|| Command::Search(SearchAction::Run)),
     )
     .only_if(search_runs),

@@ -117,7 +117,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "study.run",
         "Run the study",
-        "Saves the open study and runs what is missing of it behind everything else on the machine.",
+        "Runs what is missing of the open study behind everything else on the machine, on the texts as they stand in the window. Saves nothing.",
         Make::Plain(|| Command::Study(StudyAction::Run)),
     )
     .only_if(study_runs),

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;
-use crate::study::Shard;
+use crate::study::{Files, Shard};
 use crate::study::control::{Control, Progress};
 use crate::task::{Waker, run_job};
 
@@ -47,8 +47,10 @@ pub struct Request {
     pub file: PathBuf,
     /// Its text: what is searched for.
     pub text: String,
-    /// The library's folder.
-    pub library: PathBuf,
+    /// The library, and the open scenario.
+    pub files: Files,
+    /// File and text of the open study.
+    pub study: Option<(PathBuf, String)>,
     /// Folder that holds the folders of searches.
     pub root: PathBuf,
     /// Runs at most.
@@ -210,8 +212,8 @@ fn run(
     host: &PluginHost,
     waker: &Waker,
 ) -> Result<State, Error> {
-    let Request { file, text, library, .. } = request;
-    let question = Question::of_text(file, text, None, library, host)?;
+    let Request { file, text, files, study, .. } = request;
+    let question = Question::of_sources((file, text), None, files.clone(), study.as_ref(), host)?;
     let question = Arc::new(question);
     let path = Folder::path_under(&request.root, &question);
     let reads = shared.control.is_cancelled();
@@ -252,8 +254,9 @@ fn effort(request: &Request, reads: bool) -> Effort {
 /// The command line that searches as asked for, in a folder.
 #[must_use]
 pub fn command_line(request: &Request, folder: &Path) -> String {
-    let Request { file, library, root, trials, neighbours, .. } = request;
-    let [file, library, folder, net] = [file, library, folder, &root.join(NET)].map(shell::path);
+    let Request { file, files, root, trials, neighbours, .. } = request;
+    let [file, library, folder, net] =
+        [file, &files.root, folder, &root.join(NET)].map(shell::path);
     format!(
         "endline search {file} --library {library} --trials {trials} --neighbours {neighbours} --out {folder} --net-folder {net}"
     )

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Document, EditError, Observation, Setting, Size};
+use endline_gear::{Document, EditError, Observation, Setting, Size, Sources};
 
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
-use crate::study::Opened;
+use crate::study::{Files, Opened};
 
 /// An observation, and a study with one option whose encounters are searched.
 pub struct Question {
@@ -52,10 +52,31 @@ impl Question {
         root: &Path,
         host: &PluginHost,
     ) -> Result<Self, Error> {
+        let sources = Sources::from_folder(root).map_err(Error::Diagnostics)?;
+        let files = Files { root: root.to_owned(), sources, scenario: None };
+        Self::of_sources((path, text), encounters, files, None, host)
+    }
+
+    /// The same with the library and the open scenario and study as they are edited.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn of_sources(
+        (path, text): (&Path, &str),
+        encounters: Option<&str>,
+        files: Files,
+        open_study: Option<&(PathBuf, String)>,
+        host: &PluginHost,
+    ) -> Result<Self, Error> {
         let observation =
             Observation::read(&path.display().to_string(), text).map_err(Error::Diagnostics)?;
-        let study = study_of(&observation, encounters, root)?;
-        let opened = opened(&observation, &study, root, host)?;
+        let study = study_of(&observation, encounters, &files.root)?;
+        let study_text = match open_study.filter(|(open, _)| *open == study) {
+            Some((_, text)) => text.clone(),
+            None => endline_gear::read::text(&study)
+                .map_err(|error| Error::at(&study, format!("cannot be read: {error}")))?,
+        };
+        let opened = opened(&observation, (&study, &study_text), files, host)?;
         if opened.options.len() != 1 {
             let message = format!(
                 "has {} options; a search takes the encounters of a study with one",
@@ -96,14 +117,12 @@ fn study_of(observation: &Observation, given: Option<&str>, root: &Path) -> Resu
 /// The study with the animal that was seen in place of the animals that it draws.
 fn opened(
     observation: &Observation,
-    path: &Path,
-    root: &Path,
+    (path, text): (&Path, &str),
+    files: Files,
     host: &PluginHost,
 ) -> Result<Opened, Error> {
-    let text = endline_gear::read::text(path)
-        .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
     let fault = |error: EditError| Error::at(path, error.message);
-    let mut study = Document::parse(&text).map_err(fault)?;
+    let mut study = Document::parse(text).map_err(fault)?;
     let mut fixed: Vec<(&str, String)> = Vec::new();
     match observation.size {
         Some(Size::Age(age_s)) => fixed.push(("age", format!("{age_s} s"))),
@@ -126,5 +145,5 @@ fn opened(
         study.put(&field("source"), &Setting::text("the observation")).map_err(fault)?;
         study.put(&field("confidence"), &Setting::text("measured")).map_err(fault)?;
     }
-    Opened::of_text(study.text(), path, Some(root), host)
+    Opened::of_sources(study.text(), path, files, host)
 }

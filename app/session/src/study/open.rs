@@ -36,6 +36,7 @@ pub struct Opened {
 }
 
 /// Files that a study is read with.
+#[derive(Clone, Debug)]
 pub struct Files {
     /// Folder of the gear library.
     pub root: PathBuf,

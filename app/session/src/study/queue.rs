@@ -16,7 +16,7 @@ use super::batch;
 use super::control::{Control, Progress};
 use super::folder::Folder;
 use super::merge;
-use super::open::Opened;
+use super::open::{Files, Opened};
 use super::priority;
 use super::report;
 use super::shard::Shard;
@@ -88,7 +88,8 @@ pub struct Job {
     pub file: PathBuf,
     /// The study's name.
     pub name: String,
-    library: PathBuf,
+    text: String,
+    files: Files,
     root: PathBuf,
     waker: Waker,
     shared: Arc<Shared>,
@@ -107,17 +108,22 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Job {
-    /// A study that waits, with the library's folder. Its results go to a folder of their own under
-    /// `root`. The waker is called whenever there is progress.
+    /// A study that waits: its file and name, and the texts that it is run on, whatever their files hold. Its results are
+    /// written to a folder of their own under `root`. The waker is called whenever there is progress.
     #[must_use]
-    pub fn new(file: PathBuf, name: String, library: PathBuf, root: PathBuf, waker: Waker) -> Self {
+    pub fn new(
+        (file, name): (PathBuf, String),
+        (text, files): (String, Files),
+        root: PathBuf,
+        waker: Waker,
+    ) -> Self {
         let progressed = Arc::clone(&waker);
         let shared = Shared {
             control: Control::new(move |_| progressed()),
             state: Mutex::new(State::Waiting),
             opened: Mutex::new(None),
         };
-        Self { file, name, library, root, waker, shared: Arc::new(shared) }
+        Self { file, name, text, files, root, waker, shared: Arc::new(shared) }
     }
 
     /// How it stands.
@@ -192,10 +198,11 @@ impl Job {
     /// Begins on a thread of its own, at the lowest priority unless it is eager.
     fn begin(&self, host: &Arc<PluginHost>, eager: bool) {
         let (shared, host) = (Arc::clone(&self.shared), Arc::clone(host));
-        let (file, library, root) = (self.file.clone(), self.library.clone(), self.root.clone());
+        let (file, root) = (self.file.clone(), self.root.clone());
+        let texts = (self.text.clone(), self.files.clone());
         let (ending, waker) = (Arc::clone(&shared), Arc::clone(&self.waker));
         *lock(&shared.state) = State::Opening;
-        let work = move || run(&shared, &file, &library, &root, &host);
+        let work = move || run(&shared, &file, texts, &root, &host);
         run_job("study", eager, work, move |state| {
             *lock(&ending.state) = state.unwrap_or_else(State::Failed);
             waker();
@@ -207,11 +214,11 @@ impl Job {
 fn run(
     shared: &Shared,
     file: &Path,
-    library: &Path,
+    (text, files): (String, Files),
     root: &Path,
     host: &PluginHost,
 ) -> Result<State, Error> {
-    let opened = Arc::new(Opened::open(file, Some(library), host)?);
+    let opened = Arc::new(Opened::of_sources(text, file, files, host)?);
     let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
     *lock(&shared.opened) = Some((Arc::clone(&opened), folder.path.clone()));
     *lock(&shared.state) = State::Running;

@@ -6,13 +6,14 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::batch;
+use endline_gear::Sources;
 use endline_sim::Model;
 
 use super::control::{Control, Count, Progress};
 use super::encounter::Encounter;
 use super::folder::Folder;
 use super::merge;
-use super::open::Opened;
+use super::open::{Files, Opened};
 use super::queue::{Job, Queue, State};
 use super::results;
 use super::shard::Shard;
@@ -240,7 +241,10 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     fs::write(&second, STUDY.replace("encounters = 24", "encounters = 4")).unwrap();
     let (host, root) = (Arc::new(PluginHost::empty()), place.0.join("results"));
     let job = |file: PathBuf| {
-        Job::new(file, "Small".into(), place.library(), root.clone(), Arc::new(|| {}))
+        let sources = Sources::from_folder(&place.library()).unwrap();
+        let files = Files { root: place.library(), sources, scenario: None };
+        let texts = (fs::read_to_string(&file).unwrap(), files);
+        Job::new((file, "Small".into()), texts, root.clone(), Arc::new(|| {}))
     };
     let mut queue = Queue { eager: true, ..Queue::default() };
     queue.add(job(place.study()));

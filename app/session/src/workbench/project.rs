@@ -13,6 +13,7 @@ use crate::edit::saving::Keep;
 use crate::edit::{Documents, library_table, pilot_program};
 use crate::rules::mend::{Asked, usual_inserts, usual_inserts_of_own};
 use crate::statics::TrialGear;
+use crate::study::Files;
 
 /// The texts, and what is wrong with them.
 pub struct Project {
@@ -63,6 +64,17 @@ impl Project {
     pub fn scenario_stem(&self) -> String {
         let stem = self.documents.scenario_path().file_stem();
         stem.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+
+    /// The library and the scenario as they are edited, for a study or a search to run on.
+    pub(super) fn files(&self) -> Files {
+        let documents = &self.documents;
+        let scenario = documents.text(Documents::SCENARIO).map(str::to_owned);
+        Files {
+            root: documents.root().to_owned(),
+            sources: documents.sources(),
+            scenario: scenario.map(|text| (documents.scenario_path().to_owned(), text)),
+        }
     }
 
     /// Whether the scenario has a whale.

@@ -304,18 +304,15 @@ impl Workbench {
         Ok(())
     }
 
-    /// Makes a study of the assembly mended for each of several rules; its texts are saved first, for a study reads files.
+    /// Makes a study of the assembly mended for each of several rules. The study is written to a new file; nothing else is saved.
     pub(crate) fn compare_rules(&mut self, rules: Vec<String>) -> Result<(), String> {
         let answer = self.rules.answer.as_ref().ok_or("no assembly was checked")?;
         let (question, given) = (answer.question.clone(), answer.given.clone());
         let packs = self.rules.packs.clone().ok_or("no rules were read")?;
-        let documents = &mut self.project.documents;
+        let documents = &self.project.documents;
         let like = documents.root().join("studies").join(USUAL_LIKE).with_extension("toml");
         let like = endline_gear::read::text(&like)
             .map_err(|error| format!("{}: {error}; its encounters are taken", like.display()))?;
-        if !documents.unsaved().is_empty() {
-            documents.save().map_err(|error| format!("not saved, so not compared: {error}"))?;
-        }
         let (host, waker) = self.helpers();
         let work = move || rule_study(&question, &given, &rules, &packs, &like, &host);
         let started = self.rules.comparing.start("endline-rule-study", work, waker);

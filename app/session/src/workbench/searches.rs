@@ -164,7 +164,8 @@ impl Workbench {
         Some(Request {
             file: documents.observation_path()?.to_owned(),
             text: documents.text(Documents::OBSERVATION)?.to_owned(),
-            library: documents.root().to_owned(),
+            files: self.project.files(),
+            study: documents.study_path().zip(documents.text(Documents::STUDY)).map(owned),
             root: searches.folder.clone().unwrap_or_else(|| PathBuf::from("results")),
             trials: searches.trials,
             threads: searches.threads,
@@ -173,15 +174,12 @@ impl Workbench {
         })
     }
 
-    /// Searches for the open observation, or goes on; its text is saved first, so that the command line finds the same.
+    /// Searches for the open observation, or goes on, on the texts as they are edited. Nothing is saved.
     pub(crate) fn run_search(&mut self) -> Result<(), String> {
-        let documents = &mut self.project.documents;
-        if !documents.unsaved().is_empty() {
-            documents.save().map_err(|error| format!("not saved, so not searched: {error}"))?;
-        }
         let request = self.search_request().ok_or("open an observation first")?;
         let (host, waker) = self.helpers();
         self.searches.job = Some(Job::begin(request, &host, &waker));
+        self.say_unsaved("the search");
         Ok(())
     }
 
@@ -252,4 +250,8 @@ impl Workbench {
         let folder = own.and_then(|job| job.found().folder).unwrap_or_else(usual);
         Some(job::command_line(&request, &folder))
     }
+}
+
+fn owned((path, text): (&Path, &str)) -> (PathBuf, String) {
+    (path.to_owned(), text.to_owned())
 }

@@ -114,28 +114,38 @@ impl Workbench {
         !documents.file_has_error(Documents::STUDY) && !documents.any_error()
     }
 
-    /// Queues the open study; its text is saved first, for the study is run from its file.
+    /// Queues the open study, to be run on the texts as they are edited. Nothing is saved.
     pub(crate) fn queue_study(&mut self) -> Result<(), String> {
-        let documents = &mut self.project.documents;
+        let documents = &self.project.documents;
         let Some(path) = documents.study_path().map(Path::to_owned) else {
             return Err("open a study first".to_owned());
         };
-        if !documents.unsaved().is_empty() {
-            documents.save().map_err(|error| format!("not saved, so not queued: {error}"))?;
-        }
         let named = documents.field(Documents::STUDY, "name");
         let name = named.unwrap_or_else(|| path.display().to_string());
-        let library = documents.root().to_owned();
+        let text = documents.text(Documents::STUDY).unwrap_or_default().to_owned();
         let (_, waker) = self.helpers();
+        let files = self.project.files();
         let studies = &mut self.studies;
         if let Some(job) = studies.queue.unfinished(&path) {
             job.resume();
             self.notice = Some(Notice::hint("this study is in the queue already"));
             return Ok(());
         }
-        studies.queue.add(Job::new(path, name, library, studies.root(), waker));
+        studies.queue.add(Job::new((path, name), (text, files), studies.root(), waker));
         studies.results.follows_next = true;
+        self.say_unsaved("the study");
         Ok(())
+    }
+
+    /// Says that work runs on unsaved texts, where there are some.
+    pub(super) fn say_unsaved(&mut self, what: &str) {
+        let files = match self.project.documents.unsaved().len() {
+            0 => return,
+            1 => "1 file is not saved".to_owned(),
+            count => format!("{count} files are not saved"),
+        };
+        let text = format!("{what} runs on the texts as they stand in the window; {files}");
+        self.notice = Some(Notice::done(text));
     }
 
     /// Pauses the study at work, or goes on with it.

@@ -65,12 +65,7 @@ impl Workbench {
         }
         let Some(path) = documents.study_path().map(Path::to_owned) else { return };
         let text = documents.text(Documents::STUDY).unwrap_or_default().to_owned();
-        let scenario = documents.text(Documents::SCENARIO).map(str::to_owned);
-        let files = Files {
-            root: documents.root().to_owned(),
-            sources: documents.sources(),
-            scenario: scenario.map(|text| (documents.scenario_path().to_owned(), text)),
-        };
+        let files = self.project.files();
         let (host, waker) = self.helpers();
         let work = move || Opened::of_sources(text, &path, files, &host).map(drop);
         let check = &mut self.studies.check;

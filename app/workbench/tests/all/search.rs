@@ -144,9 +144,11 @@ fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
     assert_eq!(field(&harness, "site.1.part"), None, "one edit, taken back");
     assert!(harness.state().shared.workbench.stories_are_of_another());
 
+    let before = common::on_disk(&folder, "observations/quick.toml");
     give(&mut harness, SearchAction::Run);
-    let saved = common::on_disk(&folder, "observations/quick.toml");
-    assert!(saved.contains("# The drawing.") && saved.contains("wraps = [1, 3]"), "{saved}");
+    let documents = &harness.state().shared.workbench.project.documents;
+    assert!(documents.is_unsaved(Documents::OBSERVATION));
+    assert_eq!(common::on_disk(&folder, "observations/quick.toml"), before, "nothing is saved");
     wait(&mut harness, |app| state(app) == Some(State::Done));
     let found = harness.state().shared.workbench.searches.job.as_ref().unwrap().found();
     let stories = found.stories.unwrap();

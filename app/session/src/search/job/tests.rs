@@ -4,6 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::super::tests::place;
+use endline_gear::Sources;
+
 use super::*;
 use crate::study::tests::Place;
 
@@ -14,7 +16,12 @@ fn request(place: &Place, trials: usize) -> Request {
         text: std::fs::read_to_string(&file).unwrap(),
         root: place.0.join("searches"),
         file,
-        library,
+        files: Files {
+            sources: Sources::from_folder(&library).unwrap(),
+            root: library,
+            scenario: None,
+        },
+        study: None,
         trials,
         threads: 2,
         neighbours: 0,

@@ -47,7 +47,7 @@ fn begin(ui: &mut Ui, shared: &mut Shared) {
         } else {
             let words = if goes_on { "Search on" } else { "Search" };
             let ready = shared.workbench.observation_is_sound();
-            let help = "Save, and run encounters behind everything else until some end like this; it can be left off and goes on";
+            let help = "Run encounters behind everything else until some end like this. Nothing is saved; a search that was cancelled continues later";
             if primary(ui, ready, words).on_hover_text(help).clicked() {
                 shared.give(SearchAction::Run);
             }

@@ -121,7 +121,7 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
     let ready = shared.workbench.study_is_sound() && shared.workbench.studies.check.is_clean();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
-            .on_hover_text("Save, and run what is missing behind everything else; it can be left off and goes on")
+            .on_hover_text("Run what is missing behind everything else. Nothing is saved; a study that was cancelled continues when it is run again")
             .clicked()
         {
             shared.give(StudyAction::Run);
