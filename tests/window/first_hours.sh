@@ -78,7 +78,8 @@ designer() {
     check "the strength has lost the source of the old one" \
         "grep -rq '2,300 lbf.*typed by hand, without a source' '$WORK/library/ropes'"
     check "inserts are in both lines of the endline, all else as it was" \
-        "[ \$(grep -c 'weak-1700-3-8' '$WORK/library/assemblies/single.toml') -eq 2 ] && grep -q 'lower_share = 0.3333333333333333' '$WORK/library/assemblies/single.toml'"
+        "[ \$(grep -c 'weak-1700-3-8' '$WORK/library/assemblies/single-mine.toml') -eq 2 ] && grep -q 'lower_share = 0.3333333333333333' '$WORK/library/assemblies/single-mine.toml'"
+    check "the assembly that came with the program is as it was" "! grep -q 'weak-1700-3-8' '$WORK/library/assemblies/single.toml'"
     command "show 3-d view"
     command "speed as fast"
     check "the run ends and is kept by itself" "flown 1"

@@ -36,6 +36,11 @@ pub fn carry(files: Files, tell: fn(&str)) {
     let _ = CARRIED.set(Carried { files, tell });
 }
 
+/// Files of the library that the program carries; none where it carries none.
+pub(crate) fn carried() -> Files {
+    CARRIED.get().map_or(&[], |carried| carried.files)
+}
+
 /// The user's copy of the library that the program carries, brought up to date; none where it carries none, or the user has no
 /// data folder.
 pub(crate) fn library() -> Option<Result<PathBuf, String>> {

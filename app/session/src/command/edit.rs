@@ -116,7 +116,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "edit.save",
         "Save all",
-        "Writes every changed file. Comments stay.",
+        "Writes every changed file. Comments stay. A file that came with Endline is saved as a copy of your own.",
         Make::Plain(|| Command::Edit(EditAction::Save)),
     )
     .with_keys(&[Shortcut::new("Ctrl+S", When::Always)])

@@ -12,8 +12,8 @@ use super::option::gather;
 use super::slug::free_file;
 
 /// Fields whose texts are never the id of another file.
-const NO_IDS: [&str; 10] =
-    ["id", "name", "notes", "source", "confidence", "kind", "from", "to", "gear_type", "material_of"];
+const NO_IDS: [&str; 9] =
+    ["id", "name", "notes", "source", "confidence", "kind", "from", "to", "gear_type"];
 
 /// A file that came with the program, and the user's copy of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub struct OwnCopy {
     pub from: String,
     /// Key of the copy's text.
     pub to: String,
+    /// Id of the original.
+    pub id: String,
     /// File of the copy.
     pub file: PathBuf,
 }
@@ -120,7 +122,7 @@ impl Documents {
             }
             None => from.to_owned(),
         };
-        Ok(OwnCopy { from: from.to_owned(), to, file })
+        Ok(OwnCopy { from: from.to_owned(), to, id: stem, file })
     }
 
     fn copy_text(
@@ -133,7 +135,7 @@ impl Documents {
         let mut document = self.document(&copy.from)?;
         let original = Document::parse(original).map_err(failed)?;
         if copy.to != copy.from {
-            figures::mark_copied(&mut document, id_of(&copy.from), &original).map_err(failed)?;
+            figures::mark_copied(&mut document, &copy.id, &original).map_err(failed)?;
         }
         let name = document.get("name").unwrap_or_default();
         if original.get("name").as_ref() == Some(&name) {
@@ -185,25 +187,24 @@ fn ids(document: &Document) -> Vec<(String, &'static str, String)> {
 }
 
 fn names_any(document: &Document, keys: &BTreeSet<String>) -> bool {
-    let known: BTreeSet<(&str, &str)> =
-        keys.iter().filter(|key| key.contains('/')).map(|key| (folder_of(key), id_of(key))).collect();
+    let known: BTreeSet<(&str, &str)> = keys
+        .iter()
+        .filter(|key| key.contains('/'))
+        .map(|key| (folder_of(key), id_of(key)))
+        .collect();
     ids(document).iter().any(|(_, folder, id)| known.contains(&(*folder, id.as_str())))
 }
 
 /// Names the copies in the place of their originals; whether there was one.
 fn name_copies(document: &mut Document, copies: &[OwnCopy]) -> Result<bool, EditError> {
     let stem = |file: &Path| file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let known: BTreeMap<(&str, String), String> = copies
+    let known: BTreeMap<(&str, &str), String> = copies
         .iter()
-        .map(|copy| {
-            let own = stem(&copy.file);
-            let id = if copy.to == copy.from { copy.original_stem() } else { id_of(&copy.from).to_owned() };
-            ((folder_of(&copy.from), id), own)
-        })
+        .map(|copy| ((folder_of(&copy.from), copy.id.as_str()), stem(&copy.file)))
         .collect();
     let mut any = false;
     for (field, folder, id) in ids(document) {
-        if let Some(own) = known.get(&(folder, id)) {
+        if let Some(own) = known.get(&(folder, id.as_str())) {
             document.set(&field, own)?;
             any = true;
         }

@@ -11,6 +11,7 @@ use super::history::{Change, History};
 use super::problems::{Named, Problems};
 use super::slug::{free_file, slug};
 use super::texts::Texts;
+use crate::shipped;
 
 /// All texts that are open. The key of a library file is its path in the library's folder, such as
 /// `ropes/x.toml`; the scenario's is [`SCENARIO`](Self::SCENARIO), the study's
@@ -30,6 +31,8 @@ pub struct Documents {
     version: u64,
     /// Meshes of the library's folder, as they were when it was opened.
     meshes: Sources,
+    /// Files of the library that came with the program.
+    pub(super) bundled: shipped::Files,
 }
 
 impl Documents {
@@ -66,6 +69,7 @@ impl Documents {
             newer: BTreeMap::new(),
             version: 0,
             meshes: Sources::default().with_meshes_of(&sources),
+            bundled: shipped::carried(),
         };
         documents.read_all();
         Ok(documents)
@@ -371,6 +375,16 @@ impl Documents {
         self.texts.read(Self::SCENARIO, None);
         self.put_all(vec![(Self::SCENARIO.to_owned(), text)]);
         &self.scenario_path
+    }
+
+    /// The scenario, the study or the observation goes on under another file, which is not there yet.
+    pub(super) fn move_outside(&mut self, key: &str, file: PathBuf) {
+        match key {
+            Self::STUDY => self.study_path = Some(file),
+            Self::OBSERVATION => self.observation_path = Some(file),
+            _ => self.scenario_path = file,
+        }
+        self.texts.read(key, None);
     }
 
     /// Sets several texts at once, new files among them; one undo takes all of it back.

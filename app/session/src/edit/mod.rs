@@ -10,6 +10,7 @@
 //! | `slug` | names of files |
 //! | [`problems`] | located problems of the texts |
 //! | [`saving`] | texts written to their files, none over what someone else wrote since |
+//! | [`bundled`] | files that came with the program, saved as copies of the user's own |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
 //! | `option` | options of a study, made from unsaved edits or another assembly |
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
@@ -19,6 +20,7 @@
 //! | [`pilot_program`] | entries of the scenario's pilot program |
 
 pub mod assembly;
+pub mod bundled;
 pub mod documents;
 mod figures;
 mod history;

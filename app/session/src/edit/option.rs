@@ -184,7 +184,7 @@ fn highest_gone(document: &Document, leaf: &str) -> String {
 }
 
 /// Paths of all values under a table or list; a figure with its source is one value.
-fn gather(document: &Document, table: &str, leaves: &mut Vec<String>) {
+pub(super) fn gather(document: &Document, table: &str, leaves: &mut Vec<String>) {
     for path in parts(document, table) {
         let holds_values = document.keys(&path).is_empty() && !document.has(&format!("{path}.0"));
         if holds_values || document.has(&format!("{path}.value")) {

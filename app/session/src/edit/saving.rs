@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::save_text;
 
+use super::bundled::OwnCopy;
 use super::documents::Documents;
 use super::slug::free_file;
 use crate::save::text_if_there;
@@ -21,23 +22,71 @@ pub enum Keep {
     Undecided,
 }
 
+/// Files that were written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Saved {
+    /// Every file written or deleted.
+    pub files: Vec<PathBuf>,
+    /// Those of them that are copies of files which came with the program.
+    pub copies: Vec<OwnCopy>,
+}
+
+impl Saved {
+    /// What was saved and where, in a sentence or two.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        /// Names listed at most.
+        const LISTED: usize = 4;
+        let name =
+            |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut text = match &self.files[..] {
+            [file] => format!("saved {}", file.display()),
+            files => {
+                let names: Vec<String> = files.iter().take(LISTED).map(name).collect();
+                let more = if files.len() > LISTED { ", …" } else { "" };
+                let mut folders = files.iter().filter_map(|file| file.parent()?.parent());
+                let place = folders.next().map(|folder| format!(" in {}", folder.display()));
+                let place = place.unwrap_or_default();
+                format!("saved {} files{place}: {}{more}", files.len(), names.join(", "))
+            }
+        };
+        if !self.copies.is_empty() {
+            let originals: Vec<&str> = self.copies.iter().map(|copy| copy.id.as_str()).collect();
+            text += &format!(
+                ". {} came with Endline and stays as it was; your edits are in your own copy",
+                originals.join(", ")
+            );
+        }
+        text
+    }
+}
+
 impl Documents {
-    /// Writes every changed text to its file, each whole or not at all; returns how many.
+    /// Writes every changed text to its file, each whole or not at all. A file that came with the program is never written over:
+    /// its text is saved as a copy of the user's own, which the design then names.
     ///
     /// # Errors
     /// With the files that could not be written, and those that were changed on disk since they were read
     /// ([`newer`](Self::newer)); the others are saved.
-    pub fn save(&mut self) -> Result<usize, String> {
-        let (mut count, mut failed) = (0, Vec::new());
+    pub fn save(&mut self) -> Result<Saved, String> {
+        let copies = self.copy_bundled()?;
+        let mut saved = Saved { files: Vec::new(), copies };
+        let mut failed = Vec::new();
         self.newer.clear();
         for path in self.texts.unsaved().to_vec() {
+            if self.text(&path).is_none() && self.is_bundled(&path) {
+                failed.push(format!(
+                    "{path} came with Endline and is not deleted; undo brings it back"
+                ));
+                continue;
+            }
             match self.save_one(&path) {
-                Ok(()) => count += 1,
+                Ok(()) => saved.files.push(self.file_of(&path)),
                 Err(error) => failed.push(error),
             }
         }
         self.texts.refresh();
-        if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
+        if failed.is_empty() { Ok(saved) } else { Err(failed.join("\n")) }
     }
 
     /// Files that the last save found changed on disk since they were read, by path, with their text on disk.
@@ -121,7 +170,7 @@ impl Documents {
     }
 
     /// The file of a text.
-    fn file_of(&self, path: &str) -> PathBuf {
+    pub(super) fn file_of(&self, path: &str) -> PathBuf {
         self.file_outside(path).map_or_else(|| self.root.join(path), Path::to_owned)
     }
 
@@ -222,7 +271,7 @@ mod tests {
         assert!(documents.unsaved().is_empty() && place.on_disk(ROPE).contains("11 mm"));
         assert!(documents.undo(), "the edits come back");
         assert_eq!(documents.field(ROPE, "diameter").as_deref(), Some("12 mm"));
-        assert_eq!(documents.save(), Ok(1), "theirs is known now");
+        documents.save().expect("theirs is known now");
 
         let place = Place::new("both");
         let mut documents = place.changed_by_two();
@@ -244,10 +293,59 @@ mod tests {
         assert!(place.on_disk(ROPE).contains("9 mm") && documents.newer().count() == 1);
         // What both wrote alike is saved, and a file that is gone is written anew.
         fs::write(place.0.join(ROPE), documents.text(ROPE).unwrap()).unwrap();
-        assert_eq!(documents.save(), Ok(1));
+        documents.save().unwrap();
         documents.set(ROPE, "diameter", "13 mm").unwrap();
         fs::remove_file(place.0.join(ROPE)).unwrap();
-        assert_eq!(documents.save(), Ok(1));
+        documents.save().unwrap();
         assert!(place.on_disk(ROPE).contains("13 mm"));
+    }
+
+    #[test]
+    fn a_file_that_came_with_the_program_is_saved_as_a_copy_that_the_design_names() {
+        const ONE: &str = "name = \"one\"\n[[gear]]\nassembly = \"gear\"\n";
+        const GEAR: &str = "name = \"gear\"\n[[line]]\nid = \"rope\"\nrope = \"rope\"\n";
+        const MEASURED: &str = "name = \"rope\"\ndiameter = \"10 mm\"\nsource = \"a mill\"\nconfidence = \"measured\"\n";
+        const BUNDLED: crate::shipped::Files = &[
+            (ROPE, MEASURED.as_bytes()),
+            ("assemblies/gear.toml", GEAR.as_bytes()),
+            ("assemblies/other.toml", GEAR.as_bytes()),
+            ("scenarios/one.toml", ONE.as_bytes()),
+        ];
+        let place = Place::new("bundled");
+        fs::create_dir_all(place.0.join("assemblies")).unwrap();
+        for (path, bytes) in BUNDLED {
+            fs::write(place.0.join(path), bytes).unwrap();
+        }
+        let mut documents = Documents::open(&place.0, &place.0.join("scenarios/one.toml")).unwrap();
+        documents.bundled = BUNDLED;
+        documents.set(ROPE, "diameter", "12 mm").unwrap();
+        let saved = documents.save().unwrap();
+        for (path, bytes) in BUNDLED {
+            assert_eq!(place.on_disk(path).as_bytes(), *bytes, "{path} stays");
+        }
+        let rope = place.on_disk("ropes/rope-mine.toml");
+        assert!(rope.contains("12 mm") && rope.contains("rope (mine)"), "{rope}");
+        assert!(rope.contains("copied from rope") && !rope.contains("measured"), "{rope}");
+        let gear = place.on_disk("assemblies/gear-mine.toml");
+        assert!(gear.contains("rope = \"rope-mine\"") && gear.contains("id = \"rope\""), "{gear}");
+        assert!(place.on_disk("scenarios/one-mine.toml").contains("assembly = \"gear-mine\""));
+        assert!(
+            !place.0.join("assemblies/other-mine.toml").exists(),
+            "the design does not have it"
+        );
+        assert_eq!((saved.files.len(), saved.copies.len()), (3, 3));
+        let said = saved.sentence();
+        for part in [&place.0.display().to_string(), "one-mine.toml", "came with Endline"] {
+            assert!(said.contains(part), "{said}");
+        }
+        assert!(documents.unsaved().is_empty());
+        assert!(documents.scenario_path().ends_with("scenarios/one-mine.toml"));
+
+        // The copies are the user's: the next edit goes to the same files.
+        documents.set("ropes/rope-mine.toml", "diameter", "13 mm").unwrap();
+        assert_eq!(documents.save().unwrap().files, [place.0.join("ropes/rope-mine.toml")]);
+        documents.remove("assemblies/other.toml");
+        assert!(documents.save().unwrap_err().contains("not deleted"));
+        assert!(place.0.join("assemblies/other.toml").exists());
     }
 }

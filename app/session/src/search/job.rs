@@ -9,8 +9,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;
-use crate::study::{Files, Shard};
 use crate::study::control::{Control, Progress};
+use crate::study::{Files, Shard};
 use crate::task::{Waker, run_job};
 
 use super::folder::Folder;

@@ -8,6 +8,7 @@ use endline_gear::{Diagnostic, Kind};
 use super::Workbench;
 use super::model::Texts;
 use super::notice::{Event, Notice};
+use crate::edit::bundled::OwnCopy;
 use crate::edit::recovery::{Autosave, UnsavedEdits};
 use crate::edit::saving::Keep;
 use crate::edit::{Documents, library_table, pilot_program};
@@ -134,11 +135,16 @@ impl Workbench {
     }
 
     pub(crate) fn save(&mut self) -> Result<(), String> {
-        let count = self.project.documents.save().map_err(|error| format!("not saved: {error}"))?;
-        self.notice = Some(Notice::done(match count {
-            1 => "saved 1 file".to_owned(),
-            count => format!("saved {count} files"),
-        }));
+        let documents = &mut self.project.documents;
+        let saved = documents.save().map_err(|error| format!("not saved: {error}"))?;
+        self.notice = Some(Notice::done(saved.sentence()));
+        for OwnCopy { from, to, file, .. } in saved.copies {
+            if from == Documents::SCENARIO {
+                self.preferences.remember(&file);
+            } else if from != to {
+                self.events.push(Event::Duplicated { from, to });
+            }
+        }
         Ok(())
     }
 
@@ -207,6 +213,9 @@ impl Workbench {
             return Err(format!(
                 "{path} is in use by the open scenario: choose another there first"
             ));
+        }
+        if documents.is_bundled(path) {
+            return Err(format!("{path} came with Endline and is not deleted"));
         }
         documents.remove(path);
         self.notice =

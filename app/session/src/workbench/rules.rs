@@ -254,8 +254,8 @@ impl Workbench {
             return outdated;
         }
         let text = documents.text(&path(&sheet.question.assembly));
-        let outdated = text != Some(sheet.given.text.as_str())
-            || documents.sources() != *sheet.given.sources;
+        let outdated =
+            text != Some(sheet.given.text.as_str()) || documents.sources() != *sheet.given.sources;
         sheet.outdated.set(Some((version, outdated)));
         outdated
     }

@@ -7,7 +7,7 @@ use endline_gear::Diagnostic;
 use super::Workbench;
 use crate::edit::Documents;
 use crate::error::Error;
-use crate::study::{Files, Opened};
+use crate::study::Opened;
 use crate::task::Task;
 
 /// What checking the open study found, for one version of the texts.
