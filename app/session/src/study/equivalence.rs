@@ -8,7 +8,7 @@
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::{LinkSummary, Summary};
-use endline_sim::model::{FrictionLaw, Line, Link, Rope, Whale};
+use endline_sim::model::{Friction, FrictionLaw, GearHook, Line, Link, Rope, Whale};
 use endline_sim::{Model, ModelSpec};
 
 use super::plan::OptionPlan;
@@ -39,7 +39,7 @@ const SCATTER: f64 = 0.2 / 1.6;
 
 /// Whether two models have the same run up to the moment when something first parts.
 pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
-    alike(&one.spec, &other.spec)
+    differ_only_in_strength(&one.spec, &other.spec)
 }
 
 /// Whether an option has the same run as another that came to `summary`, decided without assembling it: by the two options'
@@ -95,7 +95,7 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
     strengths
         && own(one).is_empty()
         && own(other).is_empty()
-        && alike(&one.prepared.model.spec, &other.prepared.model.spec)
+        && differ_only_in_strength(&one.prepared.model.spec, &other.prepared.model.spec)
 }
 
 fn nothing_parted(summary: &Summary) -> bool {
@@ -123,91 +123,194 @@ pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
     strengths(spec).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether two models differ in nothing but the strengths of links and ropes.
-fn alike(one: &ModelSpec, other: &ModelSpec) -> bool {
-    let ropes =
-        one.ropes.len() == other.ropes.len()
-            && one.ropes.iter().zip(&other.ropes).all(|(a, b)| {
-                *a == Rope { id: a.id.clone(), strength_n: a.strength_n, ..b.clone() }
-            });
-    let lines = one.lines.len() == other.lines.len()
-        && one
-            .lines
-            .iter()
-            .zip(&other.lines)
-            .all(|(a, b)| *a == Line { strength: a.strength, ..b.clone() });
-    let links = one.links.len() == other.links.len()
-        && one
-            .links
-            .iter()
-            .zip(&other.links)
-            .all(|(a, b)| (&a.id, a.line, a.end) == (&b.id, b.line, b.end));
-    ropes
-        && lines
-        && links
-        && same_gear_types(one, other)
-        && one.joints == other.joints
-        && one.bodies == other.bodies
-        && one.obstacles == other.obstacles
-        && one.settings == other.settings
-        && one.water == other.water
-        && one.seabed == other.seabed
-        && same_whale(one, other)
+/// Whether two models differ in nothing but the strengths of links and ropes. Structs are taken apart without `..`, so that a new
+/// field is compared or left out on purpose.
+fn differ_only_in_strength(one: &ModelSpec, other: &ModelSpec) -> bool {
+    let ModelSpec {
+        water,
+        seabed,
+        ropes,
+        joints,
+        lines,
+        bodies,
+        links,
+        gear,
+        whale,
+        friction,
+        obstacles,
+        // A probe measures and changes nothing.
+        probes: _,
+        settings,
+    } = one;
+    all(ropes, &other.ropes, same_rope)
+        && all(lines, &other.lines, same_line)
+        && all(links, &other.links, same_link)
+        && all(gear, &other.gear, same_gear_type)
+        && *joints == other.joints
+        && *bodies == other.bodies
+        && *obstacles == other.obstacles
+        && *settings == other.settings
+        && *water == other.water
+        && *seabed == other.seabed
+        && both(friction.as_ref(), other.friction.as_ref(), same_friction)
+        && both(whale.as_ref(), other.whale.as_ref(), same_whale)
 }
 
-/// Gear types that keep nothing in mind and differ in items alone, whose effect on the gear shows elsewhere in the model.
-fn same_gear_types(one: &ModelSpec, other: &ModelSpec) -> bool {
-    let same_value = |(a, b): (&AttributeValue, &AttributeValue)| {
-        a == b || matches!((a, b), (AttributeValue::Item(_), AttributeValue::Item(_)))
-    };
-    one.gear.len() == other.gear.len()
-        && one.gear.iter().zip(&other.gear).all(|(a, b)| {
-            let (own, its) = (a.gear.descriptor(), b.gear.descriptor());
-            own.id == its.id
-                && own.state_len == 0
-                && a.lines == b.lines
-                && a.attributes.iter().zip(&b.attributes).all(same_value)
-        })
+/// Whether two lists have one length and the same elements.
+fn all<T>(ones: &[T], others: &[T], same: fn(&T, &T) -> bool) -> bool {
+    ones.len() == others.len() && ones.iter().zip(others).all(|(one, other)| same(one, other))
 }
 
-fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
-    let friction = match (&one.friction, &other.friction) {
-        (Some(a), Some(b)) => {
-            let same_law = |(a, b): (&FrictionLaw, &FrictionLaw)| {
-                a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes
-            };
-            let laws = a.laws.len() == b.laws.len() && a.laws.iter().zip(&b.laws).all(same_law);
-            laws && a.law_of == b.law_of
-                && a.coefficients == b.coefficients
-                && a.law_of_bodies == b.law_of_bodies
-                && a.coefficients_of_bodies[..] == b.coefficients_of_bodies[..]
-        }
+/// Whether two values are the same, or neither is there.
+fn both<T>(one: Option<&T>, other: Option<&T>, same: fn(&T, &T) -> bool) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => same(one, other),
         (None, None) => true,
         _ => false,
+    }
+}
+
+fn same_rope(one: &Rope, other: &Rope) -> bool {
+    *one == Rope { id: one.id.clone(), strength_n: one.strength_n, ..other.clone() }
+}
+
+fn same_line(one: &Line, other: &Line) -> bool {
+    *one == Line { strength: one.strength, ..other.clone() }
+}
+
+fn same_link(one: &Link, other: &Link) -> bool {
+    let Link { id, line, end, rating_n: _, enabled: _ } = one;
+    (id, *line, *end) == (&other.id, other.line, other.end)
+}
+
+/// Gear types without a state that differ in items alone: what an item changes in the gear shows elsewhere in the model.
+fn same_gear_type(one: &GearHook, other: &GearHook) -> bool {
+    let GearHook { gear, attributes, lines, links } = one;
+    let same_value = |one: &AttributeValue, other: &AttributeValue| {
+        one == other || matches!((one, other), (AttributeValue::Item(_), AttributeValue::Item(_)))
     };
-    let whale = match (&one.whale, &other.whale) {
-        (Some(a), Some(b)) => {
-            let motion = a.motion.descriptor().id == b.motion.descriptor().id
-                && a.motion_attributes == b.motion_attributes;
-            let body = a.skin == b.skin
-                && a.joints == b.joints
-                && a.kinetic == b.kinetic
-                && a.measures == b.measures;
-            let start = a.position_m == b.position_m
-                && a.orientation == b.orientation
-                && a.pilot == b.pilot;
-            let numbers = |whale: &Whale| {
-                [
-                    whale.length_m,
-                    whale.burst_speed_m_s,
-                    whale.speed_m_s,
-                    whale.contact_stiffness_n_m2,
-                ]
-            };
-            motion && body && start && numbers(a).map(f64::to_bits) == numbers(b).map(f64::to_bits)
+    let descriptor = gear.descriptor();
+    descriptor.id == other.gear.descriptor().id
+        && descriptor.state_len == 0
+        && *lines == other.lines
+        && *links == other.links
+        && all(attributes, &other.attributes, same_value)
+}
+
+fn same_friction(one: &Friction, other: &Friction) -> bool {
+    let Friction { laws, law_of, coefficients, law_of_bodies, coefficients_of_bodies } = one;
+    all(laws, &other.laws, same_law)
+        && *law_of == other.law_of
+        && *coefficients == other.coefficients
+        && *law_of_bodies == other.law_of_bodies
+        && *coefficients_of_bodies == other.coefficients_of_bodies
+}
+
+fn same_law(one: &FrictionLaw, other: &FrictionLaw) -> bool {
+    let FrictionLaw { model, attributes } = one;
+    model.descriptor().id == other.model.descriptor().id && *attributes == other.attributes
+}
+
+fn same_whale(one: &Whale, other: &Whale) -> bool {
+    let Whale {
+        skin,
+        joints,
+        length_m,
+        measures,
+        burst_speed_m_s,
+        position_m,
+        orientation,
+        speed_m_s,
+        motion,
+        motion_attributes,
+        pilot,
+        contact_stiffness_n_m2,
+        jaws,
+        kinetic,
+    } = one;
+    let numbers = [
+        (length_m, &other.length_m),
+        (burst_speed_m_s, &other.burst_speed_m_s),
+        (speed_m_s, &other.speed_m_s),
+        (contact_stiffness_n_m2, &other.contact_stiffness_n_m2),
+    ];
+    motion.descriptor().id == other.motion.descriptor().id
+        && *motion_attributes == other.motion_attributes
+        && *pilot == other.pilot
+        && *skin == other.skin
+        && *joints == other.joints
+        && *measures == other.measures
+        && *jaws == other.jaws
+        && *kinetic == other.kinetic
+        && *position_m == other.position_m
+        && *orientation == other.orientation
+        && numbers.iter().all(|(one, other)| one.to_bits() == other.to_bits())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
+    use endline_sim::model::PilotProgram;
+    use endline_sim::whale::jaws::JawStrength;
+    use endline_sim::whale::joints::JointRanges;
+    use endline_sim::whale::measures::Measures;
+    use endline_sim::whale::skin::Skin;
+    use endline_sim::{DQuat, DVec3};
+
+    use super::*;
+
+    struct Still(Descriptor);
+
+    impl WhaleMotion for Still {
+        fn descriptor(&self) -> &Descriptor {
+            &self.0
         }
-        (None, None) => true,
-        _ => false,
-    };
-    friction && whale
+
+        fn step(
+            &self,
+            _: &[f64],
+            _: &MotionInput<'_>,
+            _: &mut [f64],
+        ) -> Result<MotionOutput, HookError> {
+            Ok(MotionOutput::default())
+        }
+    }
+
+    fn whale(jaws: Option<JawStrength>) -> Whale {
+        let descriptor = Descriptor {
+            id: "still".into(),
+            version: "0.1.0".into(),
+            name: "Still".into(),
+            help: "A whale that does not move.".into(),
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        };
+        Whale {
+            skin: Arc::new(Skin::default()),
+            joints: JointRanges::unbounded(),
+            length_m: 12.0,
+            measures: Measures::default(),
+            burst_speed_m_s: 4.0,
+            position_m: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            speed_m_s: 1.0,
+            motion: Arc::new(Still(descriptor)),
+            motion_attributes: Vec::new(),
+            pilot: PilotProgram::default(),
+            contact_stiffness_n_m2: 2e6,
+            jaws,
+            kinetic: None,
+        }
+    }
+
+    #[test]
+    fn whales_with_jaws_of_unlike_strength_are_different() {
+        let jaws = |moment_n_m| Some(JawStrength { moment_n_m: [moment_n_m, 100.0, 100.0] });
+        assert!(same_whale(&whale(jaws(1000.0)), &whale(jaws(1000.0))));
+        assert!(!same_whale(&whale(jaws(1000.0)), &whale(jaws(1001.0))));
+        assert!(!same_whale(&whale(jaws(1000.0)), &whale(None)));
+    }
 }
