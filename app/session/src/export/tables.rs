@@ -19,8 +19,8 @@ use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
 
 use super::arrow;
 use crate::save;
+use crate::study::parquet;
 use crate::study::table::{Column, Table};
-use crate::study::{parquet, table};
 
 /// In what format tables are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,15 +99,18 @@ impl RunTable {
 }
 
 /// What every column is.
-fn columns(told: &[RunTable]) -> Table {
-    let text = table::Cell::Text;
-    let row = |table: &RunTable, (column, unit, meaning, _): &TableColumn| {
-        [("table", table.name), ("column", column), ("unit", unit), ("meaning", meaning)]
-            .map(|(name, value)| (name.to_owned(), text(value.to_owned())))
-            .to_vec()
+fn columns(tables: &[RunTable]) -> Table {
+    let all = || tables.iter().flat_map(|table| table.columns.iter().map(move |c| (table.name, c)));
+    let texts = |of: fn((&'static str, &TableColumn)) -> &'static str| {
+        Column::Text(all().map(|column| of(column).to_owned()).collect())
     };
-    let rows = told.iter().flat_map(|table| table.columns.iter().map(|column| row(table, column)));
-    Table::of(rows.collect())
+    let columns = [
+        ("table", texts(|(table, _)| table)),
+        ("column", texts(|(_, (name, ..))| *name)),
+        ("unit", texts(|(_, (_, unit, ..))| *unit)),
+        ("meaning", texts(|(_, (_, _, meaning, _))| *meaning)),
+    ];
+    Table { columns: columns.map(|(name, column)| (name.to_owned(), column)).into() }
 }
 
 fn nodes(model: &Model, frames: &[Arc<Frame>]) -> RunTable {

@@ -13,7 +13,6 @@ use super::leases::{Lease, Leases, Next};
 use super::merge;
 use super::open::Opened;
 use super::shard::Shard;
-use super::table::Table;
 
 /// How often a process that has nothing left to run looks whether others have run theirs.
 const LOOK: Duration = Duration::from_millis(500);
@@ -183,7 +182,7 @@ impl Work<'_> {
             rows.extend(own);
             self.control.encounter_done();
         }
-        self.folder.write(block, &Table::of(rows))?;
+        self.folder.write(block, rows)?;
         Ok(true)
     }
 }

@@ -10,6 +10,7 @@ use super::parquet;
 use super::results::{ResultsRequest, StudyResults};
 use super::seal;
 use super::shard::Shard;
+use super::table::Cell;
 use super::tests::Place;
 use crate::plugins::PluginHost;
 
@@ -140,4 +141,25 @@ fn a_label_that_is_unreadable_or_gone_is_not_written_anew() {
     fs::remove_file(&label).unwrap();
     let error = Folder::open(&path, &opened).unwrap_err().to_string();
     assert!(error.contains("no study.json") && error.contains("--out"), "{error}");
+}
+
+#[test]
+fn a_block_whose_column_has_another_kind_is_named_with_column_row_and_kind() {
+    let place = Place::new("kinds");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    let row = |encounter: u32, depth: Cell| {
+        let encounter = Cell::Whole(encounter.into());
+        vec![("encounter".to_owned(), encounter), ("drawn_depth".to_owned(), depth)]
+    };
+    for block in 0..folder.blocks() {
+        let depth = if block == 5 { Cell::Text("deep".into()) } else { Cell::Real(Some(2.0)) };
+        folder.write(block, vec![row(block, depth)]).unwrap();
+    }
+    let error = merge::merge(&opened, &folder).unwrap_err().to_string();
+    assert!(error.contains("block-00005.parquet"), "{error}");
+    assert!(
+        error.contains("column `drawn_depth`, row 6: expected a number, found a text"),
+        "{error}"
+    );
 }

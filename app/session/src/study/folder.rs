@@ -19,7 +19,7 @@ use crate::save;
 use super::open::Opened;
 use super::parquet;
 use super::registration::Registration;
-use super::table::Table;
+use super::table::{Row, Table};
 
 /// Encounters of a block: what a killed program loses at most, for each thread.
 pub const BLOCK: u32 = 1;
@@ -150,18 +150,33 @@ impl Folder {
     /// Writes the rows of a block, whole or not at all.
     ///
     /// # Errors
-    /// Where the folder cannot be written; nothing is then there of it.
-    pub fn write(&self, block: u32, table: &Table) -> Result<(), Error> {
+    /// Rows of unlike columns, or a folder that cannot be written; the block is then not there.
+    pub fn write(&self, block: u32, rows: Vec<Row>) -> Result<(), Error> {
         let file = self.file_of(block);
+        let table = Table::of(rows)
+            .map_err(|wrong| Error::at(&file, format!("cannot be written: {wrong}")))?;
         let tags =
             [("study".to_owned(), self.hash.clone()), ("block".to_owned(), block.to_string())];
-        let bytes = parquet::write(table, &tags)
+        let bytes = parquet::write(&table, &tags)
             .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,
                 format!("cannot be written: {error}; the blocks that are there are whole, and the same command goes on from them"),
             )
+        })
+    }
+
+    /// Adds the rows of a block to a table.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and a block whose columns are not those of the table.
+    pub fn append(&self, block: u32, table: &mut Table) -> Result<(), Error> {
+        table.append(self.read(block)?).map_err(|wrong| {
+            let message = format!(
+                "does not fit the other blocks: {wrong}; delete it and run the study again"
+            );
+            Error::at(&self.file_of(block), message)
         })
     }
 

@@ -24,7 +24,7 @@ pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
         if !folder.file_of(block).is_file() {
             return Err(missing(opened, folder));
         }
-        table.append(folder.read(block)?);
+        folder.append(block, &mut table)?;
         if narrow(opened, &table, folder.encounters_of(block).end) {
             break;
         }
@@ -75,8 +75,9 @@ pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
     }
     let mut table = Table::default();
     for block in 0..folder.blocks() {
-        let Ok(rows) = folder.read(block) else { return false };
-        table.append(rows);
+        if folder.append(block, &mut table).is_err() {
+            return false;
+        }
         if narrow(opened, &table, folder.encounters_of(block).end) {
             return true;
         }

@@ -114,7 +114,9 @@ fn read_sealed(bytes: Vec<u8>) -> Result<Tagged> {
             .iter()
             .enumerate()
             .map(|(index, (name, kind))| Ok((name.clone(), read_column(&*group, index, *kind)?)));
-        table.append(Table { columns: read.collect::<Result<_>>()? });
+        table
+            .append(Table { columns: read.collect::<Result<_>>()? })
+            .map_err(|wrong| ParquetError::General(wrong.to_string()))?;
     }
     let rows = table.rows();
     if table.columns.iter().any(|(_, column)| column.len() != rows) {

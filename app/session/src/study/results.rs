@@ -109,7 +109,7 @@ fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool)
     let mut table = Table::default();
     let there = (0..folder.blocks()).take_while(|block| folder.file_of(*block).is_file()).count();
     for block in 0..u32::try_from(there).unwrap_or_default() {
-        table.append(folder.read(block)?);
+        folder.append(block, &mut table)?;
     }
     Ok((table, there == folder.blocks() as usize))
 }

@@ -29,6 +29,44 @@ pub enum Column {
     Flag(Vec<bool>),
 }
 
+/// A cell that does not fit its column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrongCell {
+    /// Name of the column.
+    pub column: String,
+    /// Number of the row, from 1.
+    pub row: usize,
+    /// What the column holds.
+    pub expected: String,
+    /// What was found there.
+    pub found: String,
+}
+
+impl std::fmt::Display for WrongCell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { column, row, expected, found } = self;
+        write!(f, "column `{column}`, row {row}: expected {expected}, found {found}")
+    }
+}
+
+impl WrongCell {
+    fn new(
+        column: &str,
+        row: usize,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> Self {
+        let (expected, found) = (expected.into(), found.into());
+        Self { column: column.to_owned(), row: row + 1, expected, found }
+    }
+
+    /// A column of another name, or none, where `column` should be.
+    fn misplaced(column: &str, row: usize, found: Option<&str>) -> Self {
+        let found = found.map_or_else(|| "no cell".to_owned(), |found| format!("`{found}`"));
+        Self::new(column, row, "a cell of this column", found)
+    }
+}
+
 /// Columns of one length, by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -46,17 +84,40 @@ impl Column {
         }
     }
 
-    fn push(&mut self, cell: Cell) {
+    /// What its cells are, in words.
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::Whole(_) => "a whole number",
+            Self::Real(_) => "a number",
+            Self::Text(_) => "a text",
+            Self::Flag(_) => "true or false",
+        }
+    }
+
+    /// Adds a cell; `Err` has the kinds expected and found.
+    fn push(&mut self, cell: Cell) -> Result<(), [&'static str; 2]> {
         match (self, cell) {
             (Self::Whole(values), Cell::Whole(value)) => values.push(value),
             (Self::Real(values), Cell::Real(value)) => {
-                values.push(value.filter(|number| number.is_finite()))
+                values.push(value.filter(|number| number.is_finite()));
             }
             (Self::Text(values), Cell::Text(value)) => values.push(value),
             (Self::Flag(values), Cell::Flag(value)) => values.push(value),
-            // A row has the kinds of its column: both come from one function.
-            _ => {}
+            (column, cell) => return Err([column.kind(), Self::of(&cell).kind()]),
         }
+        Ok(())
+    }
+
+    /// Adds the values of another column; `Err` has the kinds expected and found.
+    fn extend(&mut self, other: Self) -> Result<(), [&'static str; 2]> {
+        match (self, other) {
+            (Self::Whole(own), Self::Whole(more)) => own.extend(more),
+            (Self::Real(own), Self::Real(more)) => own.extend(more),
+            (Self::Text(own), Self::Text(more)) => own.extend(more),
+            (Self::Flag(own), Self::Flag(more)) => own.extend(more),
+            (own, more) => return Err([own.kind(), more.kind()]),
+        }
+        Ok(())
     }
 
     /// How many values.
@@ -98,20 +159,41 @@ fn quoted(text: &str) -> String {
 }
 
 impl Table {
-    /// Rows as columns; all rows have the names and kinds of the first.
-    #[must_use]
-    pub fn of(rows: Vec<Row>) -> Self {
+    /// Rows as columns.
+    ///
+    /// # Errors
+    /// A row whose names or kinds are not those of the first.
+    pub fn of(rows: Vec<Row>) -> Result<Self, WrongCell> {
         let mut table = Self::default();
-        for row in rows {
-            if table.columns.is_empty() {
-                table.columns =
-                    row.iter().map(|(name, cell)| (name.clone(), Column::of(cell))).collect();
-            }
-            for ((_, column), (_, cell)) in table.columns.iter_mut().zip(row) {
-                column.push(cell);
+        if let Some(first) = rows.first() {
+            table.columns =
+                first.iter().map(|(name, cell)| (name.clone(), Column::of(cell))).collect();
+        }
+        for (number, row) in rows.into_iter().enumerate() {
+            table.same_names(number, row.iter().map(|(name, _)| name.as_str()))?;
+            for ((name, column), (_, cell)) in table.columns.iter_mut().zip(row) {
+                column
+                    .push(cell)
+                    .map_err(|[expected, found]| WrongCell::new(name, number, expected, found))?;
             }
         }
-        table
+        Ok(table)
+    }
+
+    /// Whether a row or table has the columns of this one, in order.
+    fn same_names<'a>(
+        &self,
+        row: usize,
+        mut names: impl Iterator<Item = &'a str>,
+    ) -> Result<(), WrongCell> {
+        for (column, _) in &self.columns {
+            let found = names.next();
+            if found != Some(column) {
+                return Err(WrongCell::misplaced(column, row, found));
+            }
+        }
+        let more = |name| Err(WrongCell::new(name, row, "no such column", "a cell"));
+        names.next().map_or(Ok(()), more)
     }
 
     /// How many rows.
@@ -154,21 +236,22 @@ impl Table {
         if let Some(Column::Whole(values)) = self.column(name) { values } else { &[] }
     }
 
-    /// Adds the rows of another of the same columns.
-    pub fn append(&mut self, other: Self) {
+    /// Adds the rows of another table.
+    ///
+    /// # Errors
+    /// A table whose columns have other names or kinds.
+    pub fn append(&mut self, other: Self) -> Result<(), WrongCell> {
         if self.columns.is_empty() {
             *self = other;
-            return;
+            return Ok(());
         }
-        for ((_, own), (_, more)) in self.columns.iter_mut().zip(other.columns) {
-            match (own, more) {
-                (Column::Whole(own), Column::Whole(more)) => own.extend(more),
-                (Column::Real(own), Column::Real(more)) => own.extend(more),
-                (Column::Text(own), Column::Text(more)) => own.extend(more),
-                (Column::Flag(own), Column::Flag(more)) => own.extend(more),
-                _ => {}
-            }
+        let row = self.rows();
+        self.same_names(row, other.columns.iter().map(|(name, _)| name.as_str()))?;
+        for ((name, own), (_, more)) in self.columns.iter_mut().zip(other.columns) {
+            own.extend(more)
+                .map_err(|[expected, found]| WrongCell::new(name, row, expected, found))?;
         }
+        Ok(())
     }
 
     /// The same as comma-separated values with a line of names.
@@ -182,5 +265,43 @@ impl Table {
             text += &(cells.join(",") + "\n");
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(number: i64, drawn: Cell) -> Row {
+        vec![("encounter".to_owned(), Cell::Whole(number)), ("drawn_depth".to_owned(), drawn)]
+    }
+
+    #[test]
+    fn a_cell_of_another_kind_is_an_error_at_its_column_and_row() {
+        let rows = vec![row(0, Cell::Real(Some(2.0))), row(1, Cell::Text("deep".to_owned()))];
+        let error = Table::of(rows).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "column `drawn_depth`, row 2: expected a number, found a text"
+        );
+        let mut table = Table::of(vec![row(0, Cell::Real(None))]).unwrap();
+        let other = Table::of(vec![row(1, Cell::Flag(true))]).unwrap();
+        let error = table.append(other).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "column `drawn_depth`, row 2: expected a number, found true or false"
+        );
+    }
+
+    #[test]
+    fn a_row_with_another_column_is_an_error() {
+        let mut short = row(1, Cell::Real(None));
+        short.pop();
+        let mut long = row(1, Cell::Real(None));
+        long.push(("drawn_speed".to_owned(), Cell::Real(None)));
+        for (wrong, column) in [(short, "drawn_depth"), (long, "drawn_speed")] {
+            let error = Table::of(vec![row(0, Cell::Real(None)), wrong]).unwrap_err();
+            assert_eq!((error.column.as_str(), error.row), (column, 2));
+        }
     }
 }

@@ -25,8 +25,8 @@ use hauled::HauledLoad;
 
 use super::folder::Folder;
 use super::open::Opened;
-use super::stats::Findings;
-use super::table::{Cell, Row, Table};
+use super::stats::{Findings, OptionFinding, Paired, Rate};
+use super::table::{Column, Table};
 
 /// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; answers where the page is. Hauls stand beside what
 /// parts on whales.
@@ -55,40 +55,45 @@ pub fn write(
     Ok(page)
 }
 
+/// An event of an option: its rate, and its comparison with the baseline.
+type Counted<'a> = (&'a OptionFinding, &'a str, &'a Rate, &'a Paired);
+
 /// Every rate and comparison as a table: a row for each option and event.
 fn numbers(findings: &Findings) -> Table {
-    let mut rows: Vec<Row> = Vec::new();
-    for option in &findings.options {
-        for ((event, rate), (_, paired)) in option.rates.iter().zip(&option.against) {
-            let real = |value: f64| Cell::Real(Some(value));
-            let whole = |count: u64| Cell::Whole(i64::try_from(count).unwrap_or(i64::MAX));
-            rows.push(vec![
-                ("option".into(), Cell::Text(option.id.clone())),
-                ("event".into(), Cell::Text(event.clone())),
-                ("hits".into(), whole(rate.hits)),
-                ("runs".into(), whole(rate.runs)),
-                ("invalid".into(), whole(option.invalid)),
-                ("resolution_looks".into(), whole(option.resolution.all)),
-                ("resolution_missed".into(), whole(option.resolution.missed)),
-                ("rate".into(), real(rate.rate)),
-                ("rate_low".into(), real(rate.interval.low)),
-                ("rate_high".into(), real(rate.interval.high)),
-                ("difference".into(), real(paired.difference)),
-                ("difference_low".into(), real(paired.difference_interval.low)),
-                ("difference_high".into(), real(paired.difference_interval.high)),
-                ("ratio".into(), Cell::Real(paired.ratio)),
-                (
-                    "ratio_low".into(),
-                    Cell::Real(paired.ratio_interval.map(|interval| interval.low)),
-                ),
-                (
-                    "ratio_high".into(),
-                    Cell::Real(paired.ratio_interval.map(|interval| interval.high)),
-                ),
-                ("probability_fewer".into(), real(paired.fewer)),
-                ("mcnemar".into(), real(paired.mcnemar)),
-            ]);
-        }
-    }
-    Table::of(rows)
+    let of = |option| {
+        let OptionFinding { rates, against, .. } = option;
+        let rows = rates.iter().zip(against);
+        rows.map(move |((event, rate), (_, paired))| (option, event.as_str(), rate, paired))
+    };
+    let rows: Vec<Counted<'_>> = findings.options.iter().flat_map(of).collect();
+    let texts = |of: fn(&Counted<'_>) -> String| Column::Text(rows.iter().map(of).collect());
+    let counts = |of: fn(&Counted<'_>) -> u64| {
+        let whole = |row| i64::try_from(of(row)).unwrap_or(i64::MAX);
+        Column::Whole(rows.iter().map(whole).collect())
+    };
+    let reals = |of: fn(&Counted<'_>) -> Option<f64>| {
+        let finite = |row| of(row).filter(|number| number.is_finite());
+        Column::Real(rows.iter().map(finite).collect())
+    };
+    let columns = [
+        ("option", texts(|(option, ..)| option.id.clone())),
+        ("event", texts(|(_, event, ..)| (*event).to_owned())),
+        ("hits", counts(|(_, _, rate, _)| rate.hits)),
+        ("runs", counts(|(_, _, rate, _)| rate.runs)),
+        ("invalid", counts(|(option, ..)| option.invalid)),
+        ("resolution_looks", counts(|(option, ..)| option.resolution.all)),
+        ("resolution_missed", counts(|(option, ..)| option.resolution.missed)),
+        ("rate", reals(|(_, _, rate, _)| Some(rate.rate))),
+        ("rate_low", reals(|(_, _, rate, _)| Some(rate.interval.low))),
+        ("rate_high", reals(|(_, _, rate, _)| Some(rate.interval.high))),
+        ("difference", reals(|(.., paired)| Some(paired.difference))),
+        ("difference_low", reals(|(.., paired)| Some(paired.difference_interval.low))),
+        ("difference_high", reals(|(.., paired)| Some(paired.difference_interval.high))),
+        ("ratio", reals(|(.., paired)| paired.ratio)),
+        ("ratio_low", reals(|(.., paired)| Some(paired.ratio_interval?.low))),
+        ("ratio_high", reals(|(.., paired)| Some(paired.ratio_interval?.high))),
+        ("probability_fewer", reals(|(.., paired)| Some(paired.fewer))),
+        ("mcnemar", reals(|(.., paired)| Some(paired.mcnemar))),
+    ];
+    Table { columns: columns.map(|(name, column)| (name.to_owned(), column)).into() }
 }

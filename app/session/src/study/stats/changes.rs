@@ -133,7 +133,7 @@ mod tests {
                 ("peak_tension_N".to_owned(), Cell::Real(Some(*tension))),
             ]
         };
-        Table::of(rows.iter().map(row).collect())
+        Table::of(rows.iter().map(row).collect()).unwrap()
     }
 
     #[test]
