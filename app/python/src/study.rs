@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use endline_session::campaign::{Control, Shard};
 use endline_session::locate;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Control, Opened, Shard, batch, merge, report};
+use endline_session::study::{Opened, batch, merge, report};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -16,13 +16,14 @@ const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// Folders among them that only report runs.
-const REPORTING: [&str; 10] = [
+const REPORTING: [&str; 11] = [
     "../../gear-library/src/rules",
     "src/cases",
     "src/compliance",
     "src/haul",
     "src/live",
     "src/mill",
+    "src/page",
     "src/rules",
     "src/study/report",
     "src/study/stats",

@@ -19,6 +19,10 @@
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
 //! | [`haul`] | gear hauled over a block: loads, what comes nearest to parting, and its probability |
 //! | [`mill`] | breaks of a product: its law of strength, and the probability that it is approved |
+//! | [`campaign`] | studies and searches at work: threads, processes, pause, progress |
+//! | [`encounters`] | encounters of whales with gear, drawn from priors |
+//! | `page` | what HTML pages share |
+//! | [`table`] | tables of results as CSV and Parquet |
 //! | [`rules`] | what laws ask of an assembly: rule packs checked |
 //! | [`search`] | which encounters end like what was seen on a real whale |
 //! | [`scene`] | what a frame looks like, as triangles |
@@ -38,11 +42,13 @@
 #[cfg(test)]
 extern crate self as endline_session;
 
+pub mod campaign;
 pub mod cases;
 pub mod check;
 pub mod command;
 pub mod compliance;
 pub mod edit;
+pub mod encounters;
 pub mod error;
 pub mod export;
 pub mod figures;
@@ -53,6 +59,7 @@ mod hooks;
 pub mod live;
 pub mod locate;
 pub mod mill;
+mod page;
 pub mod plugins;
 pub mod recording;
 pub mod report;
@@ -69,6 +76,7 @@ pub mod source;
 pub mod statics;
 pub mod strength;
 pub mod study;
+pub mod table;
 pub mod task;
 pub mod timing;
 pub mod touching;

@@ -5,8 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use crate::campaign::priority;
 use crate::error::Error;
-use crate::study::priority;
 
 /// Called when there is something new to show; may be called from any thread.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;

@@ -12,11 +12,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_gear::Site;
+use endline_session::campaign::{Control, Shard};
+use endline_session::encounters::{Encounter, draw};
 use endline_session::plugins::{Hook, PluginHost};
 use endline_session::search::written::observation_text;
 use endline_session::search::{Effort, Ending, Folder, LIKE, Question, search};
-use endline_session::study::encounter::Encounter;
-use endline_session::study::{Control, Opened, Shard, draw};
+use endline_session::study::Opened;
 use endline_sim::metrics::EventKind;
 
 /// Study whose encounters are hidden and searched.
@@ -106,7 +107,7 @@ fn some(opened: &Opened, numbers: Range<u32>) -> Vec<Option<Hidden>> {
 /// A draw, where it ends with rope on the whale.
 fn one(opened: &Opened, number: u32) -> Option<Hidden> {
     let point = draw::sobol_point(SEED, number, draw::dimensions(&opened.study).len());
-    let played = opened.play(0, &Encounter::at_point(opened, &point), 0.0).ok()?;
+    let played = opened.play(0, &Encounter::at_point(&opened.study, &point), 0.0).ok()?;
     let ending = Ending::of(&played.run);
     let class = class(&ending).filter(|_| played.report.is_valid())?;
     let events = played.run.metrics().events();

@@ -5,11 +5,11 @@
 use askama::Template;
 
 use crate::error::Error;
+use crate::page::STYLE;
+use crate::page::cell::{Cell, Line, Table};
 use crate::rules::{RuleResult, Verdict};
 use crate::settled::{LineShape, SettledShape};
 use crate::strength::PartStrength;
-use crate::study::report::STYLE;
-use crate::study::report::cell::{Cell, Line, Table};
 use crate::units::N_PER_LBF;
 
 use super::page::{bodies, command, force, probability, threat, unknown, where_and_when};

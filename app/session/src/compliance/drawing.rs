@@ -4,8 +4,8 @@
 
 use endline_sim::model::BodyRole;
 
+use crate::page::svg::{Axis, Side, Svg};
 use crate::settled::SettledShape;
-use crate::study::report::svg::{Axis, Side, Svg};
 
 use super::ComplianceSheet;
 

@@ -5,7 +5,6 @@
 //! model at running tide is made from, so that the same command makes the same page. The page is HTML (`page.rs`); an
 //! installed browser prints it as PDF (`pdf.rs`). Several gears stand beside each other on a page of their own (`comparison.rs`).
 
-mod citations;
 mod comparison;
 mod drawing;
 mod page;

@@ -12,7 +12,7 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch}
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{ArrowError, Field, Schema};
 
-use crate::study::table::{Column, Table};
+use crate::table::{Column, Table};
 
 /// The bytes of a file. The tag `c.unit` stands with column `c` under the name `unit`, and so for every other tag of a
 /// column; the other tags stand with the table.

@@ -19,8 +19,8 @@ use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
 
 use super::arrow;
 use crate::save;
-use crate::study::parquet;
-use crate::study::table::{Column, Table};
+use crate::table::parquet;
+use crate::table::{Column, Table};
 
 /// In what format tables are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,8 +10,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use crate::campaign::{Control, Shard};
 use crate::error::Error;
-use crate::study::{Control, Shard};
 
 use super::Effort;
 use super::ended::Ended;

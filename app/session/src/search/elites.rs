@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use crate::study::encounter::Encounter;
+use crate::encounters::Encounter;
 
 use super::distance::LIKE;
 use super::question::Question;
@@ -44,7 +44,7 @@ pub(super) struct Elites {
 
 impl Kind {
     pub(super) fn of(question: &Question, point: &[f64], trial: &Trial) -> Self {
-        let encounter = Encounter::at_point(&question.opened, point);
+        let encounter = Encounter::at_point(&question.opened.study, point);
         let quarter = encounter.number("heading").map(|heading| {
             let quarters = (heading / TAU * 4.0 + 0.5).rem_euclid(4.0);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 3")]

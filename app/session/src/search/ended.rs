@@ -4,8 +4,8 @@ use endline_gear::{PathPlace, RopeEnd, Site};
 use endline_sim::metrics::EventKind;
 use serde::{Deserialize, Serialize};
 
+use crate::encounters::Encounter;
 use crate::run::Run;
-use crate::study::encounter::Encounter;
 use crate::study::{Opened, Played};
 
 use super::ending::Ending;

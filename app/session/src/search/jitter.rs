@@ -3,8 +3,8 @@
 use endline_gear::units::Quantity;
 use endline_gear::{Law, Prior};
 
-use crate::study::draw::{self, Drawn};
-use crate::study::encounter::Encounter;
+use crate::encounters::Encounter;
+use crate::encounters::draw::{self, Drawn};
 
 use super::question::Question;
 
@@ -16,7 +16,7 @@ pub(super) fn neighbour(question: &Question, point: &[f64], number: u32) -> Enco
     let priors = &question.opened.study.priors;
     let seed = question.seed ^ 0x9e37_79b9_7f4a_7c15;
     let shares = draw::sobol_point(seed, number, priors.len());
-    let mut encounter = Encounter::at_point(&question.opened, point);
+    let mut encounter = Encounter::at_point(&question.opened.study, point);
     for ((prior, drawn), share) in priors.iter().zip(&mut encounter.drawn).zip(shares) {
         *drawn = jittered(prior, drawn, share);
     }

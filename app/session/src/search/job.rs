@@ -6,11 +6,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::campaign::Shard;
+use crate::campaign::control::{Control, Progress};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;
-use crate::study::control::{Control, Progress};
-use crate::study::{Files, Shard};
+use crate::study::Files;
 use crate::task::{Waker, run_job};
 
 use super::folder::Folder;

@@ -48,10 +48,10 @@ mod trial;
 mod variation;
 pub mod written;
 
+use crate::campaign::Shard;
+use crate::campaign::control::{Control, Count};
+use crate::encounters::Encounter;
 use crate::error::Error;
-use crate::study::Shard;
-use crate::study::control::{Control, Count};
-use crate::study::encounter::Encounter;
 
 pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
@@ -107,8 +107,9 @@ pub fn search(
     control: &Control,
     progress: impl FnMut(Progress),
 ) -> Result<Stories, Error> {
-    let run =
-        |point: &[f64]| Ended::of(&question.opened, &Encounter::at_point(&question.opened, point));
+    let run = |point: &[f64]| {
+        Ended::of(&question.opened, &Encounter::at_point(&question.opened.study, point))
+    };
     let rounds = rounds_of(question, folder, effort, run, control, progress)?;
     let stories = stories::of(question, folder, effort, control, &rounds);
     control.end();

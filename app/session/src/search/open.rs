@@ -2,10 +2,10 @@
 
 use endline_gear::{Document, EditError, Setting};
 
+use crate::encounters::Encounter;
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
-use crate::study::encounter::Encounter;
 use crate::study::prepare::until;
 
 use super::question::Question;
@@ -66,6 +66,6 @@ impl Question {
     }
 
     fn encounter(&self, story: &Story) -> Result<Prepared, Error> {
-        self.opened.prepare(0, &Encounter::at_point(&self.opened, &story.point))
+        self.opened.prepare(0, &Encounter::at_point(&self.opened.study, &story.point))
     }
 }

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use askama::Template;
 use endline_gear::{Observation, SeenSite};
 
+use crate::encounters::in_words;
 use crate::error::Error;
+use crate::page::STYLE;
+use crate::page::cell::{Cell, Line, Table};
 use crate::save;
-use crate::study::in_words;
-use crate::study::report::STYLE;
-use crate::study::report::cell::{Cell, Line, Table};
 
 use super::distance::LIKE;
 use super::folder::Folder;

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::draw::Drawn;
-use crate::study::encounter::Encounter;
-use crate::study::in_words;
+use crate::encounters::Encounter;
+use crate::encounters::draw::Drawn;
+use crate::encounters::in_words;
 
 use super::distance::LIKE;
 use super::rounds::Rounds;
@@ -46,7 +46,7 @@ pub(super) fn quantities(rounds: &Rounds<'_>) -> Vec<Quantity> {
             number: None,
             plain: false,
         };
-        let drawn = Encounter::at_point(&rounds.question.opened, point).drawn;
+        let drawn = Encounter::at_point(&rounds.question.opened.study, point).drawn;
         for drawn in drawn.into_iter().chain([first]) {
             columns.entry(drawn.name.clone()).or_default().push(drawn);
         }

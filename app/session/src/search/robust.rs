@@ -3,9 +3,9 @@
 //! The nearest run is often at the rim of what ends alike. A few neighbours of some runs far apart from each other tell which one is not;
 //! of that, all neighbours are run, and the encounter on a finer resolution.
 
+use crate::campaign::Control;
+use crate::encounters::Encounter;
 use crate::error::Error;
-use crate::study::Control;
-use crate::study::encounter::Encounter;
 
 use super::Effort;
 use super::batch::{self, Part};
@@ -107,7 +107,7 @@ impl Runs<'_> {
     /// Distance of a run's encounter on a finer resolution.
     fn finer(&self, elite: &Elite) -> Result<Option<f64>, Error> {
         let opened = &self.question.opened;
-        let one = |_| Ended::finer(opened, &Encounter::at_point(opened, &elite.point));
+        let one = |_| Ended::finer(opened, &Encounter::at_point(&opened.study, &elite.point));
         let distances = self.distances(&format!("finer-{}", name(&elite.point)), 1, one)?;
         Ok(distances.and_then(|distances| distances.first().copied()))
     }

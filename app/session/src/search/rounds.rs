@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use endline_gear::Law;
 
-use crate::study::draw;
+use crate::encounters::draw;
 
 use super::climb::Climb;
 use super::elites::Elites;

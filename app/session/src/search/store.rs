@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::Shard;
 use crate::error::Error;
 use crate::save;
-use crate::study::Shard;
 
 use super::ended::Ended;
 

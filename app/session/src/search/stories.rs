@@ -4,10 +4,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::campaign::control::{Control, Count};
+use crate::encounters::Encounter;
 use crate::error::Error;
 use crate::save;
-use crate::study::control::{Control, Count};
-use crate::study::encounter::Encounter;
 
 use super::Effort;
 use super::distance::LIKE;
@@ -223,7 +223,7 @@ pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
 fn story(rounds: &Rounds<'_>, kind: &Kind, elite: &Elite, tried: Option<&Tried<'_>>) -> Story {
     let question = rounds.question;
     let Trial { distance, terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
-    let drawn = Encounter::at_point(&question.opened, &elite.point).drawn;
+    let drawn = Encounter::at_point(&question.opened.study, &elite.point).drawn;
     let like = rounds.net.iter().filter(|(_, trial)| trial.distance <= LIKE);
     let is_own = |point: &[f64], trial: &Trial| Kind::of(question, point, trial) == *kind;
     Story {

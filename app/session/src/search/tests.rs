@@ -9,9 +9,9 @@ use endline_gear::{Observation, Site};
 
 use super::ending::AtSite;
 use super::*;
+use crate::campaign::{Control, Shard};
 use crate::plugins::PluginHost;
 use crate::study::tests::Place;
-use crate::study::{Control, Shard};
 
 const OBSERVATION: &str = r#"format = 1
 kind = "observation"

@@ -3,7 +3,7 @@
 //! Local searches keep acts and other choices; variations carry what is near to other acts.
 //! Reference: Mouret and Clune 2015, Illuminating search spaces by mapping elites (arXiv 1504.04909).
 
-use crate::study::draw;
+use crate::encounters::draw;
 
 use super::elites::Elite;
 

@@ -6,7 +6,7 @@
 use endline_gear::{PathPlace, RopeEnd, Site};
 
 use super::ending::Ending;
-use crate::study::draw;
+use crate::encounters::draw;
 
 /// How sure an observer is of rope that is there, or not there.
 const SURE: f64 = 0.9;

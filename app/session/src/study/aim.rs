@@ -11,11 +11,11 @@ use endline_sim::{Model, State};
 use crate::error::Error;
 use crate::source::{Overrides, Source};
 
-use super::aimed_lines::lines_aimed_at;
-use super::encounter::Encounter;
-use super::equilibria::Equilibrium;
 use super::open::Opened;
-use super::priors::field_of;
+use crate::encounters::Encounter;
+use crate::encounters::aim::lines_aimed_at;
+use crate::encounters::equilibria::Equilibrium;
+use crate::encounters::priors::field_of;
 
 impl Opened {
     /// The gear of an option in equilibrium in the sea of an encounter.

@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use crate::error::Error;
 
-use super::control::{Control, Count, Progress};
 use super::folder::{BLOCK, Folder};
-use super::leases::{Lease, Leases, Next};
 use super::merge;
 use super::open::Opened;
-use super::shard::Shard;
+use crate::campaign::control::{Control, Count, Progress};
+use crate::campaign::leases::{Lease, Leases, Next};
+use crate::campaign::shard::Shard;
 
 /// How often a process that has nothing left to run looks whether others have run theirs.
 const LOOK: Duration = Duration::from_millis(500);

@@ -3,16 +3,16 @@
 use std::fs;
 
 use super::batch;
-use super::control::Control;
 use super::folder::Folder;
 use super::merge;
-use super::parquet;
 use super::results::{ResultsRequest, StudyResults};
-use super::seal;
-use super::shard::Shard;
-use super::table::Cell;
 use super::tests::Place;
+use crate::campaign::control::Control;
+use crate::campaign::shard::Shard;
 use crate::plugins::PluginHost;
+use crate::table::Cell;
+use crate::table::parquet;
+use crate::table::seal;
 
 /// Numbers without a pattern, the same in every run (Knuth's MMIX).
 struct Numbers(u64);

@@ -7,10 +7,10 @@ use endline_gear::{Document, EditError, Setting, units};
 use crate::error::Error;
 use crate::source::{Prepared, Source};
 
-use super::encounter::Encounter;
 use super::open::Opened;
 use super::play::Played;
 use super::prepare::value;
+use crate::encounters::Encounter;
 
 /// Lengths and times of a scenario that are halved, where it has them.
 const HALVED: [(&str, units::Quantity); 5] = [

@@ -17,9 +17,9 @@ use crate::error::Error;
 use crate::save;
 
 use super::open::Opened;
-use super::parquet;
 use super::registration::Registration;
-use super::table::{Row, Table};
+use crate::table::parquet;
+use crate::table::{Row, Table};
 
 /// Encounters of a block: what a killed program loses at most, for each thread.
 pub const BLOCK: u32 = 1;

@@ -4,12 +4,12 @@ use crate::error::Error;
 use crate::save;
 
 use super::folder::Folder;
-use super::leases;
 use super::open::Opened;
-use super::parquet;
-use super::shard::Shard;
 use super::stats::is_narrow;
-use super::table::Table;
+use crate::campaign::leases;
+use crate::campaign::shard::Shard;
+use crate::table::Table;
+use crate::table::parquet;
 
 /// Encounters between two looks at whether a study has seen enough.
 const LOOK: u32 = 4;

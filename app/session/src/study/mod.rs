@@ -9,8 +9,8 @@
 //! |---|---|
 //! | `open` | the study read, each option planned and checked |
 //! | `plan` | an option as an edited scenario and library |
-//! | `draw`, `priors` | what is drawn for an encounter, and the fields that it sets |
-//! | `aim`, `aimed_lines`, `equilibria` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
+//! | `encounters` | what is drawn for an encounter, and the fields that it sets |
+//! | `aim` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
 //! | `prepare` | plan, draws and aim together, assembled |
 //! | `play`, `equivalence`, `branch` | the run, or the run that another option has already |
 //! | `finer` | the run on a finer resolution |
@@ -21,30 +21,19 @@
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
 mod aim;
-mod aimed_lines;
 pub mod batch;
 mod branch;
-pub mod control;
 #[cfg(test)]
 mod damaged;
-mod density;
-pub mod draw;
-mod drawn;
-pub mod encounter;
-mod equilibria;
 mod equivalence;
 mod finer;
 pub mod folder;
-mod leases;
 pub mod merge;
 mod open;
-pub(crate) mod parquet;
 mod plan;
 pub(crate) mod planned;
 mod play;
 pub(crate) mod prepare;
-pub mod priority;
-mod priors;
 pub mod queue;
 mod reader;
 mod ready;
@@ -52,21 +41,13 @@ pub mod registration;
 pub mod report;
 pub mod results;
 mod row;
-mod seal;
-mod shard;
 pub mod stats;
-pub mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 pub mod threat;
 
-pub use control::Control;
-pub use drawn::in_words;
-pub use leases::{Worker, workers};
 pub use open::{Files, Opened};
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
 pub use reader::ResultsReader;
 pub use results::{ResultsRequest, StudyResults};
-pub use shard::Shard;
-pub use table::{Cell, Column, Row, Table};

@@ -8,11 +8,11 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 
-use super::aimed_lines::lines_aimed_at;
-use super::equilibria::Equilibria;
 use super::equivalence;
 use super::plan::{Base, OptionPlan};
-use super::priors::field_of;
+use crate::encounters::aim::lines_aimed_at;
+use crate::encounters::equilibria::Equilibria;
+use crate::encounters::priors::field_of;
 
 /// A study ready to run.
 pub struct Opened {

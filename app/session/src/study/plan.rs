@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Overrides, Prepared, Source};
 
-use super::draw::{self, Drawn};
-use super::priors::{field_of, put_drawn};
+use crate::encounters::draw::{self, Drawn};
+use crate::encounters::priors::{field_of, put_drawn};
 
 /// An option as a scenario and a library.
 pub struct OptionPlan {

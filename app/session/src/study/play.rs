@@ -10,13 +10,13 @@ use crate::run::{Moment, Run, RunOptions};
 use crate::source::Prepared;
 
 use super::branch::{self, Watch};
-use super::encounter::Encounter;
-use super::equilibria::fitted;
 use super::equivalence::{least_strength_n, same_run};
 use super::open::Opened;
 use super::ready::Ready;
 use super::row::row;
-use super::table::Row;
+use crate::encounters::Encounter;
+use crate::encounters::equilibria::fitted;
+use crate::table::Row;
 
 /// Time after which a run that has stayed invalid is given up: what has crossed stays crossed, and what presses too hard goes on doing so [s].
 const INVALID_FOR_S: f64 = 60.0;

@@ -10,9 +10,9 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Overrides, Prepared, Source};
 
-use super::encounter::Encounter;
 use super::open::Opened;
 use super::plan::OptionPlan;
+use crate::encounters::Encounter;
 
 /// Length of a whale of which neither study nor scenario says anything [m].
 const USUAL_LENGTH_M: f64 = 12.0;

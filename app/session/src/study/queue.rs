@@ -13,14 +13,14 @@ use crate::shell;
 use crate::task::{Waker, run_job};
 
 use super::batch;
-use super::control::{Control, Progress};
 use super::folder::Folder;
 use super::merge;
 use super::open::{Files, Opened};
-use super::priority;
 use super::report;
-use super::shard::Shard;
 use super::stats::Findings;
+use crate::campaign::control::{Control, Progress};
+use crate::campaign::priority;
+use crate::campaign::shard::Shard;
 
 /// How a study of the queue stands.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use std::cell::OnceCell;
 
 use crate::source::Prepared;
 
-use super::encounter::Encounter;
 use super::open::Opened;
+use crate::encounters::Encounter;
 
 /// An encounter and its options.
 pub(super) struct Ready<'a> {
@@ -17,7 +17,7 @@ pub(super) struct Ready<'a> {
 impl<'a> Ready<'a> {
     pub(super) fn new(opened: &'a Opened, index: u32) -> Self {
         let options = opened.options.iter().map(|_| OnceCell::new()).collect();
-        Self { opened, encounter: Encounter::of(opened, index), options }
+        Self { opened, encounter: Encounter::of(&opened.study, index), options }
     }
 
     /// An option ready to run, or why it is not.

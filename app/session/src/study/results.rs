@@ -9,13 +9,13 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
 
-use super::encounter::Encounter;
 use super::folder::{Folder, Label};
 use super::merge;
 use super::open::Opened;
 use super::prepare;
 use super::stats::Findings;
-use super::table::Table;
+use crate::encounters::Encounter;
+use crate::table::Table;
 
 /// What is to be read.
 #[derive(Clone, Default)]
@@ -85,7 +85,8 @@ impl StudyResults {
         encounter: u32,
         host: &PluginHost,
     ) -> Result<Prepared, Error> {
-        let prepared = self.opened.prepare(option, &Encounter::of(&self.opened, encounter))?;
+        let prepared =
+            self.opened.prepare(option, &Encounter::of(&self.opened.study, encounter))?;
         let Some(end_s) = self.end_s(option, encounter) else { return Ok(prepared) };
         prepare::until(&prepared, end_s, host)
     }

@@ -5,9 +5,9 @@ use endline_sdk::BodyPart;
 use crate::figures::{ATTEMPT, AUDIT, Attempt, Figure, PART, Quantity, RUN, Value, WHALE, parts};
 use crate::report::Report;
 
-use super::encounter::Encounter;
 use super::open::Opened;
-use super::table::{Cell, Row};
+use crate::encounters::Encounter;
+use crate::table::{Cell, Row};
 
 /// Place of the columns of the whale's parts among the others.
 const PARTS: u16 = 200;

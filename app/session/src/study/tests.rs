@@ -9,15 +9,15 @@ use super::batch;
 use endline_gear::Sources;
 use endline_sim::Model;
 
-use super::control::{Control, Count, Progress};
-use super::encounter::Encounter;
 use super::folder::Folder;
 use super::merge;
 use super::open::{Files, Opened};
 use super::queue::{Job, Queue, State};
 use super::results;
-use super::shard::Shard;
 use super::{ResultsRequest, StudyResults};
+use crate::campaign::control::{Control, Count, Progress};
+use crate::campaign::shard::Shard;
+use crate::encounters::Encounter;
 use crate::plugins::PluginHost;
 
 const STUDY: &str = r#"format = 1
@@ -283,7 +283,7 @@ fn a_finer_resolution_halves_segments_and_steps_and_keeps_the_encounter() {
     let place = Place::new("finer");
     let study = place.library().join("studies/study.toml");
     let opened = Opened::open(&study, Some(&place.library()), &PluginHost::empty()).unwrap();
-    let encounter = Encounter::of(&opened, 3);
+    let encounter = Encounter::of(&opened.study, 3);
     let [usual, finer] =
         [opened.play(0, &encounter, 0.0).unwrap(), opened.play_finer(0, &encounter).unwrap()]
             .map(|played| played.run.model().clone());

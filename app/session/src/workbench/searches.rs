@@ -8,12 +8,12 @@ use endline_sim::whale::Skin;
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
+use crate::campaign::priority;
 use crate::edit::{Documents, observation};
 use crate::save;
 use crate::search::job::{self, Job, Request, State};
 use crate::search::open::Length;
 use crate::search::{Question, Story};
-use crate::study::priority;
 use crate::task::{Fault, Task};
 
 /// Runs at most, where nobody says otherwise.

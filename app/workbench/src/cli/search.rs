@@ -5,11 +5,12 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use endline_session::campaign::{Control, Shard};
+use endline_session::encounters::Encounter;
 use endline_session::search::{
     Effort, Folder, LIKE, Progress, Question, Stories, Story, USUAL_NET, page, search as found,
 };
-use endline_session::study::encounter::Encounter;
-use endline_session::study::{Control, REPLAY_HZ, Shard};
+use endline_session::study::REPLAY_HZ;
 
 use super::interrupt::Interrupt;
 use super::study::args::shard;
@@ -88,7 +89,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
         return Ok(code);
     }
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
-        let encounter = Encounter::at_point(&question.opened, &story.point);
+        let encounter = Encounter::at_point(&question.opened.study, &story.point);
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;
         keep(&folder.path.join(format!("story-{}", number + 1)), &played)?;
     }

@@ -2,8 +2,8 @@
 
 use crate::study::stats::{Change, Findings, OptionFinding};
 
-use super::cell::{Cell, Table};
 use super::words::{outcome_words, percent_interval, rate};
+use crate::page::cell::{Cell, Table};
 
 /// The table; `None` where there is only the baseline.
 pub(super) fn table(findings: &Findings) -> Option<Table> {

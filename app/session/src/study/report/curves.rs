@@ -4,8 +4,8 @@ use crate::study::stats::{Findings, OptionFinding};
 
 use super::figures::WIDE;
 use super::hauled::HauledLoad;
-use super::svg::{Axis, Side, Svg};
 use super::words::N_PER_LBF;
+use crate::page::svg::{Axis, Side, Svg};
 
 /// Tensions named on the axis [N].
 const NAMED_N: [f64; 8] = [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];

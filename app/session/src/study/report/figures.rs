@@ -4,7 +4,7 @@ use endline_gear::StudyEvent;
 
 use crate::study::stats::{Findings, Interval, LevelFinding, OptionFinding, Rate};
 
-use super::svg::{Axis, Side, Svg};
+use crate::page::svg::{Axis, Side, Svg};
 
 /// Width of a figure.
 pub(super) const WIDE: f64 = 760.0;

@@ -2,11 +2,11 @@
 
 use crate::study::stats::{Findings, OptionFinding, Survival};
 
-use super::cell::{Cell, Table};
 use super::curves::{alike, legend};
 use super::figures::WIDE;
-use super::svg::{Axis, Side, Svg};
 use super::words::percent_interval;
+use crate::page::cell::{Cell, Table};
+use crate::page::svg::{Axis, Side, Svg};
 
 /// Times that are told [s].
 const TOLD_S: [f64; 7] = [5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0];

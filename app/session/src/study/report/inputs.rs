@@ -8,8 +8,8 @@ use crate::study::stats::{
     ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
 };
 
-use super::cell::{Cell, Line, Table};
 use super::words::{force, percent_interval, points, rate};
+use crate::page::cell::{Cell, Line, Table};
 
 /// Claims and whether their sign holds; `None` where the study makes none.
 pub(super) fn claims(findings: &Findings) -> Option<Table> {

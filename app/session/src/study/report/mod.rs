@@ -1,7 +1,6 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
 mod bundle;
-pub(crate) mod cell;
 mod changed;
 mod curves;
 mod figures;
@@ -11,10 +10,8 @@ pub mod hindcast;
 mod inputs;
 mod page;
 mod results;
-pub(crate) mod svg;
 mod words;
 
-pub(crate) use page::STYLE;
 use std::path::PathBuf;
 pub use words::lowest;
 
@@ -26,7 +23,7 @@ use hauled::HauledLoad;
 use super::folder::Folder;
 use super::open::Opened;
 use super::stats::{Findings, OptionFinding, Paired, Rate};
-use super::table::{Column, Table};
+use crate::table::{Column, Table};
 
 /// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; answers where the page is. Hauls stand beside what
 /// parts on whales.

@@ -5,14 +5,11 @@ use askama::Template;
 use crate::study::open::Opened;
 use crate::study::stats::{Findings, answer};
 
-use super::cell::{Line, Table};
 use super::hauled::HauledLoad;
 use super::words::event_words;
 use super::{bundle, changed, curves, figures, held, inputs, results};
-
-/// Look of the page.
-pub(crate) const STYLE: &str =
-    include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/report/report.css"));
+use crate::page::STYLE;
+use crate::page::cell::{Line, Table};
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
 #[derive(Template)]

@@ -6,8 +6,8 @@ use crate::study::stats::{
     AssumedBand, Bands, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
 };
 
-use super::cell::{Cell, Line, Table};
 use super::words::{event_words, force, lowest, percent_interval, points, rate, ratio, short_rate};
+use crate::page::cell::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;

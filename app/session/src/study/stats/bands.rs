@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::study::open::Opened;
 use crate::study::registration::Registration;
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::bootstrap::Draws;
 use super::interval::{Interval, Rate};

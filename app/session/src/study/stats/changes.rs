@@ -7,7 +7,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::bootstrap;
 use super::interval::{Interval, Rate};
@@ -120,7 +120,7 @@ fn ends(table: &Table, option: &str) -> Vec<Option<End>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::table::Cell;
+    use crate::table::Cell;
 
     /// Encounter, option, whether it counts, outcome, greatest tension.
     fn table(rows: &[(i64, &str, bool, &str, f64)]) -> Table {

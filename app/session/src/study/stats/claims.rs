@@ -4,7 +4,7 @@ use endline_gear::Claim;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::bootstrap;
 use super::interval::{Interval, Rate};

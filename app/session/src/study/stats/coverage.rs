@@ -2,8 +2,8 @@
 
 use endline_gear::Study;
 
-use crate::study::density::weight;
-use crate::study::draw::Drawn;
+use crate::encounters::density::weight;
+use crate::encounters::draw::Drawn;
 
 use super::bootstrap::Draws;
 use super::interval::{Interval, Rate};

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::strength::PartStrength;
 use crate::study::open::Opened;
 use crate::study::registration::Registration;
-use crate::study::table::{Column, Table};
+use crate::table::{Column, Table};
 
 use super::bands::{self, Bands};
 use super::changes::Changes;

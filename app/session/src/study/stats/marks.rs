@@ -2,7 +2,7 @@
 
 use endline_gear::{Counted, StudyEvent};
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 /// Whether an event came in an encounter.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -43,7 +43,7 @@ pub use tensions::Tensions;
 use endline_gear::StudyEvent;
 
 use super::plan::OptionPlan;
-use super::table::Table;
+use crate::table::Table;
 
 /// Whether the interval of an event's rate is narrower than `width` in every option.
 #[must_use]

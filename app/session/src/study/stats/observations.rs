@@ -9,7 +9,7 @@ use endline_gear::ObservedShare;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::interval::{Interval, Rate, z95};
 use super::marks::Marks;

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use endline_gear::Prior;
 
-use crate::study::table::{Column, Table};
+use crate::table::{Column, Table};
 
 use super::bootstrap::{Draws, RESAMPLES};
 use super::interval::Rate;

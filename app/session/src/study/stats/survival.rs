@@ -10,7 +10,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::interval::{Interval, Rate, z95};
 use super::marks::weights;

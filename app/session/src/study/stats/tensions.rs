@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::table::Table;
+use crate::table::Table;
 
 use super::bootstrap;
 use super::interval::Interval;

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::open::Opened;
 use super::stats::{AssumedBand, Interval, Marks, Rate};
-use super::table::Table;
+use crate::table::Table;
 use crate::units::METRES_PER_INCH;
 
 pub use filled::{Filled, How, as_own, with_bands};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use endline_session::study::Shard;
+use endline_session::campaign::Shard;
 
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum StudyCommand {

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use endline_gear::Study;
+use endline_session::campaign::{Control, Shard};
 use endline_session::cases::{Cases, Effort, Outcome};
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hindcast as page;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Control, Opened, Shard, batch, merge};
+use endline_session::study::{Opened, batch, merge};
 use endline_session::{Error, locate};
 
 use super::args::{HindcastArgs, StudyArgs};

@@ -12,12 +12,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use endline_session::study::control::Count;
-use endline_session::study::encounter::Encounter;
+use endline_session::campaign::{Control, Count, priority};
+use endline_session::encounters::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Control, Opened, REPLAY_HZ, batch, merge, priority, report};
+use endline_session::study::{Opened, REPLAY_HZ, batch, merge, report};
 use endline_session::{locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
@@ -118,7 +118,7 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     }
     let option = args.option.as_deref().map_or(Ok(opened.baseline), |id| opened.option(id))?;
     let frames_hz = if args.to.is_some() { REPLAY_HZ } else { 0.0 };
-    let played = opened.play(option, &Encounter::of(&opened, args.row), frames_hz)?;
+    let played = opened.play(option, &Encounter::of(&opened.study, args.row), frames_hz)?;
     if let Some(to) = &args.to {
         keep(to, &played)?;
     }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
 
-use endline_session::study::control::{Count, Progress};
+use endline_session::campaign::{Count, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::super::output;

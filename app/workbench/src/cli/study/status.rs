@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use endline_session::campaign::{Worker, workers};
 use endline_session::study::folder::Folder;
-use endline_session::study::{Worker, workers};
 use schemars::JsonSchema;
 use serde::Serialize;
 

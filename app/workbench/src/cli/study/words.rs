@@ -1,11 +1,10 @@
 //! What the study commands print.
 
 use endline_gear::StudyEvent;
+use endline_session::campaign::Count;
+use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::Opened;
-use endline_session::study::control::Count;
-use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::{BLOCK, Folder};
-use endline_session::study::in_words;
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
 use endline_session::units::N_PER_LBF;
 
@@ -43,7 +42,7 @@ pub(super) fn plan(opened: &Opened) -> String {
             .collect::<Vec<_>>(),
     ];
     for index in 0..SHOWN.min(u32::try_from(study.encounters).unwrap_or(SHOWN)) {
-        let drawn = Encounter::of(opened, index).drawn;
+        let drawn = Encounter::of(&opened.study, index).drawn;
         rows.push(
             [index.to_string()]
                 .into_iter()

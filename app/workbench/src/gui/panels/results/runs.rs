@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Align, ComboBox, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use endline_session::study::StudyResults;
-use endline_session::study::Table;
+use endline_session::table::Table;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;

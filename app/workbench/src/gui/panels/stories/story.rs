@@ -2,8 +2,8 @@
 
 use egui::{Color32, Grid, Label, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::command::SearchAction;
+use endline_session::encounters::in_words;
 use endline_session::search::{LIKE, Stories, Story};
-use endline_session::study::in_words;
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};

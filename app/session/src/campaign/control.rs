@@ -188,7 +188,7 @@ impl Control {
     }
 
     /// Counts blocks, with their encounters, that another process has run.
-    pub(super) fn blocks_found(&self, blocks: u32, encounters: u32) {
+    pub(crate) fn blocks_found(&self, blocks: u32, encounters: u32) {
         self.note(|progress| {
             for (count, found) in
                 [(&mut progress.blocks, blocks), (&mut progress.encounters, encounters)]
@@ -200,7 +200,7 @@ impl Control {
     }
 
     /// Tells that nothing is left here but blocks that other processes run; of none, that it waits no more.
-    pub(super) fn waits_for(&self, others: u32) {
+    pub(crate) fn waits_for(&self, others: u32) {
         if self.progress().elsewhere != others {
             self.note(|progress| progress.elsewhere = others);
         }
@@ -212,7 +212,7 @@ impl Control {
     }
 
     /// Counts a block.
-    pub(super) fn block_done(&self) {
+    pub(crate) fn block_done(&self) {
         self.note(|progress| progress.blocks.done += 1);
     }
 

@@ -30,21 +30,21 @@ use process::{BEAT, Place, Process, SILENCE, Told};
 
 /// The leases of a study's folder, as one process of several takes them.
 #[derive(Debug)]
-pub(super) struct Leases {
+pub(crate) struct Leases {
     folder: PathBuf,
     process: Process,
 }
 
 /// A block that this process alone runs, until this is dropped.
-pub(super) struct Lease<'a> {
+pub(crate) struct Lease<'a> {
     /// The block.
-    pub(super) block: u32,
+    pub(crate) block: u32,
     number: u32,
     leases: &'a Leases,
 }
 
 /// What a process may do next.
-pub(super) enum Next<'a> {
+pub(crate) enum Next<'a> {
     /// Run a block.
     Run(Lease<'a>),
     /// Wait: so many blocks are run by other processes, and one of these may end.
@@ -73,7 +73,7 @@ impl Leases {
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub(super) fn join(results: &Path) -> Result<Self, Error> {
+    pub(crate) fn join(results: &Path) -> Result<Self, Error> {
         Self::join_from(results, Place::here())
     }
 
@@ -86,7 +86,7 @@ impl Leases {
     }
 
     /// Shows that this process works, now and then, until the other end of the channel is gone.
-    pub(super) fn beat_until_told(&self, end: &Receiver<()>) {
+    pub(crate) fn beat_until_told(&self, end: &Receiver<()>) {
         while end.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {
             // Who cannot write counts as ended, and whoever can goes on with its blocks.
             let _ = self.process.beat();
@@ -97,7 +97,7 @@ impl Leases {
     ///
     /// # Errors
     /// A folder that cannot be read or written.
-    pub(super) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
+    pub(crate) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
         self.look(wanted)
             .map_err(|error| Error::at(&self.folder, format!("cannot be used: {error}")))
     }
@@ -222,7 +222,7 @@ pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
 }
 
 /// Removes what ended processes left, unless others are at work.
-pub(super) fn clear(results: &Path) {
+pub(crate) fn clear(results: &Path) {
     if workers(results).is_ok_and(|workers| workers.iter().all(|worker| worker.has_ended)) {
         // A folder that is not there, or stays, does no harm.
         let _ = fs::remove_dir_all(folder_of(results));

@@ -4,10 +4,10 @@ use endline_gear::{Document, EditError, Prior, Setting, Sources, Target};
 
 use crate::error::Error;
 
-use super::draw::Drawn;
+use super::Drawn;
 
 /// The field of the scenario or library item that a prior sets in the first place.
-pub(super) fn field_of(prior: &Prior) -> &str {
+pub(crate) fn field_of(prior: &Prior) -> &str {
     match &prior.target {
         Target::Scenario(field) | Target::Library(_, field) => field,
         Target::Known => known_field(&prior.name.value).unwrap_or("whale.position"),
@@ -46,7 +46,7 @@ fn known_field(name: &str) -> Option<&'static str> {
 }
 
 /// Puts what was drawn into a scenario and library, but for fields that the option itself sets and for the whale's place.
-pub(super) fn put_drawn<'a>(
+pub(crate) fn put_drawn<'a>(
     scenario: &mut Document,
     sources: &mut Sources,
     drawn: impl Iterator<Item = (&'a Prior, &'a Drawn)>,

@@ -8,8 +8,8 @@
 use endline_gear::{Law, Level, Prior, Study, units};
 use statrs::distribution::{ContinuousCDF, Normal};
 
+pub use super::Drawn;
 use super::density::weight;
-pub use super::drawn::Drawn;
 
 /// What was drawn for an encounter.
 #[derive(Clone, Debug, PartialEq)]

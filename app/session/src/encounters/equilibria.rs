@@ -14,14 +14,14 @@ use crate::run::as_placed;
 use crate::source::Source;
 
 /// Gear in equilibrium with the model it belongs to.
-pub(super) struct Equilibrium {
+pub(crate) struct Equilibrium {
     pub model: Arc<Model>,
     pub settled: Arc<Settled>,
 }
 
 /// What was settled so far, by the hash of its source.
 #[derive(Default)]
-pub(super) struct Equilibria(Mutex<BTreeMap<String, Arc<Equilibrium>>>);
+pub(crate) struct Equilibria(Mutex<BTreeMap<String, Arc<Equilibrium>>>);
 
 /// Most kept; a study whose gear varies from encounter to encounter begins anew then.
 const MOST_KEPT: usize = 64;
@@ -31,7 +31,7 @@ impl Equilibria {
     ///
     /// # Errors
     /// Faults of the source.
-    pub(super) fn of(&self, source: Source, host: &PluginHost) -> Result<Arc<Equilibrium>, Error> {
+    pub(crate) fn of(&self, source: Source, host: &PluginHost) -> Result<Arc<Equilibrium>, Error> {
         let key = source.hash();
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
         if let Some(kept) = kept {
@@ -54,7 +54,7 @@ impl Equilibria {
 }
 
 /// The gear in equilibrium for an encounter's own model; settled anew where the two do not fit.
-pub(super) fn fitted(equilibrium: &Equilibrium, model: &Model) -> Arc<Settled> {
+pub(crate) fn fitted(equilibrium: &Equilibrium, model: &Model) -> Arc<Settled> {
     let fast_to_whale =
         model.spec.joints.iter().any(|joint| matches!(joint.kind, JointKind::Whale(_)));
     let fits = equilibrium.model.node_count == model.node_count

@@ -14,10 +14,10 @@ use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::Type;
 
 use super::seal;
-use super::table::{Column, Table};
+use super::{Column, Table};
 
 /// A table with texts about it.
-pub(super) type Tagged = (Table, Vec<(String, String)>);
+pub(crate) type Tagged = (Table, Vec<(String, String)>);
 
 /// The bytes of a file.
 pub(crate) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>> {
@@ -89,7 +89,7 @@ fn write_values<T: DataType>(
 }
 
 /// Reads the bytes of a file, once they are known to be those that were sealed.
-pub(super) fn read(bytes: Vec<u8>) -> Result<Tagged> {
+pub(crate) fn read(bytes: Vec<u8>) -> Result<Tagged> {
     seal::checked(&bytes).map_err(|broken| ParquetError::General(broken.to_string()))?;
     // Whoever forges a file seals it too, and the library panics on some that no writer writes.
     let read = catch_unwind(AssertUnwindSafe(|| read_sealed(bytes)));

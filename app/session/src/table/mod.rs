@@ -1,4 +1,7 @@
-//! Rows and columns of results.
+//! Tables of results: rows, columns, CSV; as Parquet files in `parquet`, under a seal (`seal`).
+
+pub(crate) mod parquet;
+pub(crate) mod seal;
 
 /// A value of a row.
 #[derive(Clone, Debug, PartialEq)]

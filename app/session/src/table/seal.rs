@@ -5,7 +5,7 @@
 //! reads; [`checked`] finds the seal in the bytes alone, before anything else looks at them.
 
 /// Name of the metadata.
-pub(super) const KEY: &str = "blake3";
+pub(crate) const KEY: &str = "blake3";
 
 /// What stands before the digits.
 const MARK: &str = "endline-seal:";
@@ -15,7 +15,7 @@ const DIGITS: usize = 64;
 
 /// Why bytes are not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Broken {
+pub(crate) enum Broken {
     /// They have no seal: they are cut off, no file of a study, or older than seals.
     None,
     /// They are not those that were sealed.
@@ -32,12 +32,12 @@ impl std::fmt::Display for Broken {
 }
 
 /// The metadata's value before the file is sealed.
-pub(super) fn blank() -> String {
+pub(crate) fn blank() -> String {
     MARK.to_owned() + &"0".repeat(DIGITS)
 }
 
 /// Writes the hash into bytes that hold a blank seal; bytes without one stay.
-pub(super) fn seal(bytes: &mut [u8]) {
+pub(crate) fn seal(bytes: &mut [u8]) {
     if let Some(digits) = digits_of(bytes) {
         let hash = hash_of(bytes, digits.clone());
         bytes[digits].copy_from_slice(hash.as_bytes());
@@ -48,7 +48,7 @@ pub(super) fn seal(bytes: &mut [u8]) {
 ///
 /// # Errors
 /// Why they are not.
-pub(super) fn checked(bytes: &[u8]) -> Result<(), Broken> {
+pub(crate) fn checked(bytes: &[u8]) -> Result<(), Broken> {
     let digits = digits_of(bytes).ok_or(Broken::None)?;
     let is_own = hash_of(bytes, digits.clone()).as_bytes() == &bytes[digits];
     if is_own { Ok(()) } else { Err(Broken::Other) }

@@ -8,10 +8,10 @@
 use endline_gear::{Law, Prior};
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-use super::drawn::Drawn;
+use super::Drawn;
 
 /// What an encounter drawn from the mixture weighs.
-pub(super) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64 {
+pub(crate) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64 {
     let ratio = |(prior, drawn): (&Prior, &Drawn)| {
         let proposal = prior.proposal.as_ref()?;
         Some(density(proposal, drawn) / density(&prior.law, drawn))

@@ -9,7 +9,7 @@ use crate::error::Error;
 ///
 /// # Errors
 /// A line that the model lacks, at its place in the study.
-pub(super) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
+pub(crate) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
     let ids = || model.spec.lines.iter().map(|line| line.id.as_str());
     if wanted.is_empty() {
         return Ok((0..ids().count()).collect());

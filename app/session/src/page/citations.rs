@@ -1,14 +1,14 @@
 //! Sources by number: a page names each once, at its foot, and its figures name the number.
 
-use crate::study::report::cell::{Cell, Line};
+use super::cell::{Cell, Line};
 
 /// Sources in the order in which they are first named.
 #[derive(Default)]
-pub(super) struct Citations(Vec<String>);
+pub(crate) struct Citations(Vec<String>);
 
 impl Citations {
     /// The mark of a source, `[1]` for the first.
-    pub(super) fn mark(&mut self, source: &str) -> String {
+    pub(crate) fn mark(&mut self, source: &str) -> String {
         let known = self.0.iter().position(|known| known == source);
         let place = known.unwrap_or_else(|| {
             self.0.push(source.to_owned());
@@ -18,12 +18,12 @@ impl Citations {
     }
 
     /// The mark of a source and how sure it is.
-    pub(super) fn cell(&mut self, source: &str, confidence: &str) -> Cell {
+    pub(crate) fn cell(&mut self, source: &str, confidence: &str) -> Cell {
         Cell { lines: vec![Line::Small(format!("{} {confidence}", self.mark(source)))] }
     }
 
     /// Every source, with its mark.
-    pub(super) fn listed(self) -> Vec<String> {
+    pub(crate) fn listed(self) -> Vec<String> {
         (1..).zip(self.0).map(|(number, source)| format!("[{number}] {source}")).collect()
     }
 }

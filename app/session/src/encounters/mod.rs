@@ -1,0 +1,54 @@
+//! Encounters of whales with gear: what is drawn for each, and what the gear does at rest before the whale arrives.
+//!
+//! | file | content |
+//! |---|---|
+//! | `draw` | values drawn from the priors of a study |
+//! | `density` | weights of encounters that are drawn from proposals |
+//! | `priors` | the fields that a prior sets in scenario and library |
+//! | `equilibria` | gear at rest in the sea of an encounter |
+//! | `aim` | the lines at which the whale is aimed |
+
+pub(crate) mod aim;
+pub(crate) mod density;
+pub mod draw;
+mod drawn;
+pub(crate) mod equilibria;
+pub(crate) mod priors;
+
+use endline_gear::Study;
+
+use draw::Draw;
+
+pub use drawn::{Drawn, in_words};
+
+/// An encounter drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Encounter {
+    /// Its index.
+    pub index: u32,
+    /// What was drawn, by name.
+    pub drawn: Vec<Drawn>,
+    /// What it counts for; weights have mean 1.
+    pub weight: f64,
+}
+
+impl Encounter {
+    /// Draws encounter `index` of a study.
+    #[must_use]
+    pub fn of(study: &Study, index: u32) -> Self {
+        let Draw { values: drawn, weight } = draw::draw(study, index);
+        Self { index, drawn, weight }
+    }
+
+    /// The encounter at a point of the unit cube ([`draw::dimensions`]); it has index 0, whatever the point.
+    #[must_use]
+    pub fn at_point(study: &Study, point: &[f64]) -> Self {
+        Self { index: 0, drawn: draw::at_point(study, point), weight: 1.0 }
+    }
+
+    /// A number that was drawn, by name [SI].
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number)
+    }
+}
