@@ -1,12 +1,8 @@
 //! Work on a thread of its own whose result is taken in later, without waiting.
 
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-
-use crate::campaign::priority;
-use crate::error::Error;
 
 /// Called when there is something new to show; may be called from any thread.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -65,33 +61,6 @@ impl<T: Send + 'static> Task<T> {
         };
         self.pending = None;
         Some(result)
-    }
-}
-
-/// Runs a long job, such as a `study`, on a thread of its own, behind everything else unless it is eager. `ended` is told what it came to,
-/// or in words what went wrong: an error, a fault inside the program, or no thread.
-pub(crate) fn run_job<T: 'static>(
-    noun: &'static str,
-    eager: bool,
-    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
-    ended: impl Fn(Result<T, String>) + Send + Sync + 'static,
-) {
-    let ended = Arc::new(ended);
-    let told = Arc::clone(&ended);
-    let on_thread = move || {
-        if !eager {
-            priority::step_back();
-        }
-        told(match catch_unwind(AssertUnwindSafe(work)) {
-            Ok(worked) => worked.map_err(|error| error.to_string()),
-            Err(_) => Err(format!(
-                "the {noun} ended by a fault inside the program; report what led to it"
-            )),
-        });
-    };
-    let thread = std::thread::Builder::new().name(format!("endline-{noun}"));
-    if let Err(error) = thread.spawn(on_thread) {
-        ended(Err(format!("the system gives no thread: {error}")));
     }
 }
 

@@ -1,44 +1,44 @@
-//! Pausing, cancelling and watching a study or a search at work, from any thread.
+//! Pause, cancellation and progress of a study or a search, from any thread.
 
 use std::fmt;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How many of something are done.
+/// How many encounters or blocks are done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Those done, those found at the start among them.
+    /// Those done, including those found.
     pub done: u32,
-    /// Those that were done before the start.
+    /// Those that an earlier run or another process has done.
     pub found: u32,
     /// All of them.
     pub total: u32,
 }
 
 impl Count {
-    /// None of so many.
+    /// None done of a total.
     pub(crate) fn of(total: usize) -> Self {
         Self { total: u32::try_from(total).unwrap_or(u32::MAX), ..Self::default() }
     }
 }
 
-/// How far a study is.
+/// The progress of a campaign.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
     /// Encounters of the shard.
     pub encounters: Count,
     /// Blocks of encounters of the shard; a block counts when it is written.
     pub blocks: Count,
-    /// Blocks of other processes for which it waits, with nothing else left to do.
+    /// Blocks of other processes for which it waits, once all others are done.
     pub elsewhere: u32,
     /// Time at work until the last pause.
     worked: Duration,
-    /// When work began or was resumed; `None` while it stands still.
+    /// When work began or was resumed; `None` while it is paused or has ended.
     since: Option<Instant>,
 }
 
 impl Progress {
-    /// Time left at the pace so far; `None` before the first encounter is done.
+    /// Time left at the mean pace so far; `None` before the first encounter is done.
     #[must_use]
     pub fn left(&self) -> Option<Duration> {
         let Count { done, found, total } = self.encounters;
@@ -60,7 +60,7 @@ impl Progress {
     }
 }
 
-/// What the study is asked to do.
+/// What the campaign is asked to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wish {
     Run,
@@ -71,7 +71,7 @@ enum Wish {
 /// Called with each progress.
 type Watcher = Box<dyn Fn(&Progress) + Send + Sync>;
 
-/// Controls one study or search at work.
+/// Controls one campaign.
 pub struct Control {
     wish: Mutex<Wish>,
     changed: Condvar,
@@ -96,13 +96,14 @@ impl fmt::Debug for Control {
     }
 }
 
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+/// Locks a mutex, also after a thread that held it has panicked.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Control {
-    /// A control whose study may run. `watcher` is called at the start, after each encounter and
-    /// after each block, from the threads that run them.
+    /// A control of a campaign that may run. `watcher` is called at the start, after each encounter and after each block, from the
+    /// threads that run them.
     #[must_use]
     pub fn new(watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
         Self {
@@ -113,13 +114,13 @@ impl Control {
         }
     }
 
-    /// Holds the study after the encounters under way. A cancelled study stays cancelled.
+    /// Pauses after the encounters in progress. A cancelled campaign stays cancelled.
     pub fn pause(&self) {
         self.ask(Wish::Pause);
         lock(&self.progress).stop_clock();
     }
 
-    /// Continues a paused study.
+    /// Resumes a paused campaign.
     pub fn resume(&self) {
         self.ask(Wish::Run);
         let mut progress = lock(&self.progress);
@@ -128,7 +129,7 @@ impl Control {
         }
     }
 
-    /// Ends the study; encounters under way are dropped. Blocks that are written stay.
+    /// Ends the campaign; encounters in progress are dropped. Stored blocks stay.
     pub fn cancel(&self) {
         self.ask(Wish::Cancel);
         lock(&self.progress).stop_clock();
@@ -142,26 +143,26 @@ impl Control {
         self.changed.notify_all();
     }
 
-    /// Whether the study is paused.
+    /// Whether it is paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         *lock(&self.wish) == Wish::Pause
     }
 
-    /// Whether the study is cancelled.
+    /// Whether it is cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         *lock(&self.wish) == Wish::Cancel
     }
 
-    /// How far the study is.
+    /// Its progress.
     #[must_use]
     pub fn progress(&self) -> Progress {
         *lock(&self.progress)
     }
 
-    /// Waits while the study is paused; false where it is cancelled.
-    pub(crate) fn goes_on(&self) -> bool {
+    /// Waits while it is paused; then false if it is cancelled.
+    pub(crate) fn may_continue(&self) -> bool {
         let mut wish = lock(&self.wish);
         while *wish == Wish::Pause {
             wish = self.changed.wait(wish).unwrap_or_else(PoisonError::into_inner);
@@ -169,7 +170,7 @@ impl Control {
         *wish == Wish::Run
     }
 
-    /// Begins to count; the clock runs unless the study is paused or cancelled.
+    /// Begins to count; the clock runs unless the campaign is paused or cancelled.
     pub(crate) fn begin(&self, encounters: Count, blocks: Count) {
         let runs = *lock(&self.wish) == Wish::Run;
         let since = runs.then(Instant::now);
@@ -178,7 +179,7 @@ impl Control {
         });
     }
 
-    /// Counts encounters that were run before.
+    /// Counts encounters that an earlier run has done.
     pub(crate) fn encounters_found(&self, count: usize) {
         let count = u32::try_from(count).unwrap_or(u32::MAX);
         self.note(|progress| {
@@ -199,7 +200,7 @@ impl Control {
         });
     }
 
-    /// Tells that nothing is left here but blocks that other processes run; of none, that it waits no more.
+    /// Sets the number of other processes' blocks for which this process waits; 0 ends the wait.
     pub(crate) fn waits_for(&self, others: u32) {
         if self.progress().elsewhere != others {
             self.note(|progress| progress.elsewhere = others);

@@ -1,17 +1,23 @@
-//! Long work that is divided into numbered runs, stored as it advances and resumed after an interruption: a study or a search.
+//! Campaigns: long work that is divided into numbered runs, stored as it advances and resumed after an interruption. Studies and
+//! searches are campaigns.
 //!
 //! | file | content |
 //! |---|---|
 //! | `control` | pause, cancellation and progress, from any thread |
-//! | `shard` | the part of the work that one of several machines does |
+//! | `pool` | the threads that run the work |
+//! | `threads` | number and priority of threads; the part of the work that one of several machines does |
 //! | `leases` | which process runs which block, for processes that share a folder |
-//! | `priority` | number and priority of threads |
+//! | `folder` | the folder of results, and the label that says to which campaign it belongs |
+//! | `job` | a campaign behind a window |
 
 pub mod control;
+pub(crate) mod folder;
+pub mod job;
 pub(crate) mod leases;
-pub mod priority;
-pub(crate) mod shard;
+pub(crate) mod pool;
+pub mod threads;
 
 pub use control::{Control, Count, Progress};
+pub use job::{Job, State};
 pub use leases::{Worker, workers};
-pub use shard::Shard;
+pub use threads::Shard;

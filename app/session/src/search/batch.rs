@@ -1,26 +1,24 @@
-//! Runs of a search on several threads and shards; those that are kept already are read.
+//! Runs of a search on several threads and shards; runs that are stored already are read.
 //!
-//! Runs come in parts, each kept by one file of every shard. Threads go from part to part without waiting for the others, so that a
-//! long run holds up nobody; parts are handed on in their order, as soon as all shards have run theirs.
+//! Runs are divided into parts, and each shard stores a part in one file. Threads continue with the next part without waiting for
+//! the others, so that a long run delays none of them; parts are passed on in order, once all shards have stored theirs.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
-use crate::campaign::{Control, Shard};
+use crate::campaign::control::{Control, lock};
+use crate::campaign::pool::{self, Failure, Next, POLL, Work};
+use crate::campaign::threads::Shard;
 use crate::error::Error;
 
 use super::Effort;
 use super::ended::Ended;
 use super::store::Store;
 
-/// How often a shard looks whether the others have run theirs.
-const LOOK: Duration = Duration::from_millis(500);
-
-/// Runs that are kept together.
+/// Runs that are stored together.
 pub(super) struct Part<'a> {
     /// Where.
     pub(super) store: &'a Store,
@@ -30,9 +28,9 @@ pub(super) struct Part<'a> {
     pub(super) numbers: Range<u32>,
 }
 
-/// Runs the numbers of all parts by `one(part, number)`: read, run here, or waited for where other shards run them. Each part is
-/// `take`n with its place, in order. False where the control ended the search before all of them were there; those that were run are
-/// kept.
+/// Runs the numbers of all parts by `one(part, number)`: reads stored runs, runs those of this shard and waits for those of other
+/// shards. Passes each part with its place to `take`, in order. False if the control ended the search before all parts were
+/// complete; their runs are stored.
 ///
 /// # Errors
 /// A folder that cannot be read or written.
@@ -43,22 +41,16 @@ pub(super) fn run(
     one: impl Fn(usize, u32) -> Ended + Sync,
     mut take: impl FnMut(usize, Vec<Ended>),
 ) -> Result<bool, Error> {
-    let work = Work::find(parts, effort.shard, control)?;
-    let (written, news) = channel();
-    let all = std::thread::scope(|scope| {
-        for _ in 0..effort.threads.clamp(1, work.missing.len().max(1)) {
-            let (work, one, written) = (&work, &one, written.clone());
-            scope.spawn(move || work.on_a_thread(control, one, &written));
-        }
-        let all = hand_on(parts, control, &news, &mut take);
-        work.stopped.store(all.is_err(), Ordering::Relaxed);
-        all
-    });
-    work.keep_unfinished()?;
+    let (stored, news) = channel();
+    let runs = Runs::find(parts, effort.shard, control, one, stored)?;
+    let threads = effort.threads.clamp(1, runs.missing.len().max(1));
+    let collect = |failure: &Failure| collect(parts, control, failure, &news, &mut take);
+    let all = pool::run(&runs, threads, control, collect);
+    runs.store_unfinished()?;
     all
 }
 
-/// Runs the numbers of one part; `None` where the control ended the search before.
+/// Runs the numbers of one part; `None` if the control ended the search before.
 ///
 /// # Errors
 /// As [`run`].
@@ -73,11 +65,12 @@ pub(super) fn run_one(
     Ok(runs)
 }
 
-/// Waits for each part in order and hands it on.
-fn hand_on(
+/// Waits for each part in order and passes it on; false if the control or a failure ended the runs before.
+fn collect(
     parts: &[Part<'_>],
     control: &Control,
-    news: &Receiver<Result<(), Error>>,
+    failure: &Failure,
+    news: &Receiver<()>,
     take: &mut impl FnMut(usize, Vec<Ended>),
 ) -> Result<bool, Error> {
     for (place, part) in parts.iter().enumerate() {
@@ -87,90 +80,68 @@ fn hand_on(
                 take(place, runs.into_values().collect());
                 break;
             }
-            if !control.goes_on() {
+            if !control.may_continue() || failure.is_there() {
                 return Ok(false);
             }
-            if let Ok(failed @ Err(_)) = news.recv_timeout(LOOK) {
-                failed?;
-            }
+            // A timeout: another shard may have stored its runs.
+            let _ = news.recv_timeout(POLL);
         }
     }
     Ok(true)
 }
 
-/// What the threads share.
-struct Work<'a> {
+/// The runs of this shard.
+struct Runs<'a, R> {
     parts: &'a [Part<'a>],
     shard: Shard,
-    /// Part and number of the runs to be done here, in order.
+    control: &'a Control,
+    /// Runs a number of a part.
+    one: R,
+    /// Part and number of the missing runs, in order.
     missing: Vec<(usize, u32)>,
     /// Place of the next one.
     next: AtomicUsize,
-    /// What this shard has of each part.
+    /// The runs of each part.
     own: Vec<Mutex<Own>>,
-    /// Whether another thread failed.
-    stopped: AtomicBool,
+    /// Notified when a part is stored.
+    stored: Sender<()>,
 }
 
-/// What this shard has of a part.
+/// The runs of this shard in a part.
 struct Own {
     runs: BTreeMap<u32, Ended>,
-    /// How many it has still to run.
+    /// Number of runs that are missing.
     missing: usize,
-    /// Whether some of the runs are not kept yet.
+    /// Whether some of the runs are not stored yet.
     is_fresh: bool,
 }
 
-impl<'a> Work<'a> {
-    /// Reads what is kept, and finds what is missing.
-    fn find(parts: &'a [Part<'a>], shard: Shard, control: &Control) -> Result<Self, Error> {
+impl<'a, R> Runs<'a, R> {
+    /// Reads stored runs and finds the missing ones.
+    fn find(
+        parts: &'a [Part<'a>],
+        shard: Shard,
+        control: &'a Control,
+        one: R,
+        stored: Sender<()>,
+    ) -> Result<Self, Error> {
         let (mut missing, mut own) = (Vec::new(), Vec::new());
         for (place, part) in parts.iter().enumerate() {
             let mut runs = part.store.read(part.name, &part.numbers)?;
             control.encounters_found(runs.len());
-            let is_own = |number: &u32| number % shard.of == shard.part;
-            let is_missing = |number: &u32| is_own(number) && !runs.contains_key(number);
+            let is_missing = |number: &u32| shard.holds(*number) && !runs.contains_key(number);
             let here: Vec<u32> = part.numbers.clone().filter(is_missing).collect();
-            runs.retain(|number, _| is_own(number));
+            runs.retain(|number, _| shard.holds(*number));
             own.push(Mutex::new(Own { runs, missing: here.len(), is_fresh: false }));
             missing.extend(here.into_iter().map(|number| (place, number)));
         }
-        let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        Ok(Self { parts, shard, missing, next, own, stopped })
+        Ok(Self { parts, shard, control, one, missing, next: AtomicUsize::new(0), own, stored })
     }
 
-    /// The work of one thread: run after run; a part that is complete is kept.
-    fn on_a_thread(
-        &self,
-        control: &Control,
-        one: &impl Fn(usize, u32) -> Ended,
-        written: &Sender<Result<(), Error>>,
-    ) {
-        while control.goes_on()
-            && !self.stopped.load(Ordering::Relaxed)
-            && let Some((place, number)) =
-                self.missing.get(self.next.fetch_add(1, Ordering::Relaxed))
-        {
-            let ended = one(*place, *number);
-            control.encounter_done();
-            let complete = {
-                let mut own = self.own(*place);
-                own.runs.insert(*number, ended);
-                own.missing -= 1;
-                own.is_fresh = true;
-                own.missing == 0
-            };
-            // Nobody listens where the search has ended.
-            if complete && written.send(self.keep(*place)).is_err() {
-                break;
-            }
-        }
-    }
-
-    /// Keeps what this shard has of a part.
-    fn keep(&self, place: usize) -> Result<(), Error> {
+    /// Stores the runs of a part.
+    fn store(&self, place: usize) -> Result<(), Error> {
         let runs = {
-            let mut own = self.own(place);
+            let mut own = lock(&self.own[place]);
             own.is_fresh = false;
             std::mem::take(&mut own.runs)
         };
@@ -178,14 +149,37 @@ impl<'a> Work<'a> {
         store.write(name, numbers, self.shard, runs)
     }
 
-    /// Keeps the runs of parts that were not finished.
-    fn keep_unfinished(&self) -> Result<(), Error> {
+    /// Stores the runs of unfinished parts.
+    fn store_unfinished(&self) -> Result<(), Error> {
         (0..self.parts.len())
-            .filter(|place| self.own(*place).is_fresh)
-            .try_for_each(|place| self.keep(place))
+            .filter(|place| lock(&self.own[*place]).is_fresh)
+            .try_for_each(|place| self.store(place))
+    }
+}
+
+impl<R: Fn(usize, u32) -> Ended + Sync> Work for Runs<'_, R> {
+    type Piece = (usize, u32);
+
+    fn next(&self) -> Result<Next<(usize, u32)>, Error> {
+        let next = self.missing.get(self.next.fetch_add(1, Ordering::Relaxed));
+        Ok(next.map_or(Next::Nothing, |piece| Next::Run(*piece)))
     }
 
-    fn own(&self, place: usize) -> MutexGuard<'_, Own> {
-        self.own[place].lock().unwrap_or_else(PoisonError::into_inner)
+    fn run(&self, (place, number): (usize, u32)) -> Result<bool, Error> {
+        let ended = (self.one)(place, number);
+        self.control.encounter_done();
+        let is_complete = {
+            let mut own = lock(&self.own[place]);
+            own.runs.insert(number, ended);
+            own.missing -= 1;
+            own.is_fresh = true;
+            own.missing == 0
+        };
+        if is_complete {
+            self.store(place)?;
+            // The receiver is gone once the search has ended.
+            let _ = self.stored.send(());
+        }
+        Ok(true)
     }
 }

@@ -7,13 +7,12 @@
 //! | `net.128-136.0of2` | runs of the net, here or in a folder that searches share |
 //! | `stories.json` | what was found |
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::folder;
 use crate::error::Error;
-use crate::save;
 
 use super::question::Question;
 use super::store::Store;
@@ -49,8 +48,7 @@ impl Folder {
     /// Where the folder of a search is under a root: the observation's id and the head of the search's hash.
     #[must_use]
     pub fn path_under(root: &Path, question: &Question) -> PathBuf {
-        let hash = question.hash.get(..8).unwrap_or(&question.hash);
-        root.join(format!("{}-{hash}", question.observation.id))
+        folder::path_under(root, &question.observation.id, &question.hash)
     }
 
     /// Whether a folder has a search.
@@ -65,8 +63,7 @@ impl Folder {
     /// # Errors
     /// A folder that belongs to another search, or cannot be written.
     pub fn open(path: &Path, shared: Option<&Path>, question: &Question) -> Result<Self, Error> {
-        fs::create_dir_all(path)
-            .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
+        folder::make(path)?;
         let file = path.join(LABEL);
         let label = Label {
             schema: SCHEMA.into(),
@@ -75,13 +72,9 @@ impl Folder {
             hash: question.hash.clone(),
             version: crate::VERSION.into(),
         };
-        match save::text_if_there(&file)? {
-            Some(text) => same(&file, &text, &label)?,
-            None => {
-                let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
-                save::atomically(&file, text.as_bytes())
-                    .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
-            }
+        match folder::read_label(&file)? {
+            Some(found) => same(&file, &found, &label)?,
+            None => folder::write_label(&file, &label)?,
         }
         let of_encounters = || format!("{}-{}", question.opened.study.id, &question.net_hash[..12]);
         let net = shared.map_or_else(|| path.to_path_buf(), |shared| shared.join(of_encounters()));
@@ -93,9 +86,7 @@ impl Folder {
     }
 }
 
-fn same(file: &Path, text: &str, label: &Label) -> Result<(), Error> {
-    let found: Label = serde_json::from_str(text)
-        .map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
+fn same(file: &Path, found: &Label, label: &Label) -> Result<(), Error> {
     if found.hash == label.hash {
         return Ok(());
     }

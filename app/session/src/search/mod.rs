@@ -56,7 +56,7 @@ use crate::error::Error;
 pub use distance::{Distance, LIKE, Term};
 pub use ending::Ending;
 pub use folder::Folder;
-pub use job::Job;
+pub use job::SearchJob;
 pub use question::Question;
 pub use stories::{Stories, Story};
 

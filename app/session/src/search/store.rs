@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::Shard;
+use crate::campaign::folder;
 use crate::error::Error;
 use crate::save;
 
@@ -35,8 +36,7 @@ impl Store {
     /// # Errors
     /// A folder that cannot be made.
     pub(super) fn open(path: &Path, hash: String) -> Result<Self, Error> {
-        fs::create_dir_all(path)
-            .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
+        folder::make(path)?;
         Ok(Self { path: path.to_path_buf(), hash })
     }
 

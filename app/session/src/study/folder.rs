@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::folder;
 use crate::error::Error;
 use crate::save;
 
@@ -79,7 +80,7 @@ impl Folder {
     /// Where the folder of a study's results is under a root: its id and the head of its hash.
     #[must_use]
     pub fn path_under(root: &Path, opened: &Opened) -> PathBuf {
-        root.join(format!("{}-{}", opened.study.id, opened.hash.get(..8).unwrap_or(&opened.hash)))
+        folder::path_under(root, &opened.study.id, &opened.hash)
     }
 
     /// Opens a folder for a study, made where it is not there.
@@ -87,19 +88,16 @@ impl Folder {
     /// # Errors
     /// A folder that belongs to another study, or cannot be written.
     pub fn open(path: &Path, opened: &Opened) -> Result<Self, Error> {
-        fs::create_dir_all(path)
-            .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
+        folder::make(path)?;
         let file = path.join("study.json");
         let label = Label::of(opened);
-        let registration = match save::text_if_there(&file)? {
+        let registration = match folder::read_label(&file)? {
             None => {
                 without_blocks(path)?;
-                let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
-                save::atomically(&file, text.as_bytes())
-                    .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+                folder::write_label(&file, &label)?;
                 label.registration
             }
-            Some(text) => same(&file, &text, &label)?,
+            Some(found) => same(&file, found, &label)?,
         };
         let encounters = u32::try_from(opened.study.encounters).unwrap_or(u32::MAX);
         Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
@@ -229,9 +227,7 @@ fn without_blocks(path: &Path) -> Result<(), Error> {
 }
 
 /// What a folder's label registered, if the label is that of the study; more or fewer encounters are the same study.
-fn same(file: &Path, text: &str, label: &Label) -> Result<Registration, Error> {
-    let found: Label = serde_json::from_str(text)
-        .map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
+fn same(file: &Path, found: Label, label: &Label) -> Result<Registration, Error> {
     if found.hash == label.hash && found.block == label.block {
         return Ok(found.registration);
     }

@@ -6,8 +6,8 @@ use crate::save;
 use super::folder::Folder;
 use super::open::Opened;
 use super::stats::is_narrow;
+use crate::campaign::Shard;
 use crate::campaign::leases;
-use crate::campaign::shard::Shard;
 use crate::table::Table;
 use crate::table::parquet;
 

@@ -12,11 +12,11 @@ use endline_sim::Model;
 use super::folder::Folder;
 use super::merge;
 use super::open::{Files, Opened};
-use super::queue::{Job, Queue, State};
+use super::queue::{Queue, StudyJob, StudyRequest};
 use super::results;
 use super::{ResultsRequest, StudyResults};
+use crate::campaign::Shard;
 use crate::campaign::control::{Control, Count, Progress};
-use crate::campaign::shard::Shard;
 use crate::encounters::Encounter;
 use crate::plugins::PluginHost;
 
@@ -231,7 +231,7 @@ fn a_cancelled_control_stays_cancelled() {
     control.cancel();
     control.resume();
     control.pause();
-    assert!(control.is_cancelled() && !control.is_paused() && !control.goes_on());
+    assert!(control.is_cancelled() && !control.is_paused() && !control.may_continue());
 }
 
 #[test]
@@ -242,11 +242,16 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     let (host, root) = (Arc::new(PluginHost::empty()), place.0.join("results"));
     let job = |file: PathBuf| {
         let sources = Sources::from_folder(&place.library()).unwrap();
-        let files = Files { root: place.library(), sources, scenario: None };
-        let texts = (fs::read_to_string(&file).unwrap(), files);
-        Job::new((file, "Small".into()), texts, root.clone(), Arc::new(|| {}))
+        let request = StudyRequest {
+            text: fs::read_to_string(&file).unwrap(),
+            file,
+            name: "Small".into(),
+            files: Files { root: place.library(), sources, scenario: None },
+            root: root.clone(),
+        };
+        StudyJob::new(request, Arc::new(|| {}))
     };
-    let mut queue = Queue { eager: true, ..Queue::default() };
+    let mut queue = Queue { normal_priority: true, ..Queue::default() };
     queue.add(job(place.study()));
     queue.add(job(second.clone()));
     queue.add(job(second.clone()));
@@ -257,10 +262,10 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     queue.jobs[0].pause();
     wait("the pause", || queue.jobs[0].state() == State::Paused);
     queue.jobs[0].cancel();
-    wait("the end of its threads", || !queue.jobs[0].unfinished());
+    wait("the end of its threads", || !queue.jobs[0].is_unfinished());
     assert_eq!(queue.jobs[0].state(), State::Cancelled);
     queue.begin_next(&host);
-    wait("the second study", || !queue.jobs[1].unfinished());
+    wait("the second study", || !queue.jobs[1].is_unfinished());
     assert_eq!(queue.jobs[1].state(), State::Done);
     let folder = queue.jobs[1].folder().unwrap();
     for file in ["table.parquet", "report.html"] {

@@ -8,10 +8,11 @@ use endline_sim::whale::Skin;
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
-use crate::campaign::priority;
+use crate::campaign::State;
+use crate::campaign::threads;
 use crate::edit::{Documents, observation};
 use crate::save;
-use crate::search::job::{self, Job, Request, State};
+use crate::search::job::{self, SearchJob, SearchRequest};
 use crate::search::open::Length;
 use crate::search::{Question, Story};
 use crate::task::{Fault, Task};
@@ -31,15 +32,15 @@ type Kept = (PathBuf, Vec<String>);
 /// The search at work, and how long to search.
 pub struct Searches {
     /// The search at work, or the one whose stories are shown.
-    pub job: Option<Job>,
+    pub job: Option<SearchJob>,
     /// Runs at most.
     pub trials: usize,
     /// Threads.
     pub threads: usize,
     /// Neighbours run of every story that is like the observation.
     pub neighbours: usize,
-    /// Whether it runs at ordinary priority rather than the lowest.
-    pub eager: bool,
+    /// Whether it runs at normal priority rather than the lowest.
+    pub normal_priority: bool,
     /// Folder that searches are kept in; `results` where the program was started, without one.
     pub folder: Option<PathBuf>,
     keeping: Task<Result<Kept, String>>,
@@ -50,9 +51,9 @@ impl Default for Searches {
         Self {
             job: None,
             trials: TRIALS,
-            threads: priority::threads(),
+            threads: threads::default_count(),
             neighbours: NEIGHBOURS,
-            eager: false,
+            normal_priority: false,
             folder: None,
             keeping: Task::default(),
         }
@@ -62,8 +63,8 @@ impl Default for Searches {
 impl Searches {
     /// The search that runs or is paused; one that only reads what is there is none.
     #[must_use]
-    pub fn at_work(&self) -> Option<&Job> {
-        self.job.as_ref().filter(|job| job.unfinished() && !job.only_reads)
+    pub fn at_work(&self) -> Option<&SearchJob> {
+        self.job.as_ref().filter(|job| job.is_unfinished() && !job.request.only_reads)
     }
 }
 
@@ -155,13 +156,15 @@ impl Workbench {
         }
         let (host, waker) = self.helpers();
         let request = self.search_request().filter(|_| self.observation_is_sound());
-        self.searches.job = request.map(|request| Job::read(request, &host, &waker));
+        self.searches.job = request.map(|request| {
+            SearchJob::search(SearchRequest { only_reads: true, ..request }, &host, &waker)
+        });
     }
 
     /// What a search for the open observation asks for; `None` where none is open.
-    fn search_request(&self) -> Option<Request> {
+    fn search_request(&self) -> Option<SearchRequest> {
         let (documents, searches) = (&self.project.documents, &self.searches);
-        Some(Request {
+        Some(SearchRequest {
             file: documents.observation_path()?.to_owned(),
             text: documents.text(Documents::OBSERVATION)?.to_owned(),
             files: self.project.files(),
@@ -170,7 +173,8 @@ impl Workbench {
             trials: searches.trials,
             threads: searches.threads,
             neighbours: searches.neighbours,
-            eager: searches.eager,
+            normal_priority: searches.normal_priority,
+            only_reads: false,
         })
     }
 
@@ -178,7 +182,7 @@ impl Workbench {
     pub(crate) fn run_search(&mut self) -> Result<(), String> {
         let request = self.search_request().ok_or("open an observation first")?;
         let (host, waker) = self.helpers();
-        self.searches.job = Some(Job::begin(request, &host, &waker));
+        self.searches.job = Some(SearchJob::search(request, &host, &waker));
         self.say_unsaved("the search");
         Ok(())
     }
@@ -231,7 +235,7 @@ impl Workbench {
     }
 
     fn story(&self, number: usize) -> Result<(Arc<Question>, Story), String> {
-        let found = self.searches.job.as_ref().map(Job::found).unwrap_or_default();
+        let found = self.searches.job.as_ref().map(SearchJob::found).unwrap_or_default();
         let story = found.stories.and_then(|found| found.stories.get(number).cloned());
         found.question.zip(story).ok_or_else(|| "there is no such story".to_owned())
     }

@@ -7,10 +7,11 @@ use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
 use super::study_check::StudyCheck;
+use crate::campaign::State;
 use crate::edit::Documents;
 use crate::locate;
 use crate::save::copy_tree;
-use crate::study::queue::{self, Job, Queue, State};
+use crate::study::queue::{self, Queue, StudyJob, StudyRequest};
 use crate::study::{ResultsReader, ResultsRequest, StudyResults};
 
 /// Studies in the queue, and results.
@@ -46,7 +47,7 @@ impl Workbench {
             self.notice = Some(Notice::fault(error));
         }
         if studies.results.follows_next
-            && let Some(folder) = studies.queue.jobs.last().and_then(Job::folder)
+            && let Some(folder) = studies.queue.jobs.last().and_then(StudyJob::folder)
         {
             studies.results.follow(folder);
         }
@@ -131,7 +132,8 @@ impl Workbench {
             self.notice = Some(Notice::hint("this study is in the queue already"));
             return Ok(());
         }
-        studies.queue.add(Job::new((path, name), (text, files), studies.root(), waker));
+        let request = StudyRequest { file: path, name, text, files, root: studies.root() };
+        studies.queue.add(StudyJob::new(request, waker));
         studies.results.follows_next = true;
         self.say_unsaved("the study");
         Ok(())
@@ -236,7 +238,7 @@ impl Workbench {
         let (documents, studies) = (&self.project.documents, &self.studies);
         let path = documents.study_path()?;
         let mut jobs = studies.queue.jobs.iter();
-        let job = jobs.find(|job| job.file == path).and_then(Job::folder);
+        let job = jobs.find(|job| job.request.file == path).and_then(StudyJob::folder);
         let of_study = |shown: &&Arc<StudyResults>| {
             shown.opened.study.place.source.path == path.display().to_string()
         };

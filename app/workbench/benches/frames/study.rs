@@ -1,7 +1,8 @@
 //! A study that was run, so that its panels have something to show.
 
+use endline_session::campaign::State;
 use endline_session::command::StudyAction;
-use endline_session::study::queue::{Job, State};
+use endline_session::study::queue::StudyJob;
 use endline_workbench::gui::layout::Layout;
 
 use crate::common::{Folder, on_disk};
@@ -51,7 +52,7 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let studies = &mut screen.app.shared.workbench.studies;
-    (studies.folder, studies.queue.eager) = (Some(folder.0.join("results")), true);
+    (studies.folder, studies.queue.normal_priority) = (Some(folder.0.join("results")), true);
     screen.app.dock = Layout::Study.dock();
     screen.app.shared.perform(StudyAction::Open(folder.0.join("studies/small.toml")));
     screen.app.shared.perform(StudyAction::Run);
@@ -59,7 +60,7 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     screen.wait(|app| {
         app.shared.workbench.studies.queue.jobs.last().is_none_or(|job| ended(&job.state()))
     });
-    let state = screen.app.shared.workbench.studies.queue.jobs.last().map(Job::state);
+    let state = screen.app.shared.workbench.studies.queue.jobs.last().map(StudyJob::state);
     assert_eq!(state, Some(State::Done), "{:?}", screen.app.shared.workbench.notice);
     screen.wait(|app| {
         !app.shared.workbench.studies.results.busy()

@@ -28,7 +28,7 @@ fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
         (documents.version(), documents.scenario_path()),
         (documents.study_path(), documents.observation_path()),
     );
-    let search = workbench.searches.job.as_ref().map(|job| (job.state(), job.only_reads));
+    let search = workbench.searches.job.as_ref().map(|job| (job.state(), job.request.only_reads));
     let work =
         (search, workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
     let eyes: Vec<_> = panels.view.eyes.iter().map(|eye| (eye.named, eye.follow)).collect();

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Site;
+use endline_session::campaign::State;
 use endline_session::command::{EditAction, SearchAction};
 use endline_session::edit::Documents;
 use endline_session::live::{Status, engine};
-use endline_session::search::Job;
-use endline_session::search::job::State;
+use endline_session::search::SearchJob;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::{PanelAction, WindowCommand};
 use endline_workbench::gui::layout::Layout;
@@ -75,7 +75,7 @@ fn searching(folder: &Folder) -> Harness<'static, App> {
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
     let searches = &mut harness.state_mut().shared.workbench.searches;
     // Other tests run beside this one.
-    (searches.folder, searches.eager) = (Some(folder.0.join("searches")), true);
+    (searches.folder, searches.normal_priority) = (Some(folder.0.join("searches")), true);
     (searches.trials, searches.threads, searches.neighbours) = (32, 2, 0);
     give(&mut harness, PanelAction::Arrange(Layout::Search));
     give(&mut harness, SearchAction::Open(folder.0.join("observations/quick.toml")));
@@ -101,7 +101,7 @@ fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
 }
 
 fn state(app: &App) -> Option<State> {
-    app.shared.workbench.searches.job.as_ref().map(Job::state)
+    app.shared.workbench.searches.job.as_ref().map(SearchJob::state)
 }
 
 /// Clicks at a share of the greatest picture of the whale from above: x from tail to snout, y from left to right.
@@ -130,7 +130,7 @@ fn field(harness: &Harness<'static, App>, field: &str) -> Option<String> {
 fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
     let folder = Folder::new("search");
     let mut harness = searching(&folder);
-    wait(&mut harness, |app| state(app) == Some(State::Stopped));
+    wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     assert_eq!(harness.state().panels.search.chosen, Site::Peduncle, "where rope was seen");
     retype(&mut harness, "2.5", "3");
     assert_eq!(field(&harness, "site.0.wraps.1").as_deref(), Some("3"));
@@ -178,7 +178,7 @@ fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
 fn a_search_is_cancelled_gone_on_with_and_found_again_when_its_observation_is_opened() {
     let folder = Folder::new("search-on");
     let mut harness = searching(&folder);
-    wait(&mut harness, |app| state(app) == Some(State::Stopped));
+    wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     harness.state_mut().shared.workbench.searches.trials = 256;
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| {
@@ -187,7 +187,7 @@ fn a_search_is_cancelled_gone_on_with_and_found_again_when_its_observation_is_op
     give(&mut harness, SearchAction::Pause);
     assert_eq!(state(harness.state()), Some(State::Paused));
     give(&mut harness, SearchAction::Cancel);
-    wait(&mut harness, |app| state(app) == Some(State::Stopped));
+    wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     harness.state_mut().shared.workbench.searches.trials = 64;
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| state(app) == Some(State::Done));
@@ -201,7 +201,7 @@ fn a_search_is_cancelled_gone_on_with_and_found_again_when_its_observation_is_op
     let file = harness.state().shared.workbench.project.documents.observation_path().unwrap();
     assert!(file.ends_with("observations/observation.toml"), "{}", file.display());
     give(&mut harness, SearchAction::Open(folder.0.join("observations/quick.toml")));
-    wait(&mut harness, |app| state(app) == Some(State::Stopped));
+    wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     assert_eq!(stories(&harness), found);
 }
 

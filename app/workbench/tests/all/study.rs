@@ -9,10 +9,11 @@ use std::sync::Arc;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::campaign::State;
 use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::live::engine;
-use endline_session::study::queue::{Job, State};
+use endline_session::study::queue::StudyJob;
 use endline_session::study::stats::answer;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout::Layout;
@@ -80,7 +81,7 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
     harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
     // Other tests run beside this one.
-    harness.state_mut().shared.workbench.studies.queue.eager = true;
+    harness.state_mut().shared.workbench.studies.queue.normal_priority = true;
     give(&mut harness, PanelAction::Arrange(Layout::Study));
     give(&mut harness, StudyAction::Open(folder.0.join("studies/small.toml")));
     harness
@@ -109,7 +110,7 @@ fn give(harness: &mut Harness<'static, App>, command: impl Into<WindowCommand>) 
 }
 
 fn state(app: &App) -> Option<State> {
-    app.shared.workbench.studies.queue.jobs.last().map(Job::state)
+    app.shared.workbench.studies.queue.jobs.last().map(StudyJob::state)
 }
 
 /// Runs the open study to its end and waits for its results.
@@ -224,8 +225,6 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     });
     give(&mut harness, StudyAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    // The encounter under way comes to its end, and is kept.
-    wait(&mut harness, |app| app.shared.workbench.studies.queue.jobs[0].ended());
     let kept = harness.state().shared.workbench.studies.queue.jobs[0].progress().blocks.done;
 
     harness.state_mut().shared.workbench.set(Documents::STUDY, "encounters", "8");

@@ -21,7 +21,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
 use crate::error::Error;
@@ -32,7 +34,15 @@ use process::{BEAT, Place, Process, SILENCE, Told};
 #[derive(Debug)]
 pub(crate) struct Leases {
     folder: PathBuf,
-    process: Process,
+    process: Arc<Process>,
+    heartbeat: Option<Heartbeat>,
+}
+
+/// The thread that shows other processes that this one is at work, until the sender is dropped.
+#[derive(Debug)]
+struct Heartbeat {
+    stop: Sender<()>,
+    thread: JoinHandle<()>,
 }
 
 /// A block that this process alone runs, until this is dropped.
@@ -74,7 +84,9 @@ impl Leases {
     /// # Errors
     /// A folder that cannot be written.
     pub(crate) fn join(results: &Path) -> Result<Self, Error> {
-        Self::join_from(results, Place::here())
+        let mut leases = Self::join_from(results, Place::here())?;
+        leases.heartbeat = Heartbeat::start(Arc::clone(&leases.process));
+        Ok(leases)
     }
 
     fn join_from(results: &Path, place: Place) -> Result<Self, Error> {
@@ -82,15 +94,7 @@ impl Leases {
         let joined = fs::create_dir_all(&folder).and_then(|()| Process::begin(&folder, place));
         let process = joined
             .map_err(|error| Error::at(&folder, format!("cannot be written: {error}; each process on a study notes there which encounters it runs")))?;
-        Ok(Self { folder, process })
-    }
-
-    /// Shows that this process works, now and then, until the other end of the channel is gone.
-    pub(crate) fn beat_until_told(&self, end: &Receiver<()>) {
-        while end.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {
-            // Who cannot write counts as ended, and whoever can goes on with its blocks.
-            let _ = self.process.beat();
-        }
+        Ok(Self { folder, process: Arc::new(process), heartbeat: None })
     }
 
     /// Leases one of the blocks that are wanted: one that nobody runs, else one whose process has ended.
@@ -169,8 +173,28 @@ impl Leases {
     }
 }
 
+impl Heartbeat {
+    /// Starts the thread. Without one this process counts as ended after a while, and others run its blocks again.
+    fn start(process: Arc<Process>) -> Option<Self> {
+        let (stop, stopped) = channel();
+        let beat = move || {
+            while stopped.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {
+                // A process that cannot write counts as ended, and others run its blocks.
+                let _ = process.beat();
+            }
+        };
+        let thread = std::thread::Builder::new().name("endline-leases".to_owned());
+        Some(Self { stop, thread: thread.spawn(beat).ok()? })
+    }
+}
+
 impl Drop for Leases {
     fn drop(&mut self) {
+        if let Some(Heartbeat { stop, thread }) = self.heartbeat.take() {
+            drop(stop);
+            // A panic of the thread has been reported already.
+            let _ = thread.join();
+        }
         self.process.end();
         // Others may be at work, and then it stays.
         let _ = fs::remove_dir(&self.folder);

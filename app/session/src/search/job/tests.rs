@@ -9,10 +9,10 @@ use endline_gear::Sources;
 use super::*;
 use crate::study::tests::Place;
 
-fn request(place: &Place, trials: usize) -> Request {
+fn request(place: &Place, trials: usize) -> SearchRequest {
     let library = place.library();
     let file = library.join("observations/made-up.toml");
-    Request {
+    SearchRequest {
         text: std::fs::read_to_string(&file).unwrap(),
         root: place.0.join("searches"),
         file,
@@ -25,21 +25,26 @@ fn request(place: &Place, trials: usize) -> Request {
         trials,
         threads: 2,
         neighbours: 0,
-        eager: true,
+        normal_priority: true,
+        only_reads: false,
     }
 }
 
-fn begin(request: Request) -> Job {
-    Job::begin(request, &Arc::new(PluginHost::empty()), &waker())
+fn begin(request: SearchRequest) -> SearchJob {
+    SearchJob::search(request, &Arc::new(PluginHost::empty()), &waker())
+}
+
+fn read(request: SearchRequest) -> SearchJob {
+    begin(SearchRequest { only_reads: true, ..request })
 }
 
 fn waker() -> Waker {
     Arc::new(|| {})
 }
 
-fn ended(job: &Job) -> State {
+fn ended(job: &SearchJob) -> State {
     let patience = Instant::now() + Duration::from_secs(60);
-    while job.unfinished() {
+    while job.is_unfinished() {
         assert!(
             Instant::now() < patience,
             "waited in vain: {:?}, {:?}",
@@ -54,8 +59,8 @@ fn ended(job: &Job) -> State {
 #[test]
 fn a_search_runs_to_its_end_and_is_read_again() {
     let place = place("job");
-    let job = Job::read(request(&place, 64), &Arc::new(PluginHost::empty()), &waker());
-    assert_eq!(ended(&job), State::Stopped);
+    let job = read(request(&place, 64));
+    assert_eq!(ended(&job), State::Cancelled);
     assert!(job.found().stories.is_none() && !place.0.join("searches").exists());
 
     let job = begin(request(&place, 64));
@@ -63,8 +68,8 @@ fn a_search_runs_to_its_end_and_is_read_again() {
     let found = job.found();
     assert_eq!((found.trials, found.stories.as_ref().unwrap().net), (64, 64));
     assert!(job.report().is_some());
-    let read = Job::read(request(&place, 64), &Arc::new(PluginHost::empty()), &waker());
-    assert_eq!(ended(&read), State::Stopped);
+    let read = read(request(&place, 64));
+    assert_eq!(ended(&read), State::Cancelled);
     assert_eq!(read.found().stories, found.stories);
 }
 
@@ -75,7 +80,7 @@ fn a_search_that_is_paused_stands_still_and_one_that_is_cancelled_goes_on_later(
     job.pause();
     assert_eq!(job.state(), State::Paused);
     job.cancel();
-    assert_eq!(ended(&job), State::Stopped);
+    assert_eq!(ended(&job), State::Cancelled);
     let run = job.progress().encounters.done;
     assert!(run < 96, "{run}");
     let job = begin(request(&place, 96));
@@ -87,7 +92,7 @@ fn a_search_that_is_paused_stands_still_and_one_that_is_cancelled_goes_on_later(
 #[test]
 fn what_is_wrong_with_an_observation_is_told() {
     let place = place("job-wrong");
-    let wrong = Request { text: "format = 1\n".into(), ..request(&place, 32) };
+    let wrong = SearchRequest { text: "format = 1\n".into(), ..request(&place, 32) };
     let State::Failed(why) = ended(&begin(wrong)) else { panic!() };
     assert!(why.contains("made-up.toml"), "{why}");
 }

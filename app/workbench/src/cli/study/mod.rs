@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use endline_session::campaign::{Control, Count, priority};
+use endline_session::campaign::{Control, Count, threads};
 use endline_session::encounters::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
@@ -190,7 +190,7 @@ pub(super) fn all_cores() -> usize {
 
 /// Lets everything else on the machine go first.
 pub(super) fn lower_priority() {
-    if let Err(error) = priority::lower() {
+    if let Err(error) = threads::try_lower_priority() {
         output::note(&format!("runs at ordinary priority: {error}"));
     }
 }

@@ -3,9 +3,10 @@
 use std::time::Duration;
 
 use egui::{DragValue, Label, ProgressBar, RichText, Ui};
+use endline_session::campaign::State;
 use endline_session::command::SearchAction;
-use endline_session::search::Job;
-use endline_session::search::job::{Found, State};
+use endline_session::search::SearchJob;
+use endline_session::search::job::SearchFound;
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::shared::Shared;
@@ -20,10 +21,10 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let Some(job) = &shared.workbench.searches.job else { return };
     let (state, found) = (job.state(), job.found());
     let stale = shared.workbench.stories_are_of_another();
-    if job.unfinished() {
+    if job.is_unfinished() {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
     }
-    if job.only_reads && found.trials == 0 && !matches!(state, State::Failed(_)) {
+    if job.request.only_reads && found.trials == 0 && !matches!(state, State::Failed(_)) {
         return;
     }
     ui.horizontal_wrapped(|ui| {
@@ -36,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
 fn begin(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
         let searches = &shared.workbench.searches;
-        let at_work = searches.at_work().map(Job::state);
+        let at_work = searches.at_work().map(SearchJob::state);
         let trials = searches.job.as_ref().map_or(0, |job| job.found().trials);
         let at_most = searches.trials;
         let goes_on = trials > 0 && !shared.workbench.stories_are_of_another();
@@ -83,23 +84,28 @@ fn effort(ui: &mut Ui, shared: &mut Shared) {
             "Runs beside every story that ends alike, each a little different: they tell whether it hangs on chance",
         );
         let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
-        ui.checkbox(&mut searches.eager, "Full speed").on_hover_text(help);
+        ui.checkbox(&mut searches.normal_priority, "Full speed").on_hover_text(help);
     });
 }
 
-fn progress(ui: &mut Ui, job: &Job, state: &State, found: &Found) {
+fn progress(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound) {
     let encounters = job.progress().encounters;
     let share = job.progress().share();
     let of = job.request.trials;
     let (share, text) = match state {
-        State::Neighbours => {
+        State::Finishing => {
             (share, format!("{} of {} neighbours", encounters.done, encounters.total))
         }
-        State::Running | State::Paused if encounters.total > 0 => {
+        State::Running | State::Paused | State::Cancelling if encounters.total > 0 => {
             (share, format!("{} of {of} runs", encounters.done))
         }
-        State::Opening | State::Running | State::Paused | State::Failed(_) => return,
-        State::Done | State::Stopped => {
+        State::Waiting
+        | State::Opening
+        | State::Running
+        | State::Paused
+        | State::Cancelling
+        | State::Failed(_) => return,
+        State::Done | State::Cancelled => {
             let share = found.trials as f32 / of.max(1) as f32;
             (share, format!("{} runs", found.trials))
         }
@@ -108,21 +114,19 @@ fn progress(ui: &mut Ui, job: &Job, state: &State, found: &Found) {
 }
 
 /// How the search stands, in words.
-fn said(ui: &mut Ui, job: &Job, state: &State, found: &Found, stale: bool) {
+fn said(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound, stale: bool) {
     let palette = Theme::palette_of(ui);
     let left = job.progress().left().map(time_left);
     let (words, colour) = match state {
-        State::Opening => ("opening".to_owned(), palette.warning),
-        State::Running if job.only_reads => ("reading".to_owned(), palette.warning),
-        State::Running | State::Neighbours if job.is_ending() => {
-            ("finishing the runs under way".to_owned(), palette.warning)
-        }
-        State::Running | State::Neighbours => {
+        State::Waiting | State::Opening => ("opening".to_owned(), palette.warning),
+        State::Cancelling if job.request.only_reads => ("reading".to_owned(), palette.warning),
+        State::Cancelling => ("finishing the runs in progress".to_owned(), palette.warning),
+        State::Running | State::Finishing => {
             (left.map_or_else(|| "running".into(), |left| format!("{left} left")), palette.good)
         }
         State::Paused => ("paused".to_owned(), palette.warning),
         State::Done => ("done".to_owned(), palette.good),
-        State::Stopped => ("what was run is kept".to_owned(), palette.faint),
+        State::Cancelled => ("runs are stored".to_owned(), palette.faint),
         State::Failed(why) => (why.lines().next().unwrap_or_default().to_owned(), palette.error),
     };
     let told = if let State::Failed(why) = state { why.clone() } else { words.clone() };

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use egui::{Align, Label, Layout, RichText, ScrollArea, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
+use endline_session::campaign::State;
 use endline_session::command::SearchAction;
-use endline_session::search::job::State;
-use endline_session::search::{Job, LIKE, Stories, Story};
+use endline_session::search::{LIKE, SearchJob, Stories, Story};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::panel::{Panel, PanelId};
@@ -62,14 +62,15 @@ impl Panel for StoriesPanel {
 }
 
 /// Says why there are no stories.
-fn missing(ui: &mut Ui, job: Option<&Job>) {
+fn missing(ui: &mut Ui, job: Option<&SearchJob>) {
     let none = "No stories yet. Choose an observation in Search and begin; the first stories come after 32 runs.";
-    match job.map(Job::state) {
+    let reads = job.is_some_and(|job| job.request.only_reads);
+    match job.map(SearchJob::state) {
         Some(State::Failed(why)) => {
             let colour = Theme::palette_of(ui).error;
             ui.add(Label::new(RichText::new(why).color(colour)).wrap());
         }
-        Some(State::Opening) => {
+        Some(state) if state == State::Opening || (reads && state == State::Cancelling) => {
             ui.vertical_centered(|ui| ui.spinner());
             widgets::nothing(ui, "Reading the observation and its encounters …");
         }
@@ -85,7 +86,7 @@ fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
     let palette = Theme::palette_of(ui);
     let Some(job) = &shared.workbench.searches.job else { return };
     let name = job.found().question.map(|question| question.observation.name.clone());
-    let so_far = if job.unfinished() { "Still searching. " } else { "" };
+    let so_far = if job.is_unfinished() { "Still searching. " } else { "" };
     let report = job.report();
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(name.unwrap_or_default()).strong());

@@ -129,7 +129,7 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
         command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
         command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
         let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
-        ui.checkbox(&mut shared.workbench.studies.queue.eager, "Full speed").on_hover_text(help);
+        ui.checkbox(&mut shared.workbench.studies.queue.normal_priority, "Full speed").on_hover_text(help);
         if !ready {
             ui.label(RichText::new("errors below, or in Problems").color(faint));
         }

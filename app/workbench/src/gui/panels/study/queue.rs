@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use egui::{ProgressBar, RichText, Ui};
-use endline_session::study::queue::{Job, State};
+use endline_session::campaign::{Job, State};
+use endline_session::study::queue::StudyJob;
 use endline_session::study::results;
 
 use crate::gui::shared::Shared;
@@ -45,12 +46,12 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     shared.commands.extend(wanted.map(|chosen| StudyAction::ShowResults(chosen).into()));
 }
 
-fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
+fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act> {
     let (state, progress, palette) = (job.state(), job.progress(), Theme::palette_of(ui));
     let mut act = None;
     ui.horizontal(|ui| {
-        ui.add(egui::Label::new(&job.name).truncate())
-            .on_hover_text(job.file.display().to_string());
+        ui.add(egui::Label::new(&job.request.name).truncate())
+            .on_hover_text(job.request.file.display().to_string());
     });
     ui.horizontal_wrapped(|ui| {
         let (words, colour) = match &state {
@@ -67,7 +68,10 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
                 palette.good,
             ),
             State::Paused => ("paused".to_owned(), palette.warning),
-            State::Reporting => ("writing the report".to_owned(), palette.good),
+            State::Finishing => ("writing the report".to_owned(), palette.good),
+            State::Cancelling => {
+                ("cancelled; the encounters in progress end".to_owned(), palette.warning)
+            }
             State::Done => ("done".to_owned(), palette.good),
             State::Cancelled => ("cancelled; what was run stays".to_owned(), palette.faint),
             State::Failed(why) => {
@@ -84,7 +88,7 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
             State::Paused => act = button(ui, "Resume", Act::Resume).or(act),
             _ => {}
         }
-        if job.unfinished() {
+        if job.is_unfinished() {
             act = button(ui, "Cancel", Act::Cancel).or(act);
         } else {
             act = button(ui, "✖", Act::Forget).or(act);
@@ -109,7 +113,8 @@ fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
 fn ready(ui: &mut Ui, shared: &mut Shared) {
     let root = shared.workbench.studies.root();
     let id = egui::Id::new("ready studies");
-    let count = shared.workbench.studies.queue.jobs.iter().filter(|job| !job.unfinished()).count();
+    let count =
+        shared.workbench.studies.queue.jobs.iter().filter(|job| !job.is_unfinished()).count();
     let known = ui
         .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
         .filter(|(seen, _)| *seen == count);
