@@ -14,7 +14,7 @@ use crate::rules::listing::Listing;
 use crate::rules::mend::Mends;
 use crate::search::Stories;
 use crate::settled::SettledShape;
-use crate::study::planned::Plan;
+use crate::study::prepared::Plan;
 use crate::study::stats::Findings;
 use crate::study::threat::Threats;
 

@@ -1,8 +1,8 @@
 //! Work on a thread of its own whose result is taken in later, without waiting.
 
 use std::io;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Called when there is something new to show; may be called from any thread.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -62,6 +62,11 @@ impl<T: Send + 'static> Task<T> {
         self.pending = None;
         Some(result)
     }
+}
+
+/// Locks a mutex, also after a thread that held it has panicked.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

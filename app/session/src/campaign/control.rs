@@ -1,8 +1,10 @@
 //! Pause, cancellation and progress of a study or a search, from any thread.
 
 use std::fmt;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
+
+use crate::task::lock;
 
 /// How many encounters or blocks are done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,11 +96,6 @@ impl fmt::Debug for Control {
             .field("progress", &self.progress)
             .finish_non_exhaustive()
     }
-}
-
-/// Locks a mutex, also after a thread that held it has panicked.
-pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Control {

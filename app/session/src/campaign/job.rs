@@ -3,10 +3,10 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex};
 
-use super::control::{Control, Progress, lock};
+use super::control::{Control, Progress};
 use super::threads::lower_priority;
 use crate::error::Error;
-use crate::task::Waker;
+use crate::task::{Waker, lock};
 
 /// How a job stands.
 #[derive(Clone, Debug, PartialEq, Eq)]

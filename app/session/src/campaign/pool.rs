@@ -4,8 +4,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::control::{Control, lock};
+use super::control::Control;
 use crate::error::Error;
+use crate::task::lock;
 
 /// Time between two polls of what other processes have done.
 pub(crate) const POLL: Duration = Duration::from_millis(500);

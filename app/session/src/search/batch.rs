@@ -9,10 +9,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use crate::campaign::control::{Control, lock};
+use crate::campaign::control::Control;
 use crate::campaign::pool::{self, Failure, Next, POLL, Work};
 use crate::campaign::threads::Shard;
 use crate::error::Error;
+use crate::task::lock;
 
 use super::Effort;
 use super::ended::Ended;

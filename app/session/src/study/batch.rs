@@ -3,15 +3,16 @@
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 
-use crate::campaign::control::{Control, Count, Progress, lock};
+use crate::campaign::control::{Control, Count, Progress};
 use crate::campaign::leases::{self, Lease, Leases};
 use crate::campaign::pool::{self, Next, Work};
 use crate::campaign::threads::Shard;
 use crate::error::Error;
+use crate::task::lock;
 
 use super::folder::{BLOCK, Folder};
 use super::merge;
-use super::open::Opened;
+use super::prepared::Opened;
 
 /// Runs the missing blocks of a shard, or fewer if the study reaches the interval that it asks for. Other processes on the same
 /// folder share the work, and the blocks of a process that has ended are run here; at the end, all blocks are stored. The control

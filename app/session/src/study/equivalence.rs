@@ -1,10 +1,10 @@
-//! Runs that need not be run twice: options that differ in strengths alone are the same run until something parts.
+//! Equivalence of runs: options that differ in strengths alone share a run until something parts.
 //!
-//! Ratings and breaking strengths enter the physics only where a tension passes them. An option whose model is that of
-//! another but for strengths, and whose strengths stay well above every tension of the other's run, in which nothing
-//! parted, has the same run to the bit; its row is copied. A step that is kept was kept with the tensions that count among the
-//! run's greatest, so that with fixed steps a strength above those changes nothing ([`MARGIN`] is for rounding). Steps that follow
-//! their error may be taken back, and forget what they tried: [`PACED_MARGIN`] keeps clear of that. `endline study replay` compares hashes.
+//! Ratings and breaking strengths enter the physics only where a tension exceeds them. Take a run in which nothing parted. An option
+//! whose model differs from that of the run in strengths alone, all of them above every tension of the run, has the same run to the
+//! bit; its row is copied. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above
+//! them changes nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its
+//! tensions; [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::{LinkSummary, Summary};
@@ -23,18 +23,18 @@ fn margin(spec: &ModelSpec) -> f64 {
     if spec.settings.auto_step { PACED_MARGIN } else { MARGIN }
 }
 
-/// Whether `model` has the same run as another that came to `summary` with nothing parted.
+/// Whether a model has the run of another, whose summary this is and in which nothing parted.
 pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool {
     same_so_far(model, summary) && same_until_parting(model, other)
 }
 
-/// Whether two models that are known to differ in strengths alone have the same run, which came to `summary`.
+/// Whether a model, known to differ from that of a run in strengths alone, shares the run up to this summary.
 pub(super) fn same_so_far(model: &Model, summary: &Summary) -> bool {
     nothing_parted(summary) && holds(&model.spec, summary, margin(&model.spec))
 }
 
-/// Least strength that scatter may leave of a part in one encounter, over the greatest it may give it in another: factors
-/// lie above 0.2, and 1.6 is six deviations of the widest scatter in the library.
+/// Bound of the ratio of a part's strengths in two encounters, by scatter: factors are above 0.2, and 1.6 is six standard deviations
+/// above the mean for the widest scatter in the library.
 const SCATTER: f64 = 0.2 / 1.6;
 
 /// Whether two models have the same run up to the moment when something first parts.
@@ -42,20 +42,20 @@ pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
     differ_only_in_strength(&one.spec, &other.spec)
 }
 
-/// Whether an option has the same run as another that came to `summary`, decided without assembling it: by the two options'
-/// models of whatever encounter, first its own, where they are of one [`family`].
-pub(super) fn surely_same_run(
+/// Whether an option certainly has the run of another of its [`family`], whose summary this is. Decided without assembling its model:
+/// by the models of both options in any encounter, its own first.
+pub(super) fn is_certainly_same_run(
     [bare, other_bare]: [&ModelSpec; 2],
     other: &Model,
     summary: &Summary,
 ) -> bool {
-    // Where the other has in this encounter the strengths it always has, none are drawn.
+    // The other has the same strengths in both encounters only if none are drawn.
     let drawn = if strengths(&other.spec).eq(strengths(other_bare)) { 1.0 } else { SCATTER };
     nothing_parted(summary) && holds(bare, summary, margin(bare) * drawn)
 }
 
-/// Whether every tension of another model's run stays below a share of what bears it: of the rope's strength along a line, of
-/// its rating at a link. The other has the same lines and links.
+/// Whether every tension of a run is below a share of a model's strengths: of the rope along a line, of the rating at a link. Run
+/// and model have the same lines and links.
 fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
     let lines = summary.lines.iter().zip(ropes(spec)).all(|(line, strength_n)| {
         line.peak_tension_n.max(line.unconverged_peak_n) < share * strength_n
@@ -67,12 +67,12 @@ fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
     lines && spec.links.iter().zip(&summary.links).all(at_link)
 }
 
-/// Last parts of the paths of strengths: what else an option sets may change its runs in ways that no model shows, such as
-/// how a whale's motion answers a touch.
+/// Last parts of the paths of strengths. Other settings may change a run without a trace in the model, such as the response of a
+/// whale's motion to touch.
 const STRENGTHS: [&str; 4] = ["rating", "strength", "weak_link", "weak_links"];
 
-/// Whether two options differ in strengths alone in every encounter: what they set differently are strengths, their models are
-/// alike in one encounter, and what is drawn reaches both in the same fields.
+/// Whether two options differ in strengths alone in every encounter: they differ in settings of strengths only, their models differ in
+/// strengths alone in one encounter, and drawn values reach both in the same fields.
 pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]) -> bool {
     let own = |plan: &OptionPlan| -> Vec<String> {
         let set = plan
@@ -103,7 +103,7 @@ fn nothing_parted(summary: &Summary) -> bool {
         && summary.links.iter().all(|link| link.parted_at_s.is_none())
 }
 
-/// What the rope of each line holds, at its weakest place [N].
+/// Strength of each line at its weakest place [N].
 fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
     let holds = |line: &Line| {
         spec.ropes[line.rope].strength_n
@@ -113,12 +113,12 @@ fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
     spec.lines.iter().map(holds)
 }
 
-/// What ropes and links hold [N].
+/// Strengths of lines and enabled links [N].
 fn strengths(spec: &ModelSpec) -> impl Iterator<Item = f64> {
     ropes(spec).chain(spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n))
 }
 
-/// The least strength of all, by which options are put in order [N].
+/// The least strength of a model, by which options are sorted [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
     strengths(spec).fold(f64::INFINITY, f64::min)
 }

@@ -17,7 +17,7 @@ use crate::campaign::folder;
 use crate::error::Error;
 use crate::save;
 
-use super::open::Opened;
+use super::prepared::Opened;
 use super::registration::Registration;
 use crate::table::parquet;
 use crate::table::{Row, Table};

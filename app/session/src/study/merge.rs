@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::save;
 
 use super::folder::Folder;
-use super::open::Opened;
+use super::prepared::Opened;
 use super::stats::is_narrow;
 use crate::campaign::Shard;
 use crate::campaign::leases;

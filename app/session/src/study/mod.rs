@@ -20,23 +20,20 @@
 //! a study that was killed goes on where it stood, on one machine or on many, and the merged table has the same bytes.
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
-mod aim;
 pub mod batch;
-mod branch;
+
 #[cfg(test)]
 mod damaged;
 mod equivalence;
-mod finer;
+
 pub mod folder;
 pub mod merge;
-mod open;
 mod plan;
-pub(crate) mod planned;
 mod play;
 pub(crate) mod prepare;
+pub(crate) mod prepared;
 pub mod queue;
-mod reader;
-mod ready;
+
 pub mod registration;
 pub mod report;
 pub mod results;
@@ -46,8 +43,7 @@ pub mod stats;
 pub(crate) mod tests;
 pub mod threat;
 
-pub use open::{Files, Opened};
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
-pub use reader::ResultsReader;
-pub use results::{ResultsRequest, StudyResults};
+pub use prepared::{Files, Opened};
+pub use results::{ResultsReader, ResultsRequest, StudyResults};

@@ -1,27 +1,32 @@
-//! One encounter played: every option meets it.
+//! One encounter with every option, and one run alone.
+//!
+//! Options that differ in strengths alone share a run until the first of their strengths is exceeded (`equivalence.rs`). During a run
+//! we test whether the other options of its family still share its trajectory. When one diverges, its run starts from the last
+//! shared snapshot.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use endline_sim::metrics::Summary;
 
+use crate::encounters::Encounter;
+use crate::encounters::equilibria::fitted;
 use crate::error::Error;
 use crate::report::Report;
 use crate::run::{Moment, Run, RunOptions};
 use crate::source::Prepared;
-
-use super::branch::{self, Watch};
-use super::equivalence::{least_strength_n, same_run};
-use super::open::Opened;
-use super::ready::Ready;
-use super::row::row;
-use crate::encounters::Encounter;
-use crate::encounters::equilibria::fitted;
 use crate::table::Row;
 
-/// Time after which a run that has stayed invalid is given up: what has crossed stays crossed, and what presses too hard goes on doing so [s].
+use super::equivalence::{
+    is_certainly_same_run, least_strength_n, same_run, same_so_far, same_until_parting,
+};
+use super::prepared::Opened;
+use super::row::row;
+
+/// A run that has been invalid for this long is abandoned; invalid states do not recover [s].
 const INVALID_FOR_S: f64 = 60.0;
 
-/// Frames kept for each second of a run that is replayed.
+/// Frames stored for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;
 
 /// A run of an encounter, at its end.
@@ -32,71 +37,73 @@ pub struct Played {
     pub report: Report,
 }
 
-/// What a run came to, for options that may have the same, or the same until something parts.
-struct Came {
+/// An encounter with the models of its options, each assembled at its first use.
+struct EncounterModels<'a> {
+    study: &'a Opened,
+    encounter: Encounter,
+    options: Vec<OnceCell<Result<Prepared, String>>>,
+}
+
+/// The run of an option at its end, which other options may share in whole or up to a snapshot.
+struct OptionRun {
     option: usize,
     run: Run,
     summary: Summary,
     report: Report,
-    parted: Vec<(usize, Moment)>,
+    /// Options that have diverged from this run, each with the last shared snapshot.
+    diverged: Vec<(usize, Moment)>,
 }
 
 impl Opened {
-    /// Rows of every option in encounter `index`, in the order of the options; none where `goes_on` says on the way that nobody
-    /// wants them any more.
+    /// Rows of every option in encounter `index`, in the order of the options; `None` if `is_wanted` becomes false.
     #[must_use]
-    pub fn rows(&self, index: u32, goes_on: &dyn Fn() -> bool) -> Option<Vec<Row>> {
-        let ready = Ready::new(self, index);
+    pub fn rows(&self, index: u32, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
+        let models = EncounterModels::new(self, index);
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
-        let mut came: Vec<Came> = Vec::new();
+        let mut runs: Vec<OptionRun> = Vec::new();
         let order = self.by_falling_strength();
         for (place, option) in order.iter().copied().enumerate() {
-            if let Some(twin) = came.iter().find(|came| is_twin(&ready, option, came)) {
-                rows[option] = row(self, option, &ready.encounter, Ok(&twin.report));
+            if let Some(same) = runs.iter().find(|run| models.is_same_run(option, run)) {
+                rows[option] = row(self, option, &models.encounter, Ok(&same.report));
                 continue;
             }
-            let ended = self.came(&ready, option, &order[place + 1..], &came, goes_on);
-            if !goes_on() {
+            let run = self.run_option(&models, option, &order[place + 1..], &runs, is_wanted);
+            if !is_wanted() {
                 return None;
             }
-            rows[option] = row(
-                self,
-                option,
-                &ready.encounter,
-                ended.as_ref().map(|came| &came.report).map_err(String::as_str),
-            );
-            came.extend(ended.ok());
+            let report = run.as_ref().map(|run| &run.report).map_err(String::as_str);
+            rows[option] = row(self, option, &models.encounter, report);
+            runs.extend(run.ok());
         }
         Some(rows)
     }
 
-    /// The run of an option, begun where it parts ways with one that came before if it can be; watched for those that come after.
-    fn came(
+    /// Runs an option, from the snapshot at which it diverged from an earlier run if there is one; later options are tested on the way.
+    fn run_option(
         &self,
-        ready: &Ready<'_>,
+        models: &EncounterModels<'_>,
         option: usize,
-        after: &[usize],
-        came: &[Came],
-        goes_on: &dyn Fn() -> bool,
-    ) -> Result<Came, String> {
-        let prepared = ready.option(option)?;
-        let begun =
-            came.iter().find_map(|came| branch::begun(option, prepared, &came.run, &came.parted));
+        later: &[usize],
+        earlier: &[OptionRun],
+        is_wanted: &dyn Fn() -> bool,
+    ) -> Result<OptionRun, String> {
+        let prepared = models.option(option)?;
+        let branched = earlier.iter().find_map(|run| run.branch(option, prepared));
         let begin = || {
-            self.begin(option, &ready.encounter, prepared.clone(), 0.0)
+            self.begin(option, &models.encounter, prepared.clone(), 0.0)
                 .map_err(|error| error.to_string())
         };
-        let mut run = begun.map_or_else(begin, Ok)?;
-        let mut watch = Watch::new(ready, option, after);
+        let mut run = branched.map_or_else(begin, Ok)?;
+        let mut sharing = Sharing::new(models, option, later);
         self.to_its_end_while(&mut run, |run| {
-            watch.look(run);
-            goes_on()
+            sharing.test(run);
+            is_wanted()
         });
-        Ok(Came {
+        Ok(OptionRun {
             option,
             summary: run.summary(),
             report: Report::from_run(&run),
-            parted: watch.parted,
+            diverged: sharing.diverged,
             run,
         })
     }
@@ -125,7 +132,7 @@ impl Opened {
         self.play_watched(option, encounter, frames_hz, |_| {})
     }
 
-    /// The same, looked at twice a second of its time.
+    /// Plays an option in an encounter to its end; `observe` is called twice in each simulated second.
     ///
     /// # Errors
     /// As [`play`](Self::play).
@@ -134,10 +141,10 @@ impl Opened {
         option: usize,
         encounter: &Encounter,
         frames_hz: f64,
-        look: impl FnMut(&Run),
+        observe: impl FnMut(&Run),
     ) -> Result<Played, Error> {
         let prepared = self.prepare(option, encounter)?;
-        self.play_prepared(option, encounter, prepared, frames_hz, look)
+        self.play_prepared(option, encounter, prepared, frames_hz, observe)
     }
 
     /// Plays an encounter as prepared.
@@ -150,10 +157,13 @@ impl Opened {
         encounter: &Encounter,
         prepared: Prepared,
         frames_hz: f64,
-        look: impl FnMut(&Run),
+        mut observe: impl FnMut(&Run),
     ) -> Result<Played, Error> {
         let mut run = self.begin(option, encounter, prepared, frames_hz)?;
-        self.to_its_end(&mut run, look);
+        self.to_its_end_while(&mut run, |run| {
+            observe(run);
+            true
+        });
         let report = Report::from_run(&run);
         Ok(Played { run, report })
     }
@@ -174,22 +184,14 @@ impl Opened {
         Ok(Run::from_settled(prepared, RunOptions { unsettled: false, frames_hz }, settled))
     }
 
-    /// Takes a run to its end, looking at it now and then.
-    fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
-        self.to_its_end_while(run, |run| {
-            look(run);
-            true
-        });
-    }
-
-    /// The same while each look says to go on.
-    fn to_its_end_while(&self, run: &mut Run, mut look: impl FnMut(&Run) -> bool) {
+    /// Runs to the end by the study's rules while `observe`, called twice in each simulated second, returns true.
+    fn to_its_end_while(&self, run: &mut Run, mut observe: impl FnMut(&Run) -> bool) {
         run.to_end_until(|run| {
             if !run.is_time_to_look() {
                 return false;
             }
             let invalid = run.stays_invalid(INVALID_FOR_S);
-            if !look(run) || run.is_over(&self.study.run) {
+            if !observe(run) || run.is_over(&self.study.run) {
                 return true;
             }
             if let Some(reason) = &invalid {
@@ -198,15 +200,103 @@ impl Opened {
             invalid.is_some()
         });
     }
+
+    /// Whether two options differ in strengths alone.
+    fn is_family(&self, one: usize, other: usize) -> bool {
+        self.families[one] == self.families[other]
+    }
+
+    /// Whether an option certainly has the run of another of its family with this summary; decided without assembling its model.
+    fn is_certainly_same(&self, option: usize, other: usize, run: &Run, summary: &Summary) -> bool {
+        let bare = |option: usize| &self.options[option].prepared.model.spec;
+        is_certainly_same_run([bare(option), bare(other)], run.model(), summary)
+    }
 }
 
-/// Whether an option has the run of another that came before.
-fn is_twin(ready: &Ready<'_>, option: usize, came: &Came) -> bool {
-    let exactly = || {
-        ready
-            .option(option)
-            .is_ok_and(|prepared| same_run(&prepared.model, came.run.model(), &came.summary))
-    };
-    ready.opened.is_family(option, came.option)
-        && (ready.opened.surely(option, came.option, &came.run, &came.summary) || exactly())
+impl<'a> EncounterModels<'a> {
+    fn new(study: &'a Opened, index: u32) -> Self {
+        let options = study.options.iter().map(|_| OnceCell::new()).collect();
+        Self { study, encounter: Encounter::of(&study.study, index), options }
+    }
+
+    /// An option ready to run, or why it is not.
+    fn option(&self, option: usize) -> Result<&Prepared, String> {
+        let prepare =
+            || self.study.prepare(option, &self.encounter).map_err(|error| error.to_string());
+        self.options[option].get_or_init(prepare).as_ref().map_err(Clone::clone)
+    }
+
+    /// Whether an option has the run of an earlier one.
+    fn is_same_run(&self, option: usize, earlier: &OptionRun) -> bool {
+        let OptionRun { run, summary, .. } = earlier;
+        let exactly = |prepared: &Prepared| same_run(&prepared.model, run.model(), summary);
+        self.study.is_family(option, earlier.option)
+            && (self.study.is_certainly_same(option, earlier.option, run, summary)
+                || self.option(option).is_ok_and(exactly))
+    }
+}
+
+impl OptionRun {
+    /// The run of an option from the last snapshot that it shares with this one; `None` if it did not diverge from it.
+    fn branch(&self, option: usize, prepared: &Prepared) -> Option<Run> {
+        let (_, moment) = self.diverged.iter().find(|(other, _)| *other == option)?;
+        let is_same = same_until_parting(&prepared.model, self.run.model());
+        is_same.then(|| self.run.branched(moment, prepared.clone()).ok()).flatten()
+    }
+}
+
+/// The options that share a run so far, and those that have diverged from it.
+struct Sharing<'a> {
+    models: &'a EncounterModels<'a>,
+    option: usize,
+    sharing: Vec<Follower>,
+    /// The last snapshot that all of them share.
+    last: Option<Moment>,
+    diverged: Vec<(usize, Moment)>,
+}
+
+/// An option that shares a run so far.
+struct Follower {
+    option: usize,
+    /// Whether its model differs in strengths alone, once this was computed.
+    differs_only_in_strength: OnceCell<bool>,
+}
+
+impl<'a> Sharing<'a> {
+    /// The later options of an option's family, all of which share its run at its start.
+    fn new(models: &'a EncounterModels<'a>, option: usize, later: &[usize]) -> Self {
+        let own = later.iter().copied().filter(|other| models.study.is_family(*other, option));
+        let follower = |option| Follower { option, differs_only_in_strength: OnceCell::new() };
+        let sharing = own.map(follower).collect();
+        Self { models, option, sharing, last: None, diverged: Vec::new() }
+    }
+
+    /// Tests which options still share the run, and stores its snapshot for the next test.
+    fn test(&mut self, run: &Run) {
+        if self.sharing.is_empty() {
+            return;
+        }
+        let summary = run.summary();
+        let all = std::mem::take(&mut self.sharing);
+        let (sharing, diverged): (Vec<Follower>, Vec<Follower>) =
+            all.into_iter().partition(|other| self.is_same(other, run, &summary));
+        self.sharing = sharing;
+        if let Some(last) = &self.last {
+            self.diverged.extend(diverged.iter().map(|other| (other.option, last.clone())));
+        }
+        if !self.sharing.is_empty() {
+            self.last = Some(run.moment());
+        }
+    }
+
+    fn is_same(&self, other: &Follower, run: &Run, summary: &Summary) -> bool {
+        let exactly = |prepared: &Prepared| {
+            same_so_far(&prepared.model, summary)
+                && *other
+                    .differs_only_in_strength
+                    .get_or_init(|| same_until_parting(&prepared.model, run.model()))
+        };
+        self.models.study.is_certainly_same(other.option, self.option, run, summary)
+            || self.models.option(other.option).is_ok_and(exactly)
+    }
 }

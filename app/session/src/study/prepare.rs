@@ -1,21 +1,31 @@
-//! An option prepared for an encounter: what was drawn set in its scenario, with the whale aimed at rope.
-//!
-//! The snout starts `gap` short of the aim along the whale's bearing and `offset` to starboard of it: with the unit vectors
-//! `f` ahead and `s` to starboard, mid-body is at `aim - (gap + L/2) f + offset s`, at the depth drawn, for a whale of length L.
-//! The aim is where the line lies at rest at that depth. Bearings count from where the current flows: 0 goes with the tide.
+//! An option in an encounter: drawn values set in its scenario, the whale aimed at rope, all assembled; on a finer resolution too.
+
+use std::sync::Arc;
 
 use endline_gear::{Document, EditError, Setting, units};
 
+use crate::encounters::Encounter;
+use crate::encounters::aim::{lines_aimed_at, rope_at, start_m};
+use crate::encounters::equilibria::{Equilibrium, is_drawn_for_gear, moves_gear};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Overrides, Prepared, Source};
 
-use super::open::Opened;
 use super::plan::OptionPlan;
-use crate::encounters::Encounter;
+use super::play::Played;
+use super::prepared::Opened;
 
-/// Length of a whale of which neither study nor scenario says anything [m].
+/// Length of a whale for which neither study nor scenario names one [m].
 const USUAL_LENGTH_M: f64 = 12.0;
+
+/// Lengths and times of a scenario that a finer resolution halves.
+const HALVED: [(&str, units::Quantity); 5] = [
+    ("segment", units::Quantity::Length),
+    ("resolution.near", units::Quantity::Length),
+    ("resolution.edges", units::Quantity::Length),
+    ("resolution.far", units::Quantity::Length),
+    ("step", units::Quantity::Time),
+];
 
 impl Opened {
     /// An option in an encounter, ready to run.
@@ -81,11 +91,7 @@ impl Opened {
             .unwrap_or(std::f64::consts::FRAC_PI_2);
         let back_m = self.study.aim.gap_m + 0.5 * self.length_m(scenario);
         let aside_m = encounter.number("offset").unwrap_or_default();
-        let (east, north) = (libm::sin(bearing), libm::cos(bearing));
-        let position = [
-            aim_m[0] - back_m * east + aside_m * north,
-            aim_m[1] - back_m * north - aside_m * east,
-        ];
+        let position = start_m(aim_m, bearing, [back_m, aside_m]);
         scenario.put("whale.heading", &Setting::text(&format!("{bearing} rad"))).map_err(fault)?;
         scenario
             .put("whale.position", &Setting::texts(&position.map(|metres| format!("{metres} m"))))
@@ -104,7 +110,54 @@ impl Opened {
     }
 }
 
-/// The same run for a window, up to a time at which it is over [s].
+impl Opened {
+    /// The gear of an option in equilibrium in the sea of an encounter.
+    pub(super) fn equilibrium(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+    ) -> Result<Arc<Equilibrium>, Error> {
+        self.equilibria.of(self.still_source(option, encounter)?, &self.host)
+    }
+
+    /// The option's gear in the encounter's sea, with the whale of the baseline scenario.
+    fn still_source(&self, option: usize, encounter: &Encounter) -> Result<Source, Error> {
+        let plan = &self.options[option];
+        let drawn = self.study.priors.iter().zip(&encounter.drawn);
+        let for_gear = drawn.filter(|(prior, _)| is_drawn_for_gear(prior));
+        let (scenario, library) = plan.edited(for_gear, moves_gear)?;
+        Ok(Source {
+            scenario_name: plan.scenario_name.clone(),
+            scenario: scenario.text(),
+            library,
+            overrides: Overrides::default(),
+        })
+    }
+
+    /// East and north of rope at rest at a depth [m].
+    fn aim_at(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        depth_m: f64,
+    ) -> Result<[f64; 2], Error> {
+        let gear = self.equilibrium(option, encounter)?;
+        let lines = match lines_aimed_at(&gear.model, &self.study.aim.lines) {
+            // Gear of another kind may have no such line: the whale then starts as for the baseline.
+            Err(_) if option != self.baseline => {
+                return self.aim_at(self.baseline, encounter, depth_m);
+            }
+            found => found?,
+        };
+        rope_at(&gear.model, &gear.settled.state, &lines, depth_m).ok_or_else(|| {
+            Error::Replay(
+                "the gear has no rope to aim at; name lines in `aim` of [encounter]".into(),
+            )
+        })
+    }
+}
+
+/// The same run for a window, with a duration of `end_s` [s].
 ///
 /// # Errors
 /// Where the scenario cannot be assembled.
@@ -117,7 +170,38 @@ pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Resul
     source.prepare(host)
 }
 
+impl Opened {
+    /// Plays an option in an encounter on a finer resolution than its scenario's.
+    ///
+    /// # Errors
+    /// As [`play`](Self::play).
+    pub fn play_finer(&self, option: usize, encounter: &Encounter) -> Result<Played, Error> {
+        let prepared = self.prepare(option, encounter)?;
+        let source = Source { scenario: finer(&prepared)?, ..(*prepared.source).clone() };
+        let prepared = source.prepare_for_study(&self.host)?;
+        self.play_prepared(option, encounter, prepared, 0.0, |_| {})
+    }
+}
+
+/// The scenario with twice the nodes, half the lengths and half the steps.
+fn finer(prepared: &Prepared) -> Result<String, Error> {
+    let fault = |error: EditError| Error::Replay(error.message);
+    let mut scenario = Document::parse(&prepared.source.scenario).map_err(fault)?;
+    for (field, quantity) in HALVED {
+        if let Some(now) = value(&scenario, field, quantity) {
+            let unit = if quantity == units::Quantity::Time { "s" } else { "m" };
+            scenario.put(field, &Setting::text(&format!("{} {unit}", 0.5 * now))).map_err(fault)?;
+        }
+    }
+    if let Some(nodes) = scenario.get("rope_nodes").and_then(|nodes| nodes.parse::<u64>().ok()) {
+        scenario.put("rope_nodes", &Setting::plain(&(2 * nodes).to_string())).map_err(fault)?;
+    }
+    let step_s = 0.5 * prepared.model.spec.settings.contact_step_s;
+    scenario.put("contact_step", &Setting::text(&format!("{step_s} s"))).map_err(fault)?;
+    Ok(scenario.text())
+}
+
 /// A value of a scenario [SI].
-pub(super) fn value(scenario: &Document, field: &str, quantity: units::Quantity) -> Option<f64> {
+fn value(scenario: &Document, field: &str, quantity: units::Quantity) -> Option<f64> {
     units::parse(&scenario.get(field)?, quantity).ok()
 }

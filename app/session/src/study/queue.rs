@@ -16,7 +16,7 @@ use crate::shell;
 use super::batch;
 use super::folder::Folder;
 use super::merge;
-use super::open::{Files, Opened};
+use super::prepared::{Files, Opened};
 use super::report;
 use super::stats::Findings;
 

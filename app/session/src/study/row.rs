@@ -5,7 +5,7 @@ use endline_sdk::BodyPart;
 use crate::figures::{ATTEMPT, AUDIT, Attempt, Figure, PART, Quantity, RUN, Value, WHALE, parts};
 use crate::report::Report;
 
-use super::open::Opened;
+use super::prepared::Opened;
 use crate::encounters::Encounter;
 use crate::table::{Cell, Row};
 

@@ -11,7 +11,7 @@ use endline_sim::Model;
 
 use super::folder::Folder;
 use super::merge;
-use super::open::{Files, Opened};
+use super::prepared::{Files, Opened};
 use super::queue::{Queue, StudyJob, StudyRequest};
 use super::results;
 use super::{ResultsRequest, StudyResults};

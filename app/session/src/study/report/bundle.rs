@@ -7,7 +7,7 @@ use endline_gear::names;
 
 use crate::error::Error;
 use crate::save::atomically;
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 
 /// What reproduces a report, said within the folder above the bundle.
 pub(super) const COMMANDS: &str = "endline study run bundle/study.toml --library bundle/gear-library --out again\n\

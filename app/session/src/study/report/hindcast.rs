@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::cases::{Outcome, words};
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 use crate::study::stats::{Agreement, Findings, ObservationFinding};
 
 use super::inputs::simulated;

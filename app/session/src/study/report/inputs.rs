@@ -3,7 +3,7 @@
 use endline_gear::{Prior, StudyOption};
 
 use crate::strength::PartStrength;
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 use crate::study::stats::{
     ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
 };

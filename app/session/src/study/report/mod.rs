@@ -21,7 +21,7 @@ use crate::save::atomically;
 use hauled::HauledLoad;
 
 use super::folder::Folder;
-use super::open::Opened;
+use super::prepared::Opened;
 use super::stats::{Findings, OptionFinding, Paired, Rate};
 use crate::table::{Column, Table};
 

@@ -2,7 +2,7 @@
 
 use askama::Template;
 
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 use crate::study::stats::{Findings, answer};
 
 use super::hauled::HauledLoad;

@@ -13,7 +13,7 @@ use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 use crate::study::registration::Registration;
 use crate::table::Table;
 

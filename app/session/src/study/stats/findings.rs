@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::strength::PartStrength;
-use crate::study::open::Opened;
+use crate::study::prepared::Opened;
 use crate::study::registration::Registration;
 use crate::table::{Column, Table};
 

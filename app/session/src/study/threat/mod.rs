@@ -14,7 +14,7 @@ use endline_gear::{StudyEvent, ThreatRow};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::open::Opened;
+use super::prepared::Opened;
 use super::stats::{AssumedBand, Interval, Marks, Rate};
 use crate::table::Table;
 use crate::units::METRES_PER_INCH;

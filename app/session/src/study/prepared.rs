@@ -1,14 +1,17 @@
-//! A study opened: its file, the baseline scenario and library, and the plan of each option.
+//! A prepared study: its file, the baseline scenario and library, and the plan of each option; what it will run, as JSON.
 
 use std::path::{Path, PathBuf};
 
 use endline_gear::{Library, Sources, Study, hint};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 
 use super::equivalence;
+use super::folder::BLOCK;
 use super::plan::{Base, OptionPlan};
 use crate::encounters::aim::lines_aimed_at;
 use crate::encounters::equilibria::Equilibria;
@@ -31,7 +34,7 @@ pub struct Opened {
     /// The library's files, before anything is set.
     pub(super) sources: Sources,
     pub(super) equilibria: Equilibria,
-    /// By option: the first option it differs from in strengths alone.
+    /// By option: the first option that it differs from in strengths alone, itself if there is none.
     pub(super) families: Vec<usize>,
 }
 
@@ -42,7 +45,7 @@ pub struct Files {
     pub root: PathBuf,
     /// Its files.
     pub sources: Sources,
-    /// File and text of a scenario that is open and may differ from what stands in its file.
+    /// File and text of a scenario that is open and may differ from its file.
     pub scenario: Option<(PathBuf, String)>,
 }
 
@@ -57,7 +60,7 @@ impl Opened {
         Self::of_text(text, path, library, host)
     }
 
-    /// The same of a text that may differ from what stands in its file.
+    /// Reads a study from a text that may differ from its file.
     ///
     /// # Errors
     /// As [`open`](Self::open).
@@ -72,7 +75,7 @@ impl Opened {
         Self::of_sources(text, path, Files { root, sources, scenario: None }, host)
     }
 
-    /// The same with the library's files as they are edited.
+    /// Reads a study with the library's files as they are edited.
     ///
     /// # Errors
     /// As [`open`](Self::open).
@@ -136,7 +139,7 @@ impl Opened {
     /// Place of an option.
     ///
     /// # Errors
-    /// Where there is none of that id, with the nearest.
+    /// An id that no option has, with the nearest one.
     pub fn option(&self, id: &str) -> Result<usize, Error> {
         let known = || self.options.iter().map(|option| option.id.as_str());
         let found = known().position(|known| known == id);
@@ -148,15 +151,13 @@ impl Opened {
             ))
         })
     }
-}
 
-impl Opened {
     /// Text of a library file before anything is set in it.
     pub(crate) fn library_text(&self, path: &str) -> Option<&str> {
         self.sources.get(path)
     }
 
-    /// Ids of the options by families: those of one differ in strengths alone, and share their runs until something parts.
+    /// Ids of the options by families. Options of a family differ in strengths alone, and share their runs until something parts.
     #[must_use]
     pub fn families(&self) -> Vec<Vec<&str>> {
         let of = |family: usize| {
@@ -169,7 +170,7 @@ impl Opened {
     }
 }
 
-/// By option: the first that it differs from in strengths alone, most often itself.
+/// By option: the first option that it differs from in strengths alone, itself if there is none.
 fn families(study: &Study, options: &[OptionPlan]) -> Vec<usize> {
     let drawn: Vec<&str> = study.priors.iter().map(field_of).collect();
     let first = |option: usize| {
@@ -225,4 +226,48 @@ fn hash(study: &Study, options: &[OptionPlan]) -> String {
         option.prepared.plugins.iter().for_each(|plugin| text(&format!("{plugin:?}")));
     }
     hasher.finalize().to_hex().to_string()
+}
+
+/// Name and version of the form.
+const SCHEMA: &str = "endline.study_plan/1";
+
+/// What a study will run.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct Plan<'a> {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
+    schema: &'static str,
+    /// Id of the study.
+    study: &'a str,
+    /// Hash of all that defines its runs.
+    hash: &'a str,
+    /// Number of encounters.
+    encounters: u64,
+    /// Number of blocks of encounters that are run and kept as one.
+    blocks: u64,
+    /// Ids of the options, in order.
+    options: Vec<&'a str>,
+    /// Id of the option that the others are compared with.
+    baseline: &'a str,
+    /// Options that share their runs until something parts.
+    families: Vec<Vec<&'a str>>,
+}
+
+impl Opened {
+    /// One line of JSON.
+    #[must_use]
+    pub fn plan_json(&self) -> String {
+        let plan = Plan {
+            schema: SCHEMA,
+            study: &self.study.id,
+            hash: &self.hash,
+            encounters: self.study.encounters,
+            blocks: self.study.encounters.div_ceil(u64::from(BLOCK)),
+            options: self.options.iter().map(|option| option.id.as_str()).collect(),
+            baseline: &self.options[self.baseline].id,
+            families: self.families(),
+        };
+        // Structs of numbers and strings always serialise.
+        serde_json::to_string(&plan).unwrap_or_default()
+    }
 }
