@@ -20,7 +20,7 @@ use crate::save;
 use super::prepared::Opened;
 use super::registration::Registration;
 use crate::table::parquet;
-use crate::table::{Row, Table};
+use crate::table::{Column, Row, Table};
 
 /// Encounters of a block: what a killed program loses at most, for each thread.
 pub const BLOCK: u32 = 1;
@@ -202,11 +202,14 @@ impl Folder {
             ));
         }
         let own = self.encounters_of(block);
-        let is_own = |encounter: &Option<f64>| {
-            let range = f64::from(own.start)..f64::from(own.end);
-            encounter.is_some_and(|encounter| range.contains(&encounter))
+        let own = i64::from(own.start)..i64::from(own.end);
+        let Some(Column::Whole(encounters)) = table.column("encounter") else {
+            return Err(Error::at(
+                &file,
+                "has no column `encounter`; delete it and run the study again",
+            ));
         };
-        if !table.reals("encounter").iter().all(is_own) {
+        if !encounters.iter().all(|encounter| own.contains(encounter)) {
             let message =
                 "has rows of encounters of another block; delete it and run the study again";
             return Err(Error::at(&file, message));

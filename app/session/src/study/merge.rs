@@ -1,24 +1,25 @@
-//! The table of a study from its blocks, whoever ran them.
+//! The table of a study, merged from its blocks.
 
 use crate::error::Error;
 use crate::save;
 
 use super::folder::Folder;
 use super::prepared::Opened;
+use super::runs::Runs;
 use super::stats::is_narrow;
 use crate::campaign::Shard;
 use crate::campaign::leases;
 use crate::table::Table;
 use crate::table::parquet;
 
-/// Encounters between two looks at whether a study has seen enough.
-const LOOK: u32 = 4;
+/// Encounters between two tests of whether the interval is as narrow as the study asks.
+const TEST_EVERY: u32 = 4;
 
-/// The rows of all blocks in order; where the study has seen enough sooner, of those up to there.
+/// The rows of all blocks in order, or of the first that are enough for the interval that the study asks for.
 ///
 /// # Errors
 /// Blocks that are missing, with the command that runs them, damaged, or of another study.
-pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
+pub fn merge(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
     let mut table = Table::default();
     for block in 0..folder.blocks() {
         if !folder.file_of(block).is_file() {
@@ -29,14 +30,15 @@ pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
             break;
         }
     }
-    Ok(table)
+    Runs::read(table).map_err(|wrong| Error::at(&folder.path, wrong.to_string()))
 }
 
-/// Writes `table.parquet` and `table.csv`, and removes the leases that nobody needs any more.
+/// Writes `table.parquet` and `table.csv`, and removes the leases of processes that have ended.
 ///
 /// # Errors
 /// Where they cannot be written.
-pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error> {
+pub fn save(opened: &Opened, folder: &Folder, runs: &Runs) -> Result<(), Error> {
+    let table = runs.table();
     let file = folder.path.join("table.parquet");
     let tags = [("study".to_owned(), opened.hash.clone())];
     let bytes = parquet::write(table, &tags)
@@ -54,7 +56,7 @@ pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error
 ///
 /// # Errors
 /// Where the study was not merged, or its table belongs to another study.
-pub fn load(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
+pub fn load(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
     let file = folder.path.join("table.parquet");
     let bytes = std::fs::read(&file).map_err(|error| {
         Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
@@ -64,10 +66,10 @@ pub fn load(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
     if !tags.iter().any(|(key, value)| key == "study" && *value == opened.hash) {
         return Err(Error::at(&file, "was merged from another study; merge again"));
     }
-    Ok(table)
+    Runs::read(table).map_err(|wrong| Error::at(&file, format!("{wrong}; merge again")))
 }
 
-/// Whether the blocks that stand without a gap are enough for the interval the study asks for.
+/// Whether the blocks before the first missing one are enough for the interval that the study asks for.
 #[must_use]
 pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
     if opened.study.enough.is_none() {
@@ -87,9 +89,10 @@ pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
 
 fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
     let Some(enough) = &opened.study.enough else { return false };
-    encounters.is_multiple_of(LOOK)
+    encounters.is_multiple_of(TEST_EVERY)
         && u64::from(encounters) >= enough.least
-        && is_narrow(table, &opened.options, &enough.event, enough.width)
+        && Runs::read(table.clone())
+            .is_ok_and(|runs| is_narrow(&runs, &opened.options, &enough.event, enough.width))
 }
 
 fn missing(opened: &Opened, folder: &Folder) -> Error {
@@ -112,7 +115,7 @@ fn missing(opened: &Opened, folder: &Folder) -> Error {
     )
 }
 
-/// Which shards of the usual numbers hold what is missing.
+/// Shards, of common numbers of them, that hold the missing blocks.
 fn shards(blocks: &[u32]) -> String {
     let of = |of: u32| {
         let parts: Vec<String> = (0..of)

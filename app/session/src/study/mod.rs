@@ -38,6 +38,7 @@ pub mod registration;
 pub mod report;
 pub mod results;
 mod row;
+pub mod runs;
 pub mod stats;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -17,6 +17,7 @@ use super::folder::{Folder, Label};
 use super::merge;
 use super::prepare;
 use super::prepared::Opened;
+use super::runs::Runs;
 use super::stats::Findings;
 use crate::encounters::Encounter;
 use crate::table::Table;
@@ -44,8 +45,8 @@ pub struct StudyResults {
     pub opened: Arc<Opened>,
     /// Its folder.
     pub folder: PathBuf,
-    /// Rows of the blocks before the first missing one.
-    pub table: Table,
+    /// Runs of the blocks before the first missing one.
+    pub runs: Runs,
     /// Statistics of these rows.
     pub findings: Findings,
     /// Whether these are all rows of the study.
@@ -71,12 +72,12 @@ impl StudyResults {
             return Ok(None);
         }
         let folder = Folder::open(&path, &opened)?;
-        let (table, whole) = rows(&opened, &folder, at_work)?;
-        if table.rows() == 0 {
+        let (runs, whole) = runs(&opened, &folder, at_work)?;
+        if runs.rows().is_empty() {
             return Ok(None);
         }
-        let findings = Findings::of(&opened, &table, &folder.registration);
-        Ok(Some(Self { opened, folder: path, table, findings, whole }))
+        let findings = Findings::of(&opened, &runs, &folder.registration);
+        Ok(Some(Self { opened, folder: path, runs, findings, whole }))
     }
 
     /// The model of one run of the study, with the duration at which the run ended in the study.
@@ -97,17 +98,13 @@ impl StudyResults {
 
     /// When a run ended in the study [s].
     fn end_s(&self, option: usize, encounter: u32) -> Option<f64> {
-        let (table, id) = (&self.table, &self.opened.options[option].id);
-        let (encounters, options) = (table.reals("encounter"), table.texts("option"));
-        let row = (0..table.rows())
-            .find(|row| encounters[*row] == Some(f64::from(encounter)) && options[*row] == *id)?;
-        table.reals("simulated_s")[row]
+        self.runs.find(&self.opened.options[option].id, encounter)?.simulated_s
     }
 }
 
-/// The merged table, else the rows of the blocks before the first missing one; and whether they are
-/// all rows of the study.
-fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool), Error> {
+/// The merged runs, else those of the blocks before the first missing one; and whether they are
+/// all runs of the study.
+fn runs(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
     if !at_work && folder.path.join("table.parquet").is_file() {
         return Ok((merge::load(opened, folder)?, true));
     }
@@ -116,7 +113,8 @@ fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool)
     for block in 0..u32::try_from(there).unwrap_or_default() {
         folder.append(block, &mut table)?;
     }
-    Ok((table, there == folder.blocks() as usize))
+    let runs = Runs::read(table).map_err(|wrong| Error::at(&folder.path, wrong.to_string()))?;
+    Ok((runs, there == folder.blocks() as usize))
 }
 
 /// The study of a folder of results: from the bundle in it, else from the library.

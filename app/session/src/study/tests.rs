@@ -168,7 +168,8 @@ fn a_paused_study_stands_still_and_its_table_is_that_of_one_never_paused() {
         run.join().unwrap().unwrap();
     });
     assert_eq!(control.progress().encounters, Count { done: 24, found: 0, total: 24 });
-    let [one, other] = [&whole, &folder].map(|folder| merge::merge(&opened, folder).unwrap().csv());
+    let [one, other] =
+        [&whole, &folder].map(|folder| merge::merge(&opened, folder).unwrap().table().csv());
     assert_eq!(one, other);
 }
 
@@ -192,7 +193,7 @@ fn a_cancelled_study_keeps_whole_blocks_and_a_second_call_continues_from_them() 
     let progress = batch::run(&opened, &folder, Shard::WHOLE, 1, &second).unwrap();
     assert_eq!(progress.blocks, Count { done: 24, found: written, total: 24 });
     assert_eq!(progress.encounters, Count { done: 24, found: written, total: 24 });
-    assert_eq!(merge::merge(&opened, &folder).unwrap().rows(), 48);
+    assert_eq!(merge::merge(&opened, &folder).unwrap().rows().len(), 48);
 }
 
 #[test]
@@ -278,7 +279,7 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
         ..ResultsRequest::default()
     };
     let read = StudyResults::read(request, &host).unwrap().unwrap();
-    assert!(read.whole && read.table.rows() == 8 && read.folder == folder);
+    assert!(read.whole && read.runs.rows().len() == 8 && read.folder == folder);
     let reported: Vec<bool> = results::list(&root).iter().map(|found| found.reported).collect();
     assert!(reported.contains(&true) && reported.contains(&false), "{reported:?}");
 }

@@ -64,7 +64,7 @@ impl WrongCell {
     }
 
     /// A column of another name, or none, where `column` should be.
-    fn misplaced(column: &str, row: usize, found: Option<&str>) -> Self {
+    pub(crate) fn misplaced(column: &str, row: usize, found: Option<&str>) -> Self {
         let found = found.map_or_else(|| "no cell".to_owned(), |found| format!("`{found}`"));
         Self::new(column, row, "a cell of this column", found)
     }
@@ -140,6 +140,12 @@ impl Column {
         self.len() == 0
     }
 
+    /// A value in words: as in a CSV file, `nothing` for a missing one.
+    pub(crate) fn describe(&self, row: usize) -> String {
+        let written = self.written(row);
+        if written.is_empty() { "nothing".to_owned() } else { written }
+    }
+
     /// A value as written in a CSV file: nothing where there is none.
     #[must_use]
     pub fn written(&self, row: usize) -> String {
@@ -209,34 +215,6 @@ impl Table {
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
-    }
-
-    /// Numbers of a column; whole numbers too. Empty where there is no such column.
-    #[must_use]
-    pub fn reals(&self, name: &str) -> Vec<Option<f64>> {
-        match self.column(name) {
-            Some(Column::Real(values)) => values.clone(),
-            Some(Column::Whole(values)) => values.iter().map(|value| Some(*value as f64)).collect(),
-            _ => Vec::new(),
-        }
-    }
-
-    /// Texts of a column; empty where there is no such column.
-    #[must_use]
-    pub fn texts(&self, name: &str) -> &[String] {
-        if let Some(Column::Text(values)) = self.column(name) { values } else { &[] }
-    }
-
-    /// Flags of a column; empty where there is no such column.
-    #[must_use]
-    pub fn flags(&self, name: &str) -> &[bool] {
-        if let Some(Column::Flag(values)) = self.column(name) { values } else { &[] }
-    }
-
-    /// Whole numbers of a column; empty where there is no such column.
-    #[must_use]
-    pub fn wholes(&self, name: &str) -> &[i64] {
-        if let Some(Column::Whole(values)) = self.column(name) { values } else { &[] }
     }
 
     /// Adds the rows of another table.

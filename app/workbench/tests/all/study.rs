@@ -170,19 +170,13 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     harness.run_steps(2);
     give(&mut harness, StudyAction::Replay { option: 1, encounter: 4 });
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
-    let table = &shown.table;
-    let row = (0..table.rows())
-        .find(|row| {
-            table.reals("encounter")[*row] == Some(4.0) && table.texts("option")[*row] == "weak"
-        })
-        .unwrap();
+    let run = shown.runs.find("weak", 4).unwrap();
     let view = harness.state().shared.workbench.view().cloned().unwrap();
     assert_eq!(
-        view.state_hash,
-        table.texts("state_hash")[row],
+        view.state_hash, run.state_hash,
         "the run in the window ends in the state the table has"
     );
-    assert!(!table.texts("parted")[row].is_empty(), "6 N part in this sea");
+    assert!(!run.parted.is_empty(), "6 N part in this sea");
 
     (0..3).for_each(|_| give(&mut harness, EditAction::Undo));
     assert_eq!(

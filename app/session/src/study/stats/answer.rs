@@ -142,12 +142,14 @@ fn small(asked: &Asked<'_>) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Mark, Marks};
+    use super::super::{EventIndicator, EventIndicators};
     use super::*;
 
-    /// Marks of encounters that came to the event or not.
-    fn marks(came: impl Iterator<Item = bool>) -> Marks {
-        Marks(came.map(|came| Some(Mark { came, weight: 1.0 })).collect())
+    /// Indicators of encounters in which the event occurred or did not.
+    fn indicators(occurred: impl Iterator<Item = bool>) -> EventIndicators {
+        EventIndicators(
+            occurred.map(|occurred| Some(EventIndicator { occurred, weight: 1.0 })).collect(),
+        )
     }
 
     fn asked(encounters: u64, comparisons: u64) -> Asked<'static> {
@@ -160,7 +162,7 @@ mod tests {
 
     #[test]
     fn encounters_that_all_end_alike_decide_nothing_and_say_how_much_may_hide() {
-        let all = || marks((0..8).map(|number| number < 2));
+        let all = || indicators((0..8).map(|number| number < 2));
         let paired = Paired::of(&all(), &all());
         let told = sentences(&asked(8, 1), vec![compared(&paired, Some(1.0))]);
         assert_eq!(told[0], "8 encounters tell no option apart from as today in “held”.");
@@ -176,7 +178,8 @@ mod tests {
     #[test]
     fn an_option_that_is_told_apart_comes_first_with_its_interval() {
         // Of 400 encounters 100 are held with the baseline, 60 of these with the option.
-        let (this, other) = (marks((0..400).map(|n| n < 60)), marks((0..400).map(|n| n < 100)));
+        let (this, other) =
+            (indicators((0..400).map(|n| n < 60)), indicators((0..400).map(|n| n < 100)));
         let paired = Paired::of(&this, &other);
         let told = sentences(&asked(400, 3), vec![compared(&paired, Some(0.000_1))]);
         assert_eq!(told.len(), 1, "{told:?}");

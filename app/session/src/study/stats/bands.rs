@@ -15,11 +15,11 @@ use serde::Serialize;
 
 use crate::study::prepared::Opened;
 use crate::study::registration::Registration;
-use crate::table::Table;
+use crate::study::runs::Runs;
 
 use super::bootstrap::Draws;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate};
-use super::marks::{Mark, Marks};
 use super::paired::Paired;
 use super::sensitivity::parts_of;
 
@@ -72,20 +72,24 @@ pub struct SegmentBand {
 }
 
 /// The bands of every registered event with every option.
-pub(super) fn look(opened: &Opened, table: &Table, registration: &Registration) -> Vec<Bands> {
-    let divided = divide(&opened.study.priors, table);
+pub(super) fn of_registered(
+    opened: &Opened,
+    runs: &Runs,
+    registration: &Registration,
+) -> Vec<Bands> {
+    let divided = divide(&opened.study.priors, runs);
     let events = registration.events.iter().filter_map(|name| StudyEvent::find(name));
     let of = |event: StudyEvent| {
         let found = opened.study.discretisations.iter().find(|found| found.event == event);
         let divided = &divided;
         opened.options.iter().map(move |option| {
-            let marks = Marks::of(table, &option.id, &event);
-            let rate = Rate::of(&marks);
+            let indicators = EventIndicators::of(runs, &option.id, &event);
+            let rate = Rate::of(&indicators);
             Bands {
                 option: option.id.clone(),
                 name: option.name.clone(),
                 event: event.name(),
-                assumed: AssumedBand::of(divided, &marks),
+                assumed: AssumedBand::of(divided, &indicators),
                 segments: found.and_then(|found| SegmentBand::of(found, &rate)),
                 rate,
             }
@@ -101,10 +105,10 @@ struct Divided {
 }
 
 /// The assumed inputs that vary.
-fn divide(priors: &[Prior], table: &Table) -> Vec<Divided> {
+fn divide(priors: &[Prior], runs: &Runs) -> Vec<Divided> {
     let assumed = priors.iter().filter(|prior| prior.confidence == Confidence::Assumed);
     let of = |prior: &Prior| {
-        let parts = parts_of(prior, table)?;
+        let parts = parts_of(prior, runs)?;
         let count = parts.iter().map(|(_, keep)| keep.len()).max().unwrap_or_default();
         let level = (0..count).map(|encounter| parts.iter().position(|(_, keep)| keep[encounter]));
         let level: Vec<Option<usize>> = level.collect();
@@ -115,7 +119,7 @@ fn divide(priors: &[Prior], table: &Table) -> Vec<Divided> {
     assumed.filter_map(of).collect()
 }
 
-/// The encounters of an input that count: the level drawn in each, whether the event came, and what it counts for.
+/// The valid encounters of an input: the level drawn in each, whether the event occurred, and its weight.
 struct Known<'a> {
     names: &'a [String],
     levels: Vec<usize>,
@@ -123,40 +127,40 @@ struct Known<'a> {
 }
 
 impl<'a> Known<'a> {
-    fn of(divided: &'a Divided, marks: &Marks) -> Self {
-        let counts = |(level, mark): (&Option<usize>, &Option<Mark>)| {
-            let (level, mark) = ((*level)?, (*mark)?);
-            Some((level, (f64::from(mark.came), mark.weight)))
+    fn of(divided: &'a Divided, indicators: &EventIndicators) -> Self {
+        let counts = |(level, indicator): (&Option<usize>, &Option<EventIndicator>)| {
+            let (level, indicator) = ((*level)?, (*indicator)?);
+            Some((level, (f64::from(indicator.occurred), indicator.weight)))
         };
-        let (levels, values) = divided.level.iter().zip(&marks.0).filter_map(counts).unzip();
+        let (levels, values) = divided.level.iter().zip(&indicators.0).filter_map(counts).unzip();
         Self { names: &divided.names, levels, values }
     }
 
     /// Weighted rate at each level, with its name; none of a level that has no encounter.
     fn rates(&self, levels: &[usize]) -> impl Iterator<Item = (f64, &'a String)> {
         let mut sums = vec![(0.0, 0.0); self.names.len()];
-        for (level, (came, weight)) in levels.iter().zip(&self.values) {
-            sums[*level].0 += came * weight;
+        for (level, (occurred, weight)) in levels.iter().zip(&self.values) {
+            sums[*level].0 += occurred * weight;
             sums[*level].1 += weight;
         }
-        let rate = |((came, all), name)| (all > 0.0).then(|| (came / all, name));
+        let rate = |((hits, all), name)| (all > 0.0).then(|| (hits / all, name));
         sums.into_iter().zip(self.names).filter_map(rate)
     }
 }
 
 impl AssumedBand {
-    /// The band of a study's marks by its assumed inputs; none where none varies.
+    /// The band of a study's indicators by its assumed inputs; none where none varies.
     pub(in crate::study) fn of_study(
         opened: &Opened,
-        table: &Table,
-        marks: &Marks,
+        runs: &Runs,
+        indicators: &EventIndicators,
     ) -> Option<Self> {
-        Self::of(&divide(&opened.study.priors, table), marks)
+        Self::of(&divide(&opened.study.priors, runs), indicators)
     }
 
-    fn of(divided: &[Divided], marks: &Marks) -> Option<Self> {
+    fn of(divided: &[Divided], indicators: &EventIndicators) -> Option<Self> {
         let inputs: Vec<Known<'_>> =
-            divided.iter().map(|divided| Known::of(divided, marks)).collect();
+            divided.iter().map(|divided| Known::of(divided, indicators)).collect();
         let mut found: Vec<(f64, &String)> =
             inputs.iter().flat_map(|known| known.rates(&known.levels)).collect();
         found.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -231,16 +235,16 @@ mod tests {
     /// 400 encounters, the event in each fourth of them; the first input decides it, the second has nothing to do with it.
     #[test]
     fn an_input_that_decides_spreads_the_rate_and_an_idle_one_by_chance() {
-        let marks = Marks::even((0..400).map(|index| Some(index % 4 == 0)));
+        let indicators = EventIndicators::even((0..400).map(|index| Some(index % 4 == 0)));
         let deciding = divided((0..400).map(|index| usize::from(index % 4 == 0)), &["no", "yes"]);
         let idle = divided((0..400).map(|index| (index / 4) % 2), &["one", "other"]);
-        let band = AssumedBand::of(&[deciding, idle], &marks).unwrap();
+        let band = AssumedBand::of(&[deciding, idle], &indicators).unwrap();
         assert_eq!((band.least, band.greatest), (0.0, 1.0));
         assert_eq!((band.least_at.as_str(), band.greatest_at.as_str()), ("no", "yes"));
         assert!(!band.is_chance() && band.by_chance.low > 0.15 && band.by_chance.high < 0.4);
 
         let idle = divided((0..400).map(|index| (index / 4) % 2), &["one", "other"]);
-        let band = AssumedBand::of(&[idle], &marks).unwrap();
+        let band = AssumedBand::of(&[idle], &indicators).unwrap();
         assert!(band.is_chance(), "{band:?}");
         // Two random halves: their rates differ from 0.25 by about 0.8 of √(p q / 400) either way.
         let half = 0.8 * (0.25_f64 * 0.75 / 400.0).sqrt();
@@ -250,15 +254,16 @@ mod tests {
     #[test]
     fn levels_count_by_weight_and_invalid_runs_do_not() {
         let weights = [4.0, 1.0, 1.0, 2.0];
-        let came = [true, false, true, false];
-        let mut marks: Vec<Option<Mark>> = came
+        let occurred = [true, false, true, false];
+        let mut indicators: Vec<Option<EventIndicator>> = occurred
             .into_iter()
             .zip(weights)
-            .map(|(came, weight)| Some(Mark { came, weight }))
+            .map(|(occurred, weight)| Some(EventIndicator { occurred, weight }))
             .collect();
-        marks.push(None);
+        indicators.push(None);
         let band =
-            AssumedBand::of(&[divided([0, 0, 1, 1, 1], &["a", "b"])], &Marks(marks)).unwrap();
+            AssumedBand::of(&[divided([0, 0, 1, 1, 1], &["a", "b"])], &EventIndicators(indicators))
+                .unwrap();
         assert!((band.greatest - 0.8).abs() < 1e-12 && (band.least - 1.0 / 3.0).abs() < 1e-12);
     }
 

@@ -7,11 +7,11 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::study::runs::Runs;
 
 use super::bootstrap;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate};
-use super::marks::{Mark, Marks, encounters, weights};
 
 /// Outcomes in the order of how bad they are.
 const OUTCOMES: [&str; 5] = ["no_contact", "shed", "parted_free", "parted_entangled", "entangled"];
@@ -51,8 +51,8 @@ struct End {
 impl Changes {
     /// Those of an option from another.
     #[must_use]
-    pub fn of(table: &Table, option: &str, baseline: &str) -> Self {
-        let (own, other) = (ends(table, option), ends(table, baseline));
+    pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
+        let (own, other) = (ends(runs, option), ends(runs, baseline));
         let pairs: Vec<[End; 2]> =
             other.iter().zip(&own).filter_map(|(other, own)| Some([(*other)?, (*own)?])).collect();
         let touching: Vec<[End; 2]> =
@@ -77,7 +77,7 @@ impl Changes {
 impl Change {
     fn of(label: &str, pairs: &[[End; 2]]) -> Self {
         let changed = pairs.iter().map(|[one, other]| {
-            Some(Mark { came: one.outcome != other.outcome, weight: one.weight })
+            Some(EventIndicator { occurred: one.outcome != other.outcome, weight: one.weight })
         });
         let weight: f64 = pairs.iter().map(|[one, _]| one.weight).sum();
         let every: Vec<usize> = (0..pairs.len()).collect();
@@ -86,7 +86,7 @@ impl Change {
         let ratio =
             |indices: &[usize]| sums(pairs, indices).map(|[baseline, own]| own / baseline - 1.0);
         Self {
-            outcome: Rate::of(&Marks(changed.collect())),
+            outcome: Rate::of(&EventIndicators(changed.collect())),
             mean_tension_n,
             tension: ratio(&every),
             tension_interval: bootstrap::interval(label, pairs.len(), ratio),
@@ -101,18 +101,13 @@ fn sums(pairs: &[[End; 2]], indices: &[usize]) -> Option<[f64; 2]> {
     (sum(0) > 0.0).then(|| [sum(0), sum(1)])
 }
 
-/// By encounter: the end of an option's run, where it counts.
-fn ends(table: &Table, option: &str) -> Vec<Option<End>> {
-    let (options, valid) = (table.texts("option"), table.flags("valid"));
-    let (outcomes, tensions) = (table.texts("outcome"), table.reals("peak_tension_N"));
-    let (encounters, weights) = (encounters(table), weights(table));
-    let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
-    for (row, encounter) in
-        encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
-    {
-        let outcome = OUTCOMES.iter().position(|known| *known == outcomes[row]);
-        let end = |(outcome, tension_n)| End { outcome, tension_n, weight: weights[row] };
-        found[*encounter] = outcome.zip(tensions[row]).map(end);
+/// By encounter: the end of an option's run, if it is valid.
+fn ends(runs: &Runs, option: &str) -> Vec<Option<End>> {
+    let mut found = vec![None; runs.encounters()];
+    for run in runs.valid_of(option) {
+        let outcome = OUTCOMES.iter().position(|known| *known == run.outcome);
+        let end = |(outcome, tension_n)| End { outcome, tension_n, weight: run.weight };
+        found[run.index()] = outcome.zip(run.peak_tension_n).map(end);
     }
     found
 }
@@ -120,25 +115,26 @@ fn ends(table: &Table, option: &str) -> Vec<Option<End>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Cell;
+    use crate::study::runs::RunRow;
 
     /// Encounter, option, whether it counts, outcome, greatest tension.
-    fn table(rows: &[(i64, &str, bool, &str, f64)]) -> Table {
-        let row = |(encounter, option, valid, outcome, tension): &(i64, &str, bool, &str, f64)| {
-            vec![
-                ("encounter".to_owned(), Cell::Whole(*encounter)),
-                ("option".to_owned(), Cell::Text((*option).to_owned())),
-                ("valid".to_owned(), Cell::Flag(*valid)),
-                ("outcome".to_owned(), Cell::Text((*outcome).to_owned())),
-                ("peak_tension_N".to_owned(), Cell::Real(Some(*tension))),
-            ]
-        };
-        Table::of(rows.iter().map(row).collect()).unwrap()
+    fn runs(rows: &[(u64, &str, bool, &str, f64)]) -> Runs {
+        let row =
+            |(encounter, option, valid, outcome, tension): &(u64, &str, bool, &str, f64)| RunRow {
+                encounter: *encounter,
+                option: (*option).to_owned(),
+                weight: 1.0,
+                valid: *valid,
+                outcome: (*outcome).to_owned(),
+                peak_tension_n: Some(*tension),
+                ..RunRow::default()
+            };
+        Runs::of_rows(rows.iter().map(row).collect())
     }
 
     #[test]
     fn outcomes_and_tensions_are_compared_encounter_by_encounter() {
-        let table = table(&[
+        let runs = runs(&[
             (0, "whole", true, "no_contact", 10.0),
             (0, "half", true, "no_contact", 10.0),
             (1, "whole", true, "shed", 100.0),
@@ -149,7 +145,7 @@ mod tests {
             (3, "half", true, "no_contact", 20.0),
             (3, "whole", true, "shed", 40.0),
         ]);
-        let changes = Changes::of(&table, "half", "whole");
+        let changes = Changes::of(&runs, "half", "whole");
         assert_eq!(
             changes.counts,
             [("no_contact", "no_contact", 1), ("shed", "no_contact", 1), ("shed", "entangled", 1)]
@@ -170,10 +166,10 @@ mod tests {
 
     #[test]
     fn an_option_and_itself_do_not_differ() {
-        let table = table(&[(0, "one", true, "shed", 7.0), (1, "one", true, "entangled", 9.0)]);
-        let changes = Changes::of(&table, "one", "one");
+        let runs = runs(&[(0, "one", true, "shed", 7.0), (1, "one", true, "entangled", 9.0)]);
+        let changes = Changes::of(&runs, "one", "one");
         assert_eq!(changes.all.outcome.hits, 0);
         assert_eq!(changes.all.tension.map(f64::to_bits), Some(0.0_f64.to_bits()));
-        assert_eq!(Changes::of(&Table::default(), "one", "one").all.tension, None);
+        assert_eq!(Changes::of(&Runs::default(), "one", "one").all.tension, None);
     }
 }

@@ -4,16 +4,16 @@ use endline_gear::Claim;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::study::runs::Runs;
 
 use super::bootstrap;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate};
-use super::marks::{Mark, Marks};
 use super::multiplicity::{holm, of_interval};
 use super::paired::Paired;
 use super::weighted::WeightedMean;
 
-/// What came of a claim.
+/// The result of a claim.
 #[derive(Clone, Copy, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -71,9 +71,9 @@ pub struct ClaimFinding {
     pub registered: bool,
 }
 
-/// Looks at every claim of a study; which of them are registered is left to the caller.
-pub(super) fn look_at_all(claims: &[Claim], table: &Table) -> Vec<ClaimFinding> {
-    let mut found: Vec<ClaimFinding> = claims.iter().map(|claim| look(claim, table)).collect();
+/// The findings of every claim of a study, all of them marked as registered.
+pub(super) fn assess_all(claims: &[Claim], runs: &Runs) -> Vec<ClaimFinding> {
+    let mut found: Vec<ClaimFinding> = claims.iter().map(|claim| assess(claim, runs)).collect();
     let probabilities: Vec<f64> = found.iter().map(|claim| claim.probability).collect();
     for (claim, adjusted) in found.iter_mut().zip(holm(&probabilities)) {
         claim.adjusted = adjusted;
@@ -91,11 +91,12 @@ fn verdict(interval: Interval, adjusted: f64) -> Verdict {
     }
 }
 
-fn look(claim: &Claim, table: &Table) -> ClaimFinding {
-    let marks = |options: &[String], event| {
-        options.iter().map(|option| Marks::of(table, option, event)).collect::<Vec<_>>()
+fn assess(claim: &Claim, runs: &Runs) -> ClaimFinding {
+    let indicators = |options: &[String], event| {
+        options.iter().map(|option| EventIndicators::of(runs, option, event)).collect::<Vec<_>>()
     };
-    let (more, less) = (marks(&claim.more, &claim.event), marks(&claim.less, &claim.less_event));
+    let (more, less) =
+        (indicators(&claim.more, &claim.event), indicators(&claim.less, &claim.less_event));
     let (difference, interval) = match (more.as_slice(), less.as_slice()) {
         ([more], [less]) => {
             let paired = Paired::of(more, less);
@@ -125,12 +126,14 @@ fn look(claim: &Claim, table: &Table) -> ClaimFinding {
 }
 
 /// The rate over several options, whose interval counts each encounter once.
-fn rate(label: &str, marks: &[Marks]) -> Rate {
-    let all = Rate::of(&Marks(marks.iter().flat_map(|marks| marks.0.clone()).collect()));
-    if marks.len() < 2 {
+fn rate(label: &str, indicators: &[EventIndicators]) -> Rate {
+    let all = Rate::of(&EventIndicators(
+        indicators.iter().flat_map(|indicators| indicators.0.clone()).collect(),
+    ));
+    if indicators.len() < 2 {
         return all;
     }
-    let shares = shares(marks);
+    let shares = shares(indicators);
     if all.hits == 0 || all.hits == all.runs {
         // Drawing again what never varies says nothing of chance.
         let counted = if all.hits == 0 { 0 } else { shares.len() as u64 };
@@ -140,17 +143,23 @@ fn rate(label: &str, marks: &[Marks]) -> Rate {
     interval.map_or(all, |interval| Rate { interval, ..all })
 }
 
-/// Share of the options in which the event came, by encounter with any run that counts; with what the encounter counts for.
-fn shares(marks: &[Marks]) -> Vec<(f64, f64)> {
-    let encounters = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
-    (0..encounters).filter_map(|encounter| share(marks, encounter)).collect()
+/// Share of the options in which the event occurred, by encounter with a valid run; with its weight.
+fn shares(indicators: &[EventIndicators]) -> Vec<(f64, f64)> {
+    let encounters =
+        indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default();
+    (0..encounters).filter_map(|encounter| share(indicators, encounter)).collect()
 }
 
-fn share(marks: &[Marks], encounter: usize) -> Option<(f64, f64)> {
-    let known: Vec<Mark> =
-        marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
+fn share(indicators: &[EventIndicators], encounter: usize) -> Option<(f64, f64)> {
+    let known: Vec<EventIndicator> = indicators
+        .iter()
+        .filter_map(|indicators| indicators.0.get(encounter).copied().flatten())
+        .collect();
     let weight = known.first()?.weight;
-    Some((known.iter().filter(|mark| mark.came).count() as f64 / known.len() as f64, weight))
+    Some((
+        known.iter().filter(|indicator| indicator.occurred).count() as f64 / known.len() as f64,
+        weight,
+    ))
 }
 
 fn mean(values: &[(f64, f64)], indices: &[usize]) -> Option<f64> {
@@ -159,8 +168,9 @@ fn mean(values: &[(f64, f64)], indices: &[usize]) -> Option<f64> {
 }
 
 /// Several options together: the difference of shares within each encounter, encounters drawn again for the interval.
-fn pooled(label: &str, more: &[Marks], less: &[Marks]) -> (f64, Interval) {
-    let encounters = more.iter().chain(less).map(|marks| marks.0.len()).max().unwrap_or_default();
+fn pooled(label: &str, more: &[EventIndicators], less: &[EventIndicators]) -> (f64, Interval) {
+    let encounters =
+        more.iter().chain(less).map(|indicators| indicators.0.len()).max().unwrap_or_default();
     let differences: Vec<(f64, f64)> = (0..encounters)
         .filter_map(|encounter| {
             let ((more, weight), (less, _)) = (share(more, encounter)?, share(less, encounter)?);

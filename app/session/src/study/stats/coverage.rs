@@ -6,8 +6,8 @@ use crate::encounters::density::weight;
 use crate::encounters::draw::Drawn;
 
 use super::bootstrap::Draws;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate};
-use super::marks::{Mark, Marks};
 use super::paired::Paired;
 
 /// Simulated studies.
@@ -16,7 +16,7 @@ const STUDIES: usize = 2000;
 /// Encounters of each.
 const ENCOUNTERS: usize = 300;
 
-/// Joint rates by whether the event came with an option and with the other.
+/// Joint rates by whether the event occurred with an option and with the other.
 const JOINT: [[f64; 2]; 2] = [[0.50, 0.20], [0.10, 0.20]];
 
 /// Draws the counts of a study.
@@ -114,9 +114,9 @@ fn rare_study(
     draws: &mut Draws,
     plain: bool,
     (encounters, elsewhere): (usize, f64),
-) -> [Marks; 2] {
+) -> [EventIndicators; 2] {
     let mut uniform = || draws.below(1 << 30) as f64 / f64::from(1 << 30);
-    let mut marks = [Marks::default(), Marks::default()];
+    let mut indicators = [EventIndicators::default(), EventIndicators::default()];
     for _ in 0..encounters {
         let share = uniform();
         let from_prior = plain || uniform() < study.from_priors;
@@ -134,12 +134,12 @@ fn rare_study(
         };
         let weight = if plain { 1.0 } else { weight(&study.priors, &[drawn], study.from_priors) };
         let by_chance = uniform();
-        for (marks, chance) in marks.iter_mut().zip([0.8, 0.5]) {
+        for (indicators, chance) in indicators.iter_mut().zip([0.8, 0.5]) {
             let chance = if offset < 0.02 { chance } else { elsewhere * chance };
-            marks.0.push(Some(Mark { came: by_chance < chance, weight }));
+            indicators.0.push(Some(EventIndicator { occurred: by_chance < chance, weight }));
         }
     }
-    marks
+    indicators
 }
 
 /// Rates of 1.6 and 1.0 % whose events all come where most encounters are drawn: importance sampling covers them as plain sampling does, with

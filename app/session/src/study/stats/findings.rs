@@ -1,4 +1,4 @@
-//! All that a report tells of a merged table.
+//! All that a report contains about the runs of a study.
 
 use std::collections::BTreeSet;
 
@@ -9,13 +9,14 @@ use serde::Serialize;
 use crate::strength::PartStrength;
 use crate::study::prepared::Opened;
 use crate::study::registration::Registration;
-use crate::table::{Column, Table};
+use crate::study::runs::{RunRow, Runs};
+use crate::table::Column;
 
 use super::bands::{self, Bands};
 use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
+use super::indicators::EventIndicators;
 use super::interval::Rate;
-use super::marks::{Marks, encounters};
 use super::multiplicity::holm;
 use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
@@ -60,7 +61,7 @@ pub struct Findings {
     pub inputs: Vec<InputFinding>,
 }
 
-/// What came of an option.
+/// The results of an option.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct OptionFinding {
     /// Id.
@@ -144,19 +145,20 @@ impl Findings {
         options.filter(|(index, _)| *index != self.baseline).map(|(_, option)| option)
     }
 
-    /// Everything there is to tell of a study's table; `registration` is what its folder kept.
+    /// The findings of a study's runs; `registration` is that of its folder.
     #[must_use]
-    pub fn of(opened: &Opened, table: &Table, registration: &Registration) -> Self {
+    pub fn of(opened: &Opened, runs: &Runs, registration: &Registration) -> Self {
         let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
         let event = &opened.study.event;
-        let marks: Vec<Marks> = ids.iter().map(|id| Marks::of(table, id, event)).collect();
-        let lowest = sensitivity::lowest(&marks);
+        let indicators: Vec<EventIndicators> =
+            ids.iter().map(|id| EventIndicators::of(runs, id, event)).collect();
+        let lowest = sensitivity::lowest(&indicators);
         let mut options: Vec<OptionFinding> =
-            (0..ids.len()).map(|option| found(opened, table, option)).collect();
+            (0..ids.len()).map(|option| found(opened, runs, option)).collect();
         options.iter_mut().zip(lowest).for_each(|(option, lowest)| option.lowest = lowest);
         let comparisons = adjust(&mut options, opened.baseline, registration);
         let now = Registration::of(&opened.study);
-        let mut claims = claims::look_at_all(&opened.study.claims, table);
+        let mut claims = claims::assess_all(&opened.study.claims, runs);
         claims
             .iter_mut()
             .for_each(|claim| claim.registered = registration.has_claim(&now, &claim.id));
@@ -164,14 +166,14 @@ impl Findings {
             schema: SCHEMA,
             study: opened.study.id.clone(),
             hash: opened.hash.clone(),
-            encounters: encounters(table).iter().max().map_or(0, |last| *last as u64 + 1),
+            encounters: runs.encounters() as u64,
             event: event.name(),
             registration: registration.clone(),
             comparisons,
             baseline: opened.baseline,
             options,
-            levels: levels(opened, table, &marks),
-            bands: bands::look(opened, table, registration),
+            levels: levels(opened, runs, &indicators),
+            bands: bands::of_registered(opened, runs, registration),
             claims,
             observations: opened
                 .study
@@ -179,10 +181,15 @@ impl Findings {
                 .iter()
                 .map(|seen| ObservationFinding {
                     registered: registration.has_observation(&now, &seen.id.value),
-                    ..observations::look(seen, table, &ids[opened.baseline])
+                    ..observations::compare(seen, runs, &ids[opened.baseline])
                 })
                 .collect(),
-            inputs: sensitivity::look(table, &opened.study.priors, &marks, opened.baseline),
+            inputs: sensitivity::of_inputs(
+                runs,
+                &opened.study.priors,
+                &indicators,
+                opened.baseline,
+            ),
         }
     }
 
@@ -215,70 +222,67 @@ fn adjust(options: &mut [OptionFinding], baseline: usize, registration: &Registr
     count
 }
 
-fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
+fn found(opened: &Opened, runs: &Runs, option: usize) -> OptionFinding {
     let (plan, baseline) = (&opened.options[option], &opened.options[opened.baseline].id);
-    let own = |row: &usize| table.texts("option")[*row] == plan.id;
-    let rows: Vec<usize> = (0..table.rows()).filter(own).collect();
-    let count = |flag: &str, wanted: bool| {
-        rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64
-    };
-    let sum = |name: &str| {
-        let looks = table.wholes(name);
-        rows.iter().filter_map(|row| u64::try_from(*looks.get(*row)?).ok()).sum()
-    };
+    let own: Vec<&RunRow> = runs.rows().iter().filter(|run| run.option == plan.id).collect();
+    let count = |is_it: fn(&RunRow) -> bool| own.iter().filter(|run| is_it(run)).count() as u64;
+    let sum = |of: fn(&RunRow) -> u64| own.iter().map(|run| of(run)).sum();
     let events = StudyEvent::all();
-    let marks = |event: &StudyEvent| Marks::of(table, &plan.id, event);
+    let indicators = |event: &StudyEvent| EventIndicators::of(runs, &plan.id, event);
     let paired = |event: &StudyEvent| {
-        (event.name(), Paired::of(&marks(event), &Marks::of(table, baseline, event)))
+        (event.name(), Paired::of(&indicators(event), &EventIndicators::of(runs, baseline, event)))
     };
-    let undecided = rows
-        .iter()
-        .filter(|row| table.flags("valid")[**row] && !table.flags("decided")[**row])
-        .count() as u64;
     OptionFinding {
         id: plan.id.clone(),
         name: plan.name.clone(),
         strength_n: plan.strength_n,
         curve: plan.curve.clone(),
-        invalid: count("valid", false),
-        undecided,
-        resolution: Looks { all: sum("resolution_looks"), missed: sum("resolution_missed") },
-        rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
+        invalid: count(|run| !run.valid),
+        undecided: count(|run| run.valid && !run.decided),
+        resolution: Looks {
+            all: sum(|run| run.resolution_looks),
+            missed: sum(|run| run.resolution_missed),
+        },
+        rates: events.iter().map(|event| (event.name(), Rate::of(&indicators(event)))).collect(),
         against: events.iter().map(paired).collect(),
         adjusted: Vec::new(),
-        changes: Changes::of(table, &plan.id, baseline),
-        tensions: Tensions::of(table, &plan.id, baseline),
-        survival: Survival::of(table, &plan.id),
+        changes: Changes::of(runs, &plan.id, baseline),
+        tensions: Tensions::of(runs, &plan.id, baseline),
+        survival: Survival::of(runs, &plan.id),
         strengths: plan.prepared.strengths.iter().map(PartStrength::from).collect(),
         lowest: Lowest::default(),
     }
 }
 
-fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> {
+fn levels(opened: &Opened, runs: &Runs, indicators: &[EventIndicators]) -> Vec<LevelFinding> {
     let Some(split) = &opened.study.split else { return Vec::new() };
-    let Some(column) = table.column(&format!("drawn_{}", split.value)) else { return Vec::new() };
-    let encounters = encounters(table);
-    let mut levels: Vec<String> = (0..table.rows()).map(|row| level(column, row)).collect();
+    let Some(column) = runs.drawn(&split.value) else { return Vec::new() };
+    let mut levels: Vec<String> = (0..column.len()).map(|row| level(column, row)).collect();
     levels.sort();
     levels.dedup();
-    let parted: Vec<Marks> = opened
+    let parted: Vec<EventIndicators> = opened
         .options
         .iter()
-        .map(|option| Marks::of(table, &option.id, &StudyEvent::Parted))
+        .map(|option| EventIndicators::of(runs, &option.id, &StudyEvent::Parted))
         .collect();
     let finding = |level_name: String| {
         let mut keep =
-            vec![false; marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default()];
-        encounters
-            .iter()
-            .enumerate()
-            .filter(|(row, _)| level(column, *row) == level_name)
-            .for_each(|(_, encounter)| keep[*encounter] = true);
-        let own: Vec<Marks> = marks.iter().map(|marks| marks.within(&keep)).collect();
+            vec![
+                false;
+                indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default()
+            ];
+        let rows = runs.rows().iter().enumerate();
+        rows.filter(|(row, _)| level(column, *row) == level_name)
+            .for_each(|(_, run)| keep[run.index()] = true);
+        let own: Vec<EventIndicators> =
+            indicators.iter().map(|indicators| indicators.within(&keep)).collect();
         LevelFinding {
             rates: own.iter().map(Rate::of).collect(),
-            against: own.iter().map(|marks| Paired::of(marks, &own[opened.baseline])).collect(),
-            parted: parted.iter().map(|marks| Rate::of(&marks.within(&keep))).collect(),
+            against: own
+                .iter()
+                .map(|indicators| Paired::of(indicators, &own[opened.baseline]))
+                .collect(),
+            parted: parted.iter().map(|indicators| Rate::of(&indicators.within(&keep))).collect(),
             level: level_words(opened, &split.value, &level_name),
         }
     };

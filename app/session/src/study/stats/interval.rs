@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Gamma, Normal};
 
-use super::marks::Marks;
+use super::indicators::EventIndicators;
 use super::weighted::WeightedMean;
 
 /// An interval of 95 %.
@@ -37,7 +37,7 @@ impl Interval {
     }
 }
 
-/// How often an event came in the runs that count.
+/// How often an event occurred in the valid runs.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Rate {
     /// Runs with the event.
@@ -63,18 +63,18 @@ pub(super) fn z95() -> f64 {
 }
 
 impl Rate {
-    /// The rate of marks.
+    /// The rate of indicators.
     #[must_use]
-    pub fn of(marks: &Marks) -> Self {
-        let known = || marks.0.iter().flatten();
+    pub fn of(indicators: &EventIndicators) -> Self {
+        let known = || indicators.0.iter().flatten();
         let (hits, runs) =
-            (known().filter(|mark| mark.came).count() as u64, known().count() as u64);
-        let values = marks.values();
+            (known().filter(|indicator| indicator.occurred).count() as u64, known().count() as u64);
+        let values = indicators.values();
         let WeightedMean { mean, effective } = WeightedMean::of(&values);
         let mut rate = Self::from_share(hits, runs, mean, effective);
         if is_uneven(&values) {
             let without: Vec<(f64, f64)> =
-                values.iter().map(|(came, weight)| (1.0 - came, *weight)).collect();
+                values.iter().map(|(occurred, weight)| (1.0 - occurred, *weight)).collect();
             if are_few(&values) {
                 rate.interval.high = rate.interval.high.max(most(&values));
             }
@@ -119,18 +119,21 @@ pub(super) fn is_uneven<T>(values: &[(T, f64)]) -> bool {
 /// Whether few events are of encounters that count for much.
 pub(super) fn are_few(values: &[(f64, f64)]) -> bool {
     let greatest = values.iter().map(|(_, weight)| *weight).fold(0.0, f64::max);
-    values.iter().filter(|(came, weight)| *came > 0.0 && *weight >= 0.5 * greatest).count() < FEW
+    values.iter().filter(|(occurred, weight)| *occurred > 0.0 && *weight >= 0.5 * greatest).count()
+        < FEW
 }
 
 /// Upper end of the interval of a rare event by Fay and Feuer; 1 where it cannot be told.
 fn most(values: &[(f64, f64)]) -> f64 {
     let all: f64 = values.iter().map(|(_, weight)| weight).sum();
     let greatest = values.iter().map(|(_, weight)| weight / all).fold(0.0, f64::max);
-    let (mean, variance) =
-        values.iter().fold((greatest, greatest * greatest), |(mean, variance), (came, weight)| {
-            let share = came * weight / all;
+    let (mean, variance) = values.iter().fold(
+        (greatest, greatest * greatest),
+        |(mean, variance), (occurred, weight)| {
+            let share = occurred * weight / all;
             (mean + share, variance + share * share)
-        });
+        },
+    );
     let law = Gamma::new(mean * mean / variance, mean / variance);
     law.map_or(1.0, |law| law.inverse_cdf(0.975).min(1.0))
 }

@@ -12,8 +12,8 @@ pub(super) mod bootstrap;
 mod changes;
 mod claims;
 mod findings;
+mod indicators;
 mod interval;
-mod marks;
 mod multiplicity;
 mod observations;
 mod paired;
@@ -31,8 +31,8 @@ pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, Looks, OptionFinding};
+pub use indicators::{EventIndicator, EventIndicators};
 pub use interval::{Interval, Rate};
-pub use marks::{Mark, Marks};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
 pub use sensitivity::{InputFinding, Lowest, Part};
@@ -43,13 +43,13 @@ pub use tensions::Tensions;
 use endline_gear::StudyEvent;
 
 use super::plan::OptionPlan;
-use crate::table::Table;
+use crate::study::runs::Runs;
 
 /// Whether the interval of an event's rate is narrower than `width` in every option.
 #[must_use]
-pub fn is_narrow(table: &Table, options: &[OptionPlan], event: &StudyEvent, width: f64) -> bool {
+pub fn is_narrow(runs: &Runs, options: &[OptionPlan], event: &StudyEvent, width: f64) -> bool {
     options.iter().all(|option| {
-        let rate = Rate::of(&Marks::of(table, &option.id, event));
+        let rate = Rate::of(&EventIndicators::of(runs, &option.id, event));
         rate.runs > 0 && rate.interval.high - rate.interval.low < width
     })
 }

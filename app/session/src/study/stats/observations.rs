@@ -9,10 +9,10 @@ use endline_gear::ObservedShare;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::study::runs::Runs;
 
+use super::indicators::EventIndicators;
 use super::interval::{Interval, Rate, z95};
-use super::marks::Marks;
 use super::paired::Paired;
 
 /// Encounters asked about below which nothing agrees.
@@ -71,21 +71,21 @@ pub struct ObservationFinding {
     pub notes: String,
 }
 
-/// Looks at an observation.
-pub(super) fn look(
+/// Compares an observation with the runs of a study.
+pub(super) fn compare(
     observation: &ObservedShare,
-    table: &Table,
+    runs: &Runs,
     baseline: &str,
 ) -> ObservationFinding {
     let option = observation.option.as_deref().unwrap_or(baseline);
-    let own = marks(observation, table, option);
+    let own = indicators(observation, runs, option);
     let rate = Rate::of(&own);
     let (rate, simulated, interval) = match &observation.fewer_with {
         None => (rate, (rate.runs > 0).then_some(rate.rate), rate.interval),
         Some(fewer) if observation.among.is_some() => {
-            fewer_apart(rate, Rate::of(&marks(observation, table, fewer)))
+            fewer_apart(rate, Rate::of(&indicators(observation, runs, fewer)))
         }
-        Some(fewer) => fewer_by(&own, &marks(observation, table, fewer)),
+        Some(fewer) => fewer_by(&own, &indicators(observation, runs, fewer)),
     };
     let times = |value: f64| observation.times * value;
     let simulated = simulated.map(times);
@@ -119,17 +119,17 @@ fn is_thin(rate: &Rate) -> bool {
     weighted && (1..LEAST).contains(&rate.hits)
 }
 
-/// The event's marks in an option, of the encounters that are asked about.
-fn marks(observation: &ObservedShare, table: &Table, option: &str) -> Marks {
-    let own = Marks::of(table, option, &observation.of);
+/// The event's indicators in an option, of the encounters that are asked about.
+fn indicators(observation: &ObservedShare, runs: &Runs, option: &str) -> EventIndicators {
+    let own = EventIndicators::of(runs, option, &observation.of);
     match &observation.among {
         None => own,
-        Some(among) => own.within(&Marks::of(table, option, among).came()),
+        Some(among) => own.within(&EventIndicators::of(runs, option, among).occurred()),
     }
 }
 
 /// By what share an event is rarer with one option than with another.
-fn fewer_by(own: &Marks, fewer: &Marks) -> (Rate, Option<f64>, Interval) {
+fn fewer_by(own: &EventIndicators, fewer: &EventIndicators) -> (Rate, Option<f64>, Interval) {
     let paired = Paired::of(fewer, own);
     let interval =
         paired.ratio_interval.map_or(Interval { low: f64::NEG_INFINITY, high: 1.0 }, |ratio| {
@@ -192,7 +192,7 @@ fn counted(observation: &ObservedShare, option: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::marks::Mark;
+    use super::super::indicators::EventIndicator;
     use super::*;
 
     #[test]
@@ -213,11 +213,11 @@ mod tests {
     #[test]
     fn a_few_events_of_unlike_weight_settle_nothing() {
         let of = |hits: usize, weight: f64| {
-            let mark = |index: usize| {
-                let came = index < hits;
-                Some(Mark { came, weight: if came { weight } else { 1.0 } })
+            let indicator = |index: usize| {
+                let occurred = index < hits;
+                Some(EventIndicator { occurred, weight: if occurred { weight } else { 1.0 } })
             };
-            Rate::of(&Marks((0..94).map(mark).collect()))
+            Rate::of(&EventIndicators((0..94).map(indicator).collect()))
         };
         assert!(is_thin(&of(1, 0.06)) && is_thin(&of(9, 0.06)));
         assert!(!is_thin(&of(10, 0.06)) && !is_thin(&of(0, 0.06)) && !is_thin(&of(1, 1.0)));
@@ -237,11 +237,12 @@ mod tests {
 
     #[test]
     fn fewer_is_one_less_the_ratio_of_the_same_encounters() {
-        let marks = |hits: usize| Marks::even((0..100).map(|index| Some(index < hits)));
-        let (rate, fewer, interval) = fewer_by(&marks(40), &marks(10));
+        let indicators =
+            |hits: usize| EventIndicators::even((0..100).map(|index| Some(index < hits)));
+        let (rate, fewer, interval) = fewer_by(&indicators(40), &indicators(10));
         assert_eq!((rate.hits, rate.runs), (10, 100));
         assert!((fewer.unwrap() - 0.75).abs() < 1e-12);
         assert!(interval.low < 0.75 && interval.high > 0.75 && interval.high < 1.0);
-        assert_eq!(fewer_by(&marks(0), &marks(0)).1, None);
+        assert_eq!(fewer_by(&indicators(0), &indicators(0)).1, None);
     }
 }

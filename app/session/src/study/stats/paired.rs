@@ -14,8 +14,8 @@ use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF};
 
 use super::better::probability_fewer;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate, are_few, is_uneven, z95};
-use super::marks::{Mark, Marks};
 use super::weighted::WeightedMean;
 
 /// An option compared with another.
@@ -48,12 +48,12 @@ pub struct Paired {
 }
 
 impl Paired {
-    /// Compares the marks of an option with those of another.
+    /// Compares the indicators of an option with those of another.
     #[must_use]
-    pub fn of(this: &Marks, other: &Marks) -> Self {
+    pub fn of(this: &EventIndicators, other: &EventIndicators) -> Self {
         let both = this.0.iter().zip(&other.0).filter_map(|(this, other)| {
             let (this, other) = ((*this)?, (*other)?);
-            Some(([this.came, other.came], this.weight))
+            Some(([this.occurred, other.occurred], this.weight))
         });
         let both: Vec<([bool; 2], f64)> = both.collect();
         let mut counts = [[0_u64; 2]; 2];
@@ -73,12 +73,14 @@ impl Paired {
     /// With intervals that reach as far as those of the two rates of encounters that differ, where there are few of them.
     fn widened(mut self, both: &[([bool; 2], f64)], [[_, c], [_, a]]: [[f64; 2]; 2]) -> Self {
         let rate = |wanted: [bool; 2]| {
-            let mark = |(came, weight): &([bool; 2], f64)| {
-                Some(Mark { came: *came == wanted, weight: *weight })
+            let indicator = |(occurred, weight): &([bool; 2], f64)| {
+                Some(EventIndicator { occurred: *occurred == wanted, weight: *weight })
             };
-            Rate::of(&Marks(both.iter().map(mark).collect()))
+            Rate::of(&EventIndicators(both.iter().map(indicator).collect()))
         };
-        let differ = |(came, weight): &([bool; 2], f64)| (f64::from(came[0] != came[1]), *weight);
+        let differ = |(occurred, weight): &([bool; 2], f64)| {
+            (f64::from(occurred[0] != occurred[1]), *weight)
+        };
         if !is_uneven(both) || !are_few(&both.iter().map(differ).collect::<Vec<_>>()) {
             return self;
         }
@@ -97,7 +99,7 @@ impl Paired {
         self
     }
 
-    /// From counts by whether the event came with the option and with the other.
+    /// From counts by whether the event occurred with the option and with the other.
     #[must_use]
     pub fn from_counts(counts: [[u64; 2]; 2]) -> Self {
         let effective = counts.map(|row| row.map(|count| count as f64));
@@ -134,7 +136,7 @@ impl Paired {
     }
 }
 
-/// Shares of the weight by whether the event came with the option and with the other.
+/// Shares of the weight by whether the event occurred with the option and with the other.
 fn shares(both: &[([bool; 2], f64)]) -> [[f64; 2]; 2] {
     let all: f64 = both.iter().map(|(_, weight)| weight).sum();
     let mut shares = [[0.0; 2]; 2];
@@ -185,8 +187,10 @@ mod tests {
 
     #[test]
     fn an_option_and_itself_differ_by_exactly_nothing() {
-        let marks = Marks::even((0..300).map(|index| (index % 17 != 0).then_some(index % 3 == 0)));
-        let same = Paired::of(&marks, &marks);
+        let indicators = EventIndicators::even(
+            (0..300).map(|index| (index % 17 != 0).then_some(index % 3 == 0)),
+        );
+        let same = Paired::of(&indicators, &indicators);
         assert_eq!(same.difference.to_bits(), 0.0_f64.to_bits());
         assert_eq!(same.ratio.map(f64::to_bits), Some(1.0_f64.to_bits()));
         assert_eq!((same.only_this, same.only_other, same.encounters), (0, 0, 282));

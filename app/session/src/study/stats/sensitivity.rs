@@ -9,11 +9,12 @@ use serde::Serialize;
 
 use endline_gear::Prior;
 
-use crate::table::{Column, Table};
+use crate::study::runs::Runs;
+use crate::table::Column;
 
 use super::bootstrap::{Draws, RESAMPLES};
+use super::indicators::EventIndicators;
 use super::interval::Rate;
-use super::marks::{Marks, encounters};
 use super::sobol::{SobolIndex, classes};
 
 /// Part of an input's range.
@@ -47,16 +48,16 @@ pub struct InputFinding {
 }
 
 /// Every input that varies, that with the greatest span first.
-pub(super) fn look(
-    table: &Table,
+pub(super) fn of_inputs(
+    runs: &Runs,
     priors: &[Prior],
-    marks: &[Marks],
+    indicators: &[EventIndicators],
     baseline: usize,
 ) -> Vec<InputFinding> {
     let of = |prior: &Prior| {
-        let (column, parts) = (column_of(prior, table)?, parts_of(prior, table)?);
-        let sobol = index(&prior.name.value, table, column, &marks[baseline]);
-        input(prior, parts, sobol, marks, baseline)
+        let (column, parts) = (column_of(prior, runs)?, parts_of(prior, runs)?);
+        let sobol = index(&prior.name.value, runs, column, &indicators[baseline]);
+        input(prior, parts, sobol, indicators, baseline)
     };
     let mut found: Vec<InputFinding> = priors.iter().filter_map(of).collect();
     found.sort_by(|one, other| other.span.total_cmp(&one.span));
@@ -67,20 +68,20 @@ fn input(
     prior: &Prior,
     parts: Vec<(String, Vec<bool>)>,
     sobol: SobolIndex,
-    marks: &[Marks],
+    indicators: &[EventIndicators],
     baseline: usize,
 ) -> Option<InputFinding> {
     if parts.len() < 2 {
         return None;
     }
     let parts: Vec<Part> =
-        parts.into_iter().map(|(name, keep)| part(name, &keep, marks, baseline)).collect();
+        parts.into_iter().map(|(name, keep)| part(name, &keep, indicators, baseline)).collect();
     let rates = || parts.iter().filter(|part| part.rate.runs > 0).map(|part| part.rate.rate);
     let span = rates().fold(0.0, f64::max) - rates().fold(1.0, f64::min);
     let best = |part: &Part, option: usize| {
         part.by_option.iter().all(|other| part.by_option[option].rate <= other.rate)
     };
-    let same_best = (0..marks.len()).any(|option| parts.iter().all(|part| best(part, option)));
+    let same_best = (0..indicators.len()).any(|option| parts.iter().all(|part| best(part, option)));
     Some(InputFinding {
         name: prior.name.value.clone(),
         words: prior.words(),
@@ -92,20 +93,19 @@ fn input(
 }
 
 /// The Sobol index of an input over the encounters whose run with the baseline counts.
-fn index(name: &str, table: &Table, column: &Column, marks: &Marks) -> SobolIndex {
-    let encounters = encounters(table);
-    let mut row_of = vec![None; marks.0.len()];
-    for (row, encounter) in encounters.iter().enumerate() {
-        if let Some(place) = row_of.get_mut(*encounter) {
+fn index(name: &str, runs: &Runs, column: &Column, indicators: &EventIndicators) -> SobolIndex {
+    let mut row_of = vec![None; indicators.0.len()];
+    for (row, run) in runs.rows().iter().enumerate() {
+        if let Some(place) = row_of.get_mut(run.index()) {
             *place = Some(row);
         }
     }
     let known: Vec<(usize, (f64, f64))> = row_of
         .into_iter()
-        .zip(&marks.0)
-        .filter_map(|(row, mark)| {
-            let (row, mark) = (row?, (*mark)?);
-            Some((row, (f64::from(mark.came), mark.weight)))
+        .zip(&indicators.0)
+        .filter_map(|(row, indicator)| {
+            let (row, indicator) = (row?, (*indicator)?);
+            Some((row, (f64::from(indicator.occurred), indicator.weight)))
         })
         .collect();
     let (rows, values): (Vec<usize>, Vec<(f64, f64)>) = known.into_iter().unzip();
@@ -127,8 +127,9 @@ fn levels_of(texts: &[&String]) -> Vec<usize> {
     texts.iter().map(|text| levels.partition_point(|level| level < text)).collect()
 }
 
-fn part(name: String, keep: &[bool], marks: &[Marks], baseline: usize) -> Part {
-    let own: Vec<Marks> = marks.iter().map(|marks| marks.within(keep)).collect();
+fn part(name: String, keep: &[bool], indicators: &[EventIndicators], baseline: usize) -> Part {
+    let own: Vec<EventIndicators> =
+        indicators.iter().map(|indicators| indicators.within(keep)).collect();
     let by_option: Vec<Rate> = own.iter().map(Rate::of).collect();
     let rate = by_option[baseline];
     Part {
@@ -147,27 +148,22 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
 }
 
 /// What was drawn of an input.
-fn column_of<'a>(prior: &Prior, table: &'a Table) -> Option<&'a Column> {
-    table.column(&format!("drawn_{}", prior.name.value))
+fn column_of<'a>(prior: &Prior, runs: &'a Runs) -> Option<&'a Column> {
+    runs.drawn(&prior.name.value)
 }
 
 /// The encounters of each part of an input: its levels, or the lower and upper half of its range.
-pub(super) fn parts_of(prior: &Prior, table: &Table) -> Option<Vec<(String, Vec<bool>)>> {
-    let column = column_of(prior, table)?;
-    Some(parts(table, column, &|number| prior.law.written(number)))
+pub(super) fn parts_of(prior: &Prior, runs: &Runs) -> Option<Vec<(String, Vec<bool>)>> {
+    let column = column_of(prior, runs)?;
+    Some(parts(runs, column, &|number| prior.law.written(number)))
 }
 
 /// The encounters of each part of an input, whose numbers `words` puts in words.
-fn parts(
-    table: &Table,
-    column: &Column,
-    words: &dyn Fn(f64) -> String,
-) -> Vec<(String, Vec<bool>)> {
-    let encounters = encounters(table);
-    let count = encounters.iter().max().map_or(0, |last| last + 1);
+fn parts(runs: &Runs, column: &Column, words: &dyn Fn(f64) -> String) -> Vec<(String, Vec<bool>)> {
     let keep = |belongs: &dyn Fn(usize) -> bool| {
-        let mut keep = vec![false; count];
-        encounters.iter().enumerate().for_each(|(row, encounter)| keep[*encounter] |= belongs(row));
+        let mut keep = vec![false; runs.encounters()];
+        let rows = runs.rows().iter().enumerate();
+        rows.for_each(|(row, run)| keep[run.index()] |= belongs(row));
         keep
     };
     match column {
@@ -227,21 +223,22 @@ pub struct Lowest {
 }
 
 /// How often each option has the lowest rate when encounters are drawn again.
-pub(super) fn lowest(marks: &[Marks]) -> Vec<Lowest> {
-    let count = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
+pub(super) fn lowest(indicators: &[EventIndicators]) -> Vec<Lowest> {
+    let count = indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default();
     let mut draws = Draws::of("ranking");
-    let mut counts = vec![[0_u32; 2]; marks.len()];
+    let mut counts = vec![[0_u32; 2]; indicators.len()];
     let mut indices = vec![0; count];
     for _ in 0..RESAMPLES {
         indices.iter_mut().for_each(|index| *index = draws.below(count));
-        let rate = |marks: &Marks| {
-            let known = indices.iter().filter_map(|index| marks.0.get(*index).copied().flatten());
-            let (hits, all) = known.fold((0.0, 0.0), |(hits, all), mark| {
-                (hits + f64::from(mark.came) * mark.weight, all + mark.weight)
+        let rate = |indicators: &EventIndicators| {
+            let known =
+                indices.iter().filter_map(|index| indicators.0.get(*index).copied().flatten());
+            let (hits, all) = known.fold((0.0, 0.0), |(hits, all), indicator| {
+                (hits + f64::from(indicator.occurred) * indicator.weight, all + indicator.weight)
             });
             if all > 0.0 { hits / all } else { 0.0 }
         };
-        let rates: Vec<f64> = marks.iter().map(rate).collect();
+        let rates: Vec<f64> = indicators.iter().map(rate).collect();
         let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
         let have = |rate: &f64| *rate <= least;
         let tied = usize::from(rates.iter().filter(|rate| have(rate)).count() > 1);

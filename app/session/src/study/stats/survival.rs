@@ -10,13 +10,12 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::study::runs::{RunRow, Runs};
 
 use super::interval::{Interval, Rate, z95};
-use super::marks::weights;
 use super::weighted::kish;
 
-/// Outcomes of whales that came free.
+/// Outcomes of released whales.
 const RELEASED: [&str; 2] = ["shed", "parted_free"];
 
 /// Shares still held, by time since first contact.
@@ -24,7 +23,7 @@ const RELEASED: [&str; 2] = ["shed", "parted_free"];
 pub struct Survival {
     /// Whales that rope touched.
     pub touched: u64,
-    /// Those of them that came free while they were followed.
+    /// Those of them that were released while they were followed.
     pub released: u64,
     /// A step for each release time, by time.
     pub steps: Vec<HeldShare>,
@@ -43,34 +42,28 @@ pub struct HeldShare {
     pub interval: Interval,
 }
 
-/// How long a whale was followed, and whether it came free then.
+/// How long a whale was followed, and whether it was then released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Followed {
     /// From first contact to release, or to the end of the run [s].
     pub time_s: f64,
-    /// Whether it came free.
+    /// Whether it was released.
     pub released: bool,
-    /// What its encounter counts for.
+    /// Weight of its encounter.
     pub weight: f64,
 }
 
 impl Survival {
     /// Of an option's runs that count.
     #[must_use]
-    pub fn of(table: &Table, option: &str) -> Self {
-        let (options, valid) = (table.texts("option"), table.flags("valid"));
-        let (outcomes, weights) = (table.texts("outcome"), weights(table));
-        let column = |name: &str| table.reals(name);
-        let (first, last, end) =
-            (column("first_contact_s"), column("last_contact_s"), column("simulated_s"));
-        let followed = |row: usize| {
-            let released = RELEASED.contains(&outcomes[row].as_str());
-            let until = if released { last[row] } else { end[row] };
-            let time_s = (until? - first[row]?).max(0.0);
-            Some(Followed { time_s, released, weight: weights[row] })
+    pub fn of(runs: &Runs, option: &str) -> Self {
+        let followed = |run: &RunRow| {
+            let released = RELEASED.contains(&run.outcome.as_str());
+            let until = if released { run.last_contact_s } else { run.simulated_s };
+            let time_s = (until? - run.first_contact_s?).max(0.0);
+            Some(Followed { time_s, released, weight: run.weight })
         };
-        let rows = (0..table.rows()).filter(|row| options[*row] == option && valid[*row]);
-        Self::from_followed(rows.filter_map(followed).collect())
+        Self::from_followed(runs.valid_of(option).filter_map(followed).collect())
     }
 
     /// Of whales that were followed.

@@ -3,11 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::study::runs::Runs;
 
 use super::bootstrap;
 use super::interval::Interval;
-use super::marks::{encounters, weights};
 use super::weighted::quantile;
 
 /// Greatest tensions of an option's runs [N].
@@ -24,8 +23,8 @@ pub struct Tensions {
 impl Tensions {
     /// Those of an option, compared with another's.
     #[must_use]
-    pub fn of(table: &Table, option: &str, baseline: &str) -> Self {
-        let (own, other) = (by_encounter(table, option), by_encounter(table, baseline));
+    pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
+        let (own, other) = (by_encounter(runs, option), by_encounter(runs, baseline));
         let mut sorted_n: Vec<(f64, f64)> = own.iter().flatten().copied().collect();
         sort(&mut sorted_n);
         let differences: Vec<(f64, f64)> = own
@@ -67,16 +66,11 @@ impl Tensions {
     }
 }
 
-/// By encounter: the greatest tension and what the encounter counts for.
-fn by_encounter(table: &Table, option: &str) -> Vec<Option<(f64, f64)>> {
-    let (options, valid, tensions) =
-        (table.texts("option"), table.flags("valid"), table.reals("peak_tension_N"));
-    let (encounters, weights) = (encounters(table), weights(table));
-    let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
-    for (row, encounter) in
-        encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
-    {
-        found[*encounter] = tensions[row].map(|tension| (tension, weights[row]));
+/// By encounter: the greatest tension and the weight.
+fn by_encounter(runs: &Runs, option: &str) -> Vec<Option<(f64, f64)>> {
+    let mut found = vec![None; runs.encounters()];
+    for run in runs.valid_of(option) {
+        found[run.index()] = run.peak_tension_n.map(|tension| (tension, run.weight));
     }
     found
 }

@@ -8,7 +8,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::stats::{Interval, Mark, Marks, bootstrap};
+use crate::study::stats::{EventIndicator, EventIndicators, Interval, bootstrap};
 
 use super::Threat;
 use super::poll::Poll;
@@ -27,15 +27,17 @@ pub struct Tau {
 }
 
 /// The agreement of simulated rows with a poll; none where they share too little for an order.
-pub(super) fn against(poll: &Poll, rows: &[(Threat, Marks)]) -> Option<Tau> {
-    let shared: Vec<(f64, &Marks)> =
-        rows.iter().filter_map(|(row, marks)| Some((poll.find(row.key())?.risk, marks))).collect();
+pub(super) fn against(poll: &Poll, rows: &[(Threat, EventIndicators)]) -> Option<Tau> {
+    let shared: Vec<(f64, &EventIndicators)> = rows
+        .iter()
+        .filter_map(|(row, indicators)| Some((poll.find(row.key())?.risk, indicators)))
+        .collect();
     let polled: Vec<f64> = shared.iter().map(|(risk, _)| *risk).collect();
     let risks = |indices: Option<&[usize]>| -> Vec<f64> {
-        shared.iter().map(|(_, marks)| rate(marks, indices)).collect()
+        shared.iter().map(|(_, indicators)| rate(indicators, indices)).collect()
     };
     let simulated = risks(None);
-    let count = shared.iter().map(|(_, marks)| marks.0.len()).max()?;
+    let count = shared.iter().map(|(_, indicators)| indicators.0.len()).max()?;
     Some(Tau {
         tau: tau(&polled, &simulated)?,
         interval: bootstrap::interval("threat", count, |indices| {
@@ -47,17 +49,17 @@ pub(super) fn against(poll: &Poll, rows: &[(Threat, Marks)]) -> Option<Tau> {
 }
 
 /// Weighted rate in encounters drawn again, or in each once.
-fn rate(marks: &Marks, indices: Option<&[usize]>) -> f64 {
-    let sum = |marks: &mut dyn Iterator<Item = &Option<Mark>>| {
-        marks.flatten().fold((0.0, 0.0), |(came, all), mark| {
-            (came + f64::from(mark.came) * mark.weight, all + mark.weight)
+fn rate(indicators: &EventIndicators, indices: Option<&[usize]>) -> f64 {
+    let sum = |indicators: &mut dyn Iterator<Item = &Option<EventIndicator>>| {
+        indicators.flatten().fold((0.0, 0.0), |(hits, all), indicator| {
+            (hits + f64::from(indicator.occurred) * indicator.weight, all + indicator.weight)
         })
     };
-    let (came, all) = match indices {
-        None => sum(&mut marks.0.iter()),
-        Some(indices) => sum(&mut indices.iter().filter_map(|index| marks.0.get(*index))),
+    let (hits, all) = match indices {
+        None => sum(&mut indicators.0.iter()),
+        Some(indices) => sum(&mut indices.iter().filter_map(|index| indicators.0.get(*index))),
     };
-    if all > 0.0 { came / all } else { 0.0 }
+    if all > 0.0 { hits / all } else { 0.0 }
 }
 
 /// Kendall's τ_b of two lists of one length; none where one is all ties.
@@ -106,10 +108,13 @@ mod tests {
             "Rope,RopeDiam,TrawlLen,BuoylineDevice,Risk\n3/8in,0.375,3,NA,0.6\n1/2in,0.5,3,NA,0.7\n5/8in,0.625,3,NA,0.8\n",
         )
         .unwrap();
-        let marks = |hits: usize| Marks::even((0..100).map(|index| Some(index < hits)));
+        let indicators =
+            |hits: usize| EventIndicators::even((0..100).map(|index| Some(index < hits)));
         let rows =
             [("3/8in", 0.375, 10), ("1/2in", 0.5, 60), ("5/8in", 0.625, 40), ("1in", 1.0, 0)].map(
-                |(rope, diameter, hits)| (row(rope, diameter, 3, "NA", hits), marks(hits as usize)),
+                |(rope, diameter, hits)| {
+                    (row(rope, diameter, 3, "NA", hits), indicators(hits as usize))
+                },
             );
         let tau = against(&poll, &rows).unwrap();
         assert_eq!((tau.rows, tau.ties), (3, 0));

@@ -15,8 +15,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::prepared::Opened;
-use super::stats::{AssumedBand, Interval, Marks, Rate};
-use crate::table::Table;
+use super::stats::{AssumedBand, EventIndicators, Interval, Rate};
+use crate::study::runs::Runs;
 use crate::units::METRES_PER_INCH;
 
 pub use filled::{Filled, How, as_own, with_bands};
@@ -40,7 +40,7 @@ pub struct Threat {
     pub traps: u64,
     /// Device in the endline.
     pub device: String,
-    /// How often the event came, with its band of chance.
+    /// How often the event occurred, with its band of chance.
     pub rate: Rate,
     /// Least and greatest rate at the levels of the assumed inputs, where these vary.
     pub priors: Option<AssumedBand>,
@@ -71,15 +71,15 @@ impl Threats {
     /// A study none of whose options says which row it stands for; two that stand for one.
     pub fn of(
         opened: &Opened,
-        table: &Table,
+        runs: &Runs,
         event: &StudyEvent,
         poll: Option<&Poll>,
     ) -> Result<Self, String> {
-        let mut rows: Vec<(Threat, Marks)> = Vec::new();
+        let mut rows: Vec<(Threat, EventIndicators)> = Vec::new();
         for option in &opened.study.options {
             let Some(row) = option.threat.row() else { continue };
-            let marks = Marks::of(table, &option.id.value, event);
-            rows.push((threat(opened, table, &option.id.value, row, &marks), marks));
+            let indicators = EventIndicators::of(runs, &option.id.value, event);
+            rows.push((threat(opened, runs, &option.id.value, row, &indicators), indicators));
         }
         if rows.is_empty() {
             return Err(format!(
@@ -88,7 +88,7 @@ impl Threats {
             ));
         }
         rows.sort_by(|(one, _), (other, _)| one.place().total_cmp(&other.place()));
-        let same = |pair: &&[(Threat, Marks)]| pair[0].0.key() == pair[1].0.key();
+        let same = |pair: &&[(Threat, EventIndicators)]| pair[0].0.key() == pair[1].0.key();
         if let Some([(one, _), (other, _)]) = rows.windows(2).find(same) {
             return Err(format!(
                 "{}: options `{}` and `{}` stand for one row of the threat table",
@@ -114,15 +114,21 @@ impl Threats {
     }
 }
 
-fn threat(opened: &Opened, table: &Table, id: &str, row: ThreatRow, marks: &Marks) -> Threat {
+fn threat(
+    opened: &Opened,
+    runs: &Runs,
+    id: &str,
+    row: ThreatRow,
+    indicators: &EventIndicators,
+) -> Threat {
     Threat {
         option: id.to_owned(),
         rope: row.rope,
         diameter_in: row.diameter_m / METRES_PER_INCH,
         traps: row.traps,
         device: row.device,
-        rate: Rate::of(marks),
-        priors: AssumedBand::of_study(opened, table, marks),
+        rate: Rate::of(indicators),
+        priors: AssumedBand::of_study(opened, runs, indicators),
     }
 }
 

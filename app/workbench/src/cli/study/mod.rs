@@ -83,7 +83,7 @@ fn merged(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure>
     merge::save(&opened, &folder, &table)?;
     output::print(&format!(
         "{} rows in {}\n",
-        table.rows(),
+        table.rows().len(),
         folder.path.join("table.parquet").display()
     ))?;
     Ok(ExitCode::SUCCESS)
@@ -155,15 +155,11 @@ fn compare(
     hash: &str,
 ) -> Result<ExitCode, Failure> {
     let folder = Folder::open(&folder_of(&args.at, opened), opened)?;
-    let Ok(table) = merge::load(opened, &folder) else { return Ok(ExitCode::SUCCESS) };
-    let encounters = table.reals("encounter");
-    let own = |row: &usize| {
-        encounters[*row] == Some(f64::from(args.row))
-            && table.texts("option")[*row] == opened.options[option].id
-    };
-    match (0..table.rows()).find(own).map(|row| table.texts("state_hash")[row].as_str()) {
-        Some(recorded) if recorded != hash => Err(Failure::failed(format!(
-            "the run ends in state {hash}, the table has {recorded}: another program ran the study"
+    let Ok(runs) = merge::load(opened, &folder) else { return Ok(ExitCode::SUCCESS) };
+    match runs.find(&opened.options[option].id, args.row) {
+        Some(recorded) if recorded.state_hash != hash => Err(Failure::failed(format!(
+            "the run ends in state {hash}, the table has {}: another program ran the study",
+            recorded.state_hash
         ))),
         Some(_) => {
             output::note("the run ends in the state that the table has");

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use egui::{Align, ComboBox, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use endline_session::study::StudyResults;
-use endline_session::table::Table;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
@@ -195,29 +194,21 @@ fn listed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>) -> Arc<Vec<RunRow
 }
 
 fn rows(shown: &StudyResults, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<RunRow> {
-    let table = &shown.table;
-    let (encounters, tensions, wraps) =
-        (table.reals("encounter"), table.reals("peak_tension_N"), wraps(table));
-    let (options, valid, outcomes) =
-        (table.texts("option"), table.flags("valid"), table.texts("outcome"));
-    let (parted, faults) = (table.texts("parted"), table.texts("fault"));
-    let row = |row: usize| {
-        let option = shown.findings.options.iter().position(|option| option.id == options[row])?;
+    let options = &shown.findings.options;
+    let row = |run: &endline_session::study::runs::RunRow| {
         Some(RunRow {
-            option,
-            encounter: encounters[row]? as u32,
-            outcome: outcomes[row].clone(),
-            tension_n: tensions[row],
-            parted: parted[row].clone(),
-            wraps: wraps[row],
-            valid: valid[row],
-            fault: faults[row].clone(),
+            option: options.iter().position(|option| option.id == run.option)?,
+            encounter: u32::try_from(run.encounter).ok()?,
+            outcome: run.outcome.clone(),
+            tension_n: run.peak_tension_n,
+            parted: run.parted.clone(),
+            wraps: run.peak_wraps(),
+            valid: run.valid,
+            fault: run.fault.clone(),
         })
     };
-    let mut rows: Vec<RunRow> = (0..table.rows())
-        .filter(|row| only.is_none_or(|only| options[*row] == only))
-        .filter_map(row)
-        .collect();
+    let runs = shown.runs.rows().iter().filter(|run| only.is_none_or(|only| run.option == only));
+    let mut rows: Vec<RunRow> = runs.filter_map(row).collect();
     match sort {
         Sort::Encounter => rows.sort_by_key(|row| (row.encounter, row.option)),
         Sort::Tension => rows.sort_by(|one, other| {
@@ -232,15 +223,4 @@ fn rows(shown: &StudyResults, only: Option<&str>, (sort, down): (Sort, bool)) ->
         rows.reverse();
     }
     rows
-}
-
-/// By row: greatest wraps on any part.
-fn wraps(table: &Table) -> Vec<f64> {
-    let mut most = vec![0.0_f64; table.rows()];
-    for (name, _) in table.columns.iter().filter(|(name, _)| name.ends_with("_peak_wraps")) {
-        most.iter_mut()
-            .zip(table.reals(name))
-            .for_each(|(most, value)| *most = most.max(value.unwrap_or_default()));
-    }
-    most
 }

@@ -131,22 +131,20 @@ fn placed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>, unit: ForceUnit) 
 
 /// Every run that counts, by option and rising tension.
 fn dots(shown: &StudyResults, unit: ForceUnit) -> Vec<Dot> {
-    let table = &shown.table;
-    let (encounters, tensions) = (table.reals("encounter"), table.reals("peak_tension_N"));
-    let (options, valid, outcomes) =
-        (table.texts("option"), table.flags("valid"), table.texts("outcome"));
     let mut all = Vec::new();
     for (index, option) in shown.findings.options.iter().enumerate() {
-        let own = (0..table.rows()).filter(|row| valid[*row] && options[*row] == option.id);
-        let mut dots: Vec<Dot> = own
-            .filter_map(|row| {
-                let (encounter, tension_n) = (encounters[row]? as u32, tensions[row]?);
+        let mut dots: Vec<Dot> = shown
+            .runs
+            .valid_of(&option.id)
+            .filter_map(|run| {
+                let (encounter, tension_n) =
+                    (u32::try_from(run.encounter).ok()?, run.peak_tension_n?);
                 let x = (1.0 + unit.of_newtons(tension_n).max(0.0)).log10();
                 Some(Dot {
                     option: index,
                     encounter,
                     tension_n,
-                    outcome: outcomes[row].clone(),
+                    outcome: run.outcome.clone(),
                     at: [x, 0.0],
                 })
             })

@@ -1,0 +1,115 @@
+//! Whether an event occurred, encounter by encounter.
+
+use endline_gear::{Counted, StudyEvent};
+
+use crate::study::runs::{RunRow, Runs};
+
+/// Whether an event occurred in an encounter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventIndicator {
+    /// Whether it occurred.
+    pub occurred: bool,
+    /// Weight of the encounter.
+    pub weight: f64,
+}
+
+/// By encounter: whether the event occurred; `None` if the run is invalid or missing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EventIndicators(pub Vec<Option<EventIndicator>>);
+
+impl EventIndicators {
+    /// The indicators of an event in the runs of an option.
+    #[must_use]
+    pub fn of(runs: &Runs, option: &str, event: &StudyEvent) -> Self {
+        let counted = event.counted();
+        let mut indicators = vec![None; runs.encounters()];
+        for run in runs.valid_of(option) {
+            let occurred = occurred(run, &counted);
+            indicators[run.index()] = Some(EventIndicator { occurred, weight: run.weight });
+        }
+        Self(indicators)
+    }
+
+    /// The indicators of encounters of equal weight.
+    #[must_use]
+    pub fn even(occurred: impl IntoIterator<Item = Option<bool>>) -> Self {
+        let even =
+            |occurred: Option<bool>| Some(EventIndicator { occurred: occurred?, weight: 1.0 });
+        Self(occurred.into_iter().map(even).collect())
+    }
+
+    /// 1 where the event occurred and 0 where it did not, each with its weight.
+    pub(super) fn values(&self) -> Vec<(f64, f64)> {
+        let known = self.0.iter().flatten();
+        known.map(|indicator| (f64::from(indicator.occurred), indicator.weight)).collect()
+    }
+
+    /// Encounters in which the event occurred.
+    #[must_use]
+    pub fn occurred(&self) -> Vec<bool> {
+        let occurred = |indicator: EventIndicator| indicator.occurred;
+        self.0.iter().map(|indicator| indicator.is_some_and(occurred)).collect()
+    }
+
+    /// Only the indicators of some encounters.
+    #[must_use]
+    pub fn within(&self, keep: &[bool]) -> Self {
+        let kept = self.0.iter().zip(keep);
+        Self(kept.map(|(indicator, keep)| indicator.filter(|_| *keep)).collect())
+    }
+}
+
+/// Whether an event occurred in a run.
+fn occurred(run: &RunRow, counted: &Counted<'_>) -> bool {
+    let number = |column: &str, is_it: &dyn Fn(f64) -> bool| run.number(column).is_some_and(is_it);
+    match *counted {
+        Counted::Outcome(wanted) => wanted.contains(&run.outcome.as_str()),
+        Counted::Present(column) => run.number(column).is_some(),
+        Counted::Flag(column) => run.flag(column),
+        Counted::AtLeast(column, parts, least) => parts.iter().any(|part| {
+            let own = run.parts.get(*part as usize);
+            own.and_then(|own| own.number(column)).is_some_and(|value| value >= least)
+        }),
+        Counted::Above(column, least) => number(column, &|value| value > least),
+        Counted::NotAbove(column, most) => number(column, &|value| value <= most),
+        Counted::All(parts) => parts.iter().all(|part| occurred(run, part)),
+        Counted::Any(parts) => parts.iter().any(|part| occurred(run, part)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use endline_sdk::BodyPart;
+
+    use super::*;
+    use crate::study::runs::PartRow;
+
+    /// A column that is no field fails a debug assertion.
+    #[test]
+    fn every_event_is_counted_by_fields_of_a_run() {
+        let parts = vec![PartRow::default(); BodyPart::ALL.len()];
+        let run = RunRow { parts, ..RunRow::default() };
+        for event in StudyEvent::all() {
+            assert!(!occurred(&run, &event.counted()), "{}", event.name());
+        }
+    }
+
+    #[test]
+    fn a_wrap_counts_on_its_own_part_and_an_anchored_whale_is_held_tethered_and_slow() {
+        let mut parts = vec![PartRow::default(); BodyPart::ALL.len()];
+        parts[BodyPart::Peduncle as usize].peak_wraps = Some(0.5);
+        let run = RunRow {
+            parts,
+            outcome: "entangled".to_owned(),
+            tethered_m: Some(3.0),
+            speed_made_good_m_s: Some(0.1),
+            ..RunRow::default()
+        };
+        let of =
+            |run: &RunRow, name: &str| occurred(run, &StudyEvent::find(name).unwrap().counted());
+        assert!(of(&run, "wrap_peduncle") && of(&run, "wrap_any") && !of(&run, "wrap_head"));
+        assert!(of(&run, "anchored") && !of(&run, "towing") && !of(&run, "contact"));
+        let fast = RunRow { speed_made_good_m_s: Some(0.2), ..run };
+        assert!(!of(&fast, "anchored") && of(&fast, "towing"));
+    }
+}
