@@ -15,7 +15,7 @@ use endline_gear::Site;
 use endline_session::campaign::{Control, Shard};
 use endline_session::encounters::{Encounter, draw};
 use endline_session::plugins::{Hook, PluginHost};
-use endline_session::search::written::observation_text;
+use endline_session::search::observation_from_run::observation_text;
 use endline_session::search::{Effort, Ending, Folder, LIKE, Question, search};
 use endline_session::study::Opened;
 use endline_sim::metrics::EventKind;

@@ -9,7 +9,7 @@ use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::{Command, Info};
 use crate::locate;
-use crate::search::open::Length;
+use crate::search::question::Length;
 use crate::workbench::Workbench;
 
 /// An action on searches. A story is named by its place, 0 for the nearest.

@@ -16,8 +16,8 @@ use crate::error::Error;
 use crate::task::lock;
 
 use super::Effort;
-use super::ended::Ended;
-use super::store::Store;
+use super::ending::RunEnding;
+use super::folder::Store;
 
 /// Runs that are stored together.
 pub(super) struct Part<'a> {
@@ -39,8 +39,8 @@ pub(super) fn run(
     parts: &[Part<'_>],
     effort: &Effort,
     control: &Control,
-    one: impl Fn(usize, u32) -> Ended + Sync,
-    mut take: impl FnMut(usize, Vec<Ended>),
+    one: impl Fn(usize, u32) -> RunEnding + Sync,
+    mut take: impl FnMut(usize, Vec<RunEnding>),
 ) -> Result<bool, Error> {
     let (stored, news) = channel();
     let runs = Runs::find(parts, effort.shard, control, one, stored)?;
@@ -59,8 +59,8 @@ pub(super) fn run_one(
     part: Part<'_>,
     effort: &Effort,
     control: &Control,
-    one: impl Fn(u32) -> Ended + Sync,
-) -> Result<Option<Vec<Ended>>, Error> {
+    one: impl Fn(u32) -> RunEnding + Sync,
+) -> Result<Option<Vec<RunEnding>>, Error> {
     let mut runs = None;
     run(&[part], effort, control, |_, number| one(number), |_, all| runs = Some(all))?;
     Ok(runs)
@@ -72,7 +72,7 @@ fn collect(
     control: &Control,
     failure: &Failure,
     news: &Receiver<()>,
-    take: &mut impl FnMut(usize, Vec<Ended>),
+    take: &mut impl FnMut(usize, Vec<RunEnding>),
 ) -> Result<bool, Error> {
     for (place, part) in parts.iter().enumerate() {
         loop {
@@ -110,7 +110,7 @@ struct Runs<'a, R> {
 
 /// The runs of this shard in a part.
 struct Own {
-    runs: BTreeMap<u32, Ended>,
+    runs: BTreeMap<u32, RunEnding>,
     /// Number of runs that are missing.
     missing: usize,
     /// Whether some of the runs are not stored yet.
@@ -158,7 +158,7 @@ impl<'a, R> Runs<'a, R> {
     }
 }
 
-impl<R: Fn(usize, u32) -> Ended + Sync> Work for Runs<'_, R> {
+impl<R: Fn(usize, u32) -> RunEnding + Sync> Work for Runs<'_, R> {
     type Piece = (usize, u32);
 
     fn next(&self) -> Result<Next<(usize, u32)>, Error> {

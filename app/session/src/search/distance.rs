@@ -1,4 +1,4 @@
-//! How unlike an observation an ending is: a sum of terms, each with its reason.
+//! The distance of an ending from an observation: a sum of terms, each with its reason.
 //!
 //! ```text
 //! D = sum of 3 |2p - 1|   over sites seen with rope (p > 1/2) and without it now, or the reverse
@@ -9,28 +9,32 @@
 //!   + 1                   for each end of rope seen that no strand has
 //! ```
 //!
-//! `p` is how sure it is that rope was there. What was hidden costs nothing. A site of which nothing is told was seen free with
-//! `p` = 0.35, unless rope that was seen at its neighbour passes it. `D` up to 1 is *like* the observation. The weights are choices,
+//! The edits of an order are the least number of places to insert, delete or exchange that turn one order into the other (Levenshtein
+//! 1966), read from either end of the strand. Places agree if their sites do, and their sides if both have one. Only places at sites
+//! that the order names count, since rope elsewhere has its own terms. Neighbouring places that the order does not distinguish
+//! are one, and so is a place near the midplane beside one on a side.
+//!
+//! `p` is how sure it is that rope was there. Hidden sites cost nothing. An unreported site counts as free with `p` = 0.35, unless
+//! rope seen at its neighbour passes it. `D` up to 1 is *like* the observation. The weights are choices,
 //! not measurements: 1 is a wrap off by half a turn, or less than one edit.
 
-use endline_gear::{Observation, SeenSite, Site};
+use endline_gear::{Observation, PathPlace, SeenSite, Site};
 
 use super::ending::{AtSite, Ending};
-use super::order::edits;
 
 /// An ending up to this far from an observation is like it.
 pub const LIKE: f64 = 1.0;
 
-/// Cost of rope where there was none, or of none where there was, if it was sure.
+/// Cost of a false positive or false negative at a site observed with certainty.
 const PRESENCE: f64 = 3.0;
 
-/// How sure it is that rope was at a site of which nothing is told.
-const UNTOLD: f64 = 0.35;
+/// Probability of rope at an unreported site.
+const UNREPORTED: f64 = 0.35;
 
 /// Turns beyond the range seen that cost 1.
 const TURNS: f64 = 0.5;
 
-/// Cost of tight rope where it was slack, or the reverse.
+/// Cost of tight rope at a site with slack rope, or the reverse.
 const TIGHTNESS: f64 = 0.5;
 
 /// Cost of an edit of the order of places.
@@ -39,15 +43,15 @@ const EDIT: f64 = 1.5;
 /// Difference of the logarithms of lengths that costs 1.
 const LENGTHS: f64 = 0.4;
 
-/// Shortest rope behind a whale that is told from none [m].
+/// Shortest rope behind a whale that an observer would report [m].
 const LEAST_M: f64 = 0.5;
 
-/// How unlike an observation an ending is.
+/// The distance of an ending from an observation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Distance {
-    /// What it is made of; terms of zero are left out.
+    /// Its terms; those of zero are omitted.
     pub terms: Vec<Term>,
-    /// Whether the ending's mirror image was held against it.
+    /// Whether it is that of the ending's mirror image.
     pub mirrored: bool,
 }
 
@@ -56,7 +60,7 @@ pub struct Distance {
 pub struct Term {
     /// Its share of the distance.
     pub cost: f64,
-    /// What it is for.
+    /// Its reason.
     pub says: String,
 }
 
@@ -82,9 +86,9 @@ impl Distance {
 fn terms(seen: &Observation, ending: &Ending) -> Vec<Term> {
     let mut terms = Vec::new();
     for site in &seen.sites {
-        told_site(site, ending.at(site.site), &mut terms);
+        reported_site(site, ending.at(site.site), &mut terms);
     }
-    untold_sites(seen, ending, &mut terms);
+    unreported_sites(seen, ending, &mut terms);
     twist(seen, ending, &mut terms);
     order(seen, ending, &mut terms);
     behind(seen, ending, &mut terms);
@@ -92,8 +96,8 @@ fn terms(seen: &Observation, ending: &Ending) -> Vec<Term> {
     terms
 }
 
-/// Presence, wraps and tightness at a site that was told of.
-fn told_site(seen: &SeenSite, at: Option<AtSite>, terms: &mut Vec<Term>) {
+/// Presence, wraps and tightness at a reported site.
+fn reported_site(seen: &SeenSite, at: Option<AtSite>, terms: &mut Vec<Term>) {
     let name = words(seen.site);
     let cost = PRESENCE * (2.0 * seen.present - 1.0).abs();
     match (seen.present > 0.5, at) {
@@ -114,23 +118,24 @@ fn told_site(seen: &SeenSite, at: Option<AtSite>, terms: &mut Vec<Term>) {
     }
 }
 
-/// Rope at sites of which nothing is told, and that it does not pass on its way to one with rope.
-fn untold_sites(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
-    let told = |site: Site| seen.sites.iter().any(|told| told.site.singles().contains(&site));
+/// Rope at unreported sites that are not beside a site with rope.
+fn unreported_sites(seen: &Observation, ending: &Ending, terms: &mut Vec<Term>) {
+    let is_reported =
+        |site: Site| seen.sites.iter().any(|seen| seen.site.singles().contains(&site));
     let hidden = |site: Site| seen.hidden.iter().any(|hidden| hidden.singles().contains(&site));
     let with_rope = |site: Site| {
-        let here = |told: &&SeenSite| told.present > 0.5 && told.site.singles().contains(&site);
-        seen.sites.iter().any(|told| here(&told))
+        let here = |seen: &&SeenSite| seen.present > 0.5 && seen.site.singles().contains(&site);
+        seen.sites.iter().any(|seen| here(&seen))
     };
     for at in &ending.sites {
         let passes = neighbours(at.site).iter().any(|site| with_rope(*site));
-        if told(at.site) || hidden(at.site) || passes {
+        if is_reported(at.site) || hidden(at.site) || passes {
             continue;
         }
-        let cost = PRESENCE * (2.0 * UNTOLD - 1.0).abs();
+        let cost = PRESENCE * (2.0 * UNREPORTED - 1.0).abs();
         terms.push(Term {
             cost,
-            says: format!("rope at {}, of which nothing is told", words(at.site)),
+            says: format!("rope at {}, which was not reported", words(at.site)),
         });
     }
 }
@@ -193,6 +198,53 @@ fn beyond(value: f64, [least, most]: [f64; 2]) -> f64 {
 /// A site in words.
 fn words(site: Site) -> String {
     format!("the {}", site.name().replace('_', " "))
+}
+
+/// Edits from a strand's places to the order seen, from the end that needs fewer.
+fn edits(seen: &[PathPlace], strand: &[PathPlace]) -> usize {
+    let coarse = as_coarse_as(seen, strand);
+    let turned: Vec<PathPlace> = coarse.iter().rev().copied().collect();
+    levenshtein(seen, &coarse).min(levenshtein(seen, &turned))
+}
+
+/// The places of a strand that the order seen distinguishes.
+fn as_coarse_as(seen: &[PathPlace], strand: &[PathPlace]) -> Vec<PathPlace> {
+    let is_named = |site: Site| seen.iter().any(|place| place.site.singles().contains(&site));
+    let has_side = |site: Site| seen.iter().any(|place| place.site == site && place.side.is_some());
+    let mut coarse: Vec<PathPlace> = strand
+        .iter()
+        .filter(|place| is_named(place.site))
+        .map(|place| PathPlace { side: place.side.filter(|_| has_side(place.site)), ..*place })
+        .collect();
+    coarse.dedup();
+    let is_between = |index: usize| {
+        let place = coarse[index];
+        let beside = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
+        let mut beside = beside.filter_map(|index| coarse.get(index));
+        place.side.is_none() && beside.any(|other| other.site == place.site)
+    };
+    let kept: Vec<usize> = (0..coarse.len()).filter(|index| !is_between(*index)).collect();
+    let mut coarse: Vec<PathPlace> = kept.into_iter().map(|index| coarse[index]).collect();
+    coarse.dedup();
+    coarse
+}
+
+fn agree(seen: PathPlace, place: PathPlace) -> bool {
+    let sides = seen.side.is_none() || place.side.is_none() || seen.side == place.side;
+    seen.site.singles().contains(&place.site) && sides
+}
+
+fn levenshtein(seen: &[PathPlace], places: &[PathPlace]) -> usize {
+    let mut row: Vec<usize> = (0..=places.len()).collect();
+    for (index, wanted) in seen.iter().enumerate() {
+        let mut corner = std::mem::replace(&mut row[0], index + 1);
+        for (column, place) in places.iter().enumerate() {
+            let exchanged = corner + usize::from(!agree(*wanted, *place));
+            corner = row[column + 1];
+            row[column + 1] = exchanged.min(corner + 1).min(row[column] + 1);
+        }
+    }
+    row[places.len()]
 }
 
 #[cfg(test)]
@@ -297,5 +349,31 @@ parts = ["fluke"]
         let found = Distance::of(&only, &like().mirrored());
         // Flipper, wraps, tightness is not told of an absent rope; two places of the path.
         assert!(!found.mirrored && found.sum() > 2.4 + 2.0, "{found:?}");
+    }
+
+    fn places(text: &str) -> Vec<PathPlace> {
+        text.split_whitespace().map(|place| PathPlace::named(place).unwrap()).collect()
+    }
+
+    #[test]
+    fn edits_by_hand() {
+        for (seen, strand, edits_wanted) in [
+            ("mouth:left head mouth:right", "mouth:left head mouth:right", 0),
+            // Read from the other end.
+            ("mouth:left head mouth:right", "mouth:right head mouth:left", 0),
+            ("mouth:left head mouth:right", "mouth:left mouth:right", 1),
+            // A side that was not told is any side, and both sides of it are one place.
+            ("mouth body", "mouth:left body:left body:right", 0),
+            ("flipper body", "left_flipper body:right", 0),
+            ("left_flipper body", "right_flipper body", 1),
+            // Sites that are not named do not count, nor the midplane between two sides.
+            ("mouth:left mouth:right", "head:left mouth:left mouth mouth:right head body:right", 0),
+            ("body", "body right_flipper", 0),
+            ("body:left", "peduncle body", 0),
+            ("body", "", 1),
+            ("left_fluke peduncle right_fluke", "body head", 3),
+        ] {
+            assert_eq!(edits(&places(seen), &places(strand)), edits_wanted, "{seen} | {strand}");
+        }
     }
 }

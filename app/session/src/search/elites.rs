@@ -1,24 +1,82 @@
-//! The map of elites: the best trial of every kind of story, so that several different stories come out and not one lucky run.
+//! Trials, and the map of elites: the best trial of every kind of story, so that a search finds several different stories.
 //!
 //! Reference: Mouret and Clune 2015, Illuminating search spaces by mapping elites (arXiv 1504.04909).
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+use endline_gear::Observation;
+
 use crate::encounters::Encounter;
 
-use super::distance::LIKE;
+use super::distance::{Distance, LIKE};
+use super::ending::RunEnding;
 use super::question::Question;
-use super::trial::{PROGRESS, Trial};
 
-/// A kind of story: which part rope touched first, what the whale did before and then, and where it came from.
+/// Distance of an invalid run.
+pub(super) const INVALID: f64 = 1e3;
+
+/// Least progress of a local search that counts; a cost below it needs no search.
+pub(super) const PROGRESS: f64 = 0.05;
+
+/// Weight of the least distance on the way beside that at the end: of runs with equally distant ends, a search prefers the one
+/// that was near on the way.
+const ON_THE_WAY: f64 = 0.2;
+
+/// A run compared with the observation.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Trial {
+    /// Distance of its ending from the observation; [`INVALID`] for an invalid run.
+    pub(super) distance: f64,
+    /// The least distance at any time of the run.
+    pub(super) nearest: f64,
+    /// The terms of the distance, each with its reason.
+    pub(super) terms: Vec<(f64, String)>,
+    /// Whether the ending's mirror image is nearer to the observation.
+    pub(super) mirrored: bool,
+    /// The part that rope touched first; empty if it touched none.
+    pub(super) first_part: String,
+    /// Whether the run is valid.
+    pub(super) is_valid: bool,
+    /// Time simulated [s].
+    pub(super) simulated_s: f64,
+    /// Hash of the last state.
+    pub(super) state_hash: String,
+}
+
+impl Trial {
+    /// Compares a run with an observation.
+    pub(super) fn of(observation: &Observation, ended: &RunEnding) -> Self {
+        let at_end = Distance::of(observation, &ended.ending);
+        let is_valid = ended.fault.is_empty();
+        let distance = if is_valid { at_end.sum() } else { INVALID };
+        let before = ended.on_the_way.iter().map(|ending| Distance::of(observation, ending).sum());
+        Self {
+            distance,
+            nearest: before.fold(distance, f64::min),
+            mirrored: at_end.mirrored,
+            terms: at_end.terms.into_iter().map(|term| (term.cost, term.says)).collect(),
+            first_part: ended.first_part.clone(),
+            is_valid,
+            simulated_s: ended.simulated_s,
+            state_hash: ended.state_hash.clone(),
+        }
+    }
+
+    /// The cost that a search minimises.
+    pub(super) fn cost(&self) -> f64 {
+        self.distance + ON_THE_WAY * self.nearest
+    }
+}
+
+/// A kind of story: the part first touched, the acts of the whale before and after the touch, and the quarter from which it came.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Kind {
     /// The part that rope touched first.
     pub first_part: String,
-    /// What the whale did of its own, then what it answered, such as `skim-feed` and `barrel-roll-away`.
+    /// Its own act, then its answer to touch, such as `skim-feed` and `barrel-roll-away`.
     pub acts: Vec<String>,
-    /// Quarter of the compass from where the current flows on clockwise: 0 with it, 2 against it; `None` where no heading is drawn.
+    /// Quarter of its heading, clockwise from the direction of the current: 0 with it, 2 against it; `None` if no heading is drawn.
     pub quarter: Option<u8>,
 }
 
@@ -27,9 +85,9 @@ pub struct Kind {
 pub(super) struct Elite {
     /// Where in the unit cube of encounters.
     pub(super) point: Vec<f64>,
-    /// What it came to.
+    /// The trial there.
     pub(super) trial: Trial,
-    /// How many local searches have begun from it or its predecessors.
+    /// Local searches that have begun from it or its predecessors.
     pub(super) begun: u32,
 }
 
@@ -38,7 +96,7 @@ pub(super) struct Elite {
 pub(super) struct Elites {
     /// The nearest of every kind.
     pub(super) best: BTreeMap<Kind, Elite>,
-    /// Every run that is like the observation, in the order in which they came.
+    /// Every run that is like the observation, in order of the trials.
     like: Vec<(Kind, Elite)>,
 }
 
@@ -55,7 +113,7 @@ impl Kind {
     }
 }
 
-/// What the whale does of its own, then what it answers, then the acts of its pilot; `none` and `swim` are no acts.
+/// The whale's own act, its answer to touch, then the acts of its pilot; `none` and `swim` are no acts.
 fn acts(encounter: &Encounter) -> Vec<String> {
     let of = |is_it: fn(&str) -> bool| {
         let drawn = encounter.drawn.iter().filter(move |drawn| is_it(&drawn.name));
@@ -66,7 +124,7 @@ fn acts(encounter: &Encounter) -> Vec<String> {
 }
 
 impl Elites {
-    /// Takes in a trial: it becomes the elite of its kind if it is nearer than that.
+    /// Adds a trial, which becomes the elite of its kind if it costs less.
     pub(super) fn take(&mut self, question: &Question, point: &[f64], trial: &Trial) {
         if trial.first_part.is_empty() || !trial.is_valid {
             return;
@@ -77,7 +135,7 @@ impl Elites {
         if trial.distance <= LIKE {
             self.like.push((kind.clone(), elite.clone()));
         }
-        if self.best.get(&kind).is_none_or(|best| trial.aim() < best.trial.aim()) {
+        if self.best.get(&kind).is_none_or(|best| trial.cost() < best.trial.cost()) {
             self.best.insert(kind, elite);
         }
     }
@@ -93,14 +151,15 @@ impl Elites {
     /// The elites, the nearest first.
     pub(super) fn nearest(&self) -> Vec<&Elite> {
         let mut elites: Vec<&Elite> = self.best.values().collect();
-        elites.sort_by(|one, other| one.trial.aim().total_cmp(&other.trial.aim()));
+        elites.sort_by(|one, other| one.trial.cost().total_cmp(&other.trial.cost()));
         elites
     }
 
-    /// The elite from which the next local search begins: near, not begun from too often, and not as good as it can be.
+    /// The elite from which the next local search begins: the one of least cost, with a penalty of 1, the distance of an ending that is
+    /// just like the observation, for each search that has begun from it.
     pub(super) fn next_start(&mut self) -> Option<&mut Elite> {
-        let worth = |elite: &Elite| elite.trial.aim() + f64::from(elite.begun);
-        let open = self.best.values_mut().filter(|elite| elite.trial.aim() > PROGRESS);
-        open.min_by(|one, other| worth(one).total_cmp(&worth(other)))
+        let penalised = |elite: &Elite| elite.trial.cost() + LIKE * f64::from(elite.begun);
+        let open = self.best.values_mut().filter(|elite| elite.trial.cost() > PROGRESS);
+        open.min_by(|one, other| penalised(one).total_cmp(&penalised(other)))
     }
 }

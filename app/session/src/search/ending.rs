@@ -1,12 +1,18 @@
-//! The ending of a run: where rope is on the whale, as somebody would see it who came upon the whale then.
+//! The ending of a run: where rope is on the whale, as an observer would see it; and the endings on the way there.
+//!
+//! The ending does not depend on the observation with which it is compared, so that searches among the same encounters share runs.
 
 use endline_gear::{PathPlace, RopeEnd, Site};
 use endline_sdk::{BodyPart, Region};
-use endline_sim::metrics::{LeadsTo, Outcome, RegionSummary, Route, Station, WhaleSummary, routes};
+use endline_sim::metrics::{
+    EventKind, LeadsTo, Outcome, RegionSummary, Route, Station, WhaleSummary, routes,
+};
 use endline_sim::model::BodyRole;
 use serde::{Deserialize, Serialize};
 
+use crate::encounters::Encounter;
 use crate::run::Run;
+use crate::study::{Opened, Played};
 
 /// Rope that does not touch a part is on it from this many wraps [turns]; estimate.
 const LOOSE_WRAPS: f64 = 0.25;
@@ -14,7 +20,13 @@ const LOOSE_WRAPS: f64 = 0.25;
 /// Rope under more tension than this where it presses is tight [N]; estimate.
 const TIGHT_N: f64 = 50.0;
 
-/// How a run ended.
+/// Change of wraps or twist from which an ending on the way is stored [turns].
+const CHANGE_TURNS: f64 = 0.25;
+
+/// Change of the logarithm of a length from which an ending on the way is stored.
+const CHANGE_LENGTHS: f64 = 0.2;
+
+/// Where rope is on the whale at the end of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ending {
     /// Sites with rope, in the order of [`Site::SINGLE`].
@@ -43,12 +55,12 @@ pub struct AtSite {
 pub struct Strand {
     /// Places it passes, in its order.
     pub places: Vec<PathPlace>,
-    /// What its two ends lead to; `None` for what nobody would name.
+    /// What is attached at each end; `None` if unidentifiable.
     pub ends: [Option<RopeEnd>; 2],
 }
 
 impl Ending {
-    /// The ending of a run; of a whale that came free, nothing.
+    /// The ending of a run; empty for a released whale.
     #[must_use]
     pub fn of(run: &Run) -> Self {
         let summary = run.summary();
@@ -74,7 +86,7 @@ impl Ending {
         self.sites.is_empty() && self.strands.is_empty()
     }
 
-    /// The same on a whale that is its mirror image.
+    /// The mirror image of the ending.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let mut mirrored = self.clone();
@@ -86,7 +98,7 @@ impl Ending {
         mirrored
     }
 
-    /// Rope at a site, the most of a pair's two; `None` where there is none.
+    /// Rope at a site, the greater of a pair; `None` if there is none.
     #[must_use]
     pub fn at(&self, site: Site) -> Option<AtSite> {
         let singles = site.singles();
@@ -157,4 +169,80 @@ fn strand(run: &Run, route: &Route) -> Strand {
         places: route.stations.iter().map(place).collect(),
         ends: route.ends.map(|route_end| end(route_end.leads_to)),
     }
+}
+
+/// The end of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunEnding {
+    /// Its ending.
+    pub ending: Ending,
+    /// Endings on the way, one for each change that an observer would report.
+    pub on_the_way: Vec<Ending>,
+    /// The part that rope touched first; empty where it touched none.
+    pub first_part: String,
+    /// Why it does not count; empty for a valid run.
+    pub fault: String,
+    /// Time simulated [s].
+    pub simulated_s: f64,
+    /// Hash of the last state.
+    pub state_hash: String,
+}
+
+impl RunEnding {
+    /// Runs an encounter to its end.
+    pub(super) fn of(opened: &Opened, encounter: &Encounter) -> Self {
+        let mut on_the_way: Vec<Ending> = Vec::new();
+        let observe = |run: &Run| {
+            let now = Ending::of(run);
+            if !now.is_free() && on_the_way.last().is_none_or(|last| differ(last, &now)) {
+                on_the_way.push(now);
+            }
+        };
+        match opened.play_watched(0, encounter, 0.0, observe) {
+            Ok(played) => Self { on_the_way, ..Self::played(&played) },
+            Err(error) => Self { fault: error.to_string(), ..Self::default() },
+        }
+    }
+
+    /// Runs an encounter on a finer resolution.
+    pub(super) fn finer(opened: &Opened, encounter: &Encounter) -> Self {
+        match opened.play_finer(0, encounter) {
+            Ok(played) => Self::played(&played),
+            Err(error) => Self { fault: error.to_string(), ..Self::default() },
+        }
+    }
+
+    fn played(played: &Played) -> Self {
+        let report = &played.report;
+        let events = played.run.metrics().events();
+        let first = events.iter().find(|event| event.kind == EventKind::Contact);
+        let fault = || report.stopped.clone().unwrap_or_else(|| report.invalid_because.join("; "));
+        Self {
+            ending: Ending::of(&played.run),
+            on_the_way: Vec::new(),
+            first_part: first.map(|event| event.subject.clone()).unwrap_or_default(),
+            fault: if report.is_valid() { String::new() } else { fault() },
+            simulated_s: report.simulated_s,
+            state_hash: report.state_hash.clone(),
+        }
+    }
+}
+
+/// Whether an observer would report two endings as different.
+fn differ(one: &Ending, other: &Ending) -> bool {
+    let apart = |one: f64, other: f64, by: f64| (one - other).abs() > by;
+    let length = |ending: &Ending| libm::log(ending.behind_m.max(1.0));
+    strands(one).ne(strands(other))
+        || sites(one).ne(sites(other))
+        || one.sites.iter().zip(&other.sites).any(|(a, b)| apart(a.wraps, b.wraps, CHANGE_TURNS))
+        || apart(one.twist, other.twist, CHANGE_TURNS)
+        || apart(length(one), length(other), CHANGE_LENGTHS)
+}
+
+fn strands(ending: &Ending) -> impl Iterator<Item = (&[PathPlace], [Option<RopeEnd>; 2])> {
+    ending.strands.iter().map(|strand| (strand.places.as_slice(), strand.ends))
+}
+
+fn sites(ending: &Ending) -> impl Iterator<Item = (Site, bool)> {
+    ending.sites.iter().map(|at| (at.site, at.tight))
 }

@@ -17,8 +17,8 @@ use super::posterior::Quantity;
 use super::question::Question;
 use super::stories::{Stories, Story};
 
-/// Stories that are told one by one.
-const TOLD: usize = 6;
+/// Stories with a section of their own.
+const WITH_SECTION: usize = 6;
 
 /// All that the page shows. The template escapes texts.
 #[derive(Template)]
@@ -32,7 +32,7 @@ struct Page<'a> {
     like: f64,
     seen: Table,
     stories: Table,
-    told: Vec<Told>,
+    sections: Vec<Section>,
     common: Option<Table>,
     posterior: Option<Table>,
     trials: usize,
@@ -43,15 +43,15 @@ struct Page<'a> {
     hash: &'a str,
 }
 
-/// A story with its terms and what was drawn.
-struct Told {
+/// A story with its terms and its drawn values.
+struct Section {
     heading: String,
     picture: Option<String>,
     terms: Option<Table>,
     drawn: Table,
 }
 
-/// Writes `report.html` into the folder of a search, with the pictures of stories that are kept there.
+/// Writes `report.html` into the folder of a search, with the pictures of stories in that folder.
 ///
 /// # Errors
 /// Where it cannot be written.
@@ -71,7 +71,7 @@ pub fn write(
 impl<'a> Page<'a> {
     fn of(question: &'a Question, folder: &Folder, stories: &'a Stories) -> Self {
         let observation = &question.observation;
-        let told = stories.stories.iter().enumerate().take(TOLD);
+        let sections = stories.stories.iter().enumerate().take(WITH_SECTION);
         Self {
             style: STYLE,
             name: &observation.name,
@@ -81,7 +81,7 @@ impl<'a> Page<'a> {
             like: LIKE,
             seen: seen(observation),
             stories: table_of(stories),
-            told: told.map(|(number, story)| one(folder, number + 1, story)).collect(),
+            sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
             common: common(stories),
             posterior: posterior(stories),
             trials: stories.trials,
@@ -94,7 +94,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// What was seen, site by site, then of the rope as a whole.
+/// The observation, site by site, then of the rope as a whole.
 fn seen(observation: &Observation) -> Table {
     let range = |range: Option<[f64; 2]>| {
         range.map_or(String::new(), |[least, most]| format!("{least} to {most}"))
@@ -170,7 +170,7 @@ fn alike(story: &Story) -> String {
     story.alike.map_or(String::new(), |alike| format!("{:.0} %{fragile}", 100.0 * alike))
 }
 
-fn one(folder: &Folder, number: usize, story: &Story) -> Told {
+fn one(folder: &Folder, number: usize, story: &Story) -> Section {
     let picture = format!("story-{number}/picture.png");
     let terms = story
         .terms
@@ -179,7 +179,7 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Told {
     let drawn = story.drawn.iter().map(|(name, text)| {
         vec![Cell { lines: vec![Line::Code(name.clone())] }, in_words(text).into()]
     });
-    Told {
+    Section {
         heading: format!(
             "Story {number}: first the {}, {}",
             story.first_part.replace('_', " "),
@@ -193,7 +193,7 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Told {
     }
 }
 
-/// What the stories that are like the observation share, quantity by quantity; `None` with fewer than two.
+/// Quantities that the stories like the observation have in common; `None` with fewer than two stories.
 fn common(stories: &Stories) -> Option<Table> {
     let like: Vec<&Story> = stories.stories.iter().filter(|story| story.is_like()).collect();
     let first = like.first().filter(|_| like.len() > 1)?;
@@ -215,7 +215,7 @@ fn common(stories: &Stories) -> Option<Table> {
     ))
 }
 
-/// What the draws that end alike tell, beside all draws; `None` where they are too few.
+/// Quantities among the draws that end alike, beside all draws; `None` if there are too few.
 fn posterior(stories: &Stories) -> Option<Table> {
     let row = |quantity: &Quantity| -> Vec<Cell> {
         let Quantity { name, like, all } = quantity;

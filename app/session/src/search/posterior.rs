@@ -1,6 +1,6 @@
-//! What the draws that end alike tell of an encounter: each quantity among them, beside all draws.
+//! The posterior of an encounter: each quantity among the draws that end alike, beside all draws.
 //!
-//! Draws come from the priors themselves and count alike. Those like the observation are therefore a sample of the posterior,
+//! Draws are from the priors themselves and have equal weight. Those like the observation are therefore a sample of the posterior,
 //! `p(encounter | ending) ∝ p(ending | encounter) p(encounter)`, and their number is its effective size.
 
 use std::collections::BTreeMap;
@@ -15,10 +15,10 @@ use crate::encounters::in_words;
 use super::distance::LIKE;
 use super::rounds::Rounds;
 
-/// Fewer draws tell nothing of quartiles or shares.
+/// Least number of draws for quartiles or shares.
 pub const LEAST: usize = 4;
 
-/// Words of a quantity that are told, the most frequent first.
+/// Greatest number of words of a quantity, the most frequent first.
 const WORDS: usize = 4;
 
 /// A quantity among the draws.
@@ -32,14 +32,15 @@ pub struct Quantity {
     pub all: String,
 }
 
-/// Every quantity that varies; none where too few draws end alike.
+/// Every quantity that varies; empty if too few draws end alike.
 pub(super) fn quantities(rounds: &Rounds<'_>) -> Vec<Quantity> {
-    let is_like: Vec<bool> = rounds.net.iter().map(|(_, trial)| trial.distance <= LIKE).collect();
+    let is_like: Vec<bool> =
+        rounds.prior_sample.iter().map(|(_, trial)| trial.distance <= LIKE).collect();
     if is_like.iter().filter(|like| **like).count() < LEAST {
         return Vec::new();
     }
     let mut columns: BTreeMap<String, Vec<Drawn>> = BTreeMap::new();
-    for (point, trial) in &rounds.net {
+    for (point, trial) in &rounds.prior_sample {
         let first = Drawn {
             name: "first touched".into(),
             text: trial.first_part.replace('_', " "),
@@ -56,13 +57,13 @@ pub(super) fn quantities(rounds: &Rounds<'_>) -> Vec<Quantity> {
 
 fn quantity(name: String, column: &[Drawn], is_like: &[bool]) -> Option<Quantity> {
     let like = column.iter().zip(is_like).filter(|(_, like)| **like).map(|(drawn, _)| drawn);
-    let (like, all) = (told(like.collect()), told(column.iter().collect()));
+    let (like, all) = (summary(like.collect()), summary(column.iter().collect()));
     let varies = column.iter().any(|drawn| drawn.text != column[0].text);
     varies.then_some(Quantity { name, like, all })
 }
 
 /// The middle half of numbers, or words with their shares.
-fn told(mut drawn: Vec<&Drawn>) -> String {
+fn summary(mut drawn: Vec<&Drawn>) -> String {
     if drawn.iter().all(|drawn| drawn.number.is_some()) {
         drawn.sort_by(|one, other| {
             one.number.partial_cmp(&other.number).unwrap_or(one.name.cmp(&other.name))
@@ -93,23 +94,23 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_told_by_their_middle_half_and_words_by_their_shares() {
+    fn numbers_are_summarised_by_their_middle_half_and_words_by_their_shares() {
         let depths: Vec<Drawn> =
             (0..9).rev().map(|depth| drawn("depth", &format!("{depth}.125 m"))).collect();
         let is_like: Vec<bool> = (0..9).map(|place| place >= 4).collect();
-        let told = quantity("depth".into(), &depths, &is_like).unwrap();
+        let found = quantity("depth".into(), &depths, &is_like).unwrap();
         // All lie from 0 to 8 m; those that end alike are the five from 0 to 4 m.
         assert_eq!(
-            (told.all.as_str(), told.like.as_str()),
+            (found.all.as_str(), found.like.as_str()),
             ("2.12 m to 6.12 m", "1.12 m to 3.12 m")
         );
 
         let acts: Vec<Drawn> = ["bolt", "", "", "roll", "roll", "roll", "roll", "", ""]
             .map(|act| drawn("answer", act))
             .into();
-        let told = quantity("answer".into(), &acts, &is_like).unwrap();
-        assert_eq!(told.all, "none 44 %, roll 44 %, bolt 11 %");
-        assert_eq!(told.like, "roll 60 %, none 40 %");
+        let found = quantity("answer".into(), &acts, &is_like).unwrap();
+        assert_eq!(found.all, "none 44 %, roll 44 %, bolt 11 %");
+        assert_eq!(found.like, "roll 60 %, none 40 %");
         assert_eq!(quantity("same".into(), &vec![drawn("same", "1 m"); 9], &is_like), None);
     }
 }

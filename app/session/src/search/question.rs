@@ -1,13 +1,27 @@
-//! The question of a search: an observation, and the encounters that may have led to it.
+//! The question of a search: an observation, and the encounters that may have led to it; stories as runs and scenarios.
 
 use std::path::{Path, PathBuf};
 
 use endline_gear::{Document, EditError, Observation, Setting, Size, Sources};
 
+use crate::encounters::Encounter;
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
+use crate::source::Prepared;
 use crate::study::{Files, Opened};
+use crate::study::prepare::until;
+
+use super::stories::Story;
+
+/// Duration of the run of a story.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// To the time at which the search compared it with the observation.
+    Ended,
+    /// To the end of the scenario, for steering by hand or for a longer observation.
+    Whole,
+}
 
 /// An observation, and a study with one option whose encounters are searched.
 pub struct Question {
@@ -41,7 +55,7 @@ impl Question {
         Self::of_text(&path, &text, encounters, &root, host)
     }
 
-    /// The same of a text that may differ from what stands in its file.
+    /// Opens an observation from a text that may differ from its file.
     ///
     /// # Errors
     /// As [`open`](Self::open).
@@ -91,6 +105,56 @@ impl Question {
     }
 }
 
+impl Question {
+    /// The model of a story.
+    ///
+    /// # Errors
+    /// Where its scenario cannot be assembled.
+    pub fn prepare(
+        &self,
+        story: &Story,
+        length: Length,
+        host: &PluginHost,
+    ) -> Result<Prepared, Error> {
+        let prepared = self.encounter(story)?;
+        match length {
+            Length::Ended => until(&prepared, story.simulated_s, host),
+            Length::Whole => (*prepared.source).clone().prepare(host),
+        }
+    }
+
+    /// A story as the text of a scenario, with the paths of its files that differ from those of the library.
+    ///
+    /// # Errors
+    /// Where its scenario cannot be assembled.
+    pub fn scenario(&self, story: &Story) -> Result<(String, Vec<String>), Error> {
+        let failed = |error: EditError| Error::Replay(error.message);
+        let prepared = self.encounter(story)?;
+        let mut scenario = Document::parse(&prepared.source.scenario).map_err(failed)?;
+        let acts = story.acts_in_words();
+        let name = format!(
+            "{}: first the {}, {acts}",
+            self.observation.name,
+            story.first_part.replace('_', " ")
+        );
+        scenario.put("name", &Setting::text(&name)).map_err(failed)?;
+        let notes = format!(
+            "An encounter that a search found among those of {}. Its ending is {:.2} away from what was seen.",
+            self.opened.study.name, story.distance
+        );
+        scenario.put("notes", &Setting::text(&notes)).map_err(failed)?;
+        let other = prepared.source.library.iter().filter(|(path, text)| {
+            self.opened.library_text(path).is_some_and(|shipped| shipped != *text)
+        });
+        let other = other.map(|(path, _)| path.to_owned()).collect();
+        Ok((scenario.text(), other))
+    }
+
+    fn encounter(&self, story: &Story) -> Result<Prepared, Error> {
+        self.opened.prepare(0, &Encounter::at_point(&self.opened.study, &story.point))
+    }
+}
+
 fn hash_of(context: &str, texts: &[&str]) -> String {
     let mut hasher = blake3::Hasher::new_derive_key(context);
     for text in texts {
@@ -114,7 +178,7 @@ fn study_of(observation: &Observation, given: Option<&str>, root: &Path) -> Resu
     }
 }
 
-/// The study with the animal that was seen in place of the animals that it draws.
+/// The study with the observed animal instead of drawn ones.
 fn opened(
     observation: &Observation,
     (path, text): (&Path, &str),

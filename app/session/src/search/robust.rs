@@ -1,29 +1,32 @@
-//! The most robust story of a kind: of its runs that are like the observation, the one whose neighbours most often are as well.
+//! The most robust story of a kind: of its runs that are like the observation, the one with the most neighbours like it.
 //!
-//! The nearest run is often at the rim of what ends alike. A few neighbours of some runs far apart from each other tell which one is not;
-//! of that, all neighbours are run, and the encounter on a finer resolution.
+//! The nearest run is often at the boundary of the encounters that end alike. A few neighbours of several runs far apart show which run is
+//! inside; of that one, all neighbours are run, and the encounter on a finer resolution. A neighbour has each quantity varied within its
+//! observation error, and rope of any friction that the prior allows.
+
+use endline_gear::units::Quantity;
+use endline_gear::{Law, Prior};
 
 use crate::campaign::Control;
 use crate::encounters::Encounter;
+use crate::encounters::draw::{self, Drawn};
 use crate::error::Error;
 
 use super::Effort;
 use super::batch::{self, Part};
 use super::distance::LIKE;
-use super::elites::Elite;
-use super::ended::Ended;
+use super::elites::{Elite, Trial};
+use super::ending::RunEnding;
 use super::folder::Folder;
-use super::jitter::neighbour;
 use super::question::Question;
-use super::trial::Trial;
 
-/// Runs of a kind that are tried.
+/// Runs of a kind that are compared.
 const CANDIDATES: usize = 4;
 
 /// Neighbours by which they are compared.
 const FIRST: u32 = 4;
 
-/// A run that was tried.
+/// A run with the results of its neighbours.
 pub(super) struct Tried<'a> {
     /// The run.
     pub(super) elite: &'a Elite,
@@ -33,14 +36,14 @@ pub(super) struct Tried<'a> {
     pub(super) finer: f64,
 }
 
-/// Runs that trying a kind takes at most.
+/// Greatest number of runs for one kind.
 pub(super) fn most_runs(effort: &Effort) -> usize {
     let first = effort.neighbours.min(FIRST as usize);
     CANDIDATES * first + (effort.neighbours - first) + 1
 }
 
-/// The most robust of the runs of a kind that are like the observation, the nearest of which stands first; `None` where there is none, or
-/// the search was cancelled.
+/// The most robust of the runs of a kind that are like the observation, in order of distance; `None` if there is none or the search
+/// was cancelled.
 ///
 /// # Errors
 /// A folder that cannot be read or written.
@@ -65,7 +68,7 @@ pub(super) fn most_robust<'a>(
     Ok(alike.zip(finer).map(|(alike, finer)| Tried { elite, alike, finer }))
 }
 
-/// A few of the runs: the first, then each time the one farthest from those chosen.
+/// Some of the runs: the first, then repeatedly the one farthest from those chosen.
 fn far_apart<'a>(like: &[&'a Elite]) -> Vec<&'a Elite> {
     let mut chosen: Vec<&Elite> = like.first().copied().into_iter().collect();
     while chosen.len() < CANDIDATES.min(like.len()) {
@@ -83,7 +86,7 @@ fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// What runs of neighbours need.
+/// The search whose neighbours are run.
 struct Runs<'a> {
     question: &'a Question,
     folder: &'a Folder,
@@ -92,10 +95,11 @@ struct Runs<'a> {
 }
 
 impl Runs<'_> {
-    /// Share of a run's first neighbours that are like the observation; those that were run before are read.
+    /// Share of a run's first neighbours that are like the observation; stored runs are read.
     fn share_alike(&self, elite: &Elite, count: u32) -> Result<Option<f64>, Error> {
         let question = self.question;
-        let one = |number| Ended::of(&question.opened, &neighbour(question, &elite.point, number));
+        let one =
+            |number| RunEnding::of(&question.opened, &neighbour(question, &elite.point, number));
         let name = format!("neighbours-{}", name(&elite.point));
         let Some(distances) = self.distances(&name, count, one)? else { return Ok(None) };
         let like = distances.iter().filter(|distance| **distance <= LIKE).count();
@@ -107,7 +111,7 @@ impl Runs<'_> {
     /// Distance of a run's encounter on a finer resolution.
     fn finer(&self, elite: &Elite) -> Result<Option<f64>, Error> {
         let opened = &self.question.opened;
-        let one = |_| Ended::finer(opened, &Encounter::at_point(&opened.study, &elite.point));
+        let one = |_| RunEnding::finer(opened, &Encounter::at_point(&opened.study, &elite.point));
         let distances = self.distances(&format!("finer-{}", name(&elite.point)), 1, one)?;
         Ok(distances.and_then(|distances| distances.first().copied()))
     }
@@ -116,12 +120,12 @@ impl Runs<'_> {
         &self,
         name: &str,
         count: u32,
-        one: impl Fn(u32) -> Ended + Sync,
+        one: impl Fn(u32) -> RunEnding + Sync,
     ) -> Result<Option<Vec<f64>>, Error> {
         let Self { question, folder, effort, control } = self;
         let part = Part { store: &folder.rounds, name, numbers: 0..count };
         let ended = batch::run_one(part, effort, control, one)?;
-        let distance = |ended: &Ended| Trial::of(&question.observation, ended).distance;
+        let distance = |ended: &RunEnding| Trial::of(&question.observation, ended).distance;
         Ok(ended.map(|ended| ended.iter().map(distance).collect()))
     }
 }
@@ -135,6 +139,53 @@ fn name(point: &[f64]) -> String {
     hasher.finalize().to_hex()[..16].to_owned()
 }
 
+/// Prior of the scale of friction.
+const FRICTION: &str = "friction.attributes.coefficient_scale";
+
+/// Neighbour `number` of the encounter at a point.
+pub(super) fn neighbour(question: &Question, point: &[f64], number: u32) -> Encounter {
+    let priors = &question.opened.study.priors;
+    let seed = question.seed ^ 0x9e37_79b9_7f4a_7c15;
+    let shares = draw::sobol_point(seed, number, priors.len());
+    let mut encounter = Encounter::at_point(&question.opened.study, point);
+    for ((prior, drawn), share) in priors.iter().zip(&mut encounter.drawn).zip(shares) {
+        *drawn = varied(prior, drawn, share);
+    }
+    encounter
+}
+
+/// A drawn value varied within its observation error; any level of friction's scale, if it is drawn by levels.
+fn varied(prior: &Prior, drawn: &Drawn, share: f64) -> Drawn {
+    let is_friction = prior.name.value == FRICTION;
+    let (ends, quantity) = match &prior.law {
+        Law::Choice(_) if is_friction => return draw::at_share(prior, share),
+        Law::Choice(_) => return drawn.clone(),
+        Law::Uniform { low, high, quantity } | Law::Normal { low, high, quantity, .. } => {
+            ([*low, *high], *quantity)
+        }
+        Law::Bins { edges, quantity, .. } => ([edges[0], edges[edges.len() - 1]], *quantity),
+    };
+    let Some(value) = drawn.number else { return drawn.clone() };
+    let way = 2.0 * share - 1.0;
+    let moved = if is_friction {
+        value * libm::exp2(way)
+    } else {
+        value + way * observation_error(quantity, value)
+    };
+    draw::number(prior.name.value.clone(), moved.clamp(ends[0], ends[1]), quantity)
+}
+
+/// Observation error of a quantity: 2 cm, 0.1 s, a degree, 2 cm/s; a twentieth of any other.
+fn observation_error(quantity: Quantity, value: f64) -> f64 {
+    match quantity {
+        Quantity::Length => 0.02,
+        Quantity::Time => 0.1,
+        Quantity::Angle => 1.0_f64.to_radians(),
+        Quantity::Speed => 0.02,
+        _ => 0.05 * value.abs(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,7 +194,7 @@ mod tests {
     fn candidates_are_the_nearest_and_then_far_apart() {
         let elite = |share: f64| Elite {
             point: vec![share],
-            trial: Trial::of(&crate::search::tests::observation(), &Ended::default()),
+            trial: Trial::of(&crate::search::tests::observation(), &RunEnding::default()),
             begun: 0,
         };
         let all = [0.5, 0.52, 0.9, 0.0, 0.48, 0.7, 0.1].map(elite);

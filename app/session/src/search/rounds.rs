@@ -1,5 +1,5 @@
-//! The rounds of a search: first a net of Sobol points alone, then a generation of every local search, variations of the nearest
-//! elites and a few more points of the net.
+//! The rounds of a search: first a sample of the priors alone, which files and the command line call the net, then a generation of
+//! every local search, variations of the nearest elites and a few more draws.
 
 use std::ops::Range;
 
@@ -7,18 +7,16 @@ use endline_gear::Law;
 
 use crate::encounters::draw;
 
-use super::climb::Climb;
-use super::elites::Elites;
-use super::ended::Ended;
+use super::climb::{Climb, variation};
+use super::elites::{Elites, Trial};
+use super::ending::RunEnding;
 use super::question::Question;
-use super::trial::Trial;
-use super::variation::variation;
 
-/// Points of the first net that are taken in together, at most.
-const NET: u32 = 32;
+/// Greatest number of draws that are added together before the first local search.
+const DRAWS_AT_ONCE: u32 = 32;
 
-/// Points of the net in every later round.
-const NET_BESIDE: u32 = 8;
+/// Draws in every later round.
+const DRAWS_BESIDE: u32 = 8;
 
 /// Variations of elites in every later round.
 const VARIATIONS: u32 = 8;
@@ -32,36 +30,36 @@ pub(super) struct Round {
     pub(super) name: String,
     /// Points that local searches ask for, then variations of elites.
     pub(super) local: Vec<Vec<f64>>,
-    /// Points of the net, by their place in its sequence.
-    pub(super) net: Range<u32>,
+    /// Draws from the priors, by their place in the sequence.
+    pub(super) draws: Range<u32>,
 }
 
-/// The points of a net, by their place in its sequence.
+/// Points of the scrambled Sobol sequence in the unit cube of encounters.
 #[derive(Clone, Copy)]
-pub(super) struct NetPoints {
+pub(super) struct SobolPoints {
     seed: u64,
     dimensions: usize,
 }
 
-impl NetPoints {
+impl SobolPoints {
     /// The point at a place.
     pub(super) fn at(&self, number: u32) -> Vec<f64> {
         draw::sobol_point(self.seed, number, self.dimensions)
     }
 }
 
-/// Which points come next, from what came of those before.
+/// The state of a search, from which the next round follows.
 pub(super) struct Rounds<'a> {
     pub(super) question: &'a Question,
     /// Dimensions of the unit cube.
     dimensions: usize,
     /// Those with a continuous law.
     free: Vec<usize>,
-    /// Points of the net before the first local search.
+    /// Draws before the first local search.
     first: u32,
     round: u32,
-    /// Runs of the net so far, each with its point.
-    pub(super) net: Vec<(Vec<f64>, Trial)>,
+    /// Draws from the priors so far, each with its point.
+    pub(super) prior_sample: Vec<(Vec<f64>, Trial)>,
     pub(super) elites: Elites,
     climbs: Vec<Climb>,
     /// How many points of the round under way are each local search's.
@@ -81,7 +79,7 @@ impl<'a> Rounds<'a> {
             free: (0..varied.len()).filter(|dimension| is_free(varied[*dimension])).collect(),
             first: u32::try_from(first).unwrap_or(u32::MAX),
             round: 0,
-            net: Vec::new(),
+            prior_sample: Vec::new(),
             elites: Elites::default(),
             climbs: Vec::new(),
             shares: Vec::new(),
@@ -90,26 +88,28 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Trials taken in so far.
+    /// Number of trials so far.
     pub(super) fn trials(&self) -> usize {
         self.done
     }
 
-    /// The points of the net.
-    pub(super) fn net_points(&self) -> NetPoints {
-        NetPoints { seed: self.question.seed, dimensions: self.dimensions }
+    /// The points of draws.
+    pub(super) fn sobol_points(&self) -> SobolPoints {
+        SobolPoints { seed: self.question.seed, dimensions: self.dimensions }
     }
 
-    /// The net before the first local search, in parts; those that reach so many trials are the last.
-    pub(super) fn parts_of_net(&self, trials: usize) -> impl Iterator<Item = Range<u32>> + use<> {
+    /// The draws before the first local search, in parts, up to a number of trials.
+    pub(super) fn first_draws(&self, trials: usize) -> impl Iterator<Item = Range<u32>> + use<> {
         let first = self.first;
         let until = first.min(u32::try_from(trials).unwrap_or(u32::MAX));
-        (0..until).step_by(NET as usize).map(move |from| from..from.saturating_add(NET).min(first))
+        (0..until)
+            .step_by(DRAWS_AT_ONCE as usize)
+            .map(move |from| from..from.saturating_add(DRAWS_AT_ONCE).min(first))
     }
 
-    /// The next round, after the first net.
+    /// The next round, after the first draws.
     pub(super) fn next(&mut self) -> Round {
-        let from = u32::try_from(self.net.len()).unwrap_or(u32::MAX);
+        let from = u32::try_from(self.prior_sample.len()).unwrap_or(u32::MAX);
         let name = format!("round-{:05}", self.round);
         self.shares.clear();
         self.climbs.retain(|climb| !climb.is_over());
@@ -121,7 +121,7 @@ impl<'a> Rounds<'a> {
             local.extend(generation);
         }
         local.extend(self.variations());
-        Round { name, local, net: from..from.saturating_add(NET_BESIDE) }
+        Round { name, local, draws: from..from.saturating_add(DRAWS_BESIDE) }
     }
 
     /// Variations of the nearest elites.
@@ -133,7 +133,7 @@ impl<'a> Rounds<'a> {
         (0..VARIATIONS).zip(self.elites.nearest()).map(one).collect()
     }
 
-    /// Begins a local search from the worthiest elite; false where there is none.
+    /// Begins a local search from the next elite; false if there is none.
     fn begin(&mut self) -> bool {
         let Some(elite) = self.elites.next_start() else { return false };
         elite.begun += 1;
@@ -145,8 +145,8 @@ impl<'a> Rounds<'a> {
         begins
     }
 
-    /// Takes in what the runs of a round came to.
-    pub(super) fn take(&mut self, round: &Round, local: &[Ended], net: &[Ended]) {
+    /// Adds the runs of a round.
+    pub(super) fn take(&mut self, round: &Round, local: &[RunEnding], draws: &[RunEnding]) {
         let observation = &self.question.observation;
         let held: Vec<Trial> = local.iter().map(|ended| Trial::of(observation, ended)).collect();
         for (point, trial) in round.local.iter().zip(&held) {
@@ -159,20 +159,20 @@ impl<'a> Rounds<'a> {
             rest = others;
         }
         self.done += local.len();
-        self.take_net(net);
+        self.take_draws(draws);
     }
 
-    /// Takes in what the next points of the net came to.
-    pub(super) fn take_net(&mut self, net: &[Ended]) {
-        let points = self.net_points();
-        for ended in net {
-            let number = u32::try_from(self.net.len()).unwrap_or(u32::MAX);
+    /// Adds the runs of the next draws.
+    pub(super) fn take_draws(&mut self, draws: &[RunEnding]) {
+        let points = self.sobol_points();
+        for ended in draws {
+            let number = u32::try_from(self.prior_sample.len()).unwrap_or(u32::MAX);
             let point = points.at(number);
             let trial = Trial::of(&self.question.observation, ended);
             self.elites.take(self.question, &point, &trial);
-            self.net.push((point, trial));
+            self.prior_sample.push((point, trial));
         }
-        self.done += net.len();
+        self.done += draws.len();
         self.round += 1;
     }
 

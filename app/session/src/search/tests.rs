@@ -73,11 +73,11 @@ fn folder_of(place: &Place, name: &str, question: &Question) -> Folder {
 }
 
 fn effort(trials: usize, threads: usize, [part, of]: [u32; 2]) -> Effort {
-    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net: USUAL_NET }
+    Effort { trials, threads, shard: Shard { part, of }, neighbours: 0, net: DEFAULT_NET }
 }
 
 /// Three kinds of story, each with a narrow pit of its own; only that of the head goes down to nothing.
-fn made_up(point: &[f64]) -> Ended {
+fn made_up(point: &[f64]) -> RunEnding {
     let (kind, pit, floor) = match point[3] {
         share if share < 0.5 => ("head", [0.32, 0.81, 0.17], 0.0),
         _ if point[0] < 0.5 => ("body", [0.21, 0.4, 0.9], 1.4),
@@ -89,7 +89,7 @@ fn made_up(point: &[f64]) -> Ended {
     let behind_m = libm::exp(0.4 * distance);
     let body = AtSite { site: Site::Body, wraps: 0.0, tight: false };
     let ending = Ending { sites: vec![body], behind_m, ..Ending::default() };
-    Ended { ending, first_part: kind.into(), simulated_s: 1.0, ..Ended::default() }
+    RunEnding { ending, first_part: kind.into(), simulated_s: 1.0, ..RunEnding::default() }
 }
 
 fn found(question: &Question, folder: &Folder, effort: &Effort) -> Vec<(Vec<f64>, f64)> {
@@ -138,7 +138,7 @@ fn local_searches_find_what_the_net_leaves() {
         let question = asked(&place, seed);
         let best = |net_alone: bool| {
             let folder = folder_of(&place, &format!("{seed}-{net_alone}"), &question);
-            let net = if net_alone { 900 } else { USUAL_NET };
+            let net = if net_alone { 900 } else { DEFAULT_NET };
             let effort = Effort { net, ..effort(900, 1, [0, 1]) };
             found(&question, &folder, &effort).into_iter().map(|(_, distance)| distance)
         };
@@ -223,8 +223,8 @@ fn observations_of_the_same_encounters_share_draws() {
         let rounds =
             rounds_of(&question, &folder, &effort, kept, &Control::default(), |_| {}).unwrap();
         let ran = std::mem::take(&mut *runs.lock().unwrap());
-        let own = rounds.net.iter().filter(|(point, _)| ran.contains(point)).count();
-        (rounds.net.len(), own)
+        let own = rounds.prior_sample.iter().filter(|(point, _)| ran.contains(point)).count();
+        (rounds.prior_sample.len(), own)
     };
     let observation = place.library().join("observations/made-up.toml");
     assert_eq!(search("one", 100), (100, 100));

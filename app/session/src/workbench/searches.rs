@@ -13,7 +13,7 @@ use crate::campaign::threads;
 use crate::edit::{Documents, observation};
 use crate::save;
 use crate::search::job::{self, SearchJob, SearchRequest};
-use crate::search::open::Length;
+use crate::search::question::Length;
 use crate::search::{Question, Story};
 use crate::task::{Fault, Task};
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use endline_session::campaign::{Control, Shard};
 use endline_session::encounters::Encounter;
 use endline_session::search::{
-    Effort, Folder, LIKE, Progress, Question, Stories, Story, USUAL_NET, page, search as found,
+    DEFAULT_NET, Effort, Folder, LIKE, Progress, Question, Stories, Story, page, search as found,
 };
 use endline_session::study::REPLAY_HZ;
 
@@ -41,7 +41,7 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     keep: usize,
     /// Draws from the priors before the first local search; as many as `--trials`, and draws alone are tried.
-    #[arg(long, value_name = "N", default_value_t = USUAL_NET)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_NET)]
     net: usize,
     /// Folder of draws that searches among the same encounters share [default: the search's own].
     #[arg(long, value_name = "DIR")]

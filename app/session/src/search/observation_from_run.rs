@@ -1,29 +1,28 @@
-//! An observation written from a run's ending: what somebody who came upon the whale might have told of it.
+//! An observation written from a run's ending, as an observer might have reported it.
 //!
-//! It serves to try a search on an encounter that is known: the ending is blurred, so that the search cannot lean on figures that
-//! nobody could see.
+//! It tests a search on a known encounter: the ending is blurred, so that the search cannot use figures that no observer could see.
 
 use endline_gear::{PathPlace, RopeEnd, Site};
 
 use super::ending::Ending;
 use crate::encounters::draw;
 
-/// How sure an observer is of rope that is there, or not there.
+/// Probability that an observer gives to rope that is present, or absent.
 const SURE: f64 = 0.9;
 
-/// Wraps are told to this either way [turns].
+/// Half the range of reported wraps [turns].
 const WRAPS: f64 = 0.25;
 
-/// Wraps are misjudged by up to this [turns].
+/// Greatest error of reported wraps [turns].
 const WRAPS_OFF: f64 = 0.15;
 
-/// Lengths are told to this share either way, and misjudged by as much.
+/// Half the range of reported lengths and their greatest error, as shares.
 const LENGTH: f64 = 0.25;
 
-/// Longest path that somebody would tell.
+/// Longest path that an observer would report.
 const PATH: usize = 4;
 
-/// The text of an observation file; `seed` decides what is misjudged, and which site nobody could see.
+/// The text of an observation file; `seed` determines the errors and the hidden site.
 #[must_use]
 pub fn observation_text(ending: &Ending, encounters: &str, seed: u64) -> String {
     let chances = draw::sobol_point(seed, 0, Site::SINGLE.len() + 2);
@@ -54,7 +53,7 @@ fn one_site(ending: &Ending, site: Site, off: f64) -> String {
     format!("{head}present = {SURE}\nwraps = [{least:.2}, {most:.2}]\ntight = {}\n", at.tight)
 }
 
-/// The path of the strand that passes most places, without the hidden one, where it is short enough to be told.
+/// The path of the strand that passes most places, without the hidden one, if it is short enough to be reported.
 fn path(ending: &Ending, hidden: Site) -> String {
     let longest = ending.strands.iter().max_by_key(|strand| strand.places.len());
     let mut sites: Vec<PathPlace> = longest
@@ -72,8 +71,8 @@ fn path(ending: &Ending, hidden: Site) -> String {
 }
 
 fn trailing(ending: &Ending, off: f64) -> String {
-    let told = ending.behind_m * (1.0 + LENGTH * off);
-    let (least, most) = (told * (1.0 - LENGTH), told * (1.0 + LENGTH));
+    let reported = ending.behind_m * (1.0 + LENGTH * off);
+    let (least, most) = (reported * (1.0 - LENGTH), reported * (1.0 + LENGTH));
     let ends: Vec<String> = ending
         .strands
         .iter()
@@ -95,9 +94,9 @@ mod tests {
     use super::super::ending::{AtSite, Strand};
     use super::*;
 
-    /// What is written reads, and the ending it was written from is like it, however it was blurred.
+    /// The text is an observation, and the ending is like it for every seed.
     #[test]
-    fn an_ending_is_like_what_is_told_of_it() {
+    fn an_ending_is_like_its_blurred_observation() {
         let at = |site, wraps, tight| AtSite { site, wraps, tight };
         let places =
             ["left_flipper", "body:left", "peduncle"].map(|name| PathPlace::named(name).unwrap());
