@@ -6,7 +6,7 @@ use endline_session::campaign::{Control, Shard};
 use endline_session::locate;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Opened, batch, merge, report};
+use endline_session::study::{PreparedStudy, batch, merge, report};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -17,7 +17,7 @@ use crate::signals::Signals;
 /// A study, opened and checked.
 #[pyclass(frozen, module = "endline._endline")]
 pub struct Study {
-    opened: Opened,
+    opened: PreparedStudy,
 }
 
 #[pymethods]
@@ -28,7 +28,7 @@ impl Study {
     fn new(python: Python<'_>, name: &str, library: Option<PathBuf>) -> PyResult<Self> {
         let library = library.as_deref();
         let file = locate::named(name, "studies", library).map_err(failed)?;
-        let opened = python.detach(|| Opened::open(&file, library, host()));
+        let opened = python.detach(|| PreparedStudy::open(&file, library, host()));
         Ok(Self { opened: opened.map_err(raised)? })
     }
 

@@ -12,7 +12,7 @@ use crate::plugins::PluginHost;
 use crate::rules::Packs;
 use crate::search::Question;
 use crate::source::{Overrides, prepare};
-use crate::study::Opened;
+use crate::study::PreparedStudy;
 
 /// What a check found.
 #[derive(Clone, Debug, Default)]
@@ -163,7 +163,7 @@ impl Checked {
     /// A study is checked by assembling every option with what is drawn first.
     fn study(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
-        self.note(path, Opened::open(path, library, host).map(|_| ()));
+        self.note(path, PreparedStudy::open(path, library, host).map(|_| ()));
     }
 
     /// Every observation of a library.

@@ -17,7 +17,7 @@ use endline_session::encounters::{Encounter, draw};
 use endline_session::plugins::{Hook, PluginHost};
 use endline_session::search::observation_from_run::observation_text;
 use endline_session::search::{Effort, Ending, Folder, LIKE, Question, search};
-use endline_session::study::Opened;
+use endline_session::study::PreparedStudy;
 use endline_sim::metrics::EventKind;
 
 /// Study whose encounters are hidden and searched.
@@ -55,9 +55,9 @@ pub fn host() -> PluginHost {
 }
 
 /// The study whose encounters are hidden.
-pub fn opened(host: &PluginHost) -> Opened {
+pub fn opened(host: &PluginHost) -> PreparedStudy {
     let study = root().join("studies").join(format!("{STUDY}.toml"));
-    Opened::open(&study, Some(&root()), host).unwrap()
+    PreparedStudy::open(&study, Some(&root()), host).unwrap()
 }
 
 fn root() -> PathBuf {
@@ -65,7 +65,7 @@ fn root() -> PathBuf {
 }
 
 /// Runs draws until there are as many of each class as asked for, or enough were tried; then classes take turns.
-pub fn hide(opened: &Opened, count: usize) -> Vec<Hidden> {
+pub fn hide(opened: &PreparedStudy, count: usize) -> Vec<Hidden> {
     let of_each = count.div_ceil(CLASSES);
     // In the order in which they appear.
     let mut classes: Vec<VecDeque<Hidden>> = Vec::new();
@@ -90,7 +90,7 @@ pub fn hide(opened: &Opened, count: usize) -> Vec<Hidden> {
 }
 
 /// Draws that end with rope on the whale, in order, on every core.
-fn some(opened: &Opened, numbers: Range<u32>) -> Vec<Option<Hidden>> {
+fn some(opened: &PreparedStudy, numbers: Range<u32>) -> Vec<Option<Hidden>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let numbers: Vec<u32> = numbers.collect();
     let run = |numbers: &[u32]| -> Vec<Option<Hidden>> {
@@ -105,7 +105,7 @@ fn some(opened: &Opened, numbers: Range<u32>) -> Vec<Option<Hidden>> {
 }
 
 /// A draw, where it ends with rope on the whale.
-fn one(opened: &Opened, number: u32) -> Option<Hidden> {
+fn one(opened: &PreparedStudy, number: u32) -> Option<Hidden> {
     let point = draw::sobol_point(SEED, number, draw::dimensions(&opened.study).len());
     let played = opened.play(0, &Encounter::at_point(&opened.study, &point), 0.0).ok()?;
     let ending = Ending::of(&played.run);

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::encounters::Encounter;
 use crate::run::Run;
-use crate::study::{Opened, Played};
+use crate::study::{Played, PreparedStudy};
 
 /// Rope that does not touch a part is on it from this many wraps [turns]; estimate.
 const LOOSE_WRAPS: f64 = 0.25;
@@ -190,7 +190,7 @@ pub struct RunEnding {
 
 impl RunEnding {
     /// Runs an encounter to its end.
-    pub(super) fn of(opened: &Opened, encounter: &Encounter) -> Self {
+    pub(super) fn of(opened: &PreparedStudy, encounter: &Encounter) -> Self {
         let mut on_the_way: Vec<Ending> = Vec::new();
         let observe = |run: &Run| {
             let now = Ending::of(run);
@@ -205,7 +205,7 @@ impl RunEnding {
     }
 
     /// Runs an encounter on a finer resolution.
-    pub(super) fn finer(opened: &Opened, encounter: &Encounter) -> Self {
+    pub(super) fn finer(opened: &PreparedStudy, encounter: &Encounter) -> Self {
         match opened.play_finer(0, encounter) {
             Ok(played) => Self::played(&played),
             Err(error) => Self { fault: error.to_string(), ..Self::default() },

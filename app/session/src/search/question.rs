@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
-use crate::study::{Files, Opened};
+use crate::study::{Files, PreparedStudy};
 use crate::study::prepare::until;
 
 use super::stories::Story;
@@ -28,7 +28,7 @@ pub struct Question {
     /// What was seen.
     pub observation: Observation,
     /// The encounters: the study's priors, with the animal that was seen.
-    pub opened: Opened,
+    pub opened: PreparedStudy,
     /// Seed of the net and of the local searches.
     pub seed: u64,
     /// BLAKE3 of observation and study, hexadecimal.
@@ -184,7 +184,7 @@ fn opened(
     (path, text): (&Path, &str),
     files: Files,
     host: &PluginHost,
-) -> Result<Opened, Error> {
+) -> Result<PreparedStudy, Error> {
     let fault = |error: EditError| Error::at(path, error.message);
     let mut study = Document::parse(text).map_err(fault)?;
     let mut fixed: Vec<(&str, String)> = Vec::new();
@@ -209,5 +209,5 @@ fn opened(
         study.put(&field("source"), &Setting::text("the observation")).map_err(fault)?;
         study.put(&field("confidence"), &Setting::text("measured")).map_err(fault)?;
     }
-    Opened::of_sources(study.text(), path, files, host)
+    PreparedStudy::of_sources(study.text(), path, files, host)
 }

@@ -12,7 +12,7 @@ use crate::task::lock;
 
 use super::folder::{BLOCK, Folder};
 use super::merge;
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 
 /// Runs the missing blocks of a shard, or fewer if the study reaches the interval that it asks for. Other processes on the same
 /// folder share the work, and the blocks of a process that has ended are run here; at the end, all blocks are stored. The control
@@ -25,7 +25,7 @@ use super::prepared::Opened;
 /// Where a block cannot be written. The other blocks are finished or dropped, and a second call
 /// continues from those that are written.
 pub fn run(
-    opened: &Opened,
+    opened: &PreparedStudy,
     folder: &Folder,
     shard: Shard,
     threads: usize,
@@ -47,7 +47,7 @@ pub fn run(
 }
 
 fn run_missing(
-    opened: &Opened,
+    opened: &PreparedStudy,
     folder: &Folder,
     control: &Control,
     missing: &[u32],
@@ -74,7 +74,7 @@ fn count(total: usize, missing: usize) -> Count {
 
 /// The missing blocks of a study.
 struct Blocks<'a> {
-    opened: &'a Opened,
+    opened: &'a PreparedStudy,
     folder: &'a Folder,
     control: &'a Control,
     leases: &'a Leases,

@@ -17,7 +17,7 @@ use crate::campaign::folder;
 use crate::error::Error;
 use crate::save;
 
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::registration::Registration;
 use crate::table::parquet;
 use crate::table::{Column, Row, Table};
@@ -51,7 +51,7 @@ pub struct Label {
 }
 
 impl Label {
-    fn of(opened: &Opened) -> Self {
+    fn of(opened: &PreparedStudy) -> Self {
         Self {
             schema: SCHEMA.into(),
             study: opened.study.id.clone(),
@@ -79,7 +79,7 @@ pub struct Folder {
 impl Folder {
     /// Where the folder of a study's results is under a root: its id and the head of its hash.
     #[must_use]
-    pub fn path_under(root: &Path, opened: &Opened) -> PathBuf {
+    pub fn path_under(root: &Path, opened: &PreparedStudy) -> PathBuf {
         folder::path_under(root, &opened.study.id, &opened.hash)
     }
 
@@ -87,7 +87,7 @@ impl Folder {
     ///
     /// # Errors
     /// A folder that belongs to another study, or cannot be written.
-    pub fn open(path: &Path, opened: &Opened) -> Result<Self, Error> {
+    pub fn open(path: &Path, opened: &PreparedStudy) -> Result<Self, Error> {
         folder::make(path)?;
         let file = path.join("study.json");
         let label = Label::of(opened);

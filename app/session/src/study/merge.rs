@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::save;
 
 use super::folder::Folder;
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::runs::Runs;
 use super::stats::is_narrow;
 use crate::campaign::Shard;
@@ -19,7 +19,7 @@ const TEST_EVERY: u32 = 4;
 ///
 /// # Errors
 /// Blocks that are missing, with the command that runs them, damaged, or of another study.
-pub fn merge(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
+pub fn merge(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let mut table = Table::default();
     for block in 0..folder.blocks() {
         if !folder.file_of(block).is_file() {
@@ -37,7 +37,7 @@ pub fn merge(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
 ///
 /// # Errors
 /// Where they cannot be written.
-pub fn save(opened: &Opened, folder: &Folder, runs: &Runs) -> Result<(), Error> {
+pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), Error> {
     let table = runs.table();
     let file = folder.path.join("table.parquet");
     let tags = [("study".to_owned(), opened.hash.clone())];
@@ -56,7 +56,7 @@ pub fn save(opened: &Opened, folder: &Folder, runs: &Runs) -> Result<(), Error> 
 ///
 /// # Errors
 /// Where the study was not merged, or its table belongs to another study.
-pub fn load(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
+pub fn load(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let file = folder.path.join("table.parquet");
     let bytes = std::fs::read(&file).map_err(|error| {
         Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
@@ -71,7 +71,7 @@ pub fn load(opened: &Opened, folder: &Folder) -> Result<Runs, Error> {
 
 /// Whether the blocks before the first missing one are enough for the interval that the study asks for.
 #[must_use]
-pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
+pub fn is_enough(opened: &PreparedStudy, folder: &Folder) -> bool {
     if opened.study.enough.is_none() {
         return false;
     }
@@ -87,7 +87,7 @@ pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
     false
 }
 
-fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
+fn narrow(opened: &PreparedStudy, table: &Table, encounters: u32) -> bool {
     let Some(enough) = &opened.study.enough else { return false };
     encounters.is_multiple_of(TEST_EVERY)
         && u64::from(encounters) >= enough.least
@@ -95,7 +95,7 @@ fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
             .is_ok_and(|runs| is_narrow(&runs, &opened.options, &enough.event, enough.width))
 }
 
-fn missing(opened: &Opened, folder: &Folder) -> Error {
+fn missing(opened: &PreparedStudy, folder: &Folder) -> Error {
     let blocks: Vec<u32> =
         (0..folder.blocks()).filter(|block| !folder.file_of(*block).is_file()).collect();
     let named: Vec<String> = blocks.iter().take(20).map(u32::to_string).collect();

@@ -46,5 +46,5 @@ pub mod threat;
 
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
-pub use prepared::{Files, Opened};
+pub use prepared::{Files, PreparedStudy};
 pub use results::{ResultsReader, ResultsRequest, StudyResults};

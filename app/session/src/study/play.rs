@@ -20,7 +20,7 @@ use crate::table::Row;
 use super::equivalence::{
     is_certainly_same_run, least_strength_n, same_run, same_so_far, same_until_parting,
 };
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::row::row;
 
 /// A run that has been invalid for this long is abandoned; invalid states do not recover [s].
@@ -39,7 +39,7 @@ pub struct Played {
 
 /// An encounter with the models of its options, each assembled at its first use.
 struct EncounterModels<'a> {
-    study: &'a Opened,
+    study: &'a PreparedStudy,
     encounter: Encounter,
     options: Vec<OnceCell<Result<Prepared, String>>>,
 }
@@ -54,7 +54,7 @@ struct OptionRun {
     diverged: Vec<(usize, Moment)>,
 }
 
-impl Opened {
+impl PreparedStudy {
     /// Rows of every option in encounter `index`, in the order of the options; `None` if `is_wanted` becomes false.
     #[must_use]
     pub fn rows(&self, index: u32, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
@@ -214,7 +214,7 @@ impl Opened {
 }
 
 impl<'a> EncounterModels<'a> {
-    fn new(study: &'a Opened, index: u32) -> Self {
+    fn new(study: &'a PreparedStudy, index: u32) -> Self {
         let options = study.options.iter().map(|_| OnceCell::new()).collect();
         Self { study, encounter: Encounter::of(&study.study, index), options }
     }

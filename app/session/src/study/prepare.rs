@@ -13,7 +13,7 @@ use crate::source::{Overrides, Prepared, Source};
 
 use super::plan::OptionPlan;
 use super::play::Played;
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 
 /// Length of a whale for which neither study nor scenario names one [m].
 const USUAL_LENGTH_M: f64 = 12.0;
@@ -27,7 +27,7 @@ const HALVED: [(&str, units::Quantity); 5] = [
     ("step", units::Quantity::Time),
 ];
 
-impl Opened {
+impl PreparedStudy {
     /// An option in an encounter, ready to run.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl Opened {
     }
 }
 
-impl Opened {
+impl PreparedStudy {
     /// The gear of an option in equilibrium in the sea of an encounter.
     pub(super) fn equilibrium(
         &self,
@@ -170,7 +170,7 @@ pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Resul
     source.prepare(host)
 }
 
-impl Opened {
+impl PreparedStudy {
     /// Plays an option in an encounter on a finer resolution than its scenario's.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ use crate::encounters::equilibria::Equilibria;
 use crate::encounters::priors::field_of;
 
 /// A study ready to run.
-pub struct Opened {
+pub struct PreparedStudy {
     /// The study as read.
     pub study: Study,
     /// Text of its file.
@@ -49,7 +49,7 @@ pub struct Files {
     pub scenario: Option<(PathBuf, String)>,
 }
 
-impl Opened {
+impl PreparedStudy {
     /// Reads a study, its scenario and library, and checks every option by assembling it.
     ///
     /// # Errors
@@ -253,7 +253,7 @@ pub(crate) struct Plan<'a> {
     families: Vec<Vec<&'a str>>,
 }
 
-impl Opened {
+impl PreparedStudy {
     /// One line of JSON.
     #[must_use]
     pub fn plan_json(&self) -> String {

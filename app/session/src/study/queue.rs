@@ -16,7 +16,7 @@ use crate::shell;
 use super::batch;
 use super::folder::Folder;
 use super::merge;
-use super::prepared::{Files, Opened};
+use super::prepared::{Files, PreparedStudy};
 use super::report;
 use super::stats::Findings;
 
@@ -37,7 +37,7 @@ pub struct StudyRequest {
 
 /// The study once it is opened, and the folder of its results.
 #[derive(Clone, Default)]
-pub struct StudyFound(Option<(Arc<Opened>, PathBuf)>);
+pub struct StudyFound(Option<(Arc<PreparedStudy>, PathBuf)>);
 
 /// A study of the queue.
 pub type StudyJob = Job<StudyRequest, StudyFound>;
@@ -85,7 +85,7 @@ impl Queue {
 impl StudyJob {
     /// The study as it was opened to be run.
     #[must_use]
-    pub fn opened(&self) -> Option<Arc<Opened>> {
+    pub fn opened(&self) -> Option<Arc<PreparedStudy>> {
         self.found().0.map(|(opened, _)| opened)
     }
 
@@ -103,7 +103,7 @@ fn run(
     host: &PluginHost,
 ) -> Result<State, Error> {
     let StudyRequest { file, text, files, root, .. } = request;
-    let opened = Arc::new(Opened::of_sources(text.clone(), file, files.clone(), host)?);
+    let opened = Arc::new(PreparedStudy::of_sources(text.clone(), file, files.clone(), host)?);
     let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
     job.found(|found| found.0 = Some((Arc::clone(&opened), folder.path.clone())));
     job.enter(State::Running);

@@ -16,7 +16,7 @@ use crate::task::{Fault, Task, Waker};
 use super::folder::{Folder, Label};
 use super::merge;
 use super::prepare;
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::runs::Runs;
 use super::stats::Findings;
 use crate::encounters::Encounter;
@@ -28,7 +28,7 @@ pub struct ResultsRequest {
     /// The study's file; found by the label of the folder where `None`.
     pub file: Option<PathBuf>,
     /// The study, where it is open already because it is at work.
-    pub opened: Option<Arc<Opened>>,
+    pub opened: Option<Arc<PreparedStudy>>,
     /// Folder of results; the study's own under `root` where `None`.
     pub folder: Option<PathBuf>,
     /// Folder of the gear library.
@@ -42,7 +42,7 @@ pub struct ResultsRequest {
 /// The results of a study at the time of reading.
 pub struct StudyResults {
     /// The study.
-    pub opened: Arc<Opened>,
+    pub opened: Arc<PreparedStudy>,
     /// Its folder.
     pub folder: PathBuf,
     /// Runs of the blocks before the first missing one.
@@ -62,7 +62,9 @@ impl StudyResults {
         let at_work = request.opened.is_some();
         let opened = match (request.opened, &request.file, &request.folder) {
             (Some(opened), _, _) => opened,
-            (None, Some(file), _) => Arc::new(Opened::open(file, Some(&request.library), host)?),
+            (None, Some(file), _) => {
+                Arc::new(PreparedStudy::open(file, Some(&request.library), host)?)
+            }
             (None, None, Some(folder)) => Arc::new(study_of(folder, &request.library, host)?),
             (None, None, None) => return Ok(None),
         };
@@ -104,7 +106,7 @@ impl StudyResults {
 
 /// The merged runs, else those of the blocks before the first missing one; and whether they are
 /// all runs of the study.
-fn runs(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
+fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
     if !at_work && folder.path.join("table.parquet").is_file() {
         return Ok((merge::load(opened, folder)?, true));
     }
@@ -118,7 +120,7 @@ fn runs(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Runs, bool),
 }
 
 /// The study of a folder of results: from the bundle in it, else from the library.
-fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<Opened, Error> {
+fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<PreparedStudy, Error> {
     let file = folder.join("study.json");
     let text = std::fs::read_to_string(&file)
         .map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
@@ -126,14 +128,14 @@ fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<Opened, 
         .map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
     let bundle = folder.join("bundle/study.toml");
     if bundle.is_file() {
-        return Opened::open(&bundle, Some(&folder.join("bundle/gear-library")), host);
+        return PreparedStudy::open(&bundle, Some(&folder.join("bundle/gear-library")), host);
     }
     if !names::is_id(&label.study) {
         let message = format!("names the study {:?}, which is no id", label.study);
         return Err(Error::at(&file, message));
     }
     let file = library.join("studies").join(format!("{}.toml", label.study));
-    Opened::open(&file, Some(library), host)
+    PreparedStudy::open(&file, Some(library), host)
 }
 
 /// A folder of results of a study.

@@ -5,7 +5,7 @@ use endline_sdk::BodyPart;
 use crate::figures::{ATTEMPT, AUDIT, Attempt, Figure, PART, Quantity, RUN, Value, WHALE, parts};
 use crate::report::Report;
 
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use crate::encounters::Encounter;
 use crate::table::{Cell, Row};
 
@@ -17,7 +17,7 @@ type Placed = ([u16; 3], String, Cell);
 
 /// The row of an option in an encounter; `Err` says why there was no run.
 pub(super) fn row(
-    opened: &Opened,
+    opened: &PreparedStudy,
     option: usize,
     encounter: &Encounter,
     came_to: Result<&Report, &str>,

@@ -11,7 +11,7 @@ use endline_sim::Model;
 
 use super::folder::Folder;
 use super::merge;
-use super::prepared::{Files, Opened};
+use super::prepared::{Files, PreparedStudy};
 use super::queue::{Queue, StudyJob, StudyRequest};
 use super::results;
 use super::{ResultsRequest, StudyResults};
@@ -118,8 +118,8 @@ impl Place {
         self.library().join("studies/study.toml")
     }
 
-    pub(super) fn open(&self) -> Opened {
-        Opened::open(&self.study(), Some(&self.library()), &PluginHost::empty()).unwrap()
+    pub(super) fn open(&self) -> PreparedStudy {
+        PreparedStudy::open(&self.study(), Some(&self.library()), &PluginHost::empty()).unwrap()
     }
 }
 
@@ -288,7 +288,7 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
 fn a_finer_resolution_halves_segments_and_steps_and_keeps_the_encounter() {
     let place = Place::new("finer");
     let study = place.library().join("studies/study.toml");
-    let opened = Opened::open(&study, Some(&place.library()), &PluginHost::empty()).unwrap();
+    let opened = PreparedStudy::open(&study, Some(&place.library()), &PluginHost::empty()).unwrap();
     let encounter = Encounter::of(&opened.study, 3);
     let [usual, finer] =
         [opened.play(0, &encounter, 0.0).unwrap(), opened.play_finer(0, &encounter).unwrap()]

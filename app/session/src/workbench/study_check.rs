@@ -7,7 +7,7 @@ use endline_gear::Diagnostic;
 use super::Workbench;
 use crate::edit::Documents;
 use crate::error::Error;
-use crate::study::Opened;
+use crate::study::PreparedStudy;
 use crate::task::Task;
 
 /// What checking the open study found, for one version of the texts.
@@ -67,7 +67,7 @@ impl Workbench {
         let text = documents.text(Documents::STUDY).unwrap_or_default().to_owned();
         let files = self.project.files();
         let (host, waker) = self.helpers();
-        let work = move || Opened::of_sources(text, &path, files, &host).map(drop);
+        let work = move || PreparedStudy::of_sources(text, &path, files, &host).map(drop);
         let check = &mut self.studies.check;
         check.version = Some(version);
         if let Err(error) = check.task.start("endline-study-check", work, waker) {

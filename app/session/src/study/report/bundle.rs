@@ -7,14 +7,14 @@ use endline_gear::names;
 
 use crate::error::Error;
 use crate::save::atomically;
-use crate::study::prepared::Opened;
+use crate::study::prepared::PreparedStudy;
 
 /// What reproduces a report, said within the folder above the bundle.
 pub(super) const COMMANDS: &str = "endline study run bundle/study.toml --library bundle/gear-library --out again\n\
     endline study merge bundle/study.toml --library bundle/gear-library --out again";
 
 /// Writes the bundle.
-pub(super) fn write(opened: &Opened, folder: &Path) -> Result<(), Error> {
+pub(super) fn write(opened: &PreparedStudy, folder: &Path) -> Result<(), Error> {
     let library = folder.join("gear-library");
     let named = &opened.study.scenario.value;
     let scenario = match named.ends_with(".toml") {
@@ -42,7 +42,7 @@ pub(super) fn write(opened: &Opened, folder: &Path) -> Result<(), Error> {
     put(&folder.join("README.txt"), readme(opened).as_bytes())
 }
 
-fn readme(opened: &Opened) -> String {
+fn readme(opened: &PreparedStudy) -> String {
     format!(
         "{}\n\nStudy hash {}, seed {}, Endline {}.\nIn the folder above this one:\n\n{COMMANDS}\n\nThe table has the same bytes where program and plugins are the same.\n",
         opened.study.name,

@@ -2,20 +2,19 @@
 
 use crate::study::stats::{Findings, OptionFinding, Survival};
 
-use super::curves::{alike, legend};
-use super::figures::WIDE;
+use super::figures::{WIDE, grouped, legend};
 use super::words::percent_interval;
 use crate::page::cell::{Cell, Table};
 use crate::page::svg::{Axis, Side, Svg};
 
-/// Times that are told [s].
-const TOLD_S: [f64; 7] = [5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0];
+/// Times of the columns [s].
+const TIMES_S: [f64; 7] = [5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0];
 /// Least time on the axis, which is logarithmic [s].
 const LEAST_S: f64 = 1.0;
 
 /// Shares still held, by option and time.
 pub(super) fn table(findings: &Findings) -> Table {
-    let times = told(findings);
+    let times = times(findings);
     let words: Vec<String> = times.iter().map(|time| format!("held at {time} s")).collect();
     let headings: Vec<&str> = ["option", "touched", "released", "half are free after"]
         .into_iter()
@@ -44,10 +43,10 @@ fn share(survival: &Survival, time_s: f64) -> String {
     )
 }
 
-/// Told times up to the longest that a whale was followed.
-fn told(findings: &Findings) -> Vec<f64> {
+/// Times up to the longest that a whale was followed.
+fn times(findings: &Findings) -> Vec<f64> {
     let most_s = longest_s(findings);
-    TOLD_S.into_iter().filter(|time| *time <= most_s).collect()
+    TIMES_S.into_iter().filter(|time| *time <= most_s).collect()
 }
 
 fn longest_s(findings: &Findings) -> f64 {
@@ -56,7 +55,7 @@ fn longest_s(findings: &Findings) -> f64 {
 
 /// A falling curve for each option; options with the same releases share one.
 pub(super) fn figure(findings: &Findings) -> String {
-    let groups = alike(&findings.options, |option| &option.survival);
+    let groups = grouped(&findings.options, |option| &option.survival);
     let (top, bottom, right): (f64, f64, f64) = (20.0, 330.0, WIDE - 230.0);
     let names: usize = groups.iter().map(|(_, names)| names.len()).sum();
     let height = (bottom + 44.0).max(top + 20.0 * names as f64 + 8.0 * groups.len() as f64 + 10.0);
@@ -79,7 +78,7 @@ fn scales(svg: &mut Svg, across: &Axis, up: &Axis, most_s: f64) {
         svg.line([left, up.at(share)], [right, up.at(share)], "grid");
         svg.text([left - 6.0, up.at(share) + 4.0], Side::End, &format!("{:.0} %", 100.0 * share));
     }
-    for time_s in [1.0].into_iter().chain(TOLD_S).filter(|time| *time <= most_s) {
+    for time_s in [1.0].into_iter().chain(TIMES_S).filter(|time| *time <= most_s) {
         let x = across.at(time_s.log10());
         svg.line([x, top], [x, bottom], "grid");
         svg.text([x, bottom + 18.0], Side::Middle, &format!("{time_s} s"));
@@ -88,7 +87,7 @@ fn scales(svg: &mut Svg, across: &Axis, up: &Axis, most_s: f64) {
     svg.text([0.5 * (left + right), bottom + 38.0], Side::Middle, words);
 }
 
-/// The steps of a curve, and intervals at the times told, beside each other by option.
+/// The steps of a curve, and intervals at the times of the columns, beside each other by option.
 fn curve(svg: &mut Svg, across: &Axis, up: &Axis, (survival, kind): (&Survival, usize)) {
     let x = |time_s: f64| across.at(time_s.max(LEAST_S).log10());
     let mut points = vec![[x(LEAST_S), up.at(1.0)]];
@@ -100,7 +99,7 @@ fn curve(svg: &mut Svg, across: &Axis, up: &Axis, (survival, kind): (&Survival, 
     let last = points.last().map_or(up.at(1.0), |point| point[1]);
     points.push([x(survival.followed_s), last]);
     svg.path(&points, kind);
-    for held in TOLD_S.into_iter().filter_map(|time_s| survival.at(time_s)) {
+    for held in TIMES_S.into_iter().filter_map(|time_s| survival.at(time_s)) {
         let ends = [held.interval.low, held.share, held.interval.high];
         svg.post(x(held.time_s) + 5.0 * kind as f64, ends.map(|share| up.at(share)), kind);
     }

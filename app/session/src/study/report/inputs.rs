@@ -3,7 +3,7 @@
 use endline_gear::{Prior, StudyOption};
 
 use crate::strength::PartStrength;
-use crate::study::prepared::Opened;
+use crate::study::prepared::PreparedStudy;
 use crate::study::stats::{
     ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
 };
@@ -89,7 +89,7 @@ pub(super) fn sensitivity(findings: &Findings) -> Table {
 }
 
 /// How encounters are drawn.
-pub(super) fn priors(opened: &Opened) -> Table {
+pub(super) fn priors(opened: &PreparedStudy) -> Table {
     let row = |prior: &Prior| {
         let tag = Cell { lines: vec![Line::Tag(prior.confidence.word())] };
         let proposal =
@@ -130,7 +130,7 @@ pub(super) fn strengths(findings: &Findings) -> Table {
 }
 
 /// What each option sets in the baseline scenario.
-pub(super) fn settings(opened: &Opened) -> Table {
+pub(super) fn settings(opened: &PreparedStudy) -> Table {
     let row = |option: &StudyOption| {
         let set = option.settings.iter().map(|setting| {
             Line::Code(format!("{} = {}", setting.field.value, setting.value.written()))

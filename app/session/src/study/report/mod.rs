@@ -1,8 +1,6 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
 mod bundle;
-mod changed;
-mod curves;
 mod figures;
 pub mod hauled;
 mod held;
@@ -21,17 +19,17 @@ use crate::save::atomically;
 use hauled::HauledLoad;
 
 use super::folder::Folder;
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::stats::{Findings, OptionFinding, Paired, Rate};
 use crate::table::{Column, Table};
 
-/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; answers where the page is. Hauls stand beside what
+/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; returns the path of the page. Hauls are shown beside what
 /// parts on whales.
 ///
 /// # Errors
 /// Where the folder cannot be written.
 pub fn write(
-    opened: &Opened,
+    opened: &PreparedStudy,
     folder: &Folder,
     findings: &Findings,
     hauls: &[HauledLoad],

@@ -2,12 +2,12 @@
 
 use askama::Template;
 
-use crate::study::prepared::Opened;
+use crate::study::prepared::PreparedStudy;
 use crate::study::stats::{Findings, answer};
 
 use super::hauled::HauledLoad;
 use super::words::event_words;
-use super::{bundle, changed, curves, figures, held, inputs, results};
+use super::{bundle, figures, held, inputs, results};
 use crate::page::STYLE;
 use crate::page::cell::{Line, Table};
 
@@ -76,7 +76,7 @@ struct Again<'a> {
 /// # Errors
 /// Where the template cannot be filled in.
 pub(super) fn html(
-    opened: &Opened,
+    opened: &PreparedStudy,
     findings: &Findings,
     hauls: &[HauledLoad],
 ) -> Result<String, askama::Error> {
@@ -84,7 +84,7 @@ pub(super) fn html(
 }
 
 impl<'a> Page<'a> {
-    fn of(opened: &'a Opened, findings: &'a Findings, hauls: &[HauledLoad]) -> Self {
+    fn of(opened: &'a PreparedStudy, findings: &'a Findings, hauls: &[HauledLoad]) -> Self {
         let study = &opened.study;
         Self {
             style: STYLE,
@@ -101,12 +101,12 @@ impl<'a> Page<'a> {
             compared: results::compared(findings),
             forest_figure: figures::forest(findings),
             forest_caption: forest_caption(findings),
-            changes: changed::table(findings),
+            changes: results::changes(findings),
             survival: held::table(findings),
             survival_figure: held::figure(findings),
             tensions: results::tensions(findings),
-            tensions_figure: curves::tensions(findings),
-            break_away_figure: curves::break_away(findings, hauls),
+            tensions_figure: figures::tensions(findings),
+            break_away_figure: figures::break_away(findings, hauls),
             hauled: !hauls.is_empty(),
             regions: results::regions(findings),
             claims: inputs::claims(findings),
@@ -134,7 +134,7 @@ impl Counts {
 }
 
 impl<'a> Again<'a> {
-    fn of(opened: &Opened, findings: &'a Findings) -> Self {
+    fn of(opened: &PreparedStudy, findings: &'a Findings) -> Self {
         let plugins = opened.options[opened.baseline].prepared.plugins.iter();
         let plugins: Vec<String> =
             plugins.map(|plugin| format!("{} {}", plugin.id, plugin.version)).collect();

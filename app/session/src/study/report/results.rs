@@ -3,10 +3,10 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{
-    AssumedBand, Bands, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
+    AssumedBand, Bands, Change, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
 };
 
-use super::words::{event_words, force, lowest, percent_interval, points, rate, ratio, short_rate};
+use super::words::{event_words, force, lowest, outcome_words, percent_interval, points, rate, ratio, short_rate};
 use crate::page::cell::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
@@ -95,10 +95,10 @@ fn segments(band: &SegmentBand) -> Cell {
     cell
 }
 
-/// Share of the looks at the lengths of segments near the whale that left one longer than wanted.
+/// Share of the checks of segment lengths near the whale that left one longer than requested.
 fn missed(looks: &Looks) -> String {
     if looks.all == 0 {
-        return "none asked for".to_owned();
+        return "none requested".to_owned();
     }
     format!("{:.1} % of looks", 100.0 * looks.missed as f64 / looks.all as f64)
 }
@@ -198,4 +198,47 @@ pub(super) fn regions(findings: &Findings) -> Table {
         &headings,
         findings.options.iter().map(row).collect(),
     )
+}
+
+/// How an option's runs end beside the baseline's in the same encounters; `None` if there is only the baseline.
+pub(super) fn changes(findings: &Findings) -> Option<Table> {
+    let headings = [
+        "option",
+        "another outcome",
+        "mean greatest tension",
+        "another outcome, of those that touch",
+        "mean greatest tension, of those that touch",
+        "outcome with the baseline, and with the option",
+    ];
+    let rows: Vec<Vec<Cell>> = findings.others().map(changes_of).collect();
+    let caption = "Outcome and tension beside the baseline's, encounter by encounter";
+    (!rows.is_empty()).then(|| Table::new(caption, &headings, rows))
+}
+
+fn changes_of(option: &OptionFinding) -> Vec<Cell> {
+    let changes = &option.changes;
+    let cells = [&changes.all, &changes.touching]
+        .into_iter()
+        .flat_map(|change| [rate(&change.outcome).into(), tension(change).into()]);
+    [Cell::from(&option.name)].into_iter().chain(cells).chain([kinds(option)]).collect()
+}
+
+/// `entangled to shed: 4`, a line for each kind of change.
+fn kinds(option: &OptionFinding) -> Cell {
+    let changed = option.changes.counts.iter().filter(|(one, other, _)| one != other);
+    let lines: Vec<String> = changed
+        .map(|(one, other, count)| {
+            format!("{} to {}: {count}", outcome_words(one), outcome_words(other))
+        })
+        .collect();
+    if lines.is_empty() { "equal in all encounters".into() } else { Cell::lines(lines) }
+}
+
+/// `104 N, +1.3 % [-0.2, 2.8]`.
+fn tension(change: &Change) -> String {
+    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else {
+        return "none".into();
+    };
+    let interval = change.tension_interval.map_or_else(String::new, percent_interval);
+    format!("{own_n:.0} N, {:+.1} % {interval}", 100.0 * more)
 }

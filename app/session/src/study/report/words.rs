@@ -3,12 +3,10 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{Interval, Lowest, Rate};
+use crate::units::N_PER_LBF;
 
-/// Newtons in a pound-force.
-pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
-
-/// `12.0 % [8.1, 17.4] (24 of 200)`; of weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`, or where the interval allows
-/// for events that were not met `0.8 % [0.1, 8.2] (4 of 200, few of much weight)`.
+/// `12.0 % [8.1, 17.4] (24 of 200)`. For weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`, or, if the interval allows for
+/// events that the study has not met, `0.8 % [0.1, 8.2] (4 of 200, few of much weight)`.
 pub(super) fn rate(rate: &Rate) -> String {
     let runs = rate.runs as f64;
     let worth = if rate.interval != rate.as_met {
@@ -51,7 +49,7 @@ pub(super) fn force(newtons: f64) -> String {
     format!("{newtons:.0}\u{a0}N ({:.0}\u{a0}lbf)", newtons / N_PER_LBF)
 }
 
-/// `alone 12 %, tied 30 %`; `tied in all` where no resample tells the options apart.
+/// `alone 12 %, tied 30 %`; `tied in all` if no resample separates the options.
 #[must_use]
 pub fn lowest(Lowest { alone, tied }: Lowest) -> String {
     match (alone > 0.0, tied > 0.0) {

@@ -13,7 +13,7 @@ use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::prepared::Opened;
+use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::Runs;
 
@@ -73,7 +73,7 @@ pub struct SegmentBand {
 
 /// The bands of every registered event with every option.
 pub(super) fn of_registered(
-    opened: &Opened,
+    opened: &PreparedStudy,
     runs: &Runs,
     registration: &Registration,
 ) -> Vec<Bands> {
@@ -151,7 +151,7 @@ impl<'a> Known<'a> {
 impl AssumedBand {
     /// The band of a study's indicators by its assumed inputs; none where none varies.
     pub(in crate::study) fn of_study(
-        opened: &Opened,
+        opened: &PreparedStudy,
         runs: &Runs,
         indicators: &EventIndicators,
     ) -> Option<Self> {

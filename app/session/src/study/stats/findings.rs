@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::strength::PartStrength;
-use crate::study::prepared::Opened;
+use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::{RunRow, Runs};
 use crate::table::Column;
@@ -147,7 +147,7 @@ impl Findings {
 
     /// The findings of a study's runs; `registration` is that of its folder.
     #[must_use]
-    pub fn of(opened: &Opened, runs: &Runs, registration: &Registration) -> Self {
+    pub fn of(opened: &PreparedStudy, runs: &Runs, registration: &Registration) -> Self {
         let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
         let event = &opened.study.event;
         let indicators: Vec<EventIndicators> =
@@ -222,7 +222,7 @@ fn adjust(options: &mut [OptionFinding], baseline: usize, registration: &Registr
     count
 }
 
-fn found(opened: &Opened, runs: &Runs, option: usize) -> OptionFinding {
+fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
     let (plan, baseline) = (&opened.options[option], &opened.options[opened.baseline].id);
     let own: Vec<&RunRow> = runs.rows().iter().filter(|run| run.option == plan.id).collect();
     let count = |is_it: fn(&RunRow) -> bool| own.iter().filter(|run| is_it(run)).count() as u64;
@@ -254,7 +254,11 @@ fn found(opened: &Opened, runs: &Runs, option: usize) -> OptionFinding {
     }
 }
 
-fn levels(opened: &Opened, runs: &Runs, indicators: &[EventIndicators]) -> Vec<LevelFinding> {
+fn levels(
+    opened: &PreparedStudy,
+    runs: &Runs,
+    indicators: &[EventIndicators],
+) -> Vec<LevelFinding> {
     let Some(split) = &opened.study.split else { return Vec::new() };
     let Some(column) = runs.drawn(&split.value) else { return Vec::new() };
     let mut levels: Vec<String> = (0..column.len()).map(|row| level(column, row)).collect();
@@ -290,7 +294,7 @@ fn levels(opened: &Opened, runs: &Runs, indicators: &[EventIndicators]) -> Vec<L
 }
 
 /// A level as the study's file has it, such as `15 yr` for its seconds.
-fn level_words(opened: &Opened, prior: &str, level: &str) -> String {
+fn level_words(opened: &PreparedStudy, prior: &str, level: &str) -> String {
     let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
     let (Some(prior), Ok(number)) = (prior, level.parse()) else { return level.to_owned() };
     format!("{} {}", prior.words(), prior.law.written(number))

@@ -7,7 +7,6 @@
 
 mod answer;
 mod bands;
-mod better;
 pub(super) mod bootstrap;
 mod changes;
 mod claims;

@@ -13,7 +13,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF};
 
-use super::better::probability_fewer;
 use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate, are_few, is_uneven, z95};
 use super::weighted::WeightedMean;
@@ -179,6 +178,16 @@ fn ratio([[_, only_other], [only_this, both]]: [[f64; 2]; 2]) -> (Option<f64>, O
 fn mcnemar(only_this: f64, only_other: f64) -> f64 {
     let (least, most) = (only_this.min(only_other), only_this.max(only_other));
     Beta::new(most, least + 1.0).map_or(1.0, |even| (2.0 * even.cdf(0.5)).min(1.0))
+}
+
+/// Probability that an event is rarer with one option than with another, from the encounters with the event with the option only and with
+/// the other only. With Jeffreys' prior, the share `s` of the former among both is `Beta(b + ½, c + ½)`; the event is rarer where `s < ½`
+/// (Jeffreys 1946, doi:10.1098/rspa.1946.0056).
+fn probability_fewer(only_this: f64, only_other: f64) -> f64 {
+    if only_this.total_cmp(&only_other).is_eq() {
+        return 0.5;
+    }
+    Beta::new(only_this + 0.5, only_other + 0.5).map_or(0.5, |share| share.cdf(0.5))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use endline_gear::{StudyEvent, ThreatRow};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::prepared::Opened;
+use super::prepared::PreparedStudy;
 use super::stats::{AssumedBand, EventIndicators, Interval, Rate};
 use crate::study::runs::Runs;
 use crate::units::METRES_PER_INCH;
@@ -70,7 +70,7 @@ impl Threats {
     /// # Errors
     /// A study none of whose options says which row it stands for; two that stand for one.
     pub fn of(
-        opened: &Opened,
+        opened: &PreparedStudy,
         runs: &Runs,
         event: &StudyEvent,
         poll: Option<&Poll>,
@@ -115,7 +115,7 @@ impl Threats {
 }
 
 fn threat(
-    opened: &Opened,
+    opened: &PreparedStudy,
     runs: &Runs,
     id: &str,
     row: ThreatRow,

@@ -9,7 +9,7 @@ use endline_session::cases::{Cases, Effort, Outcome};
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hindcast as page;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Opened, batch, merge};
+use endline_session::study::{PreparedStudy, batch, merge};
 use endline_session::{Error, locate};
 
 use super::args::{HindcastArgs, StudyArgs};
@@ -80,7 +80,7 @@ fn run(
     out: &Path,
     encounters: Option<u32>,
     library: Option<&Path>,
-) -> Result<(Opened, Findings), Failure> {
+) -> Result<(PreparedStudy, Findings), Failure> {
     let at = StudyArgs { study: file.display().to_string(), out: None };
     let mut opened = open(&at, library)?;
     if let Some(fewer) = encounters {

@@ -17,7 +17,7 @@ use endline_session::encounters::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Opened, REPLAY_HZ, batch, merge, report};
+use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, merge, report};
 use endline_session::{locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
@@ -150,7 +150,7 @@ pub(super) fn keep(to: &Path, played: &endline_session::study::Played) -> Result
 
 fn compare(
     args: &ReplayArgs,
-    opened: &Opened,
+    opened: &PreparedStudy,
     option: usize,
     hash: &str,
 ) -> Result<ExitCode, Failure> {
@@ -170,12 +170,12 @@ fn compare(
 }
 
 /// Opens a study by its file or its id in the gear library.
-fn open(args: &StudyArgs, library: Option<&Path>) -> Result<Opened, Failure> {
+fn open(args: &StudyArgs, library: Option<&Path>) -> Result<PreparedStudy, Failure> {
     let path = locate::named(&args.study, "studies", library).map_err(Failure::failed)?;
-    Ok(Opened::open(&path, library, &host::load())?)
+    Ok(PreparedStudy::open(&path, library, &host::load())?)
 }
 
-fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {
+fn folder_of(args: &StudyArgs, opened: &PreparedStudy) -> PathBuf {
     args.out.clone().unwrap_or_else(|| Path::new("results").join(&opened.study.id))
 }
 

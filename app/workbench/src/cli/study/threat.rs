@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use endline_gear::{StudyEvent, hint};
-use endline_session::study::Opened;
+use endline_session::study::PreparedStudy;
 use endline_session::study::folder::Folder;
 use endline_session::study::merge;
 use endline_session::study::threat::{Filled, How, Poll, Threat, Threats, as_own, with_bands};
@@ -44,7 +44,7 @@ fn read_poll(args: &ThreatArgs, library: Option<&Path>) -> Result<Poll, Failure>
     Ok(poll.map_err(Error::Diagnostics)?)
 }
 
-fn event(args: &ThreatArgs, opened: &Opened) -> Result<StudyEvent, Failure> {
+fn event(args: &ThreatArgs, opened: &PreparedStudy) -> Result<StudyEvent, Failure> {
     let Some(name) = &args.event else { return Ok(opened.study.event.clone()) };
     StudyEvent::find(name).ok_or_else(|| {
         let known: Vec<String> = StudyEvent::all().iter().map(StudyEvent::name).collect();

@@ -3,7 +3,7 @@
 use endline_gear::StudyEvent;
 use endline_session::campaign::Count;
 use endline_session::encounters::{Encounter, in_words};
-use endline_session::study::Opened;
+use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
 use endline_session::units::N_PER_LBF;
@@ -13,7 +13,7 @@ use super::super::table::columns;
 /// Encounters shown by a plan.
 const SHOWN: u32 = 5;
 
-pub(super) fn plan(opened: &Opened) -> String {
+pub(super) fn plan(opened: &PreparedStudy) -> String {
     let study = &opened.study;
     let options: Vec<&str> = opened.options.iter().map(|option| option.id.as_str()).collect();
     let mut text = format!("{}\n\n", study.name);
@@ -53,7 +53,7 @@ pub(super) fn plan(opened: &Opened) -> String {
     text + &columns(&rows)
 }
 
-pub(super) fn ran(opened: &Opened, folder: &Folder, blocks: Count) -> String {
+pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> String {
     let at = folder.path.display();
     let whole = (0..folder.blocks()).all(|block| folder.file_of(block).is_file());
     let next = if whole {
@@ -69,7 +69,7 @@ pub(super) fn ran(opened: &Opened, folder: &Folder, blocks: Count) -> String {
     )
 }
 
-pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
+pub(super) fn findings(opened: &PreparedStudy, findings: &Findings) -> String {
     let mut text = format!(
         "{}\n{} encounters; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
         opened.study.name, findings.encounters
