@@ -1,4 +1,4 @@
-//! Shares of values under a law, for importance sampling.
+//! Densities of values under a law, for importance sampling.
 //!
 //! Of `n` encounters a share `α` is drawn from the priors `p`, the others from the proposals `q`. A value's density under
 //! that mixture is `α p + (1 - α) q`, so that an encounter weighs `p / (α p + (1 - α) q) = 1 / (α + (1 - α) r)` with
@@ -10,7 +10,7 @@ use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 use super::Drawn;
 
-/// What an encounter drawn from the mixture weighs.
+/// The weight of an encounter drawn from the mixture.
 pub(crate) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64 {
     let ratio = |(prior, drawn): (&Prior, &Drawn)| {
         let proposal = prior.proposal.as_ref()?;
@@ -18,7 +18,7 @@ pub(crate) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64
     };
     let ratio: f64 = priors.iter().zip(drawn).filter_map(ratio).product();
     let weight = 1.0 / (from_priors + (1.0 - from_priors) * ratio);
-    // A value at the very end of a range may have no share under the prior: it is drawn, and counts for nothing.
+    // A value at the end of a range may have density 0 under the prior: its weight is 0.
     if weight.is_finite() { weight } else { 0.0 }
 }
 
@@ -30,22 +30,22 @@ fn density(law: &Law, drawn: &Drawn) -> f64 {
             own.map(|(_, weight)| weight).sum()
         }
         Law::Uniform { low, high, .. } => 1.0 / (high - low),
-        Law::Normal { mean, deviation, low, high, .. } => {
-            drawn.number.map_or(0.0, |number| cut_normal(*mean, *deviation, [*low, *high], number))
-        }
+        Law::Normal { mean, deviation, low, high, .. } => drawn
+            .number
+            .map_or(0.0, |number| truncated_normal(*mean, *deviation, [*low, *high], number)),
         Law::Bins { edges, shares, .. } => {
             drawn.number.map_or(0.0, |number| binned(edges, shares, number))
         }
     }
 }
 
-/// Density of a normal law that is cut off at two ends.
-fn cut_normal(mean: f64, deviation: f64, [low, high]: [f64; 2], number: f64) -> f64 {
+/// Density of a truncated normal law.
+fn truncated_normal(mean: f64, deviation: f64, [low, high]: [f64; 2], number: f64) -> f64 {
     let Ok(normal) = Normal::new(mean, deviation) else { return 0.0 };
     normal.pdf(number) / (normal.cdf(high) - normal.cdf(low))
 }
 
-/// Density of a law that is even within each of several ranges.
+/// Density of a law that is uniform within each of several ranges.
 fn binned(edges: &[f64], shares: &[f64], number: f64) -> f64 {
     let ranges = || edges.windows(2).zip(shares);
     let of = |(ends, share): (&[f64], &f64)| share / (ends[1] - ends[0]);

@@ -5,18 +5,38 @@
 //! of the two all values of an encounter come.
 //! Reference: Burley 2020, Practical hash-based Owen scrambling (JCGT 9(4)).
 
-use endline_gear::{Law, Level, Prior, Study, units};
+use endline_gear::{Law, Level, Prior, Setting, Study, units};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-pub use super::Drawn;
 use super::density::weight;
 
-/// What was drawn for an encounter.
+/// A drawn value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Name of the prior.
+    pub name: String,
+    /// Its text in a file: a number in SI with its unit, or a word.
+    pub text: String,
+    /// Its number [SI]; none for a word.
+    pub number: Option<f64>,
+    /// Whether its text has no quotes in a file.
+    pub plain: bool,
+}
+
+impl Drawn {
+    /// The value as a file holds it.
+    #[must_use]
+    pub fn setting(&self) -> Setting {
+        if self.plain { Setting::plain(&self.text) } else { Setting::text(&self.text) }
+    }
+}
+
+/// The values drawn for an encounter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// Every prior's value, in the order of the priors (by name).
     pub values: Vec<Drawn>,
-    /// What the encounter counts for: its density under the priors over that under which it was drawn. Weights have mean 1.
+    /// Weight of the encounter: its density under the priors over that under which it was drawn. Weights have mean 1.
     pub weight: f64,
 }
 
@@ -28,7 +48,7 @@ pub fn draw(study: &Study, index: u32) -> Draw {
     let shares: Vec<f64> =
         priors.iter().map(|prior| if is_fixed(prior) { 0.5 } else { point.share() }).collect();
     let mixed = priors.iter().any(|prior| prior.proposal.is_some()) && study.from_priors < 1.0;
-    // The last dimension tells priors from proposals, so that a proposal moves no other draw.
+    // The last dimension decides between priors and proposals, so that a proposal changes no other draw.
     let proposes = mixed && point.share() >= study.from_priors;
     let law = |prior: &'_ Prior| match &prior.proposal {
         Some(proposal) if proposes => proposal.clone(),
@@ -160,6 +180,26 @@ fn chosen(levels: &[(Level, f64)], share: f64) -> &Level {
     &levels[levels.len() - 1].0
 }
 
+/// A year of 365.25 days [s].
+const YEAR_S: f64 = 31_557_600.0;
+
+/// Least time that is given in years [s].
+const LONG_S: f64 = 86_400.0;
+
+/// A drawn value in common units: three figures, angles in degrees, long times in years. Words are unchanged.
+#[must_use]
+pub fn in_words(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let Ok(value) = number.parse::<f64>() else { return text.to_owned() };
+    let (value, unit) = match unit {
+        "rad" => (value.to_degrees(), "deg"),
+        "s" if value.abs() >= LONG_S => (value / YEAR_S, "yr"),
+        _ => (value, unit),
+    };
+    let three_figures = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{three_figures} {unit}").trim_end().to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use endline_gear::Study;
@@ -241,7 +281,7 @@ source = "assumed"
     }
 
     #[test]
-    fn a_draw_hangs_on_index_and_seed_alone() {
+    fn a_draw_depends_on_index_and_seed_alone() {
         let (study, mut other) = (study(), study());
         assert_eq!(draw(&study, 123), draw(&study, 123));
         other.seed += 1;
@@ -315,8 +355,19 @@ source = "assumed"
                 &format!("weights = [0.72, 0.28]\nproposal = {proposal}"),
             );
             let problems = Study::read("draws.toml", &text).unwrap_err();
-            let told = problems.iter().any(|problem| problem.message.contains("proposal"));
-            assert!(told, "{proposal}: {problems:?}");
+            let is_named = problems.iter().any(|problem| problem.message.contains("proposal"));
+            assert!(is_named, "{proposal}: {problems:?}");
         }
+    }
+
+    #[test]
+    fn a_drawn_value_has_three_figures_and_common_units() {
+        assert_eq!(in_words("-2.7802695834678914 rad"), "-159 deg");
+        assert_eq!(in_words("568036800 s"), "18 yr");
+        assert_eq!(in_words("12.5 s"), "12.5 s");
+        assert_eq!(in_words("0.5119571566581724 m"), "0.512 m");
+        assert_eq!(in_words("2"), "2");
+        assert_eq!(in_words("roll-away"), "roll-away");
+        assert_eq!(in_words("barrel roll"), "barrel roll");
     }
 }

@@ -11,7 +11,6 @@
 pub(crate) mod aim;
 pub(crate) mod density;
 pub mod draw;
-mod drawn;
 pub(crate) mod equilibria;
 pub(crate) mod priors;
 
@@ -19,7 +18,7 @@ use endline_gear::Study;
 
 use draw::Draw;
 
-pub use drawn::{Drawn, in_words};
+pub use draw::{Drawn, in_words};
 
 /// An encounter drawn.
 #[derive(Clone, Debug, PartialEq)]

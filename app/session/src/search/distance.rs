@@ -223,8 +223,8 @@ fn as_coarse_as(seen: &[PathPlace], strand: &[PathPlace]) -> Vec<PathPlace> {
         let mut beside = beside.filter_map(|index| coarse.get(index));
         place.side.is_none() && beside.any(|other| other.site == place.site)
     };
-    let kept: Vec<usize> = (0..coarse.len()).filter(|index| !is_between(*index)).collect();
-    let mut coarse: Vec<PathPlace> = kept.into_iter().map(|index| coarse[index]).collect();
+    let places: Vec<usize> = (0..coarse.len()).filter(|index| !is_between(*index)).collect();
+    let mut coarse: Vec<PathPlace> = places.into_iter().map(|index| coarse[index]).collect();
     coarse.dedup();
     coarse
 }
@@ -335,7 +335,7 @@ parts = ["fluke"]
         close(changed(&|ending| ending.behind_m = 80.0), 2.0_f64.ln() / 0.4);
         close(changed(&|ending| ending.strands[0].ends[0] = Some(RopeEnd::Trap)), 1.0);
         close(changed(&|ending| ending.twist = 0.5), 1.0);
-        // A whale that came free: flipper, wraps, path of two places, length from 0.5 m, two ends, twist.
+        // A released whale: flipper, wraps, path of two places, length from 0.5 m, two ends, twist.
         let free = 2.4 + 2.0 + 3.0 + 40.0_f64.ln() / 0.4 + 2.0 + 2.0;
         close(Distance { terms: terms(&seen(), &Ending::default()), mirrored: false }.sum(), free);
     }
@@ -347,7 +347,7 @@ parts = ["fluke"]
         assert_eq!(like().mirrored().mirrored(), like());
         let only = Observation { mirrored: false, ..seen() };
         let found = Distance::of(&only, &like().mirrored());
-        // Flipper, wraps, tightness is not told of an absent rope; two places of the path.
+        // Flipper, wraps, tightness needs rope; two places of the path.
         assert!(!found.mirrored && found.sum() > 2.4 + 2.0, "{found:?}");
     }
 
@@ -362,7 +362,7 @@ parts = ["fluke"]
             // Read from the other end.
             ("mouth:left head mouth:right", "mouth:right head mouth:left", 0),
             ("mouth:left head mouth:right", "mouth:left mouth:right", 1),
-            // A side that was not told is any side, and both sides of it are one place.
+            // An unreported side is any side, and both sides of it are one place.
             ("mouth body", "mouth:left body:left body:right", 0),
             ("flipper body", "left_flipper body:right", 0),
             ("left_flipper body", "right_flipper body", 1),

@@ -198,7 +198,7 @@ impl Store {
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,
-                format!("cannot be written: {error}; the rounds that are there are whole, and the same command goes on from them"),
+                format!("cannot be written: {error}; stored rounds are complete, and the same command continues from them"),
             )
         })
     }

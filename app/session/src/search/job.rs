@@ -1,7 +1,7 @@
 //! A search at work behind a window: opened, run and reported on threads of its own, paused, cancelled and gone on with.
 //!
 //! Its rounds lie in a folder named after the observation and the hash of the search. An edited observation therefore begins a
-//! folder of its own, and a search that was cancelled goes on from what its folder holds.
+//! folder of its own, and a cancelled search continues from its folder.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -208,11 +208,7 @@ fn common(stories: &Stories) -> Option<Table> {
         };
         rows.push(shared(name, like.iter().map(of).collect()));
     }
-    Some(Table::new(
-        "Stories that end like what was seen",
-        &["", "in common", "tells them apart"],
-        rows,
-    ))
+    Some(Table::new("Stories that end like what was seen", &["", "in common", "different"], rows))
 }
 
 /// Quantities among the draws that end alike, beside all draws; `None` if there are too few.

@@ -29,11 +29,11 @@ pub struct Question {
     pub observation: Observation,
     /// The encounters: the study's priors, with the animal that was seen.
     pub opened: PreparedStudy,
-    /// Seed of the net and of the local searches.
+    /// Seed of the draws and of the local searches.
     pub seed: u64,
     /// BLAKE3 of observation and study, hexadecimal.
     pub hash: String,
-    /// BLAKE3 of the study and the animal alone, hexadecimal: observations of the same encounters share the runs of their net.
+    /// BLAKE3 of the study and the animal alone, hexadecimal: observations of the same encounters share the runs of their draws.
     pub net_hash: String,
 }
 

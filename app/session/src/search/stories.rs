@@ -27,11 +27,11 @@ pub struct Stories {
     pub stories: Vec<Story>,
     /// Trials run, neighbours not counted.
     pub trials: usize,
-    /// Simulated time of the net's trials, on average [s].
+    /// Mean simulated time of the draws [s].
     pub mean_simulated_s: f64,
-    /// Trials of the net: draws of the priors themselves.
+    /// Number of draws from the priors.
     pub net: usize,
-    /// Draws of the net that are like the observation. All draws have equal weight, so that this is the effective number.
+    /// Draws that are like the observation. All draws have equal weight, so that this is the effective number.
     pub net_like: usize,
     /// Every quantity among the draws like the observation, beside all draws; empty if too few are like it.
     pub posterior: Vec<Quantity>,
@@ -132,11 +132,9 @@ impl Stories {
             self.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
         match like {
             0 => format!("Not found in {} runs: no story ends like what was seen.", self.trials),
-            1 if fragile == 1 => {
-                "One kind of story ends like this, and hangs on chance.".to_owned()
-            }
+            1 if fragile == 1 => "One kind of story ends like this, and is fragile.".to_owned(),
             1 => "One kind of story ends like this.".to_owned(),
-            _ => format!("{like} kinds of story end like this; {fragile} of them hang on chance."),
+            _ => format!("{like} kinds of story end like this; {fragile} of them are fragile."),
         }
     }
 

@@ -171,7 +171,7 @@ fn another_search_does_not_mix_with_what_a_folder_holds() {
     assert!(error.to_string().contains("is damaged"), "{error}");
 }
 
-/// Cancelled amid a round: what was run is kept, nothing is run twice, and the search goes on to the same end.
+/// Cancelled within a round: runs are stored, none runs twice, and the search continues to the same end.
 #[test]
 fn a_search_that_is_cancelled_between_trials_goes_on_from_them() {
     let place = place("cancelled");
@@ -232,7 +232,7 @@ fn observations_of_the_same_encounters_share_draws() {
     assert_ne!(other, OBSERVATION);
     fs::write(&observation, other).unwrap();
     assert_eq!(search("other", 100), (100, 0));
-    // Each later round brings eight draws; the first search finds them kept when it goes on.
+    // Each later round brings eight draws; the first search finds them stored when it continues.
     assert_eq!(search("other", 101), (108, 8));
     fs::write(&observation, OBSERVATION).unwrap();
     assert_eq!(search("one", 101), (108, 0));

@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `study.json` | which study this is: hash, version, size; what it says it will look at (`registration`) |
+//! | `study.json` | the study: hash, version, size, registered events and claims (`registration`) |
 //! | `block-00012.parquet` | rows of encounter 12, whole or not there |
 //! | `table.parquet`, `table.csv` | all rows, once merged |
 //! | `leases` | which process runs which block, while some do |
@@ -45,7 +45,7 @@ pub struct Label {
     pub block: u32,
     /// Ids of the options.
     pub options: Vec<String>,
-    /// What is looked at, as it stood when the folder was made.
+    /// The registration at the time when the folder was made.
     #[serde(default)]
     pub registration: Registration,
 }
@@ -70,7 +70,7 @@ impl Label {
 pub struct Folder {
     /// Where.
     pub path: PathBuf,
-    /// What is looked at, as it stood before the first run.
+    /// The registration before the first run.
     pub registration: Registration,
     hash: String,
     encounters: u32,
@@ -160,7 +160,7 @@ impl Folder {
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,
-                format!("cannot be written: {error}; the blocks that are there are whole, and the same command goes on from them"),
+                format!("cannot be written: {error}; stored blocks are complete, and the same command continues from them"),
             )
         })
     }
@@ -218,7 +218,7 @@ impl Folder {
     }
 }
 
-/// A folder without a label is new: one that has blocks all the same belongs to a study that nobody knows.
+/// A folder without a label is new; blocks in it belong to an unknown study.
 fn without_blocks(path: &Path) -> Result<(), Error> {
     let files = fs::read_dir(path).into_iter().flatten().flatten();
     let is_block = |name: &str| name.starts_with("block-") && name.ends_with(".parquet");

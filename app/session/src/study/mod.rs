@@ -17,7 +17,7 @@
 //! | `row` | the run's figures |
 //!
 //! Run `i` of an option is defined by the study's hash and `i`. Blocks of encounters are written whole or not at all, so
-//! a study that was killed goes on where it stood, on one machine or on many, and the merged table has the same bytes.
+//! a killed study continues from its blocks, on one machine or on many, and the merged table has the same bytes.
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
 pub mod batch;

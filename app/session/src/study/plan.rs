@@ -154,7 +154,7 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// The option assembled as it stands; a fault that one of its settings brought in is located at that setting.
+    /// The option assembled as it stands; an error caused by a setting is reported at that setting.
     fn prepare(
         &self,
         option: &StudyOption,
@@ -180,7 +180,7 @@ impl Base<'_> {
         })
     }
 
-    /// A problem of an option's texts, told at what the study sets. What stands in these texts stands in no file, so their lines
+    /// A problem of an option's texts, located at the setting that causes it. These texts are in no file, so that their lines
     /// would lead nowhere: where no setting is to blame, the option is.
     fn relocate(&self, option: &StudyOption, problem: Diagnostic) -> Diagnostic {
         let by_option = option.settings.iter().find(|setting| match setting.library_field() {
@@ -201,8 +201,8 @@ impl Base<'_> {
                     true => problem.file.clone(),
                     false => format!("{}, {}", problem.file, problem.field),
                 };
-                let told = format!("option `{}`: {} ({at})", option.id.value, problem.message);
-                place.error(told, problem.help.clone())
+                let message = format!("option `{}`: {} ({at})", option.id.value, problem.message);
+                place.error(message, problem.help.clone())
             },
         )
     }

@@ -1,8 +1,8 @@
-//! What a study says it will look at, kept in its folder of results when the first run is asked for.
+//! Registration: events, claims and observations of a study, stored in its folder of results before the first run.
 //!
-//! Events, claims and observations change no run and may be added at any time; whoever chooses them after having seen the results
-//! finds what chance has put there. The folder therefore keeps the list as it stood before the first run, with its hash, and a report
-//! marks what was added later. The hash may be published beforehand.
+//! Events, claims and observations change no run and may be added at any time. A choice made after seeing the results may only fit
+//! chance. The folder therefore stores the list before the first run, with its hash, and a report marks later additions. The hash may
+//! be published beforehand.
 //! Reference: Nosek et al. 2018, The preregistration revolution (doi:10.1073/pnas.1708274114).
 
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use endline_gear::Study;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is looked at.
+/// Registered events, claims and observations.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Registration {
     /// Names of the events by which options are compared; that by which they are ranked first.
@@ -69,7 +69,7 @@ impl Registration {
     }
 }
 
-/// Enough of a BLAKE3 to tell texts apart.
+/// The first 128 bits of a BLAKE3.
 fn short_hash(text: &str) -> String {
     blake3::derive_key("endline study registration 1", text.as_bytes())
         .iter()

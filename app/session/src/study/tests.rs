@@ -134,7 +134,7 @@ impl Drop for Place {
 fn wait(what: &str, so: impl Fn() -> bool) {
     let start = Instant::now();
     while !so() {
-        assert!(start.elapsed() < Duration::from_secs(60), "never came: {what}");
+        assert!(start.elapsed() < Duration::from_secs(60), "timeout: {what}");
         std::thread::sleep(Duration::from_millis(1));
     }
 }

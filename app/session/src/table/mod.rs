@@ -8,7 +8,7 @@ pub(crate) mod seal;
 pub enum Cell {
     /// A whole number.
     Whole(i64),
-    /// A number; none where there is nothing to tell.
+    /// A number, or none.
     Real(Option<f64>),
     /// A text.
     Text(String),

@@ -91,7 +91,7 @@ fn write_values<T: DataType>(
 /// Reads the bytes of a file, once they are known to be those that were sealed.
 pub(crate) fn read(bytes: Vec<u8>) -> Result<Tagged> {
     seal::checked(&bytes).map_err(|broken| ParquetError::General(broken.to_string()))?;
-    // Whoever forges a file seals it too, and the library panics on some that no writer writes.
+    // A forged file may have a valid seal, and the library panics on some bytes that no writer produces.
     let read = catch_unwind(AssertUnwindSafe(|| read_sealed(bytes)));
     read.unwrap_or_else(|_| Err(ParquetError::General("no writer of Parquet writes it".into())))
 }

@@ -1,8 +1,8 @@
-//! A seal: the hash of a Parquet file's bytes, kept among its own key-value metadata, so that no damaged byte is ever taken for a
-//! result.
+//! A seal: the hash of a Parquet file's bytes, kept among its own key-value metadata, so that no damaged byte is taken for
+//! a result.
 //!
 //! The hash is BLAKE3 of all bytes with 64 zeros in the place of its own 64 digits. The file stays one that any reader of Parquet
-//! reads; [`checked`] finds the seal in the bytes alone, before anything else looks at them.
+//! reads; [`checked`] finds the seal in the bytes alone, before anything else reads them.
 
 /// Name of the metadata.
 pub(crate) const KEY: &str = "blake3";

@@ -1,15 +1,15 @@
-//! Which process runs which block: any number of processes on one folder share a study's work.
+//! Leases: which process runs which block, for any number of processes that share a folder.
 //!
 //! | file in `leases` | what |
 //! |---|---|
-//! | `process-3f2a…` | a process at work, and where it runs; written anew every 20 s, locked while the process lives |
-//! | `00012-0` | block 12 is run by the process whose id it holds |
-//! | `00012-1` | the same block, leased anew because that process has ended |
+//! | `process-3f2a…` | a process at work, and where it runs; written every 20 s, locked while the process lives |
+//! | `00012-0` | a lease of block 12, with the id of the process that runs it |
+//! | `00012-1` | the next lease of block 12, after that process has ended |
 //!
-//! A lease is a file that is made only where there is none, which one process alone can do. The lease of a process that has ended is
-//! not taken away, which two could try at once, but followed by one of the next number. A process has ended where it has been silent
-//! for three minutes, by the clock of the folder's own machine; on the same machine, where its lock is free. One that slept for
-//! longer and goes on runs a block for the second time, to the same bytes.
+//! A lease is a file that a process creates unless it exists, so that one process alone succeeds. The lease of a process that has
+//! ended is not removed, since two processes could try that at once; a lease of the next number follows it. A process has ended if it
+//! has been silent for three minutes by the clock of the folder's machine; on the same machine, if its lock is free. A process that
+//! slept for longer and resumes runs its block a second time, with the same bytes.
 //!
 //! Reference: Gray and Cheriton 1989, Leases: an efficient fault-tolerant mechanism for distributed file cache consistency.
 
@@ -28,9 +28,9 @@ use std::time::{Duration, SystemTime};
 
 use crate::error::Error;
 
-use process::{BEAT, Place, Process, SILENCE, Told};
+use process::{BEAT, Place, Process, ProcessFile, SILENCE};
 
-/// The leases of a study's folder, as one process of several takes them.
+/// The leases of a folder, as one of several processes takes them.
 #[derive(Debug)]
 pub(crate) struct Leases {
     folder: PathBuf,
@@ -57,13 +57,13 @@ pub(crate) struct Lease<'a> {
 pub(crate) enum Next<'a> {
     /// Run a block.
     Run(Lease<'a>),
-    /// Wait: so many blocks are run by other processes, and one of these may end.
+    /// Wait: this number of blocks is run by other processes, and one of these may end.
     Wait(u32),
     /// Nothing is left but what this process runs already.
     Nothing,
 }
 
-/// A process that others see at work on a study.
+/// A process at work on a folder, as other processes see it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Worker {
     /// Name of its machine.
@@ -72,7 +72,7 @@ pub struct Worker {
     pub pid: u32,
     /// How long ago it was last seen at work.
     pub silent: Duration,
-    /// Whether it has ended without a word, so that others run its blocks.
+    /// Whether it has ended without returning its leases, so that others run its blocks.
     pub has_ended: bool,
     /// Blocks that it runs.
     pub blocks: BTreeSet<u32>,
@@ -97,16 +97,16 @@ impl Leases {
         Ok(Self { folder, process: Arc::new(process), heartbeat: None })
     }
 
-    /// Leases one of the blocks that are wanted: one that nobody runs, else one whose process has ended.
+    /// Leases one of the wanted blocks: one without a lease, else one whose process has ended.
     ///
     /// # Errors
     /// A folder that cannot be read or written.
     pub(crate) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
-        self.look(wanted)
+        self.take(wanted)
             .map_err(|error| Error::at(&self.folder, format!("cannot be used: {error}")))
     }
 
-    fn look(&self, wanted: &[u32]) -> io::Result<Next<'_>> {
+    fn take(&self, wanted: &[u32]) -> io::Result<Next<'_>> {
         let standing = standing(&self.folder)?;
         let free: Vec<u32> =
             wanted.iter().copied().filter(|block| !standing.contains_key(block)).collect();
@@ -134,7 +134,7 @@ impl Leases {
         Ok(if taken > 0 { Next::Wait(taken) } else { Next::Nothing })
     }
 
-    /// Whether the holder of a lease has ended; each is looked at once.
+    /// Whether the holder of a lease has ended; each holder is tested once.
     fn has_ended(
         &self,
         holder: Option<String>,
@@ -149,7 +149,7 @@ impl Leases {
         Ok(has_ended)
     }
 
-    /// Makes a lease; `None` where another process has made it.
+    /// Makes a lease; `None` if another process has made it.
     fn lease(&self, block: u32, number: u32) -> io::Result<Option<Lease<'_>>> {
         let path = path_of(&self.folder, block, number);
         match File::options().write(true).create_new(true).open(path) {
@@ -162,7 +162,7 @@ impl Leases {
         }
     }
 
-    /// The process that holds a lease; `None` where it was given back, or is being made.
+    /// The process that holds a lease; `None` if the lease was returned, or is being made.
     fn holder(&self, block: u32, number: u32) -> io::Result<Option<String>> {
         let path = path_of(&self.folder, block, number);
         match fs::read_to_string(&path) {
@@ -202,10 +202,10 @@ impl Drop for Leases {
 }
 
 impl Drop for Lease<'_> {
-    /// Gives it back, with those of ended processes before it.
+    /// Returns the lease, with those of ended processes before it.
     fn drop(&mut self) {
         for number in 0..=self.number {
-            // One that is gone already needs no removing; one that stays is that of an ended process.
+            // A file that cannot be removed is the lease of a process that will have ended.
             let _ = fs::remove_file(path_of(&self.leases.folder, self.block, number));
         }
     }
@@ -219,16 +219,16 @@ pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
     let folder = folder_of(results);
     let read = || -> io::Result<Vec<Worker>> {
         let (here, now) = (Place::here(), SystemTime::now());
-        let worker = |told: &Told| Worker {
-            machine: told.place.machine.clone(),
-            pid: told.place.pid,
-            silent: told.silent(now),
-            has_ended: told.silent(now) > SILENCE || told.has_left(&here),
+        let worker = |file: &ProcessFile| Worker {
+            machine: file.place.machine.clone(),
+            pid: file.place.pid,
+            silent: file.silent(now),
+            has_ended: file.silent(now) > SILENCE || file.has_left(&here),
             blocks: BTreeSet::new(),
         };
-        let all = Told::all(&folder)?;
+        let all = ProcessFile::all(&folder)?;
         let mut workers: BTreeMap<String, Worker> =
-            all.iter().map(|(id, told)| (id.clone(), worker(told))).collect();
+            all.iter().map(|(id, file)| (id.clone(), worker(file))).collect();
         for (block, number) in standing(&folder)? {
             let holder = fs::read_to_string(path_of(&folder, block, number)).unwrap_or_default();
             if let Some(worker) = workers.get_mut(&holder) {
@@ -245,7 +245,7 @@ pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
     }
 }
 
-/// Removes what ended processes left, unless others are at work.
+/// Removes the files of ended processes, unless others are at work.
 pub(crate) fn clear(results: &Path) {
     if workers(results).is_ok_and(|workers| workers.iter().all(|worker| worker.has_ended)) {
         // A folder that is not there, or stays, does no harm.
@@ -285,7 +285,7 @@ fn is_fresh(path: &Path) -> bool {
     modified.is_ok_and(|modified| modified.elapsed().is_ok_and(|age| age < SILENCE))
 }
 
-/// The blocks from the first on, with ever longer steps, so that processes that begin together part at once.
+/// The blocks from the first, in growing strides that depend on the process, so that processes that begin together rarely collide.
 fn spread(free: &[u32]) -> impl Iterator<Item = u32> {
     let stride = usize::try_from(std::process::id() % 7).unwrap_or(0) + 1;
     let place = move |tries: usize| tries * (tries + 1) / 2 * stride;

@@ -1,5 +1,4 @@
-//! A process that runs blocks of a study, as the others on the same folder see it: a file that it writes again and again while it
-//! works, and holds the lock of.
+//! A process at work, as other processes on the same folder see it: a file that it locks, and writes repeatedly while it works.
 
 use std::fs::{self, File, TryLockError};
 use std::hash::{BuildHasher, Hasher, RandomState};
@@ -24,7 +23,7 @@ pub(super) const SILENCE: Duration = Duration::from_secs(180);
 pub(super) struct Place {
     /// Name of the machine.
     pub(super) machine: String,
-    /// What the kernel calls this start of the machine; empty where it does not tell. Locks are told among those of one start.
+    /// The kernel's id of this start of the machine, empty if unknown. Locks are visible to processes of the same start.
     pub(super) boot: String,
     /// The machine's number of the process.
     pub(super) pid: u32,
@@ -51,7 +50,7 @@ fn machine() -> String {
 /// A process at work.
 #[derive(Debug)]
 pub(super) struct Process {
-    /// A word of its own, as process numbers are used again.
+    /// A unique id, since process numbers are reused.
     pub(super) id: String,
     place: Place,
     pub(super) path: PathBuf,
@@ -68,14 +67,14 @@ impl Process {
         let id = format!("{:016x}", RandomState::new().build_hasher().finish());
         let path = path_of(folder, &id);
         let mut file = File::options().write(true).create_new(true).open(&path)?;
-        // Where the file system has no locks, silence alone tells.
+        // On a file system without locks, only silence shows that a process has ended.
         let _ = file.try_lock();
         file.write_all(serde_json::to_string(&place)?.as_bytes())?;
         file.write_all(b"\n")?;
         Ok(Self { id, place, path, file: Mutex::new(file) })
     }
 
-    /// Shows that it works. The last byte is written anew, so that the time is that of the file's own machine.
+    /// Shows that it works. The last byte is written again, so that the time is that of the file's own machine.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -92,12 +91,12 @@ impl Process {
     /// A file that cannot be read.
     pub(super) fn has_ended(&self, other: &str) -> io::Result<bool> {
         let path = path_of(self.path.parent().unwrap_or(Path::new(".")), other);
-        let told = match Told::of(&path) {
+        let file = match ProcessFile::of(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
-            told => told?,
+            file => file?,
         };
         let now = fs::metadata(&self.path)?.modified()?;
-        Ok(told.silent(now) > SILENCE || told.has_left(&self.place))
+        Ok(file.silent(now) > SILENCE || file.has_left(&self.place))
     }
 
     /// Removes its file.
@@ -111,14 +110,14 @@ fn path_of(folder: &Path, id: &str) -> PathBuf {
     folder.join(format!("{PREFIX}{id}"))
 }
 
-/// What the file of a process tells.
-pub(super) struct Told {
+/// The file of a process.
+pub(super) struct ProcessFile {
     pub(super) place: Place,
     modified: SystemTime,
     file: File,
 }
 
-impl Told {
+impl ProcessFile {
     /// Reads the file of a process.
     ///
     /// # Errors
@@ -142,9 +141,9 @@ impl Told {
         for entry in fs::read_dir(folder)? {
             let entry = entry?;
             if let Some(id) = entry.file_name().to_string_lossy().strip_prefix(PREFIX)
-                && let Ok(told) = Self::of(&entry.path())
+                && let Ok(file) = Self::of(&entry.path())
             {
-                all.push((id.to_owned(), told));
+                all.push((id.to_owned(), file));
             }
         }
         Ok(all)

@@ -28,7 +28,7 @@ impl Drop for Results {
     }
 }
 
-/// A process of another machine, whose lock nobody can see.
+/// A process of another machine, whose lock is not visible.
 fn far(results: &Path) -> Leases {
     Leases::join_from(results, Place::default()).unwrap()
 }
@@ -125,7 +125,7 @@ const AT_ONCE: usize = 150;
 /// Processes in all: where one is killed another begins, and the last are not killed.
 const IN_ALL: usize = 1000;
 
-/// Time between two looks at every process.
+/// Time between two steps of every process.
 const STEP: Duration = Duration::from_secs(5);
 
 /// A process that runs blocks in simulated time.
@@ -184,7 +184,7 @@ fn a_thousand_processes_that_are_killed_and_fall_asleep_run_every_block() {
         no_block_is_run_by_two_that_are_awake(&processes, now);
     }
     let again: u32 = runs.values().map(|times| times - 1).sum();
-    assert!(lost > 500 && begun == IN_ALL, "{lost} lost, {begun} begun: too few to tell");
+    assert!(lost > 500 && begun == IN_ALL, "{lost} lost, {begun} begun: too few for the test");
     assert!(again <= lost, "{again} blocks were run again, {lost} processes were lost");
     drop(processes);
     clear(&results.0);

@@ -1,4 +1,4 @@
-//! The tables of what went in, and of what the result depends on.
+//! The tables of inputs, and of the sensitivity of the result to them.
 
 use endline_gear::{Prior, StudyOption};
 

@@ -6,7 +6,9 @@ use crate::study::stats::{
     AssumedBand, Bands, Change, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
 };
 
-use super::words::{event_words, force, lowest, outcome_words, percent_interval, points, rate, ratio, short_rate};
+use super::words::{
+    event_words, force, lowest, outcome_words, percent_interval, points, rate, ratio, short_rate,
+};
 use crate::page::cell::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
@@ -96,11 +98,11 @@ fn segments(band: &SegmentBand) -> Cell {
 }
 
 /// Share of the checks of segment lengths near the whale that left one longer than requested.
-fn missed(looks: &Looks) -> String {
-    if looks.all == 0 {
+fn missed(checks: &Looks) -> String {
+    if checks.all == 0 {
         return "none requested".to_owned();
     }
-    format!("{:.1} % of looks", 100.0 * looks.missed as f64 / looks.all as f64)
+    format!("{:.1} % of checks", 100.0 * checks.missed as f64 / checks.all as f64)
 }
 
 /// The study's event against the baseline: over all encounters, then level by level.
@@ -182,7 +184,7 @@ pub(super) fn tensions(findings: &Findings) -> Table {
     Table::new("Greatest tension of a run", &headings, findings.options.iter().map(row).collect())
 }
 
-/// Where rope touched, and where it went round by half a turn.
+/// Parts that rope touched, and parts with half a turn of rope.
 pub(super) fn regions(findings: &Findings) -> Table {
     let places = StudyEvent::places();
     let row = |option: &OptionFinding| {

@@ -1,9 +1,9 @@
-//! What a study tells of an event, in plain words, for the head of its report and of the panel *Results*.
+//! The answer of a study about an event, in sentences, for the head of its report and of the panel *Results*.
 //!
-//! An option is told apart from the baseline where the 95 % interval of their difference in the same encounters leaves out zero. Where
+//! An option differs from the baseline if the 95 % interval of their difference in the same encounters excludes zero. If
 //! several registered comparisons are made, Holm's probability stands beside it.
 //!
-//! A difference `d` is told apart four times in five from `n = (1.96 + 0.84)² s / d²` encounters, `s` being the share of them that come
+//! A difference `d` is detected with a probability of 80 % from `n = (1.96 + 0.84)² s / d²` encounters, `s` being the share of them that come
 //! out otherwise (Connor 1987, Biometrics 43:207, for small `d`): 314 for 5 points where one encounter in ten does.
 
 use endline_gear::StudyEvent;
@@ -51,24 +51,29 @@ fn sentences(asked: &Asked<'_>, compared: Vec<Compared<'_>>) -> Vec<String> {
     if compared.is_empty() {
         return Vec::new();
     }
-    let (told, open): (Vec<_>, Vec<_>) = compared.into_iter().partition(Compared::is_told_apart);
-    let nothing = told.is_empty().then(|| {
+    let (distinct, open): (Vec<_>, Vec<_>) = compared.into_iter().partition(Compared::is_distinct);
+    let nothing = distinct.is_empty().then(|| {
         let Asked { event, baseline, encounters, .. } = asked;
         match encounters {
-            1 => format!("1 encounter tells no option apart from {baseline} in “{event}”."),
+            1 => format!("In 1 encounter, no option differs from {baseline} in “{event}”."),
             _ => {
                 format!(
-                    "{encounters} encounters tell no option apart from {baseline} in “{event}”."
+                    "In {encounters} encounters, no option differs from {baseline} in “{event}” by more than chance."
                 )
             }
         }
     });
-    let apart = told.iter().map(|option| option.apart(asked));
-    nothing.into_iter().chain(apart).chain(undecided(&open, &told)).chain(small(asked)).collect()
+    let apart = distinct.iter().map(|option| option.apart(asked));
+    nothing
+        .into_iter()
+        .chain(apart)
+        .chain(undecided(&open, &distinct))
+        .chain(small(asked))
+        .collect()
 }
 
 impl Compared<'_> {
-    fn is_told_apart(&self) -> bool {
+    fn is_distinct(&self) -> bool {
         let interval = self.paired.difference_interval;
         interval.low > 0.0 || interval.high < 0.0
     }
@@ -106,24 +111,24 @@ impl Compared<'_> {
 }
 
 /// How large a difference may be that was not seen.
-fn undecided(open: &[Compared<'_>], told: &[Compared<'_>]) -> Option<String> {
+fn undecided(open: &[Compared<'_>], distinct: &[Compared<'_>]) -> Option<String> {
     if open.is_empty() {
         return None;
     }
     let same = |option: &&Compared<'_>| option.paired.only_this + option.paired.only_other == 0;
     let same = open.iter().filter(same).count();
     let most = open.iter().map(Compared::reach).fold(0.0, f64::max);
-    let rest = if told.is_empty() { "" } else { "other " };
+    let rest = if distinct.is_empty() { "" } else { "other " };
     let options = match open {
         [one] => one.name.to_owned(),
         several => format!("The {} {rest}options", several.len()),
     };
     let same = match same {
         0 => String::new(),
-        all if all == open.len() => " None of these encounters came out otherwise.".to_owned(),
-        some => format!(" With {some} of them, no encounter came out otherwise."),
+        all if all == open.len() => " All these encounters have the same result.".to_owned(),
+        some => format!(" With {some} of them, all encounters have the same result."),
     };
-    let of_it = if told.is_empty() { "it" } else { "the baseline" };
+    let of_it = if distinct.is_empty() { "it" } else { "the baseline" };
     Some(format!("{options} may differ from {of_it} by up to {most:.0} points.{same}"))
 }
 
@@ -135,7 +140,7 @@ fn small(asked: &Asked<'_>) -> Option<String> {
             count => format!("{count} encounters are"),
         };
         format!(
-            "{few} few: a difference of 5 points is told apart four times in five from {SMALL}, where one encounter in ten comes out otherwise."
+            "{few} few: a difference of 5 points is detected with a probability of 80 % from {SMALL}, if one encounter in ten has another result."
         )
     })
 }
@@ -164,15 +169,18 @@ mod tests {
     fn encounters_that_all_end_alike_decide_nothing_and_say_how_much_may_hide() {
         let all = || indicators((0..8).map(|number| number < 2));
         let paired = Paired::of(&all(), &all());
-        let told = sentences(&asked(8, 1), vec![compared(&paired, Some(1.0))]);
-        assert_eq!(told[0], "8 encounters tell no option apart from as today in “held”.");
+        let answer = sentences(&asked(8, 1), vec![compared(&paired, Some(1.0))]);
+        assert_eq!(
+            answer[0],
+            "In 8 encounters, no option differs from as today in “held” by more than chance."
+        );
         let points = 100.0 * paired.difference_interval.high;
         assert!((20.0..40.0).contains(&points), "Wilson's upper bound of none in eight is 32 %");
         let hidden = format!("weak may differ from it by up to {points:.0} points.");
-        assert!(told[1].starts_with(&hidden), "{}", told[1]);
-        assert!(told[1].ends_with("None of these encounters came out otherwise."), "{}", told[1]);
-        assert!(told[2].starts_with("8 encounters are few"));
-        assert_eq!(told.len(), 3);
+        assert!(answer[1].starts_with(&hidden), "{}", answer[1]);
+        assert!(answer[1].ends_with("All these encounters have the same result."), "{}", answer[1]);
+        assert!(answer[2].starts_with("8 encounters are few"));
+        assert_eq!(answer.len(), 3);
     }
 
     #[test]
@@ -181,12 +189,16 @@ mod tests {
         let (this, other) =
             (indicators((0..400).map(|n| n < 60)), indicators((0..400).map(|n| n < 100)));
         let paired = Paired::of(&this, &other);
-        let told = sentences(&asked(400, 3), vec![compared(&paired, Some(0.000_1))]);
-        assert_eq!(told.len(), 1, "{told:?}");
+        let answer = sentences(&asked(400, 3), vec![compared(&paired, Some(0.000_1))]);
+        assert_eq!(answer.len(), 1, "{answer:?}");
         assert!(
-            told[0].starts_with("With weak, “held” is rarer than with as today by 10.0 points [")
+            answer[0].starts_with("With weak, “held” is rarer than with as today by 10.0 points [")
         );
-        assert!(told[0].ends_with("; p < 0.001 among 3 registered comparisons."), "{}", told[0]);
+        assert!(
+            answer[0].ends_with("; p < 0.001 among 3 registered comparisons."),
+            "{}",
+            answer[0]
+        );
         let by_chance = sentences(&asked(400, 30), vec![compared(&paired, Some(0.2))]);
         assert!(by_chance[0].contains("this may be chance (p = 0.20 by Holm)"), "{}", by_chance[0]);
         let unregistered = sentences(&asked(400, 3), vec![compared(&paired, None)]);

@@ -1,4 +1,4 @@
-//! How sure a rate is, in three bands that are told apart: chance, assumed inputs, segments and steps.
+//! The uncertainty of a rate, in three separate bands: chance, assumed inputs, segments and steps.
 //!
 //! | band | content |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | assumed inputs | least and greatest rate with one assumed input at one of its levels, or in one half of its range: the envelope over all of them, others as drawn |
 //! | segments | the rate times its ratio with finer segments and shorter steps, which another study found on the same encounters (`[[discretisation]]`) |
 //!
-//! Parts of few encounters spread by chance too. The envelope is therefore told beside that of parts dealt out at random, on average over
+//! Rates of small parts spread by chance too. The envelope is therefore shown beside that of parts assigned at random, on average over
 //! [`DEALS`]: where it is no wider, the assumed inputs have not shown that they matter.
 
 use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};

@@ -28,7 +28,7 @@ impl Draws {
         ((u128::from(u64::from_le_bytes(bytes)) * count as u128) >> 64) as usize
     }
 
-    /// Deals out values anew (Fisher and Yates).
+    /// Shuffles values (Fisher and Yates).
     pub(super) fn shuffle<T>(&mut self, values: &mut [T]) {
         for last in (1..values.len()).rev() {
             values.swap(last, self.below(last + 1));

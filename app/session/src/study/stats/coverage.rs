@@ -147,7 +147,7 @@ fn rare_study(
 #[test]
 fn weighted_encounters_cover_the_truth_and_know_rare_events_better() {
     let study = Study::read("rare.toml", RARE).unwrap();
-    let mut told = Vec::new();
+    let mut covered_by = Vec::new();
     for plain in [false, true] {
         let mut draws = Draws::of("importance");
         let (mut held, mut width) = ([0_u32; 3], 0.0);
@@ -162,11 +162,11 @@ fn weighted_encounters_cover_the_truth_and_know_rare_events_better() {
             held[2] += paired.ratio_as_met.map_or(1, |interval| holds(interval, 0.625));
             width += (rate.as_met.high - rate.as_met.low) / STUDIES as f64;
         }
-        told.push((held.map(|count| f64::from(count) / STUDIES as f64), width));
+        covered_by.push((held.map(|count| f64::from(count) / STUDIES as f64), width));
     }
-    println!("importance sampling {:?}, plain {:?}", told[0], told[1]);
-    assert!(told[0].0.iter().all(|share| (0.93..=0.97).contains(share)), "{told:?}");
-    assert!(told[0].1 < 0.3 * told[1].1, "{told:?}");
+    println!("importance sampling {:?}, plain {:?}", covered_by[0], covered_by[1]);
+    assert!(covered_by[0].0.iter().all(|share| (0.93..=0.97).contains(share)), "{covered_by:?}");
+    assert!(covered_by[0].1 < 0.3 * covered_by[1].1, "{covered_by:?}");
 }
 
 /// Half of the events come where few encounters are drawn, so that a small study often meets light ones alone.

@@ -41,7 +41,7 @@ pub struct Findings {
     pub encounters: u64,
     /// Name of the event options are ranked by.
     pub event: String,
-    /// What was said to be looked at before the first run.
+    /// The registration before the first run.
     pub registration: Registration,
     /// Comparisons of options with the baseline among which Holm's adjustment is made.
     pub comparisons: u64,
@@ -76,7 +76,7 @@ pub struct OptionFinding {
     pub invalid: u64,
     /// Runs that were too short for their outcome to stand; they count.
     pub undecided: u64,
-    /// Looks at the lengths of segments near the whale in all runs, and those of them that left one longer than wanted by a quarter or more.
+    /// Checks of segment lengths near the whale in all runs, and those that left a segment longer than requested by a quarter or more.
     pub resolution: Looks,
     /// Rate of every event: name, rate.
     pub rates: Vec<(String, Rate)>,
@@ -96,12 +96,12 @@ pub struct OptionFinding {
     pub lowest: Lowest,
 }
 
-/// Looks at the lengths of segments near the whale.
+/// Checks of segment lengths near the whale.
 #[derive(Clone, Copy, Debug, Default, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Looks {
     /// All.
     pub all: u64,
-    /// Those that left a segment longer than wanted by a quarter or more.
+    /// Checks that left a segment longer than requested by a quarter or more.
     pub missed: u64,
 }
 

@@ -123,7 +123,7 @@ pub(super) fn are_few(values: &[(f64, f64)]) -> bool {
         < FEW
 }
 
-/// Upper end of the interval of a rare event by Fay and Feuer; 1 where it cannot be told.
+/// Upper end of the interval of a rare event by Fay and Feuer; 1 if it is unknown.
 fn most(values: &[(f64, f64)]) -> f64 {
     let all: f64 = values.iter().map(|(_, weight)| weight).sum();
     let greatest = values.iter().map(|(_, weight)| weight / all).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! Sobol indices of first order from the encounters that a study has: what share of an event's variance an input explains alone.
+//! First-order Sobol indices from the encounters of a study: the share of an event's variance that an input explains alone.
 //!
 //! `S = Var(E[y | x]) / Var(y)`. The encounters are divided into classes of equal number by `x`, or by its levels; with the unbiased
 //! variance `s_g²` within class `g` of weight `W_g`, `S = 1 - Σ (W_g / W) s_g² / s²`. What chance alone gives is the 95th
@@ -16,20 +16,20 @@ use super::weighted::{WeightedMean, kish};
 const CLASSES: usize = 16;
 /// Encounters of a class, at least.
 const LEAST: usize = 8;
-/// How often classes are dealt out at random.
+/// Number of random assignments of classes.
 const DEALS: usize = 200;
 
-/// How much of an event's variance an input explains alone.
+/// The share of an event's variance that an input explains alone, and its permutation baseline.
 #[derive(Clone, Copy, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct SobolIndex {
     /// The index; 0 where the event does not vary. Slightly below 0 by chance.
     pub index: f64,
-    /// What chance alone stays below in 95 of 100.
+    /// The 95th percentile of the index with classes assigned at random.
     pub by_chance: f64,
 }
 
 impl SobolIndex {
-    /// What the input explains alone, and what chance would; a share that chance would give as well is not told.
+    /// First-order Sobol index and its permutation baseline; an index below the baseline is omitted.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
         let by_chance = format!("{:.1} %", 100.0 * self.by_chance.max(0.0));

@@ -13,7 +13,7 @@ use super::{Threat, Threats};
 const WITH_BANDS: [&str; 6] =
     ["Risk_lo", "Risk_hi", "Risk_priors_lo", "Risk_priors_hi", "Risk_n", "how"];
 
-/// How a row came about.
+/// The origin of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum How {
@@ -40,7 +40,7 @@ impl How {
 pub struct Filled<'a> {
     /// The row of the tool's table.
     pub row: &'a Polled,
-    /// How it came about.
+    /// Its origin.
     pub how: How,
     risk: Risk,
 }
@@ -143,7 +143,7 @@ pub fn as_own(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     written(&COLUMNS, rows.iter().map(columns))
 }
 
-/// The same rows with their bands, and how each came about.
+/// The same rows with their bands, and their origins.
 ///
 /// # Errors
 /// Where the table cannot be written.
