@@ -6,7 +6,7 @@ use askama::Template;
 
 use crate::error::Error;
 use crate::page::STYLE;
-use crate::page::cell::{Cell, Line, Table};
+use crate::page::{Cell, Line, Table};
 use crate::rules::{RuleResult, Verdict};
 use crate::settled::{LineShape, SettledShape};
 use crate::strength::PartStrength;

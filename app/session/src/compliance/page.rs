@@ -4,7 +4,7 @@ use askama::Template;
 use endline_sim::model::BodyRole;
 
 use crate::page::STYLE;
-use crate::page::cell::{Cell, Line, Table};
+use crate::page::{Cell, Line, Table};
 use crate::rules::{RuleResult, Verdict};
 use crate::settled::LineShape;
 use crate::strength::PartStrength;
@@ -12,7 +12,7 @@ use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 
 use super::threat::ThreatOfGear;
 use super::{ComplianceSheet, drawing};
-use crate::page::citations::Citations;
+use crate::page::Citations;
 
 /// Parts listed of a gear with many alike; a sentence names the others.
 const MOST_PARTS: usize = 14;

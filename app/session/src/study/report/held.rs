@@ -4,8 +4,8 @@ use crate::study::stats::{Findings, OptionFinding, Survival};
 
 use super::figures::{WIDE, grouped, legend};
 use super::words::percent_interval;
-use crate::page::cell::{Cell, Table};
 use crate::page::svg::{Axis, Side, Svg};
+use crate::page::{Cell, Table};
 
 /// Times of the columns [s].
 const TIMES_S: [f64; 7] = [5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0];

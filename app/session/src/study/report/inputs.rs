@@ -9,7 +9,7 @@ use crate::study::stats::{
 };
 
 use super::words::{force, percent_interval, points, rate};
-use crate::page::cell::{Cell, Line, Table};
+use crate::page::{Cell, Line, Table};
 
 /// Claims and whether their sign holds; `None` where the study makes none.
 pub(super) fn claims(findings: &Findings) -> Option<Table> {

@@ -9,7 +9,7 @@ use super::hauled::HauledLoad;
 use super::words::event_words;
 use super::{bundle, figures, held, inputs, results};
 use crate::page::STYLE;
-use crate::page::cell::{Line, Table};
+use crate::page::{Line, Table};
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
 #[derive(Template)]

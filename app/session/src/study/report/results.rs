@@ -9,7 +9,7 @@ use crate::study::stats::{
 use super::words::{
     event_words, force, lowest, outcome_words, percent_interval, points, rate, ratio, short_rate,
 };
-use crate::page::cell::{Cell, Line, Table};
+use crate::page::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;
