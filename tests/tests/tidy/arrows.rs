@@ -209,6 +209,26 @@ fn session_sim_and_gear_never_name_egui() {
     none(&complaints, "only the window knows egui");
 }
 
+/// Modules of the session that studies and searches share.
+const SHARED_BY_STUDIES: [&str; 4] = ["campaign", "encounters", "page", "table"];
+
+#[test]
+fn what_studies_and_searches_share_names_neither() {
+    let is_shared = |path: &str| {
+        let module = path.strip_prefix("app/session/src/").and_then(|path| path.split('/').next());
+        module.is_some_and(|module| SHARED_BY_STUDIES.contains(&module))
+    };
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs"]).into_iter().filter(|source| is_shared(&source.path)) {
+        for (number, line) in source.text.lines().enumerate() {
+            if line.contains("crate::study") || line.contains("crate::search") {
+                complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
+            }
+        }
+    }
+    none(&complaints, "what studies and searches share names neither");
+}
+
 #[test]
 fn xtask_compiles_from_the_standard_library_alone() {
     let manifest = toml_file("app/xtask/Cargo.toml");

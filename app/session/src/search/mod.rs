@@ -39,6 +39,8 @@ pub mod stories;
 #[cfg(test)]
 mod tests;
 
+use crate::campaign::{Control, Count, Shard};
+use crate::encounters::Encounter;
 use crate::error::Error;
 
 pub use distance::{Distance, LIKE, Term};

@@ -5,11 +5,11 @@ use endline_sdk::BodyPart;
 use crate::table::{Column, Table, WrongCell};
 
 /// The value of a field, for events that name their columns.
-enum Field<'a> {
+enum Field {
     Count(u64),
     Number(Option<f64>),
     Flag(bool),
-    Text(&'a str),
+    Text,
 }
 
 /// A type that the cells of a column are read as.
@@ -18,7 +18,7 @@ trait CellType: Sized {
     const KIND: &'static str;
     /// The value in a row; `None` for a column of another kind.
     fn read(column: &Column, row: usize) -> Option<Self>;
-    fn field(&self) -> Field<'_>;
+    fn field(&self) -> Field;
 }
 
 impl CellType for u64 {
@@ -26,7 +26,7 @@ impl CellType for u64 {
     fn read(column: &Column, row: usize) -> Option<Self> {
         if let Column::Whole(values) = column { values[row].try_into().ok() } else { None }
     }
-    fn field(&self) -> Field<'_> {
+    fn field(&self) -> Field {
         Field::Count(*self)
     }
 }
@@ -36,7 +36,7 @@ impl CellType for Option<f64> {
     fn read(column: &Column, row: usize) -> Option<Self> {
         if let Column::Real(values) = column { Some(values[row]) } else { None }
     }
-    fn field(&self) -> Field<'_> {
+    fn field(&self) -> Field {
         Field::Number(*self)
     }
 }
@@ -46,7 +46,7 @@ impl CellType for f64 {
     fn read(column: &Column, row: usize) -> Option<Self> {
         Option::read(column, row).flatten()
     }
-    fn field(&self) -> Field<'_> {
+    fn field(&self) -> Field {
         Field::Number(Some(*self))
     }
 }
@@ -56,7 +56,7 @@ impl CellType for bool {
     fn read(column: &Column, row: usize) -> Option<Self> {
         if let Column::Flag(values) = column { Some(values[row]) } else { None }
     }
-    fn field(&self) -> Field<'_> {
+    fn field(&self) -> Field {
         Field::Flag(*self)
     }
 }
@@ -66,8 +66,8 @@ impl CellType for String {
     fn read(column: &Column, row: usize) -> Option<Self> {
         if let Column::Text(values) = column { Some(values[row].clone()) } else { None }
     }
-    fn field(&self) -> Field<'_> {
-        Field::Text(self)
+    fn field(&self) -> Field {
+        Field::Text
     }
 }
 
@@ -87,7 +87,7 @@ macro_rules! row {
             /// Every row of a table, from the columns whose names begin with `prefix`.
             fn read(table: &Table, prefix: &str) -> Result<Vec<Self>, WrongCell> {
                 $(let $field = find(table, prefix, $name)?;)*
-                let row = |row: usize| {
+                let row = |row: usize| -> Result<Self, WrongCell> {
                     Ok(Self {
                         $($field: cell($field, row)?,)*
                         $($besides: <$type>::default(),)?
@@ -97,7 +97,7 @@ macro_rules! row {
             }
 
             /// The value of a column by its name; `None` for a column that is no field.
-            fn field(&self, name: &str) -> Option<Field<'_>> {
+            fn field(&self, name: &str) -> Option<Field> {
                 match name {
                     $($name => Some(self.$field.field()),)*
                     _ => None,
@@ -109,7 +109,7 @@ macro_rules! row {
                 match self.field(name) {
                     Some(Field::Number(number)) => number,
                     Some(Field::Count(count)) => Some(count as f64),
-                    Some(Field::Flag(_) | Field::Text(_)) | None => {
+                    Some(Field::Flag(_) | Field::Text) | None => {
                         debug_assert!(false, "`{name}` is no column of numbers");
                         None
                     }
@@ -200,7 +200,7 @@ impl RunRow {
     pub(super) fn flag(&self, name: &str) -> bool {
         let flag = match self.field(name) {
             Some(Field::Flag(flag)) => Some(flag),
-            Some(Field::Count(_) | Field::Number(_) | Field::Text(_)) | None => None,
+            Some(Field::Count(_) | Field::Number(_) | Field::Text) | None => None,
         };
         debug_assert!(flag.is_some(), "`{name}` is no column of flags");
         flag.unwrap_or_default()

@@ -16,6 +16,7 @@ use super::queue::{Queue, StudyJob, StudyRequest};
 use super::results;
 use super::{ResultsRequest, StudyResults};
 use crate::campaign::Shard;
+use crate::campaign::State;
 use crate::campaign::control::{Control, Count, Progress};
 use crate::encounters::Encounter;
 use crate::plugins::PluginHost;

@@ -53,7 +53,7 @@ impl std::fmt::Display for WrongCell {
 }
 
 impl WrongCell {
-    fn new(
+    pub(crate) fn new(
         column: &str,
         row: usize,
         expected: impl Into<String>,

@@ -55,12 +55,12 @@ type Counted<'a> = (&'a OptionFinding, &'a str, &'a Rate, &'a Paired);
 
 /// Every rate and comparison as a table: a row for each option and event.
 fn numbers(findings: &Findings) -> Table {
-    let of = |option| {
-        let OptionFinding { rates, against, .. } = option;
-        let rows = rates.iter().zip(against);
-        rows.map(move |((event, rate), (_, paired))| (option, event.as_str(), rate, paired))
-    };
-    let rows: Vec<Counted<'_>> = findings.options.iter().flat_map(of).collect();
+    let mut rows: Vec<Counted<'_>> = Vec::new();
+    for option in &findings.options {
+        for ((event, rate), (_, paired)) in option.rates.iter().zip(&option.against) {
+            rows.push((option, event, rate, paired));
+        }
+    }
     let texts = |of: fn(&Counted<'_>) -> String| Column::Text(rows.iter().map(of).collect());
     let counts = |of: fn(&Counted<'_>) -> u64| {
         let whole = |row| i64::try_from(of(row)).unwrap_or(i64::MAX);

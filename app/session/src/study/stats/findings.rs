@@ -226,7 +226,7 @@ fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
     let (plan, baseline) = (&opened.options[option], &opened.options[opened.baseline].id);
     let own: Vec<&RunRow> = runs.rows().iter().filter(|run| run.option == plan.id).collect();
     let count = |is_it: fn(&RunRow) -> bool| own.iter().filter(|run| is_it(run)).count() as u64;
-    let sum = |of: fn(&RunRow) -> u64| own.iter().map(|run| of(run)).sum();
+    let sum = |of: fn(&RunRow) -> u64| own.iter().map(|run| of(run)).sum::<u64>();
     let events = StudyEvent::all();
     let indicators = |event: &StudyEvent| EventIndicators::of(runs, &plan.id, event);
     let paired = |event: &StudyEvent| {
