@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 
 use crate::task::lock;
 
-/// How many encounters or blocks are done.
+/// A number of encounters or blocks, and how many of them are done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Those done, including those found.
+    /// Number done, including the found ones.
     pub done: u32,
-    /// Those that an earlier run or another process has done.
+    /// Number that an earlier run or another process has done.
     pub found: u32,
     /// All of them.
     pub total: u32,
@@ -62,7 +62,7 @@ impl Progress {
     }
 }
 
-/// What the campaign is asked to do.
+/// The last request to the campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wish {
     Run,

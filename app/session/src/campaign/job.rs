@@ -31,14 +31,14 @@ pub enum State {
     Failed(String),
 }
 
-/// A study or search: what was requested as `R`, what is found so far as `F`.
+/// A study or search with its request `R` and its results so far `F`.
 pub struct Job<R, F> {
-    /// What was requested.
+    /// The request.
     pub request: R,
     shared: Arc<AtWork<F>>,
 }
 
-/// What a job shares with its threads.
+/// State that a job shares with its threads.
 pub(crate) struct AtWork<F> {
     pub(crate) control: Control,
     state: Mutex<State>,
@@ -125,7 +125,7 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
         self.shared.control.progress()
     }
 
-    /// What is found so far.
+    /// The results so far.
     #[must_use]
     pub fn found(&self) -> F {
         lock(&self.shared.found).clone()

@@ -13,7 +13,7 @@ pub(crate) const POLL: Duration = Duration::from_millis(500);
 
 /// Work that threads share.
 pub(crate) trait Work: Sync {
-    /// What one thread runs at a time.
+    /// The work of one thread at a time.
     type Piece;
 
     /// The next piece to run in this process.
@@ -29,7 +29,7 @@ pub(crate) trait Work: Sync {
     fn run(&self, piece: Self::Piece) -> Result<bool, Error>;
 }
 
-/// What a thread does next.
+/// The next action of a thread.
 pub(crate) enum Next<P> {
     /// It runs a piece.
     Run(P),

@@ -1,4 +1,4 @@
-//! Encounters of whales with gear: what is drawn for each, and what the gear does at rest before the whale arrives.
+//! Encounters of whales with gear: the values drawn for each, and the gear at rest before the whale arrives.
 //!
 //! | file | content |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | `density` | weights of encounters that are drawn from proposals |
 //! | `priors` | the fields that a prior sets in scenario and library |
 //! | `equilibria` | gear at rest in the sea of an encounter |
-//! | `aim` | the lines at which the whale is aimed |
+//! | `aim` | the lines at which the whale is aimed, and its start |
 
 pub(crate) mod aim;
 pub(crate) mod density;
@@ -20,14 +20,14 @@ use draw::Draw;
 
 pub use draw::{Drawn, in_words};
 
-/// An encounter drawn.
+/// An encounter with its drawn values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encounter {
     /// Its index.
     pub index: u32,
-    /// What was drawn, by name.
+    /// Drawn values, by name.
     pub drawn: Vec<Drawn>,
-    /// What it counts for; weights have mean 1.
+    /// Its weight; weights have mean 1.
     pub weight: f64,
 }
 
@@ -45,7 +45,7 @@ impl Encounter {
         Self { index: 0, drawn: draw::at_point(study, point), weight: 1.0 }
     }
 
-    /// A number that was drawn, by name [SI].
+    /// A drawn number, by name [SI].
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         self.drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number)

@@ -1,4 +1,4 @@
-//! What priors set: the field of each, and drawn values put into a scenario and a library.
+//! Fields that priors set, and drawn values written into a scenario and a library.
 
 use endline_gear::{Document, EditError, Prior, Setting, Sources, Target};
 
@@ -45,7 +45,7 @@ fn known_field(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Puts what was drawn into a scenario and library, but for fields that the option itself sets and for the whale's place.
+/// Writes drawn values into a scenario and library, except for fields that the option sets and for the whale's place.
 pub(crate) fn put_drawn<'a>(
     scenario: &mut Document,
     sources: &mut Sources,

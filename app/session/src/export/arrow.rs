@@ -48,18 +48,18 @@ fn array(column: &Column) -> Result<ArrayRef, ArrowError> {
     })
 }
 
-/// What a tag tells of a column, as `unit` of `x_m.unit`; none where it is of something else.
+/// The property of a column that a tag describes, such as `unit` for `x_m.unit`; `None` for a tag of something else.
 fn about<'a>(name: &str, key: &'a str) -> Option<&'a str> {
     key.strip_prefix(name)?.strip_prefix('.')
 }
 
-/// What the tags tell of a column.
+/// The tags of a column.
 fn of_column(name: &str, tags: &[(String, String)]) -> HashMap<String, String> {
     let own = |(key, text): &(String, String)| Some((about(name, key)?.to_owned(), text.clone()));
     tags.iter().filter_map(own).collect()
 }
 
-/// What the tags tell of the table as a whole.
+/// The tags of the table as a whole.
 fn of_table(table: &Table, tags: &[(String, String)]) -> HashMap<String, String> {
     let of_one = |key: &str| table.columns.iter().any(|(name, _)| about(name, key).is_some());
     tags.iter().filter(|(key, _)| !of_one(key)).cloned().collect()

@@ -98,7 +98,7 @@ impl RunTable {
     }
 }
 
-/// What every column is.
+/// The table of all columns, with units and meanings.
 fn columns(tables: &[RunTable]) -> Table {
     let all = || tables.iter().flat_map(|table| table.columns.iter().map(move |c| (table.name, c)));
     let texts = |of: fn((&'static str, &TableColumn)) -> &'static str| {

@@ -47,7 +47,7 @@ pub struct SearchRequest {
     pub only_reads: bool,
 }
 
-/// What a search has found so far.
+/// The results of a search so far.
 #[derive(Clone, Default)]
 pub struct SearchFound {
     /// The question, once it is opened.

@@ -9,8 +9,8 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 use crate::source::Prepared;
-use crate::study::{Files, PreparedStudy};
 use crate::study::prepare::until;
+use crate::study::{Files, PreparedStudy};
 
 use super::stories::Story;
 
@@ -25,7 +25,7 @@ pub enum Length {
 
 /// An observation, and a study with one option whose encounters are searched.
 pub struct Question {
-    /// What was seen.
+    /// The observation.
     pub observation: Observation,
     /// The encounters: the study's priors, with the animal that was seen.
     pub opened: PreparedStudy,

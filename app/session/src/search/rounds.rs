@@ -53,7 +53,7 @@ pub(super) struct Rounds<'a> {
     pub(super) question: &'a Question,
     /// Dimensions of the unit cube.
     dimensions: usize,
-    /// Those with a continuous law.
+    /// Dimensions with a continuous law.
     free: Vec<usize>,
     /// Draws before the first local search.
     first: u32,
@@ -62,7 +62,7 @@ pub(super) struct Rounds<'a> {
     pub(super) prior_sample: Vec<(Vec<f64>, Trial)>,
     pub(super) elites: Elites,
     climbs: Vec<Climb>,
-    /// How many points of the round under way are each local search's.
+    /// Number of points of each local search in the current round.
     shares: Vec<usize>,
     begun: u64,
     done: usize,

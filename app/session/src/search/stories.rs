@@ -60,7 +60,7 @@ pub struct Story {
     pub draws_like: usize,
     /// Simulated time of its run [s].
     pub simulated_s: f64,
-    /// What was drawn, by name.
+    /// Drawn values, by name.
     pub drawn: Vec<(String, String)>,
     /// Hash of the last state.
     pub state_hash: String,

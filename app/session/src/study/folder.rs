@@ -103,7 +103,7 @@ impl Folder {
         Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
     }
 
-    /// How many blocks.
+    /// Number of blocks.
     #[must_use]
     pub fn blocks(&self) -> u32 {
         self.encounters.div_ceil(BLOCK)
@@ -229,7 +229,7 @@ fn without_blocks(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// What a folder's label registered, if the label is that of the study; more or fewer encounters are the same study.
+/// The registration of a folder's label, if the label is that of the study, with any number of encounters.
 fn same(file: &Path, found: Label, label: &Label) -> Result<Registration, Error> {
     if found.hash == label.hash && found.block == label.block {
         return Ok(found.registration);

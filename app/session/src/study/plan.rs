@@ -1,4 +1,4 @@
-//! An option of a study as a plan: what it sets and removes, and the scenario and library that come of it.
+//! An option of a study as a plan: the fields that it sets and removes, and the scenario and library with these changes.
 
 use endline_gear::{
     Diagnostic, Document, EditError, OptionSetting, Prior, Sources, Study, StudyOption, hint,
@@ -23,7 +23,7 @@ pub struct OptionPlan {
     pub curve: Option<String>,
     /// Paths of all it sets, of scenario and library.
     pub(super) own: Vec<String>,
-    /// Those paths with what they are set to, as a file has it.
+    /// These paths with their values, as text of a file.
     pub(super) sets: Vec<(String, String)>,
     pub(super) settings: Vec<OptionSetting>,
     pub(super) removes: Vec<String>,
@@ -64,7 +64,7 @@ fn own(option: &StudyOption) -> Vec<String> {
     option.settings.iter().map(|setting| setting.field.value.clone()).collect()
 }
 
-/// What options are differences from.
+/// The baseline that options change.
 pub(super) struct Base<'a> {
     /// The study that has the options.
     pub study: &'a Study,

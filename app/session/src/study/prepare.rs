@@ -157,7 +157,7 @@ impl PreparedStudy {
     }
 }
 
-/// The same run for a window, with a duration of `end_s` [s].
+/// A prepared run for a window, with a duration of `end_s` [s].
 ///
 /// # Errors
 /// Where the scenario cannot be assembled.

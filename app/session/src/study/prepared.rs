@@ -231,7 +231,7 @@ fn hash(study: &Study, options: &[OptionPlan]) -> String {
 /// Name and version of the form.
 const SCHEMA: &str = "endline.study_plan/1";
 
-/// What a study will run.
+/// The plan of a study.
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct Plan<'a> {
     /// Name and version of this form.

@@ -160,7 +160,7 @@ row! {
         parted: String = "parted",
         /// Checks of segment lengths near the whale.
         resolution_looks: u64 = "resolution_looks",
-        /// Those of them that left a segment longer than requested by a quarter or more.
+        /// Checks that left a segment longer than requested by a quarter or more.
         resolution_missed: u64 = "resolution_missed",
     } {
         /// Rope on the parts of the whale, in the order of [`BodyPart::ALL`].

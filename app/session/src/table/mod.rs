@@ -39,9 +39,9 @@ pub struct WrongCell {
     pub column: String,
     /// Number of the row, from 1.
     pub row: usize,
-    /// What the column holds.
+    /// Kind of the column's cells.
     pub expected: String,
-    /// What was found there.
+    /// The cell found there.
     pub found: String,
 }
 
@@ -87,7 +87,7 @@ impl Column {
         }
     }
 
-    /// What its cells are, in words.
+    /// Kind of its cells, in words.
     fn kind(&self) -> &'static str {
         match self {
             Self::Whole(_) => "a whole number",
@@ -123,7 +123,7 @@ impl Column {
         Ok(())
     }
 
-    /// How many values.
+    /// Number of values.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -205,7 +205,7 @@ impl Table {
         names.next().map_or(Ok(()), more)
     }
 
-    /// How many rows.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |(_, column)| column.len())
@@ -235,7 +235,7 @@ impl Table {
         Ok(())
     }
 
-    /// The same as comma-separated values with a line of names.
+    /// The table as comma-separated values with a line of names.
     #[must_use]
     pub fn csv(&self) -> String {
         let names: Vec<String> = self.columns.iter().map(|(name, _)| quoted(name)).collect();

@@ -7,7 +7,7 @@
 /// Name of the metadata.
 pub(crate) const KEY: &str = "blake3";
 
-/// What stands before the digits.
+/// The text before the digits.
 const MARK: &str = "endline-seal:";
 
 /// Digits of a hash.

@@ -53,7 +53,7 @@ pub(crate) struct Lease<'a> {
     leases: &'a Leases,
 }
 
-/// What a process may do next.
+/// The next action of a process.
 pub(crate) enum Next<'a> {
     /// Run a block.
     Run(Lease<'a>),

@@ -9,10 +9,10 @@ use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 
-/// What the names of these files begin with.
+/// Prefix of the names of these files.
 const PREFIX: &str = "process-";
 
-/// How often a process shows that it works.
+/// Interval of a working process's beats.
 pub(super) const BEAT: Duration = Duration::from_secs(20);
 
 /// Silence after which a process counts as ended. Clients of a network file system may see times that are a minute old.

@@ -131,7 +131,7 @@ const STEP: Duration = Duration::from_secs(5);
 /// A process that runs blocks in simulated time.
 struct Simulated {
     leases: Leases,
-    /// What it runs, as block, number of the lease and end.
+    /// Its block, number of the lease and end of the work.
     at_work: Option<(u32, u32, Duration)>,
     /// Until when it sleeps, as that of a closed laptop.
     asleep_until: Duration,
@@ -191,7 +191,7 @@ fn a_thousand_processes_that_are_killed_and_fall_asleep_run_every_block() {
     assert!(!folder_of(&results.0).exists());
 }
 
-/// What a process does in a step that it is awake: ends its block, or begins one of those left.
+/// A step of a process that is awake: it ends its block, or begins one of those left.
 fn step(
     process: &mut Simulated,
     left: &[u32],

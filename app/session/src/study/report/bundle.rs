@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::save::atomically;
 use crate::study::prepared::PreparedStudy;
 
-/// What reproduces a report, said within the folder above the bundle.
+/// Commands that reproduce a report, in the folder above the bundle.
 pub(super) const COMMANDS: &str = "endline study run bundle/study.toml --library bundle/gear-library --out again\n\
     endline study merge bundle/study.toml --library bundle/gear-library --out again";
 

@@ -18,7 +18,7 @@ const USUAL_VARIATION: f64 = 0.1;
 /// The greatest load of a haul.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HauledLoad {
-    /// What was hauled, and in what.
+    /// Name: the gear hauled, and its sea.
     pub name: String,
     /// Tension where the haul came nearest to parting [N].
     pub tension_n: f64,
@@ -26,7 +26,7 @@ pub struct HauledLoad {
     pub variation: f64,
 }
 
-/// What is read of `endline.haul/1`.
+/// The part of `endline.haul/1` that is read.
 #[derive(Deserialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 struct Sheet {

@@ -1,4 +1,4 @@
-//! How long rope holds a whale that it touched: table and curves by time since first contact.
+//! Duration of holding: share of touched whales still held, by time since first contact, as a table and as curves.
 
 use crate::study::stats::{Findings, OptionFinding, Survival};
 

@@ -53,7 +53,7 @@ pub(super) fn observations(findings: &Findings) -> Option<Table> {
     (!rows.is_empty()).then(|| Table::new("The study's shares beside those seen", &headings, rows))
 }
 
-/// What is said of a claim or observation that was not in the study before its first run.
+/// The note on a claim or observation that was not in the study before its first run.
 fn later(registered: bool) -> Option<String> {
     (!registered).then(|| "added after the first run".to_owned())
 }
@@ -129,7 +129,7 @@ pub(super) fn strengths(findings: &Findings) -> Table {
     )
 }
 
-/// What each option sets in the baseline scenario.
+/// The fields that each option sets in the baseline scenario.
 pub(super) fn settings(opened: &PreparedStudy) -> Table {
     let row = |option: &StudyOption| {
         let set = option.settings.iter().map(|setting| {

@@ -46,7 +46,7 @@ struct Page<'a> {
     again: Again<'a>,
 }
 
-/// How many encounters and runs there are.
+/// Numbers of encounters and runs.
 struct Counts {
     options: usize,
     encounters: u64,
@@ -55,14 +55,14 @@ struct Counts {
     undecided: u64,
 }
 
-/// What the result depends on.
+/// Sensitivity of the result to inputs.
 struct Sensitivity {
     figure: String,
     caption: String,
     table: Table,
 }
 
-/// What reproduces the report.
+/// How to reproduce the report.
 struct Again<'a> {
     version: &'static str,
     commands: &'static str,

@@ -42,7 +42,7 @@ fn rates_of(findings: &Findings, events: &[StudyEvent]) -> Table {
     Table::new("Rates given an encounter", &headings, rows)
 }
 
-/// How sure the rates of registered events are: chance, assumed inputs, segments, each apart.
+/// Uncertainty of the rates of registered events: chance, assumed inputs and segments, each apart.
 pub(super) fn bands(findings: &Findings) -> Table {
     let row = |bands: &Bands| {
         let assumed = bands.assumed.as_ref().map_or_else(|| "none varies".into(), assumed);
@@ -63,7 +63,7 @@ pub(super) fn bands(findings: &Findings) -> Table {
         "band of segments and steps",
     ];
     Table::new(
-        "How sure the rates of registered events are, by three causes that do not contain each other",
+        "Uncertainty of the rates of registered events, by three separate causes",
         &headings,
         findings.bands.iter().map(row).collect(),
     )

@@ -13,7 +13,7 @@ use super::{Findings, Paired};
 /// Encounters below which a study is called small.
 const SMALL: u64 = 314;
 
-/// What is asked.
+/// The question.
 struct Asked<'a> {
     event: String,
     baseline: &'a str,
@@ -78,7 +78,7 @@ impl Compared<'_> {
         interval.low > 0.0 || interval.high < 0.0
     }
 
-    /// How far the difference may be from none [points].
+    /// Greatest difference within the interval [points].
     fn reach(&self) -> f64 {
         let interval = self.paired.difference_interval;
         100.0 * interval.low.abs().max(interval.high.abs())

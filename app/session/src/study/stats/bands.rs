@@ -23,15 +23,15 @@ use super::interval::{Interval, Rate};
 use super::paired::Paired;
 use super::sensitivity::parts_of;
 
-/// How often parts are dealt out at random.
+/// Number of random assignments of levels.
 const DEALS: usize = 200;
 
 /// The bands of an event's rate with an option.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Bands {
-    /// Id of the option, and its name.
+    /// Id of the option.
     pub option: String,
-    /// As said.
+    /// Its name.
     pub name: String,
     /// Name of the event.
     pub event: String,
@@ -46,19 +46,19 @@ pub struct Bands {
 /// Rates over the levels of assumed inputs, one input at a time.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct AssumedBand {
-    /// Least and greatest rate.
+    /// Least rate.
     pub least: f64,
-    /// As said.
+    /// Greatest rate.
     pub greatest: f64,
-    /// Input and level with the least rate, and with the greatest.
+    /// Input and level with the least rate.
     pub least_at: String,
-    /// As said.
+    /// Input and level with the greatest rate.
     pub greatest_at: String,
-    /// The same with levels dealt out at random, on average.
+    /// Mean least and greatest rate with levels assigned at random.
     pub by_chance: Interval,
 }
 
-/// What finer segments and steps do to a rate.
+/// The effect of finer segments and steps on a rate.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct SegmentBand {
     /// Rate with finer ones over rate with those of this study.
@@ -180,14 +180,14 @@ impl AssumedBand {
         Interval { low: self.least, high: self.greatest }
     }
 
-    /// Whether the levels spread the rate by no more than levels dealt out at random.
+    /// Whether the levels spread the rate by no more than levels assigned at random.
     #[must_use]
     pub fn is_chance(&self) -> bool {
         self.greatest - self.least <= self.by_chance.high - self.by_chance.low
     }
 }
 
-/// Least and greatest rate with levels dealt out at random, on average.
+/// Mean least and greatest rate with levels assigned at random.
 fn by_chance(inputs: &[Known<'_>]) -> Interval {
     let mut draws = Draws::of("assumed inputs");
     let mut mean = Interval { low: 0.0, high: 0.0 };

@@ -1,11 +1,11 @@
-//! Intervals of what has no formula: the same statistic of encounters drawn again with replacement.
+//! Intervals of statistics without a formula: the statistic of encounters resampled with replacement.
 //!
 //! Draws come from BLAKE3 of a label, so that a report says the same each time.
 //! Reference: Efron 1979 (doi:10.1214/aos/1176344552); the percentile interval.
 
 use super::interval::Interval;
 
-/// How often encounters are drawn again.
+/// Number of resamples.
 pub(super) const RESAMPLES: usize = 2000;
 
 /// Indices drawn at random from a label.

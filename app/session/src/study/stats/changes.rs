@@ -27,7 +27,7 @@ pub struct Changes {
     pub touching: Change,
 }
 
-/// What changed over some encounters.
+/// Changes over some encounters.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Change {
     /// Encounters with another outcome.
@@ -49,7 +49,7 @@ struct End {
 }
 
 impl Changes {
-    /// Those of an option from another.
+    /// The changes of an option from another.
     #[must_use]
     pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
         let (own, other) = (ends(runs, option), ends(runs, baseline));

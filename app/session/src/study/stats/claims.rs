@@ -47,7 +47,7 @@ pub struct ClaimFinding {
     pub id: String,
     /// The statement.
     pub says: String,
-    /// Who states it.
+    /// Its source.
     pub source: String,
     /// Event and options that should have more.
     pub more: String,
@@ -63,7 +63,7 @@ pub struct ClaimFinding {
     pub interval: Interval,
     /// Probability of a difference at least as great by chance.
     pub probability: f64,
-    /// The same among all claims of the study, by Holm.
+    /// That probability among all claims of the study, by Holm.
     pub adjusted: f64,
     /// Whether the sign holds.
     pub verdict: Verdict,

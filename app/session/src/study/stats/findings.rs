@@ -27,7 +27,7 @@ use super::tensions::Tensions;
 /// Name of the schema.
 const SCHEMA: &str = "endline.findings/2";
 
-/// What a study found.
+/// The results of a study.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Findings {
     /// Name and version of this form.
@@ -51,7 +51,7 @@ pub struct Findings {
     pub options: Vec<OptionFinding>,
     /// Levels of the prior by which results are separated.
     pub levels: Vec<LevelFinding>,
-    /// How sure the rates of registered events are: chance, assumed inputs, segments.
+    /// Uncertainty of the rates of registered events: chance, assumed inputs, segments.
     pub bands: Vec<Bands>,
     /// Claims.
     pub claims: Vec<ClaimFinding>,
@@ -88,11 +88,11 @@ pub struct OptionFinding {
     pub changes: Changes,
     /// Greatest tensions.
     pub tensions: Tensions,
-    /// How long rope holds whales that it touched.
+    /// Duration for which rope holds whales that it touched.
     pub survival: Survival,
     /// Delivered strength of each line and weak link in the gear as it is assembled.
     pub strengths: Vec<PartStrength>,
-    /// How often it has the lowest rate of the event when encounters are drawn again.
+    /// Share of resamples in which it has the lowest rate of the event.
     pub lowest: Lowest,
 }
 

@@ -37,7 +37,7 @@ impl Interval {
     }
 }
 
-/// How often an event occurred in the valid runs.
+/// The rate of an event in the valid runs.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Rate {
     /// Runs with the event.

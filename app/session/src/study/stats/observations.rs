@@ -47,17 +47,17 @@ impl Agreement {
 pub struct ObservationFinding {
     /// Id.
     pub id: String,
-    /// What was seen.
+    /// The statement.
     pub says: String,
-    /// Who saw it.
+    /// Its source.
     pub source: String,
-    /// What was counted, among what, with which gear.
+    /// The event counted, among which encounters, with which gear.
     pub counted: String,
-    /// What was observed.
+    /// The observed share.
     pub observed: Interval,
     /// Encounters with the event and in all that it was asked about; of the option that has fewer.
     pub hits: u64,
-    /// Those asked about.
+    /// Encounters in question.
     pub runs: u64,
     /// The simulated share; none where nothing was asked about.
     pub simulated: Option<f64>,
@@ -67,7 +67,7 @@ pub struct ObservationFinding {
     pub agreement: Agreement,
     /// Whether it was in the study's file, with what it expects, before the first run.
     pub registered: bool,
-    /// What the comparison leaves out, or the reason believed for a miss.
+    /// Omissions of the comparison, or the presumed reason for a miss.
     pub notes: String,
 }
 

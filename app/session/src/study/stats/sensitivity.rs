@@ -30,18 +30,18 @@ pub struct Part {
     pub ranking: Vec<usize>,
 }
 
-/// What an input does.
+/// The effect of an input.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct InputFinding {
     /// Name of the prior.
     pub name: String,
-    /// The same for people.
+    /// Its name in words.
     pub words: String,
     /// Its parts.
     pub parts: Vec<Part>,
     /// Greatest less least rate over the parts.
     pub span: f64,
-    /// How much of the variance of the event with the baseline it explains alone.
+    /// Share of the variance of the event with the baseline that it explains alone.
     pub sobol: SobolIndex,
     /// Whether some option has the lowest rate, or shares it, in every part.
     pub same_best: bool,
@@ -147,7 +147,7 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
     order
 }
 
-/// What was drawn of an input.
+/// The drawn values of an input.
 fn column_of<'a>(prior: &Prior, runs: &'a Runs) -> Option<&'a Column> {
     runs.drawn(&prior.name.value)
 }
@@ -213,7 +213,7 @@ fn parts(runs: &Runs, column: &Column, words: &dyn Fn(f64) -> String) -> Vec<(St
     }
 }
 
-/// How often an option has the lowest rate when encounters are drawn again.
+/// Share of resamples in which an option has the lowest rate.
 #[derive(Clone, Copy, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Lowest {
     /// Share of the draws in which no other option has it.
@@ -222,7 +222,7 @@ pub struct Lowest {
     pub tied: f64,
 }
 
-/// How often each option has the lowest rate when encounters are drawn again.
+/// Share of resamples in which each option has the lowest rate.
 pub(super) fn lowest(indicators: &[EventIndicators]) -> Vec<Lowest> {
     let count = indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default();
     let mut draws = Draws::of("ranking");

@@ -1,4 +1,4 @@
-//! How long rope holds a whale that it has touched: Kaplan and Meier's estimate with intervals.
+//! Duration for which rope holds a whale that it has touched: Kaplan and Meier's estimate with intervals.
 //!
 //! `S(t) = Π (1 - d_i / n_i)` over the release times `t_i ≤ t`, with `d_i` whales released then and `n_i` still held and
 //! followed just before. A whale that is held when its run ends is followed up to there and counts as held no longer
@@ -23,7 +23,7 @@ const RELEASED: [&str; 2] = ["shed", "parted_free"];
 pub struct Survival {
     /// Whales that rope touched.
     pub touched: u64,
-    /// Those of them that were released while they were followed.
+    /// Touched whales that were released while they were followed.
     pub released: u64,
     /// A step for each release time, by time.
     pub steps: Vec<HeldShare>,
@@ -42,7 +42,7 @@ pub struct HeldShare {
     pub interval: Interval,
 }
 
-/// How long a whale was followed, and whether it was then released.
+/// Duration for which a whale was followed, and whether it was then released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Followed {
     /// From first contact to release, or to the end of the run [s].

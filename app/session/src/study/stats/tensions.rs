@@ -21,7 +21,7 @@ pub struct Tensions {
 }
 
 impl Tensions {
-    /// Those of an option, compared with another's.
+    /// The tensions of an option, compared with another's.
     #[must_use]
     pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
         let (own, other) = (by_encounter(runs, option), by_encounter(runs, baseline));

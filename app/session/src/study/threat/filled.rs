@@ -143,7 +143,7 @@ pub fn as_own(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     written(&COLUMNS, rows.iter().map(columns))
 }
 
-/// The same rows with their bands, and their origins.
+/// Rows with their bands and origins.
 ///
 /// # Errors
 /// Where the table cannot be written.

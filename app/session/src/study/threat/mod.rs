@@ -40,13 +40,13 @@ pub struct Threat {
     pub traps: u64,
     /// Device in the endline.
     pub device: String,
-    /// How often the event occurred, with its band of chance.
+    /// Rate of the event, with its band of chance.
     pub rate: Rate,
     /// Least and greatest rate at the levels of the assumed inputs, where these vary.
     pub priors: Option<AssumedBand>,
 }
 
-/// What a study says of threats.
+/// The threat table of a study.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Threats {
     /// Name and version of this form.
@@ -133,7 +133,7 @@ fn threat(
 }
 
 impl Threat {
-    /// What it is a row of: rope, device, traps.
+    /// Its key: rope, device, traps.
     fn key(&self) -> (&str, &str, u64) {
         (&self.rope, &self.device, self.traps)
     }

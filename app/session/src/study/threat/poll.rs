@@ -70,7 +70,7 @@ impl Poll {
     }
 }
 
-/// What is wrong with a row of a threat table, at its line.
+/// The error of a row of a threat table, at its line.
 pub(crate) fn at_line(name: &str, text: &str, error: &csv::Error, help: &str) -> Diagnostic {
     let byte = error.position().map_or(0, csv::Position::byte);
     let byte = usize::try_from(byte).unwrap_or_default().min(text.len());
@@ -89,7 +89,7 @@ fn place(name: &str, text: &str, byte: usize) -> Place {
 }
 
 impl Polled {
-    /// What it is a row of: rope, device, traps.
+    /// Its key: rope, device, traps.
     pub(super) fn key(&self) -> (&str, &str, u64) {
         (&self.rope, &self.device, self.traps)
     }
