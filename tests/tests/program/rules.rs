@@ -66,6 +66,25 @@ fn an_assembly_passes_fails_or_leaves_a_rule_open_and_the_exit_code_says_whether
 }
 
 #[test]
+fn a_strength_names_the_rope_that_has_it_and_a_length_the_whole_endline() {
+    let place = Place::new("rule-parts");
+    let arguments = ["trawl-10", "--area", "lma-1", "--on", "2024-06-01", "--json"];
+    let json = check(&place, &arguments).json();
+    let rules = json["rules"].as_array().unwrap();
+    let measured = |rule: &str| {
+        let found = rules.iter().find(|one| one["rule"] == rule).unwrap();
+        let one = &found["measured"][0];
+        (one["part"].as_str().unwrap().to_owned(), one["says"].as_str().unwrap().to_owned())
+    };
+    // The upper rope is sink-3-8 of 2,700 lbf, the lower one pp-3-8 of 2,440 lbf.
+    let (part, says) = measured("us.weak");
+    assert_eq!((&*part, &*says), ("endline-bottom", "2440 lbf <= 1700 lbf"));
+    place.write("bay.toml", PACK);
+    let bay = ["--area", "my-bay", "--on", "2024-06-01", "--pack", "bay.toml"];
+    check(&place, &[&["trawl-10"], &bay[..]].concat()).prints(&["endline-top to endline-bottom: "]);
+}
+
+#[test]
 fn mistakes_in_a_pack_stand_at_their_lines_and_the_packs_that_ship_have_none() {
     let place = Place::new("rule-mistakes");
     let pack = PACK

@@ -28,8 +28,18 @@ pub(super) struct Endline {
     pub buoy: String,
     /// Its pieces from the buoy down; sleeves and links have no length.
     pub pieces: Vec<Piece>,
-    /// Rating of the weak link at the buoy [N].
-    pub buoy_link_n: Option<f64>,
+    /// Id of the weak link at the buoy, and its rating [N].
+    pub buoy_link: Option<(String, f64)>,
+}
+
+impl Endline {
+    /// The lines that it consists of, for messages.
+    pub fn name(&self) -> String {
+        match self.pieces.last() {
+            Some(last) if last.line != self.id => format!("{} to {}", self.id, last.line),
+            _ => self.id.clone(),
+        }
+    }
 }
 
 /// A piece of a line, or a sleeve or link in it.

@@ -31,6 +31,14 @@ impl Part<'_> {
             Self::Groundline(piece) => &piece.id,
         }
     }
+
+    /// Its name in messages; empty for the gear.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Endline(endline) => endline.name(),
+            Self::Gear | Self::Groundline(_) => self.id().to_owned(),
+        }
+    }
 }
 
 /// The value of a fact.
@@ -61,8 +69,8 @@ fn of_gear(name: &str, gear: &Gear, fishing: &Fishing) -> Option<Value> {
         "endlines" => Value::count(gear.endlines.len() as f64),
         "stowed" => Value::truth(gear.stowed),
         "groundlines" => Value::count(gear.groundlines.len() as f64),
-        "groundline_longest" => length(lines().map(|line| line.length_m).fold(0.0, f64::max)),
-        "groundline_least_density" => density(least(lines().map(|line| line.density_kg_m3))),
+        "groundline_longest" => greatest(lines(), |line| line.length_m, Quantity::Length),
+        "groundline_least_density" => least(lines(), |line| line.density_kg_m3, Quantity::Density),
         "trawl_length" => length(lines().map(|line| line.length_m).sum()),
         "groundline_floats" => Value::count(gear.floats.len() as f64),
         "surface_line" => length(gear.surface_m.iter().copied().fold(0.0, f64::max)),
@@ -79,17 +87,20 @@ fn of_endline(name: &str, endline: &Endline) -> Option<Value> {
     Some(match name {
         "line" => Value::Line(made_up(endline)),
         "line_length" => length(all().map(|piece| piece.length_m).sum()),
-        "diameter" => length(rope().map(|piece| piece.diameter_m).fold(0.0, f64::max)),
-        "least_rated" => force(least(all().map(|piece| piece.rated_n))),
-        "greatest_rated" => force(rope().map(|piece| piece.rated_n).fold(0.0, f64::max)),
-        "least_new" => force(least(all().map(|piece| piece.new_n))),
-        "least_delivered" => force(least(all().map(|piece| piece.delivered_n))),
-        "least_density" => density(least(rope().map(|piece| piece.density_kg_m3))),
-        "top_density" => density(rope().next().map_or(f64::INFINITY, |top| top.density_kg_m3)),
+        "diameter" => greatest(rope(), |piece| piece.diameter_m, Quantity::Length),
+        "least_rated" => least(all(), |piece| piece.rated_n, Quantity::Force),
+        "greatest_rated" => greatest(rope(), |piece| piece.rated_n, Quantity::Force),
+        "least_new" => least(all(), |piece| piece.new_n, Quantity::Force),
+        "least_delivered" => least(all(), |piece| piece.delivered_n, Quantity::Force),
+        "least_density" => least(rope(), |piece| piece.density_kg_m3, Quantity::Density),
+        "top_density" => least(rope().take(1), |piece| piece.density_kg_m3, Quantity::Density),
         "sinking_share" => Value::count(sinking_share(endline)),
         "inserts" => Value::count(inserts().count() as f64),
-        "insert_length" => length(least(inserts().map(|piece| piece.length_m))),
-        "buoy_link" => force(endline.buoy_link_n.unwrap_or(f64::INFINITY)),
+        "insert_length" => least(inserts(), |piece| piece.length_m, Quantity::Length),
+        "buoy_link" => match &endline.buoy_link {
+            Some((id, rated_n)) => Value::measure_of(id, *rated_n, Quantity::Force),
+            None => Value::measure(f64::INFINITY, Quantity::Force),
+        },
         _ => return None,
     })
 }
@@ -97,7 +108,7 @@ fn of_endline(name: &str, endline: &Endline) -> Option<Value> {
 fn of_groundline(name: &str, piece: &Piece) -> Option<Value> {
     Some(match name {
         "groundline_length" => length(piece.length_m),
-        "groundline_density" => density(piece.density_kg_m3),
+        "groundline_density" => Value::measure(piece.density_kg_m3, Quantity::Density),
         "groundline_diameter" => length(piece.diameter_m),
         _ => return None,
     })
@@ -114,20 +125,32 @@ fn sinking_share(endline: &Endline) -> f64 {
     sinks.map(|piece| piece.length_m).sum::<f64>() / total
 }
 
-fn least(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(f64::INFINITY, f64::min)
+/// The least value among pieces, with the piece that has it; infinite where there is no piece.
+fn least<'a>(
+    pieces: impl Iterator<Item = &'a Piece>,
+    of: impl Fn(&Piece) -> f64,
+    quantity: Quantity,
+) -> Value {
+    let piece = pieces.min_by(|one, other| of(one).total_cmp(&of(other)));
+    let infinite = Value::measure(f64::INFINITY, quantity);
+    piece.map_or(infinite, |piece| Value::measure_of(&piece.id, of(piece), quantity))
+}
+
+/// The greatest value among pieces, with the first piece that has it; zero where there is no piece.
+fn greatest<'a>(
+    pieces: impl Iterator<Item = &'a Piece>,
+    of: impl Fn(&Piece) -> f64,
+    quantity: Quantity,
+) -> Value {
+    // Reversed, because of equal values `max_by` returns the last.
+    let pieces: Vec<&Piece> = pieces.collect();
+    let piece = pieces.into_iter().rev().max_by(|one, other| of(one).total_cmp(&of(other)));
+    let zero = Value::measure(0.0, quantity);
+    piece.map_or(zero, |piece| Value::measure_of(&piece.id, of(piece), quantity))
 }
 
 fn length(si: f64) -> Value {
     Value::measure(si, Quantity::Length)
-}
-
-fn force(si: f64) -> Value {
-    Value::measure(si, Quantity::Force)
-}
-
-fn density(si: f64) -> Value {
-    Value::measure(si, Quantity::Density)
 }
 
 /// Whether a value is what its fact declares; a test asks for every fact.

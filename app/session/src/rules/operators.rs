@@ -81,6 +81,14 @@ fn numbers(a: &Value, b: &Value, does: &str) -> Result<(Quantity, Quantity), Val
     }
 }
 
+/// The piece that was measured of two numbers: of the left one where both name one.
+fn piece(a: &Value, b: &Value) -> Option<String> {
+    [a, b].into_iter().find_map(|value| match value {
+        Value::Number { of, .. } => of.clone(),
+        _ => None,
+    })
+}
+
 fn compare(a: Value, b: Value, sign: &'static str) -> Value {
     let (left, right) = match numbers(&a, &b, &format!("`{sign}` compares")) {
         Ok(both) => both,
@@ -91,7 +99,7 @@ fn compare(a: Value, b: Value, sign: &'static str) -> Value {
     }
     match (&a, &b) {
         (
-            Value::Number { si: left, quantity, unit },
+            Value::Number { si: left, quantity, unit, .. },
             Value::Number { si: right, unit: other, .. },
         ) => {
             let (left, right) = (*left, *right);
@@ -106,7 +114,8 @@ fn compare(a: Value, b: Value, sign: &'static str) -> Value {
                 _ => !equal,
             };
             let unit = other.or(*unit);
-            let compared = Compared { left, sign, right, quantity: *quantity, unit, holds };
+            let of = piece(&a, &b);
+            let compared = Compared { left, sign, right, quantity: *quantity, unit, of, holds };
             Value::Truth { holds, compared: vec![compared] }
         }
         _ => unknown(Kind::Truth, why(&a, &b).unwrap_or_default()),
@@ -159,7 +168,8 @@ fn sum(a: Value, b: Value, sign: f64) -> Value {
     }
     match (&a, &b) {
         (Value::Number { si: x, unit, .. }, Value::Number { si: y, unit: other, .. }) => {
-            Value::Number { si: x + sign * y, quantity: right, unit: unit.or(*other) }
+            let si = x + sign * y;
+            Value::Number { si, quantity: right, unit: unit.or(*other), of: piece(&a, &b) }
         }
         _ => unknown(Kind::Number(right), why(&a, &b).unwrap_or_default()),
     }
@@ -178,7 +188,7 @@ fn product(a: Value, b: Value) -> Value {
     };
     match (&a, &b) {
         (Value::Number { si: x, unit, .. }, Value::Number { si: y, unit: other, .. }) => {
-            Value::Number { si: x * y, quantity, unit: unit.or(*other) }
+            Value::Number { si: x * y, quantity, unit: unit.or(*other), of: piece(&a, &b) }
         }
         _ => unknown(Kind::Number(quantity), why(&a, &b).unwrap_or_default()),
     }
@@ -199,7 +209,7 @@ fn quotient(a: Value, b: Value) -> Value {
     match (&a, &b) {
         (Value::Number { si: x, unit, .. }, Value::Number { si: y, .. }) => {
             let unit = if quantity == left { *unit } else { None };
-            Value::Number { si: x / y, quantity, unit }
+            Value::Number { si: x / y, quantity, unit, of: piece(&a, &b) }
         }
         _ => unknown(Kind::Number(quantity), why(&a, &b).unwrap_or_default()),
     }

@@ -28,6 +28,8 @@ pub enum Value {
         quantity: Quantity,
         /// The unit of the rule that named it.
         unit: Option<&'static Unit>,
+        /// Id of the line, piece or link that it was measured on, where it is one of several.
+        of: Option<String>,
     },
     /// True or false, with the comparisons that decided it.
     Truth {
@@ -64,6 +66,8 @@ pub struct Compared {
     pub quantity: Quantity,
     /// The unit in which both are told; SI where there is none.
     pub unit: Option<&'static Unit>,
+    /// Id of the piece that was measured, where it is one of several.
+    pub of: Option<String>,
     /// Whether it holds.
     pub holds: bool,
 }
@@ -91,7 +95,13 @@ impl Value {
     /// A number of a quantity [SI].
     #[must_use]
     pub fn measure(si: f64, quantity: Quantity) -> Self {
-        Self::Number { si, quantity, unit: None }
+        Self::Number { si, quantity, unit: None, of: None }
+    }
+
+    /// A number [SI] measured on one piece.
+    #[must_use]
+    pub fn measure_of(piece: &str, si: f64, quantity: Quantity) -> Self {
+        Self::Number { si, quantity, unit: None, of: Some(piece.to_owned()) }
     }
 
     /// True or false by itself.

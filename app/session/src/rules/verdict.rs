@@ -64,8 +64,11 @@ pub struct RuleResult {
 /// A measured value beside its limit.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Measured {
-    /// The line it was measured on; empty for the gear as a whole.
+    /// The piece or line it was measured on; empty for the gear as a whole.
     pub part: String,
+    /// The line that the rule was checked on; empty for the gear as a whole.
+    #[serde(skip)]
+    pub line: String,
     /// The comparison in words, such as `57 ft <= 60 ft`.
     pub says: String,
     /// The measured value in SI units; none where there is nothing to measure.
@@ -229,7 +232,12 @@ fn one(
         let parameter = rule.parameters.iter().find(|parameter| parameter.key == name);
         let fact = of_subject(rule.subject).find(|fact| fact.name == name);
         parameter
-            .map(|one| Value::Number { si: one.value, quantity: one.quantity, unit: one.unit })
+            .map(|one| Value::Number {
+                si: one.value,
+                quantity: one.quantity,
+                unit: one.unit,
+                of: None,
+            })
             .or_else(|| fact.map(|fact| value(fact, gear, part, fishing)))
     };
     if let Some(when) = &rule.when {
@@ -246,7 +254,7 @@ fn one(
         Value::Truth { holds, compared } => Found {
             verdict: if holds { Verdict::Pass } else { Verdict::Fail },
             why: String::new(),
-            measured: compared.iter().map(|compared| measured(part.id(), compared)).collect(),
+            measured: compared.iter().map(|compared| measured(part, compared)).collect(),
         },
         other => in_doubt(other),
     })
@@ -261,10 +269,11 @@ fn in_doubt(value: Value) -> Found {
     }
 }
 
-fn measured(part: &str, compared: &Compared) -> Measured {
+fn measured(part: Part<'_>, compared: &Compared) -> Measured {
     let finite = |number: f64| number.is_finite().then_some(number);
     Measured {
-        part: part.to_owned(),
+        part: compared.of.clone().unwrap_or_else(|| part.name()),
+        line: part.id().to_owned(),
         says: compared.to_string(),
         value: finite(compared.left),
         sign: compared.sign,

@@ -141,7 +141,8 @@ impl Reader<'_> {
             let left = if *entered == LineEnd::A { LineEnd::B } else { LineEnd::A };
             for link in self.links(*line, *entered) {
                 if number == 0 {
-                    endline.buoy_link_n = self.budget(&link.id).map(rated_n);
+                    let rated = self.budget(&link.id).map(rated_n);
+                    endline.buoy_link = rated.map(|rated| (link.id.clone(), rated));
                 } else {
                     endline.pieces.push(self.link(link));
                 }

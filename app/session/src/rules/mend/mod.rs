@@ -348,7 +348,7 @@ fn all(bench: &Bench<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, 
         };
         // What changes the make of the gear comes before what changes its lines.
         let mut failing: Vec<&RuleResult> = tried.sheet.rules.iter().filter(open).collect();
-        failing.sort_by_key(|rule| !rule.measured.iter().all(|one| one.part.is_empty()));
+        failing.sort_by_key(|rule| !rule.measured.iter().all(|one| one.line.is_empty()));
         let Some(result) = failing.first() else { break };
         let mend = of_failing(bench, &tried, &now.text, result)?;
         asked.push(result.rule.clone());

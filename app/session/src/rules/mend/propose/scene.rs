@@ -70,7 +70,7 @@ impl<'a> Scene<'a> {
             gear_type,
             trawl: bench.host.gear(TRAWL),
             rule,
-            failing: result.measured.iter().map(|one| one.part.as_str()).collect(),
+            failing: result.measured.iter().map(|one| one.line.as_str()).collect(),
         }
     }
 
