@@ -39,13 +39,13 @@ at_rest pair "40 m" "0.15 m/s" "0.5 m" "90 deg" gear-pair --view orbit --size 96
 at_rest trawl-10 "60 m" "0.15 m/s" "1 m" "120 deg" gear-trawl --view orbit --size 1280x640 --fit trap-1,trap-5,buoy,high-flyer
 at_rest trawl-5 "25 m" "0.15 m/s" "0.25 m" "120 deg" gear-trawl-traps --view orbit --size 960x480 --fit trap-1,trap-2,gangion-1,gangion-2
 at_rest on-demand-single "25 m" "0.1 m/s" "0.25 m" "90 deg" gear-on-demand --view orbit --size 960x600
-"$endline" render $scenarios/on-demand-release.toml --at 23 --out $pictures/gear-on-demand-rising.png --size 960x600
+"$endline" render $scenarios/on-demand-release.toml --at 23s --out $pictures/gear-on-demand-rising.png --size 960x600
 "$endline" render $scenarios/gillnet.toml --out $pictures/gear-gillnet.png --size 1280x640
 "$endline" render $scenarios/gillnet.toml --out $pictures/gear-gillnet-end.png --size 960x480 --fit bridle-top,headline-1,headline-2,leadline-2
-"$endline" render $scenarios/time-tension-cutter.toml --at 25 --out $pictures/gear-cutter.png --size 960x600
+"$endline" render $scenarios/time-tension-cutter.toml --at 25s --out $pictures/gear-cutter.png --size 960x600
 
-"$endline" render $scenarios/twisted-bight.toml --at 16 --view orbit --fit endline --size 960x480 --out $pictures/twisted-bight.png
-"$endline" render $scenarios/hitches.toml --at 3 --view front --fit "half hitches" --size 640x400 --out $pictures/hitches.png
+"$endline" render $scenarios/twisted-bight.toml --at 16s --view orbit --fit endline --size 960x480 --out $pictures/twisted-bight.png
+"$endline" render $scenarios/hitches.toml --at 3s --view front --fit "half hitches" --size 640x400 --out $pictures/hitches.png
 
 # part, turns, ends of the rope, pitch, length, view, picture and azimuth: rope wound about a right whale that heads east
 wrapped() {
@@ -92,7 +92,7 @@ pitch = "$5"
 azimuth = "$9"
 pretension = "2 kN"
 END
-    "$endline" render "$scratch" --at 0.01 --view "$7" --fit rope --size 480x320 --out "$pictures/$8.png"
+    "$endline" render "$scratch" --at 0.01s --view "$7" --fit rope --size 480x320 --out "$pictures/$8.png"
     rm "$scratch"
 }
 

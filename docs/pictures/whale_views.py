@@ -41,7 +41,7 @@ VIEWS = [
 
 def render(endline, scenario, at, view, size, out):
     file = ROOT / "gear-library/scenarios" / f"{scenario}.toml"
-    subprocess.run([endline, "render", file, "--at", str(at), "--view", view, "--size", size, "--out", out], check=True)
+    subprocess.run([endline, "render", file, "--at", f"{at}s", "--view", view, "--size", size, "--out", out], check=True)
     return plt.imread(out)
 
 

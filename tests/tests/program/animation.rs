@@ -104,9 +104,9 @@ fn a_stretch_that_is_none_and_an_ending_that_is_none_are_told() {
     let place = Place::new("animation-wrong");
     let scenario = place.short_scenario("hello-endline", "1 s");
     place
-        .endline(&["render", &scenario, "--out", "x.glb", "--from", "0.9", "--to", "3"])
+        .endline(&["render", &scenario, "--out", "x.glb", "--from", "0.9s", "--to", "3s"])
         .fails(2, &["no stretch of a run from 0 to 1.00 s"]);
     place
-        .endline(&["render", &scenario, "--out", "x.stl", "--from", "0", "--to", "1"])
+        .endline(&["render", &scenario, "--out", "x.stl", "--from", "0s", "--to", "1s"])
         .fails(2, &[".webm or .glb"]);
 }

@@ -151,7 +151,7 @@ fn a_step_beyond_its_limit_is_refused_on_the_command_line_as_in_a_file() {
     let place = Place::new("step-limit");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     let why = ["`step` is 1e-12 s", "because", "10 ms is usual"];
-    place.endline(&["run", &scenario, "--dt", "1e-12"]).fails(2, &why);
+    place.endline(&["run", &scenario, "--dt", "1e-12s"]).fails(2, &why);
     edit(scenario.as_ref(), "duration", "duration = \"0.1 s\"\nstep = \"1e-12 s\"");
     place.endline(&["run", &scenario]).fails(1, &why);
 }
@@ -235,14 +235,14 @@ fn wrong_use_ends_with_2() {
         &["run"][..],
         &["fly"],
         &["run", "a.toml", "--threads", "2"],
-        &["run", "a.toml", "--dt", "-0.01"],
-        &["run", "a.toml", "--dt", "nan"],
-        &["run", "a.toml", "--dt", "1e-12"],
-        &["run", "a.toml", "--rating", "1e300"],
+        &["run", "a.toml", "--dt", "-0.01s"],
+        &["run", "a.toml", "--dt", "nan s"],
+        &["run", "a.toml", "--dt", "1e-12s"],
+        &["run", "a.toml", "--rating", "1e300N"],
         &["run", "a.toml", "--weak-links", "maybe"],
         &["run", "a.toml", "--rating", "3 furlong"],
         &["run", "a.toml", "--sed", "1"],
-        &["render", "a.endline", "--at", "0"],
+        &["render", "a.endline", "--at", "0s"],
         &["plugins", "check"],
     ] {
         place.endline(arguments).fails(2, &["error:"]);

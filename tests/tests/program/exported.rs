@@ -87,7 +87,7 @@ fn a_stretch_that_is_none_and_too_many_rows_are_refused() {
     let export = |rest: &[&str]| {
         place.endline(&[&["export", scenario.as_str(), "--out", tables.as_str()], rest].concat())
     };
-    export(&["--from", "5", "--to", "2"]).fails(2, &["no stretch of a run"]);
+    export(&["--from", "5s", "--to", "2s"]).fails(2, &["no stretch of a run"]);
     export(&["--rate", "0"]).fails(2, &["--rate"]);
     export(&["--format", "hdf5"]).fails(2, &["parquet", "arrow", "csv"]);
     assert!(!place.path("tables").exists());

@@ -63,7 +63,7 @@ fn an_interrupted_run_tells_its_summary_and_its_recording_goes_on() {
 
     edit(scenario.as_ref(), "duration", "duration = \"2.5 s\"");
     let simulated_s = json["simulated_s"].as_f64().unwrap();
-    let at = simulated_s.min(2.0).to_string();
+    let at = format!("{}s", simulated_s.min(2.0));
     place.endline(&["run", &scenario, "--from", &recording, "--at", &at]).done();
 }
 

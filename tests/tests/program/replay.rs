@@ -101,7 +101,7 @@ fn cut_short_changed_or_foreign_files_are_refused() {
 fn a_time_outside_the_recording_is_refused() {
     let place = Place::new("render");
     let file = record(&place);
-    let refused = place.endline(&["render", &file, "--at", "99", "--out", "late.png"]);
+    let refused = place.endline(&["render", &file, "--at", "99s", "--out", "late.png"]);
     assert!(
         matches!(refused.code, Some(1 | 2)) && !refused.stderr.contains("panicked"),
         "{refused}"
@@ -113,7 +113,7 @@ fn a_time_outside_the_recording_is_refused() {
 fn a_stretch_of_a_recording_is_a_film_and_what_is_no_stretch_is_refused() {
     let place = Place::new("film");
     let file = record(&place);
-    let film = ["--from", "0", "--to", "0.2", "--fps", "10", "--size", "160x90"];
+    let film = ["--from", "0s", "--to", "0.2s", "--fps", "10", "--size", "160x90"];
     let call = |out: &str, options: &[&str]| {
         let mut words = vec!["render", &file, "--out", out];
         words.extend(options);
@@ -127,9 +127,9 @@ fn a_stretch_of_a_recording_is_a_film_and_what_is_no_stretch_is_refused() {
     let pictures = bytes.windows(3).filter(|bytes| *bytes == [0x21, 0xf9, 0x04]).count();
     assert_eq!(pictures, 3, "at 0, 0.1 and 0.2 s");
     call("run.png", &film).fails(2, &["run.png is no film", ".gif, .mp4, .webm or .glb"]);
-    call("late.gif", &["--from", "0.1", "--to", "99"])
-        .fails(2, &["--to 99", "no stretch of a run"]);
-    call("both.gif", &["--from", "0", "--at", "1"]).fails(2, &["--at"]);
+    call("late.gif", &["--from", "0.1s", "--to", "99s"])
+        .fails(2, &["--to 99s", "no stretch of a run"]);
+    call("both.gif", &["--from", "0s", "--at", "1s"]).fails(2, &["--at"]);
 }
 
 /// A scenario of the encounter whose pilot turns, opens the mouth and works the flippers, by time and by what happens.
@@ -197,7 +197,7 @@ fn a_recording_written_as_a_pilot_program_gives_the_same_bits_and_an_edit_change
     )
     .unwrap();
     let at = edited_s(&text[..last]);
-    let before = format!("{at:.3}");
+    let before = format!("{at:.3}s");
     place
         .endline(&[
             "run",
@@ -228,7 +228,7 @@ fn taking_over_with_the_program_that_flew_changes_nothing_and_with_other_gear_is
     place.endline(&["run", &scenario, "--out", "first"]).done();
     let recording = "first/recording.endline";
     place
-        .endline(&["run", &scenario, "--from", recording, "--at", "0.45", "--out", "again"])
+        .endline(&["run", &scenario, "--from", recording, "--at", "0.45s", "--out", "again"])
         .done();
     assert_eq!(summary(&place, "first")["state_hash"], summary(&place, "again")["state_hash"]);
 
@@ -239,10 +239,10 @@ fn taking_over_with_the_program_that_flew_changes_nothing_and_with_other_gear_is
     )
     .unwrap();
     place
-        .endline(&["run", "gear-library/scenarios/gear.toml", "--from", recording, "--at", "0.45"])
+        .endline(&["run", "gear-library/scenarios/gear.toml", "--from", recording, "--at", "0.45s"])
         .fails(1, &["not the one recorded", "step 0", "whale"]);
     place
-        .endline(&["run", &scenario, "--from", recording, "--at", "1e9"])
+        .endline(&["run", &scenario, "--from", recording, "--at", "1e9s"])
         .fails(1, &["outside the recording"]);
     place.endline(&["run", &scenario, "--from", recording]).fails(2, &["--at"]);
 }

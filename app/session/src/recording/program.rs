@@ -138,9 +138,9 @@ fn options(over: &Overrides, unsettled: bool) -> String {
         option.into_iter().for_each(|option| text = format!("{text} {option}"))
     };
     add(over.seed.map(|seed| format!("--seed {seed}")));
-    add(over.step_s.map(|step_s| format!("--dt {step_s}")));
+    add(over.step_s.map(|step_s| format!("--dt {step_s}s")));
     add(over.weak_links.map(|on| format!("--weak-links {}", if on { "on" } else { "off" })));
-    add(over.rating_n.map(|rating_n| format!("--rating {rating_n}")));
+    add(over.rating_n.map(|rating_n| format!("--rating {rating_n}N")));
     add(unsettled.then(|| "--allow-unsettled".to_owned()));
     text
 }

@@ -26,7 +26,7 @@ pub fn take_over(
     let (recorded_s, here_s) = (recording.header.dt_s, prepared.model.spec.settings.step_s);
     if recorded_s.to_bits() != here_s.to_bits() {
         return Err(Error::Replay(format!(
-            "the recording has a step of {recorded_s} s, the scenario one of {here_s} s; give --dt {recorded_s}"
+            "the recording has a step of {recorded_s} s, the scenario one of {here_s} s; give --dt {recorded_s}s"
         )));
     }
     let mut run = Run::new(prepared, options)?;

@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use endline_gear::limits::{STEP, amount};
-use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
 use super::haul::HaulArgs;
 use super::mill::MillArgs;
 use super::output::Told;
+use super::quantity::{body_length, force, step, time};
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::sheet::SheetArgs;
@@ -142,8 +141,8 @@ pub(super) struct RunArgs {
     /// Recording to continue from: its inputs steer until --at, then the scenario's pilot.
     #[arg(long, value_name = "RECORDING", requires = "at")]
     pub(super) from: Option<PathBuf>,
-    /// Time at which the scenario's pilot takes over, in seconds of the recording.
-    #[arg(long, value_name = "T", requires = "from")]
+    /// Time of the recording at which the scenario's pilot takes over, such as 12s.
+    #[arg(long, value_name = "TIME", requires = "from", value_parser = time)]
     pub(super) at: Option<f64>,
     #[command(flatten)]
     pub(super) over: OverArgs,
@@ -166,13 +165,13 @@ pub(super) struct OverArgs {
     /// Seed of the random draws, in place of the scenario's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Step between inputs in seconds, in place of the scenario's.
-    #[arg(long, value_name = "S", value_parser = step)]
+    /// Step between inputs, such as 10ms, in place of the scenario's.
+    #[arg(long, value_name = "TIME", value_parser = step)]
     dt: Option<f64>,
     /// Whether weak links can part, in place of the scenario's setting.
     #[arg(long, value_name = "on|off")]
     weak_links: Option<Switch>,
-    /// Rating of every weak link, in newtons or with a unit, such as 1700lbf.
+    /// Rating of every weak link, such as 1700lbf.
     #[arg(long, value_name = "FORCE", value_parser = force)]
     rating: Option<f64>,
     /// Whether rope forces move the whale (kinetic) or it follows its pilot regardless (kinematic).
@@ -224,14 +223,14 @@ pub(super) struct RenderArgs {
     /// Recording file, scenario file, or a scenario of the gear library by its id; it is run up to the time --at.
     #[arg(value_name = "RECORDING|SCENARIO")]
     pub(super) file: PathBuf,
-    /// Simulated time in seconds; at 0 a scenario shows its gear at rest.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    /// Simulated time, such as 20s; at 0s a scenario shows its gear at rest.
+    #[arg(long, value_name = "TIME", default_value = "0s", value_parser = time)]
     pub(super) at: f64,
-    /// Start of a film in seconds [default: 0].
-    #[arg(long, value_name = "T", conflicts_with = "at")]
+    /// Start of a film, such as 10s [default: 0s].
+    #[arg(long, value_name = "TIME", conflicts_with = "at", value_parser = time)]
     pub(super) from: Option<f64>,
-    /// End of a film in seconds [default: the end of the run].
-    #[arg(long, value_name = "T", conflicts_with = "at")]
+    /// End of a film [default: the end of the run].
+    #[arg(long, value_name = "TIME", conflicts_with = "at", value_parser = time)]
     pub(super) to: Option<f64>,
     /// Pictures a second of a film, 1 to 50.
     #[arg(long, value_name = "N", default_value_t = 20, conflicts_with = "at", value_parser = clap::value_parser!(u32).range(1..=50))]
@@ -240,7 +239,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
     /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front. For a film also views with
-    /// the seconds at which the camera stands there, such as side@0,whale@10,whale-side@14.
+    /// the time at which the camera stands there, such as side@0s,whale@10s,whale-side@14s.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
     /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg; .glb is an animated 3-D
@@ -266,11 +265,11 @@ pub(super) struct ExportArgs {
     /// Moments a second, 1 to 1000.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(super) rate: u32,
-    /// First moment in seconds [default: 0].
-    #[arg(long, value_name = "T")]
+    /// First moment, such as 10s [default: 0s].
+    #[arg(long, value_name = "TIME", value_parser = time)]
     pub(super) from: Option<f64>,
-    /// Last moment in seconds [default: the end of the run].
-    #[arg(long, value_name = "T")]
+    /// Last moment [default: the end of the run].
+    #[arg(long, value_name = "TIME", value_parser = time)]
     pub(super) to: Option<f64>,
     /// Folder for the tables; it is created if missing.
     #[arg(long, value_name = "DIR")]
@@ -448,38 +447,11 @@ impl OverArgs {
     }
 }
 
-fn step(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().map_err(|_| "expected seconds, such as 0.01".to_owned())?;
-    STEP.check("step", seconds).map_err(|beyond| format!("{}; {}", beyond.message, beyond.help))?;
-    Ok(seconds)
-}
-
 fn share(text: &str) -> Result<f64, String> {
     let share: Option<f64> = text.parse().ok();
     share
         .filter(|share| (0.0..=1.0).contains(share))
         .ok_or_else(|| "expected a number from 0 to 1, such as 0.02".into())
-}
-
-fn force(text: &str) -> Result<f64, String> {
-    let newtons = match text.parse() {
-        Ok(newtons) => newtons,
-        Err(_) => units::parse(text, Quantity::Force).map_err(|error| error.to_string())?,
-    };
-    if newtons > 0.0 && amount(Quantity::Force).holds(newtons) {
-        Ok(newtons)
-    } else {
-        Err(format!("expected a force above 0; {}", amount(Quantity::Force).words()))
-    }
-}
-
-fn body_length(text: &str) -> Result<f64, String> {
-    let metres = units::parse(text, Quantity::Length).map_err(|error| error.to_string())?;
-    if (1.0..=35.0).contains(&metres) {
-        Ok(metres)
-    } else {
-        Err("expected a length from 1 m to 35 m".into())
-    }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

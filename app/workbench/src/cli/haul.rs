@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use endline_gear::units::{self, Quantity};
 use endline_session::haul::sheet::Place;
 use endline_session::haul::sweep::sweep;
 use endline_session::haul::{HaulRequest, HaulSheet, Stage, Sweep, SweepRow, haul};
@@ -11,6 +10,7 @@ use endline_session::units::N_PER_LBF;
 use endline_sim::DVec3;
 use endline_sim::haul::Hauling;
 
+use super::quantity::{drift, haul_length, haul_step, hauler, lead, period, segment, tide};
 use super::table::columns;
 use super::{Failure, host, output};
 
@@ -26,28 +26,28 @@ pub(super) struct HaulArgs {
     #[arg(long, value_name = "ID", default_value = "cape-cod-bay")]
     site: String,
     /// Depth of the water, such as "30 fathom"; several for a --table [default: the site's].
-    #[arg(long, value_name = "LENGTH", value_parser = length, value_delimiter = ',')]
+    #[arg(long, value_name = "LENGTH", value_parser = haul_length, value_delimiter = ',')]
     depth: Vec<f64>,
     /// Traps on one set, in place of those of the assembly; several for a --table.
     #[arg(long, value_name = "N", value_delimiter = ',')]
     traps: Vec<u16>,
     /// Speed of the tide, such as "0.5 knot"; several for a --table [default: the site's].
-    #[arg(long, value_name = "SPEED", value_parser = not_negative_speed, value_delimiter = ',')]
+    #[arg(long, value_name = "SPEED", value_parser = tide, value_delimiter = ',')]
     tide: Vec<f64>,
     /// Print one row for each depth, number of traps and tide.
     #[arg(long)]
     table: bool,
     /// Rope taken in by the hauler.
-    #[arg(long, value_name = "SPEED", default_value = "1.2 m/s", value_parser = speed)]
+    #[arg(long, value_name = "SPEED", default_value = "1.2 m/s", value_parser = hauler)]
     speed: f64,
     /// Height of the block over the sea surface.
-    #[arg(long, value_name = "LENGTH", default_value = "2 m", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", default_value = "2 m", value_parser = haul_length)]
     height: f64,
     /// Significant height of the waves on which the boat heaves; 0 m for a calm.
-    #[arg(long, value_name = "LENGTH", default_value = "1 m", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", default_value = "1 m", value_parser = haul_length)]
     sea: f64,
     /// Peak period of the waves [default: that of a fully developed sea of this height].
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, value_name = "TIME", value_parser = period)]
     period: Option<f64>,
     /// Angle of the line at the block from the vertical at which the boat keeps pace with the hauler.
     #[arg(long, value_name = "ANGLE", default_value = "15 deg", value_parser = lead, conflicts_with = "stay")]
@@ -56,7 +56,7 @@ pub(super) struct HaulArgs {
     #[arg(long)]
     stay: bool,
     /// Drift of the boat with the tide's direction, against it below zero.
-    #[arg(long, value_name = "SPEED", default_value = "0 m/s", value_parser = any_speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", default_value = "0 m/s", value_parser = drift, allow_hyphen_values = true)]
     drift: f64,
     /// Break-out of traps from the seabed, as a multiple of that of their entries; 0 for none.
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = times)]
@@ -70,8 +70,8 @@ pub(super) struct HaulArgs {
     /// Longest segment of rope [default: a fortieth of the depth, from 0.5 m to 2 m].
     #[arg(long, value_name = "LENGTH", value_parser = segment)]
     segment: Option<f64>,
-    /// Step of the simulation in seconds.
-    #[arg(long, value_name = "S", default_value_t = 0.02, value_parser = step)]
+    /// Step of the simulation.
+    #[arg(long, value_name = "TIME", default_value = "20 ms", value_parser = haul_step)]
     dt: f64,
     /// Seed of the waves.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -264,54 +264,9 @@ fn probability(share: f64) -> String {
     }
 }
 
-fn value(text: &str, quantity: Quantity, range: [f64; 2], expected: &str) -> Result<f64, String> {
-    let value = units::parse(text.trim(), quantity).map_err(|error| error.to_string())?;
-    if (range[0]..=range[1]).contains(&value) {
-        Ok(value)
-    } else {
-        Err(format!("expected {expected}"))
-    }
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Length, [0.0, 6000.0], "a length of zero or above")
-}
-
-fn segment(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Length, [0.1, 20.0], "a length from 0.1 m to 20 m")
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Speed, [0.01, 5.0], "a speed from 0.01 m/s to 5 m/s")
-}
-
-fn not_negative_speed(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Speed, [0.0, 5.0], "a speed from 0 to 5 m/s")
-}
-
-fn any_speed(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Speed, [-5.0, 5.0], "a speed from -5 m/s to 5 m/s")
-}
-
-fn time(text: &str) -> Result<f64, String> {
-    value(text, Quantity::Time, [0.5, 60.0], "a period from 0.5 s to 60 s")
-}
-
-fn lead(text: &str) -> Result<f64, String> {
-    let most = 80.0_f64.to_radians();
-    value(text, Quantity::Angle, [0.017, most], "an angle from 1 deg to 80 deg")
-}
-
 fn times(text: &str) -> Result<f64, String> {
     let times: Option<f64> = text.parse().ok();
     times
         .filter(|times| (0.0..=100.0).contains(times))
         .ok_or_else(|| "expected a number from 0 to 100".into())
-}
-
-fn step(text: &str) -> Result<f64, String> {
-    let seconds: Option<f64> = text.parse().ok();
-    seconds
-        .filter(|seconds| (1e-4..=0.05).contains(seconds))
-        .ok_or_else(|| "expected seconds from 0.0001 to 0.05".into())
 }

@@ -1,6 +1,7 @@
 //! Interrupts: the first one (Ctrl+C, SIGTERM, SIGHUP) asks a command to end with what it has, the second ends the program at once.
 
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -88,7 +89,7 @@ fn status(signal: i32) -> u8 {
 
 /// Whether whoever started the program had it ignore a signal.
 fn is_ignored(signal: i32) -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let status = endline_gear::read::text(Path::new("/proc/self/status")).unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
@@ -125,10 +126,10 @@ mod tests {
         let line = |words: &[&str], options: &[(&str, &str)]| {
             with_options(words.iter().map(|word| (*word).to_owned()), options)
         };
-        let from = [("--from", "b/r.endline"), ("--at", "2.5")];
+        let from = [("--from", "b/r.endline"), ("--at", "2.5s")];
         assert_eq!(
-            line(&["/bin/endline", "run", "a b.toml", "--from", "a", "--at=1", "--json"], &from),
-            "endline run 'a b.toml' --json --from b/r.endline --at 2.5"
+            line(&["/bin/endline", "run", "a b.toml", "--from", "a", "--at=1s", "--json"], &from),
+            "endline run 'a b.toml' --json --from b/r.endline --at 2.5s"
         );
         assert_eq!(line(&["x", "study", "run", "it's"], &[]), "endline study run 'it'\\''s'");
     }

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use endline_gear::units::{self, Quantity};
 use endline_session::Error;
 use endline_session::mill::{StrengthLaw, read_breaks, weak_link};
 use endline_session::units::N_PER_LBF;
 
+use super::quantity::force;
 use super::{Failure, output};
 
 #[derive(Debug, clap::Args)]
@@ -76,9 +76,4 @@ fn words(law: &StrengthLaw) -> String {
         );
     }
     text
-}
-
-fn force(text: &str) -> Result<f64, String> {
-    let newtons = units::parse(text, Quantity::Force).map_err(|error| error.to_string())?;
-    if newtons > 0.0 { Ok(newtons) } else { Err("expected a force above 0".to_owned()) }
 }

@@ -21,6 +21,7 @@ mod pilot;
 mod player;
 mod plugins;
 mod progress;
+mod quantity;
 mod render;
 mod replay;
 mod rules;

@@ -63,7 +63,7 @@ impl Player {
         let (from_s, to_s) = (from.unwrap_or(0.0), to.unwrap_or(self.end_s));
         if !(from_s >= 0.0 && from_s < to_s && to_s <= self.end_s + 1e-6) {
             return Err(Failure::usage(format!(
-                "--from {from_s} --to {to_s} is no stretch of a run from 0 to {:.2} s",
+                "--from {from_s}s --to {to_s}s is no stretch of a run from 0 to {:.2} s",
                 self.end_s
             )));
         }

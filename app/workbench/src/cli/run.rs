@@ -70,7 +70,7 @@ fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
             let recording = folder.join(RECORDING).display().to_string();
             let again = interrupt::command_line(&[
                 ("--from", &recording),
-                ("--at", &format!("{time_s:.6}")),
+                ("--at", &format!("{time_s:.6}s")),
                 ("--out", &format!("{}-2", folder.display())),
             ]);
             format!("interrupted at {time_s:.2} s; to go on from there: {again}")

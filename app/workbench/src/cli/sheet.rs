@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use endline_gear::units::{self, Quantity};
 use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, comparison, pdf};
 use endline_session::plugins::PluginHost;
 use endline_session::source::AssemblyFile;
 use endline_session::{Error, save};
 
+use super::quantity::running;
 use super::rules::FishedArgs;
 use super::{Failure, host, output};
 
@@ -17,7 +17,7 @@ pub(super) struct SheetArgs {
     #[command(flatten)]
     fished: FishedArgs,
     /// Speed of the running tide at the surface, such as "0.5 kn" [default: 0.25 m/s].
-    #[arg(long, value_name = "SPEED", value_parser = speed)]
+    #[arg(long, value_name = "SPEED", value_parser = running)]
     tide: Option<f64>,
     /// Threat table with bands, as `endline study threat STUDY --to` writes it.
     #[arg(long, value_name = "FILE-bands.csv")]
@@ -71,9 +71,4 @@ fn sheet_of(
         threat: args.threat.clone(),
     };
     Ok(ComplianceSheet::of(&request, &packs, host)?)
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    let speed = units::parse(text, Quantity::Speed).map_err(|error| error.to_string())?;
-    if speed > 0.0 { Ok(speed) } else { Err("expected a speed above 0".to_owned()) }
 }

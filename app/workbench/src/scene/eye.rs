@@ -1,6 +1,7 @@
 //! An eye of the 3-D view, and the path of a camera through a film.
 
 use egui::{PointerButton, Rect, Response, Ui};
+use endline_gear::units::{self, Quantity};
 use endline_session::live::LiveView;
 use endline_session::scene::Scene;
 use endline_sim::{Frame, Model};
@@ -156,25 +157,23 @@ impl<E> CameraPath<E> {
 }
 
 impl CameraPath<View> {
-    /// Reads `side`, or keys with times in seconds, `side@0,whale@10`.
+    /// Reads `side`, or keys with times, `side@0s,whale@10s`.
     ///
     /// # Errors
-    /// A view that does not exist, or a time that is no number of seconds.
+    /// A view that does not exist, or a time without a unit.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut path = Self::default();
         for key in text.split(',').map(str::trim) {
-            let (name, time) = key.split_once('@').unwrap_or((key, "0"));
+            let (name, time) = key.split_once('@').unwrap_or((key, "0 s"));
             let view = View::named(name).ok_or_else(|| {
                 format!("there is no view `{name}`; expected one of {}", View::names())
             })?;
-            let time_s: Option<f64> = time.trim_end_matches('s').trim().parse().ok();
-            let time_s = time_s.filter(|time_s| *time_s >= 0.0 && time_s.is_finite());
-            path.set(
-                time_s.ok_or_else(|| {
-                    format!("`{key}` has no time: expected seconds after @, such as {name}@10")
-                })?,
-                view,
-            );
+            let time_s = units::parse(time, Quantity::Time)
+                .map_err(|error| format!("`{key}` has no time: {error}"))?;
+            if time_s < 0.0 {
+                return Err(format!("`{key}` lies before the run; expected such as {name}@10s"));
+            }
+            path.set(time_s, view);
         }
         Ok(path)
     }
@@ -218,13 +217,14 @@ mod tests {
 
     #[test]
     fn views_with_times_are_read_and_bad_ones_say_what_is_wrong() {
-        let path = CameraPath::read("side, whale@10 s,first-person@12.5").unwrap();
+        let path = CameraPath::read("side, whale@10 s,first-person@12.5s").unwrap();
         assert_eq!(path.times().collect::<Vec<_>>(), [0.0, 10.0, 12.5]);
         assert_eq!(CameraPath::read("top").unwrap().single(), Some(View::Top));
         for (text, words) in [
             ("sid", "no view `sid`"),
-            ("side@x", "seconds"),
-            ("side@-1", "seconds"),
+            ("side@x", "has no number"),
+            ("side@10", "has no unit"),
+            ("side@-1s", "before the run"),
             ("", "no view"),
         ] {
             let error = CameraPath::read(text).unwrap_err();

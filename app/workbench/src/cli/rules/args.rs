@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use endline_gear::Date;
-use endline_gear::units::{self, Quantity};
 use endline_session::rules::study::USUAL_LIKE;
 use endline_session::rules::{Fishing, Packs};
 
 use crate::cli::Failure;
+use crate::cli::quantity::length;
 
 #[derive(Debug, clap::Subcommand)]
 pub(in crate::cli) enum RulesCommand {
@@ -124,9 +124,4 @@ impl FishedArgs {
 
 fn day(text: &str) -> Result<Date, String> {
     Date::parse(text).ok_or_else(|| "expected year, month and day, such as 2024-06-01".to_owned())
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    let metres = units::parse(text, Quantity::Length).map_err(|error| error.to_string())?;
-    if metres >= 0.0 { Ok(metres) } else { Err("expected a length of zero or above".to_owned()) }
 }
