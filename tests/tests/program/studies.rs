@@ -12,6 +12,8 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Instant;
 
+use endline_gear::{Study, StudyOption};
+
 use crate::common::{Place, library};
 
 /// Ten short draws of a small rig without a whale: what is checked here is the running, not the physics.
@@ -527,6 +529,21 @@ fn is_searched(study: &str) -> bool {
     files
         .map(|file| fs::read_to_string(file.unwrap().path()).unwrap())
         .any(|text| text.contains(&named))
+}
+
+#[test]
+fn the_study_of_species_changes_the_whale_alone() {
+    let file = crate::common::library().join("studies/species.toml");
+    let study = Study::read("species", &fs::read_to_string(file).unwrap()).unwrap();
+    let gear = |option: &StudyOption| -> Vec<(String, String)> {
+        let others = option.settings.iter().filter(|one| !one.field.value.starts_with("whale."));
+        others.map(|one| (one.field.value.clone(), format!("{:?}", one.value))).collect()
+    };
+    let [first, others @ ..] = &study.options[..] else { panic!("no options") };
+    assert!(others.len() >= 3 && !gear(first).is_empty());
+    for option in others {
+        assert_eq!(gear(option), gear(first), "{}", option.id.value);
+    }
 }
 
 #[test]
