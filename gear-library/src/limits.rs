@@ -102,6 +102,8 @@ pub const COUNTED: Limit = count_of(0.0, 65_536.0, "a study has no more encounte
 pub const TEXT_FILE_BYTES: u64 = 16 << 20;
 /// Size of one file of a mesh or an animation.
 pub const MESH_FILE_BYTES: u64 = 64 << 20;
+/// Size of one recording, table of results or other file that is read whole.
+pub const FILE_BYTES: u64 = 4 << 30;
 /// Size of all files of a library together.
 pub const LIBRARY_BYTES: u64 = 512 << 20;
 /// Problems of a file that are kept; the others are counted.

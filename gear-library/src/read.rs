@@ -6,7 +6,7 @@ use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-use crate::limits::{MESH_FILE_BYTES, TEXT_FILE_BYTES};
+use crate::limits::{FILE_BYTES, MESH_FILE_BYTES, TEXT_FILE_BYTES};
 
 /// The text of a file.
 ///
@@ -32,16 +32,37 @@ pub fn mesh(path: &Path) -> Result<Vec<u8>> {
     at_most(path, MESH_FILE_BYTES)
 }
 
+/// The bytes of a recording, a table of results or any other file.
+///
+/// # Errors
+/// A file that cannot be read, is no regular file, or is longer than [`FILE_BYTES`].
+pub fn bytes(path: &Path) -> Result<Vec<u8>> {
+    at_most(path, FILE_BYTES)
+}
+
 /// The bytes of a regular file of at most so many.
 ///
 /// # Errors
 /// A file that cannot be read, is no regular file, or is longer.
 pub fn at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
-    // Looked at before it is opened: opening a pipe waits for its other end.
+    let file = open(path)?;
+    // A file that states its length is refused before memory is taken for it.
+    if file.metadata()?.len() > most {
+        return Err(too_long(most));
+    }
+    to_its_end(file, most)
+}
+
+/// Opens a regular file for reading.
+///
+/// # Errors
+/// A file that cannot be opened, or is no regular file.
+pub fn open(path: &Path) -> Result<File> {
+    // Checked before it is opened: opening a pipe waits for its other end.
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
     regular(&file.metadata()?)?;
-    to_its_end(file, most)
+    Ok(file)
 }
 
 fn utf8(bytes: Vec<u8>) -> Result<String> {
@@ -52,11 +73,15 @@ fn to_its_end(stream: impl Read, most: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
-        let mebibytes = most >> 20;
-        let message = format!("it is longer than {mebibytes} MiB, the most that is read");
-        return Err(Error::new(ErrorKind::FileTooLarge, message));
+        return Err(too_long(most));
     }
     Ok(bytes)
+}
+
+fn too_long(most: u64) -> Error {
+    let mebibytes = most >> 20;
+    let message = format!("it is longer than {mebibytes} MiB, the most that is read");
+    Error::new(ErrorKind::FileTooLarge, message)
 }
 
 fn regular(about: &fs::Metadata) -> Result<()> {

@@ -90,7 +90,7 @@ impl Scenario {
 /// The file and the text of a scenario by its id in a library, or by its file.
 pub fn text_of(name: &str, library: Option<&Path>) -> PyResult<(PathBuf, String)> {
     let file = locate::named(name, "scenarios", library).map_err(failed)?;
-    let text = std::fs::read_to_string(&file)
+    let text = endline_gear::read::text(&file)
         .map_err(|error| failed(format!("{}: cannot be read: {error}", file.display())))?;
     Ok((file, text))
 }

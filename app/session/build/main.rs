@@ -1,6 +1,7 @@
 //! Marks the program with the code that decides what a run is: `ENDLINE_CODE`, the first eight digits of the BLAKE3 of
 //! every source file of rope, whale, contact and gear, of how a run and a study's encounter are put together, and of the
 //! versions of the libraries that decide a run. Builds of the same code have the same mark, wherever they were made.
+#![allow(clippy::disallowed_methods, reason = "a build script reads the repository")]
 
 mod libraries;
 

@@ -38,6 +38,11 @@
 //!
 //! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "tests read files that they have written")
+)]
+
 /// The made-up run of `figures/tests` names this crate as the tests of other crates do.
 #[cfg(test)]
 extern crate self as endline_session;

@@ -8,6 +8,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
+use endline_gear::read;
+
 use crate::error::Error;
 
 /// Writes beside the file, syncs, then renames over it.
@@ -43,7 +45,7 @@ pub fn atomically_with(
 /// # Errors
 /// A file that is there and cannot be read: whoever took it for missing would write over it.
 pub fn text_if_there(path: &Path) -> Result<Option<String>, Error> {
-    match fs::read_to_string(path) {
+    match read::text(path) {
         Ok(text) => Ok(Some(text)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(Error::at(path, format!("cannot be read: {error}"))),
@@ -59,6 +61,8 @@ pub(crate) fn copy_tree(from: &Path, to: &Path) -> Result<(), Error> {
     if !from.is_dir() {
         let folder = to.parent().unwrap_or(to);
         fs::create_dir_all(folder).map_err(failed)?;
+        // A pipe is refused here: copying it would wait for its other end.
+        read::open(from).map_err(failed)?;
         return fs::copy(from, to).map(drop).map_err(failed);
     }
     fs::create_dir_all(to).map_err(failed)?;

@@ -8,6 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use endline_gear::read;
+
 use crate::error::Error;
 use crate::plugins::data_folder;
 use crate::save;
@@ -70,7 +72,7 @@ fn unpack(files: Files, folder: &Path) -> Result<Option<String>, Error> {
     let (mut written, mut kept) = (0, Vec::new());
     for (path, bytes) in files {
         let file = folder.join(path);
-        let there = fs::read(&file).ok();
+        let there = read::bytes(&file).ok();
         if there.as_deref() == Some(*bytes) {
             continue;
         }

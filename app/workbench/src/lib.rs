@@ -9,6 +9,11 @@
 //! | [`input`] | `gui` | gamepad and keyboard as the pilot's controls |
 //! | [`gui`] | `gui` | the workbench |
 
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "tests read files that they have written")
+)]
+
 pub mod cli;
 pub mod documents;
 #[cfg(feature = "gui")]

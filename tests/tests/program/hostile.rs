@@ -1,4 +1,4 @@
-//! Files and calls that ask for too much, or mean harm: each ends soon, with what is wrong, where, and how to mend it.
+//! Files and calls that ask for too much, or mean harm: each ends soon, with what is wrong, where, and how to correct it.
 #![cfg(unix)]
 #![allow(
     clippy::unwrap_used,
@@ -9,9 +9,12 @@
 use std::fmt::Write;
 use std::fs;
 use std::os::unix::fs::symlink;
-use std::process::Command;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
-use crate::common::{Place, edit, text};
+use crate::common::{Called, Place, edit, text};
 
 #[test]
 fn numbers_past_their_limits_are_refused_by_check_and_run_and_on_the_command_line() {
@@ -21,7 +24,7 @@ fn numbers_past_their_limits_are_refused_by_check_and_run_and_on_the_command_lin
     for command in ["check", "run"] {
         place.endline(&[command, &scenario]).fails(1, &["rope_nodes", "1000000000", "100000"]);
     }
-    for step in ["1e-12", "0", "2", "nan"] {
+    for step in ["1e-12s", "0s", "2s", "nan", "0.01"] {
         place.endline(&["run", &scenario, "--dt", step]).fails(2, &["--dt"]);
     }
 }
@@ -103,11 +106,11 @@ fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it
     let path = place.path("out/recording.endline");
     let sound = fs::read(&path).unwrap();
     let file = path.to_str().unwrap();
-    let called = place.endline(&["render", file, "--at", "0", "--out", file]);
+    let called = place.endline(&["render", file, "--at", "0s", "--out", file]);
     let written_over = "--out would write over";
     called.fails(2, &[written_over]);
     place.endline(&["pilot", file, "--out", file]).fails(2, &[written_over]);
-    let go_on = ["run", &scenario, "--from", file, "--at", "0.05", "--out", "out"];
+    let go_on = ["run", &scenario, "--from", file, "--at", "0.05s", "--out", "out"];
     place.endline(&go_on).fails(2, &[written_over]);
     assert_eq!(fs::read(&path).unwrap(), sound, "the recording is as it was");
 
@@ -128,4 +131,100 @@ fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it
         }
         recording.header = header;
     }
+}
+
+/// Commands that take a file: `FILE` is its path, `OUT` a path to write; the ending that the file's name gets.
+const TAKING: [(&str, &str); 33] = [
+    ("toml", "run FILE"),
+    ("endline", "run hello-endline --from FILE --at 0.05s --out OUT"),
+    ("toml", "settle FILE"),
+    ("endline", "replay FILE"),
+    ("endline", "replay FILE --verify"),
+    ("endline", "pilot FILE --out OUT.toml"),
+    ("toml", "render FILE --out OUT.png"),
+    ("endline", "render FILE --out OUT.png"),
+    ("toml", "export FILE --out OUT"),
+    ("endline", "export FILE --out OUT"),
+    ("toml", "check FILE"),
+    ("toml", "search FILE --out OUT"),
+    ("toml", "search e15-02 --encounters FILE --out OUT"),
+    ("toml", "haul FILE"),
+    ("toml", "sheet FILE --area maine --on 2024-06-01 --to OUT.html"),
+    ("toml", "rules check FILE --area maine --on 2024-06-01"),
+    ("toml", "rules check pair --area maine --on 2024-06-01 --pack FILE"),
+    ("toml", "rules mend FILE --area maine --on 2024-06-01"),
+    ("toml", "rules study pair --option us.weak --option us.traps --out OUT.toml --like FILE"),
+    ("toml", "rules list --pack FILE"),
+    ("csv", "mill FILE"),
+    ("so", "plugins check FILE"),
+    ("so", "plugins allow FILE"),
+    ("toml", "study plan FILE"),
+    ("toml", "study run FILE --out OUT"),
+    ("toml", "study status FILE --out OUT"),
+    ("toml", "study submit FILE --slurm --dry-run --out OUT"),
+    ("toml", "study merge FILE --out OUT"),
+    ("toml", "study report FILE --out OUT"),
+    ("json", "study report buoy-contact --out OUT --haul FILE"),
+    ("toml", "study hindcast FILE --out OUT"),
+    ("csv", "study threat threat --out OUT --poll FILE"),
+    ("toml", "study replay FILE --row 0 --out OUT"),
+];
+
+/// What is there under the name: makes it.
+type Make = fn(&Path);
+
+const UNREADABLE: [(&str, Make); 5] = [
+    ("pipe", |file| assert!(Command::new("mkfifo").arg(file).status().unwrap().success())),
+    ("folder", |file| fs::create_dir_all(file).unwrap()),
+    ("missing", |_| ()),
+    ("noise", |file| fs::write(file, [0xff, 0xfe, 0, 7, 0xc3, 0x28].repeat(64)).unwrap()),
+    ("huge", |file| fs::File::create(file).unwrap().set_len((4 << 30) + 1).unwrap()),
+];
+
+#[test]
+fn every_command_that_takes_a_file_refuses_what_is_none_and_ends() {
+    let place = Place::new("taking");
+    let jobs: Vec<_> = TAKING.iter().flat_map(|row| UNREADABLE.map(|kind| (row, kind))).collect();
+    let (next, wrong) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                while let Some(((ending, words), (kind, make))) =
+                    jobs.get(next.fetch_add(1, Ordering::Relaxed))
+                {
+                    let name = words.replace([' ', '/'], "-");
+                    let file = place.path(&format!("{name}-{kind}.{ending}"));
+                    make(&file);
+                    let out = place.path(&format!("{name}-{kind}-out"));
+                    let words = words.replace("FILE", &text(&file)).replace("OUT", &text(&out));
+                    let words: Vec<&str> = words.split(' ').collect();
+                    let mut command = place.command(&words);
+                    let called = ended(command.stdout(Stdio::piped()).stderr(Stdio::piped()));
+                    let says = called.stdout.clone() + &called.stderr;
+                    let right = matches!(called.code, Some(1 | 2))
+                        && says.contains(&format!("{name}-{kind}"))
+                        && !says.contains("panicked");
+                    if !right {
+                        eprintln!("### {words:?}: {called}");
+                        wrong.fetch_add(1, Ordering::Relaxed);
+                    }
+                }
+            });
+        }
+    });
+    assert_eq!(wrong.into_inner(), 0);
+}
+
+/// A call that ends within a minute.
+fn ended(command: &mut Command) -> Called {
+    let mut child = command.spawn().unwrap();
+    let until = Instant::now() + Duration::from_secs(60);
+    while child.try_wait().unwrap().is_none() {
+        if Instant::now() > until {
+            child.kill().unwrap();
+            panic!("{command:?} did not end");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    Called::of(child.wait_with_output().unwrap())
 }

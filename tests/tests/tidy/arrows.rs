@@ -304,7 +304,8 @@ fn plugins_are_libraries_whose_entry_is_off_by_default() {
 fn what_decides_a_run_repeats_the_lint_settings_of_the_house() {
     // Clippy reads the nearest clippy.toml only.
     let house = toml_file("clippy.toml");
-    let [sim, plugins, gear] = ["app/sim", "plugins", "gear-library"].map(|folder| {
+    let folders = ["app/sim", "plugins", "gear-library", "app"];
+    let [sim, plugins, gear, app] = folders.map(|folder| {
         let file = toml_file(&format!("{folder}/clippy.toml"));
         for (key, value) in &house {
             assert_eq!(file.get(key), Some(value), "{folder}/clippy.toml must repeat {key}");
@@ -324,4 +325,10 @@ fn what_decides_a_run_repeats_the_lint_settings_of_the_house() {
     );
     let platform = banned(&sim).into_iter().filter(|path| path.starts_with("f64::"));
     assert_eq!(banned(&gear), platform.collect(), "a model is the same on every platform");
+    let reading = ["std::fs::read", "std::fs::read_to_string", "std::fs::File::open"];
+    assert_eq!(
+        banned(&app),
+        reading.map(str::to_owned).into(),
+        "files that a user names are read by `endline_gear::read`"
+    );
 }

@@ -555,6 +555,6 @@ fn is_of_run(path: &str) -> bool {
 }
 
 fn read_text(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path)
+    endline_gear::read::text(path)
         .map_err(|error| format!("{}: cannot be read: {error}", path.display()))
 }

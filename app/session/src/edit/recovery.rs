@@ -152,7 +152,7 @@ impl Autosave {
             std::cmp::Reverse(std::fs::metadata(file).and_then(|data| data.modified()).ok())
         });
         let read = |file: PathBuf| {
-            let kept = std::fs::read(&file)
+            let kept = endline_gear::read::bytes(&file)
                 .ok()
                 .and_then(|bytes| serde_json::from_slice::<UnsavedEdits>(&bytes).ok())?;
             Some((file, kept))

@@ -9,6 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use endline_gear::read;
+
 use crate::save;
 
 /// Why a library waits for its user.
@@ -57,7 +59,7 @@ impl Choices {
     /// The decisions kept in a file, which need not be there yet. Libraries in the folders `own` need none: they came with the program.
     #[must_use]
     pub fn kept_in(list: Option<PathBuf>, own: &[PathBuf]) -> Self {
-        let text = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
+        let text = list.as_ref().and_then(|list| read::text(list).ok()).unwrap_or_default();
         let own = own.iter().map(|folder| whole(folder)).collect();
         let mut choices = Self { list, own, ..Self::default() };
         for line in text.lines() {

@@ -6,6 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use endline_gear::read;
 use endline_sim::metrics::Summary;
 use serde::{Deserialize, Serialize};
 
@@ -50,7 +51,7 @@ impl Kept {
     /// What stands beside a recording; none where nothing does, or nothing that can be read.
     #[must_use]
     pub fn beside(recording: &Path) -> Option<Self> {
-        serde_json::from_str(&fs::read_to_string(place(recording)).ok()?).ok()
+        serde_json::from_str(&read::text(&place(recording)).ok()?).ok()
     }
 
     /// Writes it beside a recording.

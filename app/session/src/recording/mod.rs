@@ -93,7 +93,7 @@ impl Recording {
     /// # Errors
     /// Where it cannot be read, is no recording, is of another format, is cut short or damaged.
     pub fn load(path: &Path) -> Result<Self, Error> {
-        let bytes = std::fs::read(path)
+        let bytes = endline_gear::read::bytes(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         file::read(&bytes).map_err(|message| Error::at(path, message))
     }

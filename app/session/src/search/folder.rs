@@ -162,8 +162,8 @@ impl Store {
     }
 
     fn part(&self, file: &Path) -> Result<BTreeMap<u32, RunEnding>, Error> {
-        let bytes =
-            fs::read(file).map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+        let bytes = endline_gear::read::bytes(file)
+            .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
         let damaged =
             |why: &str| Error::at(file, format!("is damaged: {why}; delete it and search again"));
         let (runs, hash) = bytes.split_last_chunk().ok_or_else(|| damaged("it is cut off"))?;

@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use endline_gear::read;
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::folder;
@@ -184,7 +185,7 @@ impl Folder {
     /// A file that is not there, is damaged, or belongs to another study.
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
-        let bytes = fs::read(&file)
+        let bytes = read::bytes(&file)
             .map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
         let (table, tags) = parquet::read(bytes).map_err(|error| {
             Error::at(&file, format!("is damaged: {error}; delete it and run the study again"))

@@ -58,7 +58,7 @@ pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), 
 /// Where the study was not merged, or its table belongs to another study.
 pub fn load(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let file = folder.path.join("table.parquet");
-    let bytes = std::fs::read(&file).map_err(|error| {
+    let bytes = endline_gear::read::bytes(&file).map_err(|error| {
         Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
     })?;
     let (table, tags) = parquet::read(bytes)

@@ -55,7 +55,7 @@ impl PreparedStudy {
     /// # Errors
     /// A file that cannot be read, or every located error of study, scenario and library.
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path)
+        let text = endline_gear::read::text(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         Self::of_text(text, path, library, host)
     }
@@ -193,7 +193,7 @@ fn scenario_path(study: &Study, path: &Path, root: &Path) -> PathBuf {
 /// The baseline scenario, read.
 fn scenario(study: &Study, file: PathBuf, root: &Path) -> Result<(PathBuf, String), Error> {
     let named = &study.scenario.value;
-    let text = std::fs::read_to_string(&file).map_err(|error| {
+    let text = endline_gear::read::text(&file).map_err(|error| {
         let folder = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
         let mut ids: Vec<String> = folder
             .map(|entry| entry.path())

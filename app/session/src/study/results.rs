@@ -122,7 +122,7 @@ fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs,
 /// The study of a folder of results: from the bundle in it, else from the library.
 fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<PreparedStudy, Error> {
     let file = folder.join("study.json");
-    let text = std::fs::read_to_string(&file)
+    let text = endline_gear::read::text(&file)
         .map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
     let label: Label = serde_json::from_str(&text)
         .map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
@@ -154,7 +154,7 @@ pub struct ResultsFolder {
 pub fn list(root: &Path) -> Vec<ResultsFolder> {
     let folders = std::fs::read_dir(root).into_iter().flatten().flatten().map(|entry| entry.path());
     let read = |folder: PathBuf| {
-        let text = std::fs::read_to_string(folder.join("study.json")).ok()?;
+        let text = endline_gear::read::text(&folder.join("study.json")).ok()?;
         let label = serde_json::from_str(&text).ok()?;
         let reported = folder.join("report.html").is_file();
         Some(ResultsFolder { folder, label, reported })

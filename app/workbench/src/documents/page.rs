@@ -34,7 +34,7 @@ pub fn written(folder: &Path, document: Document) -> Result<PathBuf, String> {
 
 /// Writes a file that does not say this yet, and its folder.
 fn keep(file: &Path, bytes: &[u8]) -> Result<(), String> {
-    if fs::read(file).is_ok_and(|there| there == bytes) {
+    if endline_gear::read::bytes(file).is_ok_and(|there| there == bytes) {
         return Ok(());
     }
     let folder: io::Result<()> = file.parent().map_or(Ok(()), fs::create_dir_all);

@@ -10,7 +10,7 @@ pub use endline_session::locate::{scenarios, studies};
 #[must_use]
 pub fn observations(root: &Path) -> Vec<(PathBuf, String)> {
     let named = |path: PathBuf| {
-        let text = std::fs::read_to_string(&path).ok();
+        let text = endline_gear::read::text(&path).ok();
         let name = text.and_then(|text| Document::parse(&text).ok()?.get("name"));
         let name = name.unwrap_or_else(|| stem(&path));
         (path, name)

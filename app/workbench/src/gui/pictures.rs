@@ -1,6 +1,5 @@
 //! Pictures of runs, drawn on threads of their own: a film of the run shown, and the picture beside a recording.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -210,7 +209,7 @@ fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
 /// The picture beside a recording; none where there is none that can be read.
 #[must_use]
 pub fn of_recording(recording: &Path) -> Option<ColorImage> {
-    let file = File::open(kept::picture(recording)).ok()?;
+    let file = endline_gear::read::open(&kept::picture(recording)).ok()?;
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().ok()?;
     let info = reader.info();
     let ([width, height], right) = (

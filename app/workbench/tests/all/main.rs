@@ -1,5 +1,6 @@
 //! Tests of the window without a screen: what a user does in it, and what comes of it.
 #![cfg(feature = "gui")]
+#![allow(clippy::disallowed_methods, reason = "tests read files that they have written")]
 
 mod answers;
 mod commands;

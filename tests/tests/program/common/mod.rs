@@ -11,7 +11,7 @@ pub mod form;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -24,6 +24,13 @@ pub struct Called {
 }
 
 impl Called {
+    /// Exit code and texts of a program that has ended.
+    pub fn of(output: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        let code = output.status.code();
+        Self { code, stdout: text(output.stdout), stderr: text(output.stderr) }
+    }
+
     /// The one JSON object on standard output, which is of the form that it names.
     pub fn json(&self) -> Value {
         let mut documents = serde_json::Deserializer::from_str(&self.stdout).into_iter::<Value>();
@@ -179,9 +186,7 @@ impl Drop for Place {
 
 /// Calls a command to its end.
 pub fn called(command: &mut Command) -> Called {
-    let output = command.output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    Called { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    Called::of(command.output().unwrap())
 }
 
 /// The shipped gear library.

@@ -26,6 +26,8 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
+use endline_gear::read;
+
 use crate::error::Error;
 
 use process::{BEAT, Place, Process, ProcessFile, SILENCE};
@@ -165,7 +167,7 @@ impl Leases {
     /// The process that holds a lease; `None` if the lease was returned, or is being made.
     fn holder(&self, block: u32, number: u32) -> io::Result<Option<String>> {
         let path = path_of(&self.folder, block, number);
-        match fs::read_to_string(&path) {
+        match read::text(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Ok(holder) if holder.is_empty() && is_fresh(&path) => Ok(None),
             holder => holder.map(Some),
@@ -230,7 +232,7 @@ pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
         let mut workers: BTreeMap<String, Worker> =
             all.iter().map(|(id, file)| (id.clone(), worker(file))).collect();
         for (block, number) in standing(&folder)? {
-            let holder = fs::read_to_string(path_of(&folder, block, number)).unwrap_or_default();
+            let holder = read::text(&path_of(&folder, block, number)).unwrap_or_default();
             if let Some(worker) = workers.get_mut(&holder) {
                 worker.blocks.insert(block);
             }

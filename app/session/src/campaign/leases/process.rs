@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
+use endline_gear::read;
 use serde::{Deserialize, Serialize};
 
 /// Prefix of the names of these files.
@@ -32,7 +33,7 @@ pub(super) struct Place {
 impl Place {
     /// Where this process runs.
     pub(super) fn here() -> Self {
-        let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+        let boot = read::text(Path::new("/proc/sys/kernel/random/boot_id")).unwrap_or_default();
         Self { machine: machine(), boot: boot.trim().to_owned(), pid: std::process::id() }
     }
 }
@@ -123,7 +124,7 @@ impl ProcessFile {
     /// # Errors
     /// A file that cannot be read.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
-        let file = File::open(path)?;
+        let file = read::open(path)?;
         let modified = file.metadata()?.modified()?;
         // One that is being written is that of a process at work; so is one that cannot be read, as some systems lock files against
         // readers too.

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
 
+use endline_gear::read;
 use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
 
 use super::choices::Choices;
@@ -209,7 +210,7 @@ pub fn remembering<'a>(
     list: Option<PathBuf>,
     checker: &'a Checker<'a>,
 ) -> impl Fn(&Path, &str) -> Result<(), String> + 'a {
-    let known = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
+    let known = list.as_ref().and_then(|list| read::text(list).ok()).unwrap_or_default();
     let known = RefCell::new(known.lines().map(str::to_owned).collect::<BTreeSet<_>>());
     move |file, hash| {
         let passed = format!("{ABI_MAJOR}.{ABI_MINOR} {hash}");

@@ -63,7 +63,7 @@ impl HauledLoad {
     /// # Errors
     /// A file that cannot be read, or holds something else.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(file)
+        let text = endline_gear::read::text(file)
             .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
         let expected = "expected what `endline haul ASSEMBLY --json` prints";
         let sheet: Sheet = serde_json::from_str(&text)

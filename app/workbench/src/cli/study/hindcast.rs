@@ -64,7 +64,7 @@ fn with_observations(library: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     for file in files {
         let name = file.display().to_string();
-        let text = std::fs::read_to_string(&file)
+        let text = endline_gear::read::text(&file)
             .map_err(|error| Failure::failed(format!("{name}: cannot be read: {error}")))?;
         let study = Study::read(&name, &text).map_err(Error::Diagnostics)?;
         if !study.observations.is_empty() {

@@ -1,7 +1,6 @@
 //! `endline study threat`: the threat table of a merged study, for NOAA's decision support tool.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -38,7 +37,7 @@ fn read_poll(args: &ThreatArgs, library: Option<&Path>) -> Result<Poll, Failure>
         Some(file) => file.clone(),
         None => locate::library(None, library).map_err(Failure::failed)?.join(POLL),
     };
-    let text = fs::read_to_string(&file)
+    let text = endline_gear::read::text(&file)
         .map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
     let poll = Poll::read(&file.display().to_string(), &text);
     Ok(poll.map_err(Error::Diagnostics)?)
