@@ -533,7 +533,7 @@ fn is_searched(study: &str) -> bool {
 
 #[test]
 fn the_study_of_species_changes_the_whale_alone() {
-    let file = crate::common::library().join("studies/species.toml");
+    let file = library().join("studies/species.toml");
     let study = Study::read("species", &fs::read_to_string(file).unwrap()).unwrap();
     let gear = |option: &StudyOption| -> Vec<(String, String)> {
         let others = option.settings.iter().filter(|one| !one.field.value.starts_with("whale."));
