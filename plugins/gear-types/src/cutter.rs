@@ -92,19 +92,19 @@ impl Cutter {
                 "N",
                 [1.0, 100_000.0],
                 2200.0,
-                "Tension above which the cutter's time runs; about 500 lbf.",
+                "Tension above which the cutter's time is counted; about 500 lbf.",
             ),
             Attribute::number(
                 "cutter_hold",
                 "s",
                 [0.0, 86_400.0],
                 60.0,
-                "How long the tension must stay above that before the cutter parts the line.",
+                "Time above that tension after which the cutter parts the line.",
             ),
             Attribute::choice(
                 "cutter_at",
                 &["foot", "splice", "buoy"],
-                "Where in the endline the cutter sits.",
+                "Position of the cutter along the endline.",
             ),
         ]
     }
@@ -153,7 +153,9 @@ fn descriptor() -> Descriptor {
         id: "org.endline.gear.time-tension-cutter".into(),
         version: env!("CARGO_PKG_VERSION").into(),
         name: "Time-tension cutter".into(),
-        help: "One trap or more with a cutter in each endline that parts it when the tension has stayed high for a time.".into(),
+        help: "One trap or more with a cutter in each endline that parts it when the tension has \
+         stayed high for a time."
+            .into(),
         attributes,
         state_len: 2 * FLOATS,
         acts: Vec::new(),

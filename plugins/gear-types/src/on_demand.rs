@@ -174,7 +174,7 @@ fn stowed_attributes() -> Vec<Attribute> {
             "endlines",
             [1, 2],
             1,
-            "How many stowed endlines: 1 at the near end, 2 at both.",
+            "Number of stowed endlines: 1 at the near end, 2 at both.",
         ),
         Attribute::item(
             "buoy",
@@ -195,7 +195,7 @@ fn stowed_attributes() -> Vec<Attribute> {
             1.3,
             "Length of the endline as a multiple of water depth.",
         ),
-        Attribute::count("flakes", [2, 60], 8, "In how many flakes the endline is stowed."),
+        Attribute::count("flakes", [2, 60], 8, "Number of flakes of the stowed endline."),
         Attribute::number(
             "hold_length",
             "m",
@@ -220,14 +220,14 @@ fn release_attributes() -> Vec<Attribute> {
             "s",
             [0.0, 1e7],
             60.0,
-            "When the near endline's release is called.",
+            "Time of the call of the near endline's release.",
         ),
         Attribute::number(
             "far_release_at",
             "s",
             [0.0, 1e7],
             1e7,
-            "When the far endline's release is called, where there is one.",
+            "Time of the call of the far endline's release, if there is one.",
         ),
     ]
 }
@@ -239,7 +239,9 @@ fn descriptor() -> Descriptor {
         id: "org.endline.gear.on-demand".into(),
         version: env!("CARGO_PKG_VERSION").into(),
         name: "On-demand".into(),
-        help: "One trap or more whose endline lies stowed at the trap until an acoustic release lets its buoy rise.".into(),
+        help: "One trap or more whose endline lies stowed at the trap until an acoustic release \
+         lets its buoy rise."
+            .into(),
         attributes,
         state_len: MOST_ENDLINES,
         acts: Vec::new(),

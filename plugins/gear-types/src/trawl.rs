@@ -87,7 +87,7 @@ impl<'a> Set<'a> {
 
 /// The attribute that says how many endlines there are.
 pub(crate) fn endlines_attribute() -> Attribute {
-    let help = "How many endlines; 0 for as many as are usual, one up to 5 traps and two from 6.";
+    let help = "Number of endlines; 0 for the usual number: one up to 5 traps and two from 6.";
     Attribute::count("endlines", [0, 2], 0, help)
 }
 
@@ -104,7 +104,9 @@ fn descriptor() -> Descriptor {
         id: "org.endline.gear.trawl".into(),
         version: env!("CARGO_PKG_VERSION").into(),
         name: "Trawl".into(),
-        help: "Traps on gangions along a groundline, an endline at one end or at both, anchors where wanted.".into(),
+        help: "Traps on gangions along a groundline, an endline at one end or at both, anchors \
+         where wanted."
+            .into(),
         attributes: Set::attributes(5, 1.83, "polyball-a1"),
         state_len: 0,
         acts: Vec::new(),

@@ -18,11 +18,12 @@ const DOCUMENT: &str = "docs/figures.md";
 const HEAD: &str = "# Figures
 
 This page lists every figure that Endline reports of a run.
-It is written from the declarations in `app/session/src/figures`; the head of `tests/tests/tidy/figure_docs.rs` says how to write it anew.
-How the figures are measured stands in [entanglement.md](entanglement.md).
+It is written from the declarations in `app/session/src/figures`; the head of `tests/tests/tidy/figure_docs.rs` explains how to write it again.
+[entanglement.md](entanglement.md) defines the measures.
 
 *Key* is the key in the JSON of `endline run --json`, schema `endline.run/1`; a figure in brackets is not in the JSON.
-*Column* is the name in `table.parquet` and `table.csv` of a study; the columns of a part of the whale begin with the name of the part, such as `head_wraps`.
+*Column* is the name in `table.parquet` and `table.csv` of a study.
+The columns of a part of the whale begin with the name of the part, such as `head_wraps`.
 *Shown* names the other views: the tables of the command line, the panels *Summary* and *Entanglement*, and *Compare*, the comparison of two runs.
 A study adds a column `drawn_NAME` for each quantity that it draws.
 ";
@@ -70,7 +71,7 @@ fn page() -> String {
     section(&mut page, "`audit.balance`: momentum and energy of the gear", BALANCE);
     section(&mut page, "`approach` and `contact`: phases of the run", PHASE);
     section(&mut page, "`settled`: the statics before the run", SETTLED);
-    section(&mut page, "`cost`: what the computing time went to", COST);
+    section(&mut page, "`cost`: computing time", COST);
     section(&mut page, "`lines`: each line", LINE);
     section(&mut page, "`links`: each weak link", LINK);
     section(&mut page, "`bodies`: each trap, buoy, anchor and weight", BODY);
@@ -82,7 +83,7 @@ fn page() -> String {
     section(&mut page, "`whale.kinetic`: a kinetic whale", KINETIC);
     section(&mut page, "`events`: each event", EVENT);
     section(&mut page, "`plugins`: each plugin of the model", PLUGIN);
-    section(&mut page, "What a study adds", ATTEMPT);
+    section(&mut page, "Added by a study", ATTEMPT);
     section(&mut page, "The moment shown", MOMENT);
     page
 }
@@ -99,6 +100,7 @@ fn the_document_has_every_figure_as_it_is_declared() {
     let first = document.lines().zip(fresh.lines()).find(|(old, new)| old != new);
     assert_eq!(
         document, fresh,
-        "{DOCUMENT} is out of date, first at {first:?}; the head of tests/tests/tidy/figure_docs.rs says how to write it anew"
+        "{DOCUMENT} is out of date, first at {first:?}; the head of \
+         tests/tests/tidy/figure_docs.rs says how to write it again"
     );
 }

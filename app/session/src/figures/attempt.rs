@@ -13,7 +13,7 @@ pub struct Attempt {
     pub weight: f64,
     /// Key by which `endline study replay` finds it.
     pub replay_key: String,
-    /// Why there is no run, or why it is not valid; empty where it is.
+    /// Reason for a missing or invalid run; empty if it is valid.
     pub fault: String,
 }
 
@@ -36,7 +36,7 @@ pub static ATTEMPT: &[Figure<Attempt>] = &[
     Figure::new(
         "weight",
         "weight",
-        "What the encounter counts for, where encounters are drawn from proposals; 1 otherwise.",
+        "Weight of the encounter, if encounters are drawn from proposals; else 1.",
         Quantity::Number,
         |attempt: &Attempt| attempt.weight.into(),
     )
@@ -54,7 +54,7 @@ pub static ATTEMPT: &[Figure<Attempt>] = &[
     Figure::new(
         "fault",
         "fault",
-        "Why there is no run, or why it is not valid; empty where it is.",
+        "Reason for a missing or invalid run; empty if it is valid.",
         Quantity::Id,
         |attempt: &Attempt| (&attempt.fault).into(),
     )

@@ -13,7 +13,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "tunnelled",
         "rope through skin",
-        "Times rope passed through skin.",
+        "Number of times rope passed through skin.",
         Quantity::Count,
         |run: &Report| run.audit.tunnelled.into(),
     )
@@ -23,7 +23,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "max_penetration_m",
         "deepest penetration",
-        "Greatest depth to which the rope's surface sank into the skin.",
+        "Greatest penetration of the rope's surface into the skin.",
         Quantity::SmallLength,
         |run: &Report| run.audit.max_penetration_m.into(),
     )
@@ -31,7 +31,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "bodies_crossed",
         "bodies through skin",
-        "Times a buoy, trap or anchor passed through skin.",
+        "Number of times a buoy, trap or anchor passed through skin.",
         Quantity::Count,
         |run: &Report| run.audit.bodies_crossed.into(),
     )
@@ -40,7 +40,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "ropes_crossed",
         "rope through rope",
-        "Times rope passed through rope.",
+        "Number of times rope passed through rope.",
         Quantity::Count,
         |run: &Report| run.audit.ropes_crossed.into(),
     )
@@ -49,16 +49,16 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "ropes_through",
         "ropes through each other since the start",
-        "Most pairs of segments at a time that have run through each other since the start, and \
-         are left alone.",
+        "Greatest number of pairs of segments at a time that have crossed since the start of the \
+         run and are not separated.",
         Quantity::Count,
         |run: &Report| run.audit.ropes_through.into(),
     ),
     Figure::new(
         "rope_within_m",
         "rope within bodies since the start",
-        "Most rope at a time that has lain within bodies since the start, such as an endline stowed \
-         in its trap; it touches a body once it has come out of it.",
+        "Greatest length of rope at a time that has been within bodies since the start, such as an \
+         endline stowed in its trap. It touches a body once it has come out of it.",
         Quantity::Length,
         |run: &Report| run.audit.rope_within_m.into(),
     ),
@@ -72,8 +72,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "least_distance_m",
         "least distance from skin",
-        "Least distance of the rope's centre line from skin that it touched; none where it touched \
-         none.",
+        "Least distance of the rope's centre line from skin that it touched; none without contact.",
         Quantity::SmallLength,
         |run: &Report| run.audit.least_distance_m.into(),
     )
@@ -121,14 +120,14 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "halved",
         "solver steps redone",
-        "Solver steps that were redone shorter.",
+        "Solver steps that were repeated with a shorter step.",
         Quantity::Count,
         |run: &Report| run.audit.halved.into(),
     ),
     Figure::new(
         "unconverged",
         "solver steps not converged",
-        "Solver steps accepted above the wanted residual.",
+        "Solver steps accepted with a residual above the tolerance.",
         Quantity::Count,
         |run: &Report| run.audit.unconverged.into(),
     )
@@ -137,7 +136,8 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "unconverged_parted",
         "partings in steps not converged",
-        "Solver steps accepted above the wanted residual at whose end something parted.",
+        "Solver steps accepted with a residual above the tolerance, at whose end a link or line \
+         parted.",
         Quantity::Count,
         |run: &Report| run.audit.unconverged_parted.into(),
     )
@@ -156,8 +156,8 @@ pub static AUDIT: &[Figure<Report>] = &[
         "beyond_rope_share",
         "normal force beyond what rope can press",
         "Share of the normal force on the whale, over time, above T (θ + 2) + R for each stretch \
-         of rope in touch: greatest tension T, turn θ in radians, resultant R of its contact \
-         forces.",
+         of rope in contact. T is its greatest tension, θ its turn in radians, R the resultant of \
+         its contact forces.",
         Quantity::Number,
         |run: &Report| run.summary.whale.as_ref().map(|whale| whale.beyond_rope_share).into(),
     )
@@ -166,22 +166,21 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "passes",
         "Newton passes",
-        "Newton passes in all.",
+        "Total number of Newton iterations.",
         Quantity::Count,
         |run: &Report| run.audit.passes.into(),
     ),
     Figure::new(
         "splits",
         "segments split",
-        "Segments split, each together with a merge, as resolution followed the whale.",
+        "Segments split, each together with a merge, as the resolution followed the whale.",
         Quantity::Count,
         |run: &Report| run.audit.splits.into(),
     ),
     Figure::new(
         "resolution_looks",
         "looks at lengths near the whale",
-        "Times at which segment lengths were looked at with rope near the whale; 0 without \
-         `[resolution]`.",
+        "Number of checks of segment lengths with rope near the whale; 0 without `[resolution]`.",
         Quantity::Count,
         |run: &Report| run.audit.resolution_looks.into(),
     )
@@ -189,8 +188,8 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "resolution_missed",
         "looks at which resolution was missed",
-        "Those of them that left a segment near the whale longer than `near` or `edges` by a \
-         quarter or more: nodes ran out, or rope in touch could not be split.",
+        "Number of these checks in which a segment near the whale exceeded `near` or `edges` by a \
+         quarter or more. Causes are too few nodes, or rope in contact, which is not split.",
         Quantity::Count,
         |run: &Report| run.audit.resolution_missed.into(),
     )
@@ -200,7 +199,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "resolution_ratio",
         "longest segment near the whale over wanted",
-        "Greatest ratio of a segment's length near the whale to the length wanted there; 0 without \
+        "Greatest ratio of a segment's length near the whale to its target length; 0 without \
          `[resolution]`.",
         Quantity::Number,
         |run: &Report| run.audit.resolution_ratio.into(),
@@ -208,7 +207,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "postures_held",
         "steps with joints at their limits",
-        "Steps in which the whale's posture was held at the ranges of its joints.",
+        "Steps in which the ranges of its joints limited the whale's posture.",
         Quantity::Count,
         |run: &Report| run.audit.postures_held.into(),
     )
@@ -216,7 +215,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "steps_limited_by",
         "solver steps by what limited them",
-        "Solver steps by what kept them from being longer: `inputs`, `accuracy`, `snap`, \
+        "Solver steps by the limit of their length: `inputs`, `accuracy`, `snap`, \
          `contact`, `parting`, `convergence`.",
         Quantity::Group,
         |run: &Report| Value::Counts(limits(run)),
@@ -224,7 +223,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "steps_mostly_limited_by",
         "solver steps mostly limited by",
-        "What limited most of the solver steps, in words.",
+        "Limit of most of the solver steps, in words.",
         Quantity::Id,
         |run: &Report| Value::Text(mostly(run)),
     )
@@ -232,7 +231,7 @@ pub static AUDIT: &[Figure<Report>] = &[
     Figure::new(
         "balance",
         "momentum and energy of the gear",
-        "Momentum and energy of the gear by source; none where a scenario sets `balance = false`.",
+        "Momentum and energy of the gear by source; none if a scenario sets `balance = false`.",
         Quantity::Group,
         |run: &Report| {
             run.balance.as_ref().map_or(Value::Absent, |balance| object(BALANCE, balance))

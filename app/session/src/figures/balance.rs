@@ -30,7 +30,7 @@ pub static BALANCE: &[Figure<BalanceSummary>] = &[
     Figure::new(
         "greatest_Ns",
         "greatest impulse on the gear",
-        "Greatest size that the impulse of any source on the gear had.",
+        "Greatest magnitude of the impulse of any source on the gear.",
         Quantity::Impulse,
         |told: &BalanceSummary| told.greatest_ns.into(),
     )
@@ -38,8 +38,8 @@ pub static BALANCE: &[Figure<BalanceSummary>] = &[
     Figure::new(
         "residual_Ns",
         "momentum missed",
-        "Greatest size that the sum of all impulses less the change of momentum had: what the \
-         solver missed.",
+        "Greatest magnitude of the sum of all impulses minus the change of momentum: the error of \
+         the solver.",
         Quantity::Impulse,
         |told: &BalanceSummary| told.residual_ns.into(),
     ),
@@ -115,14 +115,14 @@ pub static BALANCE: &[Figure<BalanceSummary>] = &[
     work(
         "damping_J",
         "work of damping in rope",
-        "Work of the axial damping of rope; below zero, it is what damping took.",
+        "Work of the axial damping of rope; negative if energy is dissipated.",
         |told| told.damping_j.into(),
     ),
     work(
         "contact_J",
         "work of the gear on itself",
-        "Work of push and friction of rope on rope, rope on bodies and bodies on each other; below \
-         zero, it is what they took.",
+        "Work of normal force and friction of rope on rope, rope on bodies and bodies on each \
+         other; negative if energy is dissipated.",
         |told| told.contact_j.into(),
     ),
     work(
@@ -140,15 +140,16 @@ pub static BALANCE: &[Figure<BalanceSummary>] = &[
     work(
         "numerical_damping_J",
         "numerical damping",
-        "All work less the change of energy: what the time scheme took, with partings and merged \
-         segments; below zero, what it gave.",
+        "Work of all sources minus material damping, gear-gear dissipation and the change of \
+         energy. It includes the energy of parted lines and merged segments; negative if energy \
+         was gained.",
         |told| told.numerical_damping_j().into(),
     ),
     Figure::new(
         "whale_missed_Ns",
         "impulse between whale and gear missed",
-        "Size of what a kinetic whale was given by the gear and the gear by the whale, added up; \
-         none where the whale is not kinetic.",
+        "Magnitude of the sum of the impulse of the gear on a kinetic whale and that of the whale \
+         on the gear; none if the whale is not kinetic.",
         Quantity::Impulse,
         |told: &BalanceSummary| told.whale_missed_ns.into(),
     ),

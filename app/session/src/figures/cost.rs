@@ -10,7 +10,7 @@ pub static COST: &[Figure<Cost>] = &[
     Figure::new(
         "whole_s",
         "computing time",
-        "Real time of the steps and of what is measured after each: the sum of the others.",
+        "Real time of the steps and of the measures after each: the sum of the others.",
         Quantity::Duration,
         |cost: &Cost| cost.whole_s().into(),
     )
@@ -26,7 +26,7 @@ pub static COST: &[Figure<Cost>] = &[
     Figure::new(
         "detection_s",
         "contact detection",
-        "Looking for skin, rope and bodies near rope, measuring distances and proving paths free.",
+        "Search for skin, rope and bodies near rope, distances, and proofs that paths are free.",
         Quantity::Duration,
         |cost: &Cost| cost.of_s(CostPart::Detection).into(),
     )
@@ -60,8 +60,8 @@ pub static COST: &[Figure<Cost>] = &[
     Figure::new(
         "metrics_s",
         "metrics",
-        "Metrics, state hash and frames kept, after each step; `wall_s` of the run does not count \
-         it.",
+        "Metrics, state hash and stored frames, after each step; `wall_s` of the run does not \
+         include it.",
         Quantity::Duration,
         |cost: &Cost| cost.of_s(CostPart::Metrics).into(),
     )
@@ -69,8 +69,8 @@ pub static COST: &[Figure<Cost>] = &[
     Figure::new(
         "other_s",
         "other",
-        "All else, such as the copy of the state kept for a retry, lengths of segments that follow \
-         the whale, and gear plugins.",
+        "The rest, such as the copy of the state for a retry, lengths of segments that follow the \
+         whale, and gear plugins.",
         Quantity::Duration,
         |cost: &Cost| cost.of_s(CostPart::Other).into(),
     )

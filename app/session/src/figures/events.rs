@@ -10,7 +10,7 @@ pub static EVENT: &[Figure<Event>] = &[
     Figure::new(
         "time_s",
         "time",
-        "When: the end of that step.",
+        "Time of the event: the end of its step.",
         Quantity::Moment,
         |event: &Event| event.time_s.into(),
     )
@@ -18,22 +18,22 @@ pub static EVENT: &[Figure<Event>] = &[
     Figure::new(
         "kind",
         "event",
-        "What, such as `link_parted`.",
+        "Kind of the event, such as `link_parted`.",
         Quantity::Name,
         |event: &Event| event.kind.name().into(),
     )
     .shown(&[Table]),
-    Figure::new("subject", "of", "Id of what it happened to.", Quantity::Name, |event: &Event| {
-        (&event.subject).into()
-    })
-    .shown(&[Table]),
     Figure::new(
-        "value",
-        "value",
-        "The number that goes with it.",
-        Quantity::Measured,
-        |event: &Event| Value::Measured { value: event.value, unit: event.kind.unit() },
+        "subject",
+        "of",
+        "Id of the object of the event.",
+        Quantity::Name,
+        |event: &Event| (&event.subject).into(),
     )
+    .shown(&[Table]),
+    Figure::new("value", "value", "Value of the event.", Quantity::Measured, |event: &Event| {
+        Value::Measured { value: event.value, unit: event.kind.unit() }
+    })
     .shown(&[Table]),
     Figure::new("unit", "unit", "Unit of the value.", Quantity::Id, |event: &Event| {
         event.kind.unit().into()

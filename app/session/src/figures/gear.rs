@@ -81,7 +81,7 @@ pub static LINE: &[Figure<Line>] = &[
     Figure::new(
         "parted_at_s",
         "parted",
-        "Time at which it parted; none where it holds.",
+        "Time at which it parted; none if it holds.",
         Quantity::Moment,
         |line: &Line| line.summary.parted_at_s.into(),
     )
@@ -111,8 +111,8 @@ pub static LINE: &[Figure<Line>] = &[
     Figure::new(
         "twist",
         "legs twisted",
-        "Turns at the end that its two legs make about each other beyond the whale, above zero \
-         right-handed; lines joined by splices are one rope.",
+        "Turns of its two legs about each other beyond the whale, at the end of the run; positive: \
+         right-handed. Lines joined by splices are one rope.",
         Quantity::Turns,
         |line: &Line| line.summary.twist.into(),
     )
@@ -120,7 +120,7 @@ pub static LINE: &[Figure<Line>] = &[
     Figure::new(
         "peak_twist",
         "legs twisted at most",
-        "The most of these turns at any time, with their sign.",
+        "Greatest magnitude of these turns at any time, with its sign.",
         Quantity::Turns,
         |line: &Line| line.summary.peak_twist.into(),
     ),
@@ -143,7 +143,7 @@ pub static LINK: &[Figure<LinkSummary>] = &[
     Figure::new(
         "peak_tension_N",
         "peak tension",
-        "Greatest tension of the segment it sits in, in any solver step that converged.",
+        "Greatest tension of its segment in any solver step that converged.",
         Quantity::Force,
         |link: &LinkSummary| link.peak_tension_n.into(),
     )
@@ -158,7 +158,7 @@ pub static LINK: &[Figure<LinkSummary>] = &[
     Figure::new(
         "parted_at_s",
         "parted",
-        "Time at which it parted; none where it holds.",
+        "Time at which it parted; none if it holds.",
         Quantity::Moment,
         |link: &LinkSummary| link.parted_at_s.into(),
     )
@@ -175,7 +175,7 @@ pub static BODY: &[Figure<BodySummary>] = &[
     Figure::new(
         "position_m",
         "place east, north, up",
-        "Place of its origin at the end.",
+        "Position of its origin at the end.",
         Quantity::Place,
         |body: &BodySummary| body.position_m.into(),
     )
@@ -198,7 +198,7 @@ pub static BODY: &[Figure<BodySummary>] = &[
     Figure::new(
         "whale_part",
         "on the whale's",
-        "Part of the whale that it presses on at the end; none where it does not.",
+        "Part of the whale that it presses on at the end; none without contact.",
         Quantity::Name,
         |body: &BodySummary| body.on_whale.whale_part.map(BodyPart::name).into(),
     )
@@ -206,14 +206,15 @@ pub static BODY: &[Figure<BodySummary>] = &[
     Figure::new(
         "whale_since_s",
         "on the whale since",
-        "Since when it has touched the whale, gaps below a second left out; none where it does not at the end.",
+        "Start of its present contact with the whale, without gaps below a second; none without \
+         contact at the end.",
         Quantity::Moment,
         |body: &BodySummary| body.on_whale.whale_since_s.into(),
     ),
     Figure::new(
         "whale_contact_time_s",
         "time on the whale",
-        "Time with it touching the whale.",
+        "Total time of its contact with the whale.",
         Quantity::Duration,
         |body: &BodySummary| body.on_whale.whale_contact_time_s.into(),
     )
@@ -236,7 +237,7 @@ pub static BODY: &[Figure<BodySummary>] = &[
     Figure::new(
         "peak_whale_part",
         "greatest push on",
-        "Part of the whale that it pressed on then.",
+        "Part of the whale that it pressed on at that time.",
         Quantity::Name,
         |body: &BodySummary| body.on_whale.peak_whale_part.map(BodyPart::name).into(),
     ),

@@ -22,7 +22,7 @@ pub static PHASE: &[Figure<Phase>] = &[
     Figure::new(
         "times_real_time",
         "times real time",
-        "Simulated time divided by real time; 0 where the phase is empty.",
+        "Simulated time divided by real time; 0 if the phase is empty.",
         Quantity::Number,
         |phase: &Phase| phase.times_real_time().into(),
     )
@@ -41,7 +41,7 @@ pub static SETTLED: &[Figure<Report>] = &[
     Figure::new(
         "outcome",
         "statics",
-        "What statics found, in words.",
+        "Result of statics, in words.",
         Quantity::Id,
         |run: &Report| (&run.settled.outcome).into(),
     ),

@@ -18,7 +18,7 @@ pub static PLUGIN: &[Figure<PluginUsed>] = &[
     Figure::new(
         "file_hash",
         "file hash",
-        "BLAKE3 of the file it was loaded from; empty where it is linked in.",
+        "BLAKE3 of the file it was loaded from; empty if it is linked.",
         Quantity::Id,
         |plugin: &PluginUsed| (&plugin.file_hash).into(),
     ),

@@ -84,9 +84,9 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "valid",
         "valid",
-        "Whether the numbers can be trusted: the run reached its end, rope passed through nothing, \
-         every number is finite, and solver steps not converged, spikes and normal force beyond \
-         what rope can press stay within their bounds.",
+        "Whether the numbers are reliable: the run reached its end, rope passed through nothing, \
+         and every number is finite. Unconverged solver steps, spikes and normal force beyond the \
+         limit for rope are within their bounds.",
         Quantity::Flag,
         |run: &Report| run.is_valid().into(),
     )
@@ -95,14 +95,14 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "invalid_because",
         "invalid because",
-        "Why the run is not valid; empty where it is.",
+        "Reason for an invalid run; empty if it is valid.",
         Quantity::Ids,
         |run: &Report| (&run.invalid_because).into(),
     ),
     Figure::new(
         "stopped",
         "stopped",
-        "Why the run stopped before its end; none where it did not.",
+        "Reason for a stop before the end of the run; none if it reached its end.",
         Quantity::Id,
         |run: &Report| run.stopped.as_ref().into(),
     ),
@@ -143,7 +143,7 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "approach",
         "approach",
-        "Steps before rope first came near the whale.",
+        "Steps before rope was first near the whale.",
         Quantity::Group,
         |run: &Report| object(PHASE, &run.timing.approach),
     ),
@@ -164,14 +164,14 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "cost",
         "cost",
-        "What the computing time went to.",
+        "Computing time by part of the program.",
         Quantity::Group,
         |run: &Report| object(COST, &run.timing.cost),
     ),
     Figure::new(
         "events",
         "events",
-        "One object for each event, in the order in which they were noticed.",
+        "One object for each event, in the order of detection.",
         Quantity::Group,
         |run: &Report| list(EVENT, &run.events),
     ),
@@ -233,7 +233,7 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "parted",
         "parted",
-        "Id of the weak link or line that parted first; none where all hold.",
+        "Id of the weak link or line that parted first; none if all hold.",
         Quantity::Id,
         |run: &Report| run.first_parted().map(|(_, id)| id).into(),
     )
@@ -242,7 +242,7 @@ pub static RUN: &[Figure<Report>] = &[
     Figure::new(
         "parted_at_s",
         "parted at",
-        "Time at which the first weak link or line parted; none where all hold.",
+        "Time at which the first weak link or line parted; none if all hold.",
         Quantity::Moment,
         |run: &Report| run.first_parted().map(|(time_s, _)| time_s).into(),
     )

@@ -56,7 +56,7 @@ pub static PART: &[Figure<Part>] = &[
     Figure::new(
         "peak_wraps",
         "most wraps",
-        "Most turns of rope about the part at any time.",
+        "Greatest number of turns of rope about the part at any time.",
         Quantity::Turns,
         |part: &Part| part.summary.peak_wraps.into(),
     )
@@ -73,7 +73,7 @@ pub static PART: &[Figure<Part>] = &[
     Figure::new(
         "peak_touching_wraps",
         "most touching wraps",
-        "Most turns of touching rope at any time.",
+        "Greatest number of turns of touching rope at any time.",
         Quantity::Turns,
         |part: &Part| part.summary.peak_touching_wraps.into(),
     ),
@@ -158,7 +158,7 @@ pub static PATCH: &[Figure<PatchSummary>] = &[
     Figure::new(
         "friction_N",
         "friction",
-        "Sum of the friction forces at the end, whatever their directions.",
+        "Sum of the magnitudes of the friction forces at the end.",
         Quantity::Force,
         |patch: &PatchSummary| patch.friction_n.into(),
     ),

@@ -10,7 +10,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "outcome",
         "outcome",
-        "How the encounter ended: `no_contact`, `shed`, `entangled`, `parted_free` or \
+        "Outcome of the encounter: `no_contact`, `shed`, `entangled`, `parted_free` or \
          `parted_entangled`.",
         Quantity::Name,
         |whale: &WhaleSummary| whale.outcome.name().into(),
@@ -20,7 +20,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "decided",
         "outcome is decided",
-        "Whether the run was long enough for the outcome to stand.",
+        "Whether the run was long enough for the outcome to be final.",
         Quantity::Flag,
         |whale: &WhaleSummary| whale.decided.into(),
     )
@@ -29,7 +29,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "first_contact_s",
         "first contact",
-        "Time at which rope first touched; none where it never did.",
+        "Time at which rope first touched; none without contact.",
         Quantity::Moment,
         |whale: &WhaleSummary| whale.first_contact_s.into(),
     )
@@ -38,7 +38,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "last_contact_s",
         "last contact",
-        "Time at which rope last touched; none where it never did.",
+        "Time at which rope last touched; none without contact.",
         Quantity::Moment,
         |whale: &WhaleSummary| whale.last_contact_s.into(),
     )
@@ -46,7 +46,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "contact_time_s",
         "time in contact",
-        "Time with any rope touching, in all.",
+        "Total time with any rope in contact.",
         Quantity::Duration,
         |whale: &WhaleSummary| whale.contact_time_s.into(),
     )
@@ -69,8 +69,8 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "hooked",
         "hooked",
-        "Whether rope touches, and has gone half a turn or more about some part since the whale \
-         was last free.",
+        "Whether rope touches, and has half a turn or more about some part since the whale was \
+         last free.",
         Quantity::Flag,
         |whale: &WhaleSummary| whale.hooked.into(),
     )
@@ -123,8 +123,8 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "speed_made_good_m_s",
         "speed made good",
-        "Straight way of the whale over the ground in the last 30 s, by time: next to nothing where it \
-         hangs at gear that is fast.",
+        "Net displacement of the whale over the ground in the last 30 s, divided by the time: \
+         nearly zero if fixed gear holds it.",
         Quantity::Speed,
         |whale: &WhaleSummary| whale.speed_made_good_m_s.into(),
     )
@@ -133,8 +133,9 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "unchanged_s",
         "time unchanged",
-        "Time for which nothing about a held whale has changed: no rope taken or let go, no turn more or less by a quarter, \
-         nothing parted, and no line that bears more by 5 % than any before.",
+        "Time for which the state of a held whale has not changed: no rope took hold or let go, no \
+         turn changed by a quarter, and nothing parted. No line exceeded its earlier tensions by 5 \
+         %.",
         Quantity::Duration,
         |whale: &WhaleSummary| whale.unchanged_s.into(),
     )
@@ -161,7 +162,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "carried",
         "carried bodies",
-        "Ids of the traps, buoys and other bodies that hang on the whale by that rope.",
+        "Ids of the traps, buoys and other bodies on that rope.",
         Quantity::Ids,
         |whale: &WhaleSummary| (&whale.carried).into(),
     )
@@ -176,7 +177,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     Figure::new(
         "kinetic",
         "kinetic whale",
-        "What a kinetic whale did; none for a kinematic one.",
+        "Figures of a kinetic whale; none for a kinematic one.",
         Quantity::Group,
         |whale: &WhaleSummary| {
             whale.kinetic.as_ref().map(|kinetic| object(KINETIC, kinetic)).into()
@@ -241,7 +242,7 @@ pub static KINETIC: &[Figure<KineticSummary>] = &[
     Figure::new(
         "power_W",
         "power",
-        "Power put in: that of the thrust divided by the efficiency.",
+        "Power input: that of the thrust divided by the efficiency.",
         Quantity::Power,
         |kinetic: &KineticSummary| kinetic.power_w.into(),
     )
@@ -264,7 +265,7 @@ pub static KINETIC: &[Figure<KineticSummary>] = &[
     Figure::new(
         "speed_lost_m_s",
         "speed lost",
-        "Speed that its motion asks for, less the speed it has.",
+        "Speed that its motion requests, minus its speed.",
         Quantity::Speed,
         |kinetic: &KineticSummary| kinetic.speed_lost_m_s.into(),
     )
@@ -316,21 +317,22 @@ pub static KINETIC: &[Figure<KineticSummary>] = &[
     Figure::new(
         "drag_impulse_Ns",
         "impulse of its drag",
-        "Impulse of the drag of its own body; below zero.",
+        "Impulse of the drag of its own body; negative.",
         Quantity::Impulse,
         |kinetic: &KineticSummary| kinetic.books.drag_impulse_ns.into(),
     ),
     Figure::new(
         "gear_impulse_Ns",
         "impulse of the gear ahead",
-        "Impulse of the gear along its own axis; below zero where it holds the whale back.",
+        "Impulse of the gear along its own axis; negative if it retards the whale.",
         Quantity::Impulse,
         |kinetic: &KineticSummary| kinetic.books.gear_impulse_ns.into(),
     ),
     Figure::new(
         "residual_Ns",
         "momentum missed",
-        "Change of momentum less the three impulses: what time steps miss, and the weight of what is out of the water.",
+        "Change of momentum minus the three impulses: the error of the time steps, and the weight \
+         of the body out of the water.",
         Quantity::Impulse,
         |kinetic: &KineticSummary| kinetic.books.residual_ns().into(),
     ),
@@ -351,21 +353,21 @@ pub static KINETIC: &[Figure<KineticSummary>] = &[
     Figure::new(
         "drag_work_J",
         "work of its drag",
-        "Work of the drag of its own body; below zero.",
+        "Work of the drag of its own body; negative.",
         Quantity::Work,
         |kinetic: &KineticSummary| kinetic.books.drag_work_j.into(),
     ),
     Figure::new(
         "gear_work_J",
         "work of the gear",
-        "Work of the gear along its own axis; below zero where it holds the whale back.",
+        "Work of the gear along its own axis; negative if it retards the whale.",
         Quantity::Work,
         |kinetic: &KineticSummary| kinetic.books.gear_work_j.into(),
     ),
     Figure::new(
         "residual_J",
         "energy missed",
-        "Change of kinetic energy less the three works.",
+        "Change of kinetic energy minus the three works.",
         Quantity::Work,
         |kinetic: &KineticSummary| kinetic.books.residual_j().into(),
     ),

@@ -195,14 +195,16 @@ fn descriptor() -> Descriptor {
         "endlines",
         [0, 2],
         2,
-        "How many endlines: none, one at the near end, or one at each end.",
+        "Number of endlines: none, one at the near end, or one at each end.",
     ));
     attributes.extend(Endline::attributes("polyball-a1"));
     Descriptor {
         id: "org.endline.gear.gillnet".into(),
         version: env!("CARGO_PKG_VERSION").into(),
         name: "Gillnet string".into(),
-        help: "Panels of netting between a headline with floats and a leadline, anchored at both ends, with endlines.".into(),
+        help: "Panels of netting between a headline with floats and a leadline, anchored at both \
+         ends, with endlines."
+            .into(),
         attributes,
         state_len: 0,
         acts: Vec::new(),

@@ -18,7 +18,7 @@ pub(super) struct Net<'a> {
     pub(super) leadline: &'a str,
     /// Rope that stands for a stretch of netting.
     pub(super) netting: &'a str,
-    /// How many netting lines stand for a panel.
+    /// Number of netting lines that represent a panel.
     pub(super) lines_a_panel: u32,
     /// How much longer headline and leadline are than what they lie along [1].
     pub(super) slack: f64,
@@ -65,7 +65,8 @@ impl<'a> Net<'a> {
         if net.bridle_m < 0.6 * net.height_m {
             let (bridle, height) = (net.bridle_m, net.height_m);
             return Err(HookError::new(format!(
-                "attribute `bridle`: legs of {bridle} m do not reach up a net of {height} m; give them 0.6 times `net_height` or more"
+                "attribute `bridle`: legs of {bridle} m do not reach up a net of {height} m; give \
+                 them 0.6 times `net_height` or more"
             )));
         }
         Ok(net)
@@ -75,13 +76,13 @@ impl<'a> Net<'a> {
 /// Panels: how many, how large, and of which ropes.
 fn panel_attributes() -> Vec<Attribute> {
     vec![
-        Attribute::count("panels", [1, 40], 3, "How many panels of netting."),
+        Attribute::count("panels", [1, 40], 3, "Number of panels of netting."),
         Attribute::number(
             "panel_length",
             "m",
             [5.0, 500.0],
             91.44,
-            "Length of a panel's headline; 300 ft where not given.",
+            "Length of a panel's headline; 300 ft by default.",
         ),
         Attribute::number(
             "net_height",
@@ -108,13 +109,18 @@ fn panel_attributes() -> Vec<Attribute> {
             "gillnet-netting",
             "The twine of a stretch of net, gathered in one line.",
         ),
-        Attribute::count("netting_lines", [1, 100], 6, "How many netting lines stand for a panel."),
+        Attribute::count(
+            "netting_lines",
+            [1, 100],
+            6,
+            "Number of netting lines that represent a panel.",
+        ),
         Attribute::number(
             "slack",
             "1",
             [0.0, 0.5],
             0.01,
-            "How much longer headline and leadline are than what they lie along.",
+            "Excess length of headline and leadline over the distance that they span, as a share.",
         ),
     ]
 }

@@ -211,14 +211,14 @@ fn surface_attributes() -> Vec<Attribute> {
             "surface_rope",
             "ropes",
             "",
-            "Rope of the surface system at the buoy; empty for none of its own.",
+            "Rope of the surface system at the buoy; empty for none.",
         ),
         Attribute::number(
             "surface_length",
             "m",
             [0.1, 50.0],
             2.0,
-            "Length of the surface system, where it has a rope of its own.",
+            "Length of the surface system, if it has a separate rope.",
         ),
         Attribute::item(
             "weak_link",

@@ -62,7 +62,7 @@ impl<'a> Ground<'a> {
     /// The attributes of a set of so many traps, with the gangions that are usual for the gear [m].
     #[must_use]
     pub fn attributes(traps: u32, gangion_m: f64) -> Vec<Attribute> {
-        let mut all = vec![Attribute::count("traps", [1, 100], traps, "How many traps.")];
+        let mut all = vec![Attribute::count("traps", [1, 100], traps, "Number of traps.")];
         all.extend(Self::attributes_but_count());
         all.extend([
             Attribute::number(
@@ -81,7 +81,7 @@ impl<'a> Ground<'a> {
             Attribute::choice(
                 "side",
                 &["alternate", "left", "right"],
-                "On which side of the groundline the traps lie, seen from the near end.",
+                "Side of the groundline on which the traps lie, seen from the near end.",
             ),
             Attribute::number(
                 "bridle",
@@ -101,7 +101,7 @@ impl<'a> Ground<'a> {
                 "m",
                 [1.0, 500.0],
                 36.6,
-                "Groundline from each anchor to the first trap, where there are anchors.",
+                "Groundline from each anchor to the first trap, if there are anchors.",
             ),
         ]);
         all
@@ -117,7 +117,7 @@ impl<'a> Ground<'a> {
                 "m",
                 [1.0, 500.0],
                 21.95,
-                "Groundline from trap to trap; 12 fathoms where not given.",
+                "Groundline from trap to trap; 12 fathoms by default.",
             ),
             Attribute::item("groundline", "ropes", "sink-3-8", "Rope of the groundline."),
             Attribute::number(
@@ -125,7 +125,7 @@ impl<'a> Ground<'a> {
                 "1",
                 [0.0, 0.5],
                 0.03,
-                "How much longer the groundline is than what it lies along, as a share.",
+                "Excess length of the groundline over the distance that it spans, as a share.",
             ),
         ]
     }
@@ -150,13 +150,15 @@ impl<'a> Ground<'a> {
             ..Self::in_line(values, 1)?
         };
         if ground.gangion_m + ground.bridle_m > 0.0 && ground.gangion_rope.is_empty() {
-            let message = "attribute `gangion_rope`: name a rope for gangions and bridles, or set `gangion` and `bridle` to 0";
+            let message = "attribute `gangion_rope`: name a rope for gangions and bridles, or set \
+             `gangion` and `bridle` to 0";
             return Err(HookError::new(message));
         }
         if ground.gangion_m > 0.5 * ground.spacing_m {
             let (gangion, spacing) = (ground.gangion_m, ground.spacing_m);
             return Err(HookError::new(format!(
-                "attribute `gangion`: {gangion} m is more than half the spacing of {spacing} m; shorten it, or raise `spacing`"
+                "attribute `gangion`: {gangion} m is more than half the spacing of {spacing} m; \
+                 shorten it, or raise `spacing`"
             )));
         }
         Ok(ground)
