@@ -1,4 +1,4 @@
-//! Lists the files that the program carries for `src/inside.rs`, which includes their bytes: the gear library and the documents.
+//! Lists the files embedded by `src/embedded.rs`: the gear library, the documents and their pictures.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -8,7 +8,7 @@ use std::{env, fs};
 /// The gear library, from this package.
 const LIBRARY: &str = "../../gear-library";
 
-/// What lies beside its items: its Rust package.
+/// What the folder of the library contains besides items: its Rust package.
 const PACKAGE: [&str; 5] = ["Cargo.toml", "benches", "examples", "src", "tests"];
 
 /// The documents and their pictures, from this package.
@@ -33,12 +33,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     list(DOCUMENTS, &pictures, "pictures.rs")
 }
 
-/// Whether a file ends in one of these.
+/// Whether a file has one of these extensions.
 fn is_one_of(path: &Path, endings: &[&str]) -> bool {
     path.extension().is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted))
 }
 
-/// Writes the list of files of a folder that `src/inside.rs` includes: the path in it of each, and its bytes.
+/// Writes the list of files of a folder for `src/embedded.rs`: path and bytes of each.
 fn list(folder: &str, files: &[PathBuf], to: &str) -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed={folder}");
     let folder = Path::new(folder).canonicalize()?;
@@ -52,7 +52,7 @@ fn list(folder: &str, files: &[PathBuf], to: &str) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-/// A file, or every file below a folder.
+/// Collects a file, or all files below a folder.
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>> {
     if !path.is_dir() {
         files.push(path.to_path_buf());
@@ -64,12 +64,12 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>> 
     Ok(())
 }
 
-/// What a folder of the workspace holds, in order, without hidden files.
+/// Entries of a folder of the workspace, in order, without hidden files.
 fn entries(folder: &str) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     sorted(&Path::new(folder).canonicalize()?)
 }
 
-/// What a folder holds, in order, without hidden files.
+/// Entries of a folder, in order, without hidden files.
 fn sorted(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let entries: Result<Vec<_>, _> = fs::read_dir(folder)?.collect();
     let hidden = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with('.');

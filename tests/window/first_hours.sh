@@ -126,7 +126,7 @@ regulator() {
     command "open hello-weak-link"
     still 20
     command "weak links on or off"
-    command "add an option from the present design"
+    command "add an option from unsaved edits"
     command "save all"
     check "the design is an option of the study, and the scenario as it was" \
         "grep -q 'id = \"design\"' '$WORK/library/studies/first-hour.toml' && ! grep -q '^weak_links = false' '$SCENARIOS/hello-weak-link.toml'"

@@ -1,13 +1,13 @@
 //! The parts of the program `endline`: command line, pictures, workbench.
 //!
-//! | module | feature | what |
+//! | module | feature | content |
 //! |---|---|---|
 //! | [`cli`] | | the command line |
-//! | [`scene`] | `scene` | what a frame looks like, as plain data; drawing it with or without a display |
-//! | [`documents`] | | the documents, and as pages for a browser |
-//! | [`inside`] | | the gear library, the first-party plugins and the documents inside the program |
-//! | [`input`] | `gui` | gamepad and keyboard as the pilot's controls |
-//! | [`gui`] | `gui` | the workbench |
+//! | [`scene`] | `scene` | drawing of a frame, with or without a display |
+//! | [`documents`] | | the documents, also as HTML pages |
+//! | [`embedded`] | | the gear library, the first-party plugins and the documents embedded in the program |
+//! | [`input`] | `gui` | gamepad and keyboard as controls of the whale |
+//! | [`gui`] | `gui` | the window of the workbench |
 
 #![cfg_attr(
     test,
@@ -16,10 +16,10 @@
 
 pub mod cli;
 pub mod documents;
+pub mod embedded;
 #[cfg(feature = "gui")]
 pub mod gui;
 #[cfg(feature = "gui")]
 pub mod input;
-pub mod inside;
 #[cfg(feature = "scene")]
 pub mod scene;

@@ -1,4 +1,4 @@
-//! The program `endline`: the command line, and the workbench where none is given.
+//! The program `endline`: the command line, or the window of the workbench if no command is given.
 
 use std::process::ExitCode;
 

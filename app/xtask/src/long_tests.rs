@@ -18,7 +18,7 @@ pub fn fuzz(workspace: &Workspace, hours: f64) -> Outcome {
 /// # Errors
 /// When the build fails, or a session loses or tears a file, or hangs.
 pub fn soak(workspace: &Workspace, hours: f64) -> Outcome {
-    let random = "soak::random_sessions_on_faults_keep_every_promise";
+    let random = "soak::random_sessions_with_faults_lose_and_break_nothing";
     let arguments = ["test", "--package", "endline", "--test", "all", "--", "--nocapture", random];
     workspace.cargo_with(&arguments, &[("ENDLINE_SOAK_HOURS", &hours.to_string())])
 }

@@ -49,7 +49,7 @@ const WALLS: [Wall; 9] = [
         ours: &["endline-sdk", "endline-sim", "endline-gear"],
         outside: None,
     },
-    // The plugins are linked for `inside.rs` alone, so that the program's file works by itself.
+    // The plugins are linked for `embedded.rs` alone, so that the program's file works by itself.
     Wall {
         folder: "app/workbench",
         ours: &[
@@ -174,8 +174,8 @@ fn outside_crates_stay_where_they_belong() {
 fn one_file_of_the_program_names_its_plugins() {
     let mut complaints = Vec::new();
     for source in sources(&[".rs"]) {
-        let is_inside = source.path == "app/workbench/src/inside.rs";
-        if is_inside || !source.path.starts_with("app/") || !source.path.contains("/src/") {
+        let is_embedded = source.path == "app/workbench/src/embedded.rs";
+        if is_embedded || !source.path.starts_with("app/") || !source.path.contains("/src/") {
             continue;
         }
         for (number, line) in source.text.lines().enumerate() {
@@ -185,7 +185,7 @@ fn one_file_of_the_program_names_its_plugins() {
             }
         }
     }
-    none(&complaints, "plugins are named in app/workbench/src/inside.rs alone");
+    none(&complaints, "plugins are named in app/workbench/src/embedded.rs alone");
 }
 
 /// The window's toolkit, in code, not in comments. Whoever drives Endline without a window, from a script or the command

@@ -96,7 +96,7 @@ pub static COMMANDS: &[Info] = &[
     .only_if(study_opened),
     Info::new(
         "study.option-from-edits",
-        "Add an option from the present design",
+        "Add an option from unsaved edits",
         "Makes the unsaved edits of the scenario and its gear an option of the open study; scenario and gear go back to their files.",
         Make::Plain(|| Command::Study(StudyAction::OptionFromEdits)),
     )

@@ -1,93 +1,93 @@
-//! What the window costs: CPU time of its own thread for each frame, everything but the rasteriser.
+//! CPU time of the window's thread for each frame, without the rasteriser.
 //!
-//! `cargo bench -p endline --bench frames` prints a table: fastest, middle and 95 % of each, in milliseconds, beside what is
-//! allowed; `-- typing` and the like measure one part alone. CPU time is that of the drawing thread, so that other work on
-//! the machine counts only by what it takes of caches and clock rate; the middle is the figure, 95 % tells how busy the
-//! machine was.
+//! `cargo bench -p endline --bench frames` prints a table: fastest time, median and 95th percentile in milliseconds, and the limit;
+//! `-- typing` and similar arguments measure one part. CPU time of the drawing thread depends on other work on the machine only by caches
+//! and clock rate. The median is the result; the 95th percentile shows how busy the machine was.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
     clippy::disallowed_methods,
-    reason = "a measurement that cannot go on stops, and prints what it found"
+    reason = "a measurement that cannot continue stops, and prints its results"
 )]
 
 #[path = "../../tests/all/common/mod.rs"]
 mod common;
 mod screen;
-mod study;
 
-use endline_session::command::{EditAction, RunAction, TimeAction};
+use endline_session::command::{EditAction, RunAction, StudyAction, TimeAction};
 use std::time::Instant;
 
+use endline_session::campaign::State;
 use endline_session::live::Status;
 use endline_session::scene::Scene;
+use endline_session::study::queue::StudyJob;
 
-use common::Folder;
+use common::{Folder, add_study, on_disk};
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::scene::{Drawer, offscreen::Offscreen};
 use screen::{Screen, thread_cpu_s};
 
-/// A measurement, in a copy of the library.
+/// A measurement in a copy of the library.
 type Measure = fn(&Folder);
 
-/// What is measured, by name.
+/// Measurements by name.
 const PARTS: [(&str, Measure); 4] =
     [("start", starting), ("typing", typing), ("playing", playing), ("scrubbing", scrubbing)];
 
-/// Asks this program for one start alone: a process of its own tells what it cost.
+/// Argument with which this program measures one start in a separate process.
 const ONE_START: &str = "one-start";
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let told = |word: &str| arguments.iter().any(|argument| argument == word);
-    // `cargo test --benches` only wants to know that it builds.
-    if told("--test") {
+    let has = |word: &str| arguments.iter().any(|argument| argument == word);
+    // `cargo test --benches` only checks that it builds.
+    if has("--test") {
         return;
     }
-    if told(ONE_START) {
+    if has(ONE_START) {
         return one_start();
     }
     println!(
-        "{:<62} {:>8} {:>8} {:>8}      allowed",
-        "CPU time of the window's own thread", "fastest", "middle", "95 %"
+        "{:<62} {:>8} {:>8} {:>8}      limit",
+        "CPU time of the window's own thread", "fastest", "median", "95 %"
     );
-    let every = PARTS.iter().all(|(name, _)| !told(name));
-    for (name, measure) in PARTS.into_iter().filter(|(name, _)| every || told(name)) {
+    let every = PARTS.iter().all(|(name, _)| !has(name));
+    for (name, measure) in PARTS.into_iter().filter(|(name, _)| every || has(name)) {
         measure(&Folder::new(&format!("frames-{name}")));
     }
 }
 
-/// Prints a measurement: its name, the fastest, the middle and 95 % of its times, and what is allowed.
-fn tell(name: &str, mut times_s: Vec<f64>, allowed: &str) {
+/// Prints a measurement: name, fastest time, median, 95th percentile and limit.
+fn report(name: &str, mut times_s: Vec<f64>, limit: &str) {
     times_s.sort_by(f64::total_cmp);
     let at = |share: f64| 1e3 * times_s[((times_s.len() - 1) as f64 * share) as usize];
-    println!("{name:<62} {:>8.2} {:>8.2} {:>8.2} ms   {allowed}", at(0.0), at(0.5), at(0.95));
+    println!("{name:<62} {:>8.2} {:>8.2} {:>8.2} ms   {limit}", at(0.0), at(0.5), at(0.95));
 }
 
-/// From the start of the process to a first frame with its panels, beside OpenGL's own start.
+/// Time from the start of the process to its first frame with panels, without the start of OpenGL.
 fn starting(_: &Folder) {
     let program = std::env::current_exe().unwrap();
     let times = (0..9).map(|_| {
-        let told = std::process::Command::new(&program).arg(ONE_START).output().unwrap().stdout;
-        String::from_utf8(told).unwrap().trim().parse::<f64>().unwrap()
+        let output = std::process::Command::new(&program).arg(ONE_START).output().unwrap().stdout;
+        String::from_utf8(output).unwrap().trim().parse::<f64>().unwrap()
     });
-    tell("from the start of the process to its first frame", times.collect(), "1000 ms");
+    report("from the start of the process to its first frame", times.collect(), "1000 ms");
 }
 
-/// One start of the program, told in seconds: the system's loader, library, plugins, fonts, every panel of the layout.
+/// Prints the time of one start [s]: loader of the system, library, plugins, fonts, all panels of the layout.
 fn one_start() {
     let loaded_s = thread_cpu_s();
-    // The copy of the library is the measurement's own.
+    // The time for the copy of the library is subtracted.
     let folder = Folder::new("frames-one-start");
     let copied_s = thread_cpu_s();
-    let mut screen = Screen::new(folder.book_with("hello-endline"));
+    let mut screen = Screen::new(folder.documents_of("hello-endline"));
     screen.frame(Vec::new());
     println!("{}", thread_cpu_s() - copied_s + loaded_s);
 }
 
-/// Typing in a table of a thousand ropes: in a cell and in the search; and an edit when it is committed.
+/// Typing in a table of 1,000 ropes, in a cell and in the search, and the commit of an edit.
 fn typing(folder: &Folder) {
     let shipped = std::fs::read_to_string(folder.0.join("ropes/sink-3-8.toml")).unwrap();
     for index in 0..1000 {
@@ -104,7 +104,7 @@ fn typing(folder: &Folder) {
         vec![Event::Text(if index.is_multiple_of(2) { "1" } else { "2" }.to_owned())]
     };
     click(&mut screen, pos2(420.0, 300.0));
-    tell(
+    report(
         "a letter typed in a cell of a table of 1,000 ropes",
         (0..60).map(|index| screen.frame(letter(index))).collect(),
         "16 ms",
@@ -123,7 +123,7 @@ fn typing(folder: &Folder) {
         screen.app.shared.perform(EditAction::Undo);
         screen.settle(3);
     }
-    tell("  the edit committed: all files read and compared anew", committed, "");
+    report("  the edit committed: all files read and compared again", committed, "");
     let mut found = Vec::new();
     for _ in 0..10 {
         screen.app.panels.library.search.clear();
@@ -133,7 +133,7 @@ fn typing(folder: &Folder) {
             found.push(screen.frame(Vec::new()));
         }
     }
-    tell("  a letter typed in its search", found, "16 ms");
+    report("  a letter typed in its search", found, "16 ms");
 }
 
 fn key(key: Key) -> Event {
@@ -151,18 +151,18 @@ fn click(screen: &mut Screen, at: egui::Pos2) {
     screen.frame(vec![Event::PointerMoved(at)]);
     screen.frame(vec![button(true)]);
     screen.frame(vec![button(false)]);
-    assert!(screen.context.egui_wants_keyboard_input(), "a field is being typed in");
+    assert!(screen.context.egui_wants_keyboard_input(), "no text field has the focus");
 }
 
-/// A run of 500 nodes as it is made and as it is played again, with every panel open and something in each.
+/// A run of 500 nodes while it is computed and while it is played back, with every panel open and filled.
 fn playing(folder: &Folder) {
-    let mut documents = folder.book_with("hello-endline");
+    let mut documents = folder.documents_of("hello-endline");
     for (field, value) in [("rope_nodes", "500"), ("whale.position.1", "-7 m")] {
         documents.set("scenario", field, value).unwrap();
     }
     let mut screen = Screen::new(documents);
     screen.app.shared.workbench.recordings = Some(folder.0.join("recordings"));
-    study::run(&mut screen, folder);
+    run_study(&mut screen, folder);
     screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
     screen.app.panels.library.chosen = Some("ropes/sink-3-8.toml".to_owned());
     screen.open_all();
@@ -179,15 +179,15 @@ fn playing(folder: &Folder) {
     screen.settle(5);
     let nodes = screen.app.shared.workbench.view().unwrap().model.node_count;
     let panels = PanelId::ALL.len();
-    tell(
-        &format!("a frame, {nodes} nodes being run, all {panels} panels open"),
+    report(
+        &format!("a frame, {nodes} nodes computed, all {panels} panels open"),
         screen.moments(60),
         "4 ms",
     );
     screen.app.shared.perform(RunAction::Pause);
     screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
-    tell(
-        &format!("a frame, {nodes} nodes played again, all {panels} panels open"),
+    report(
+        &format!("a frame, {nodes} nodes played back, all {panels} panels open"),
         played(&mut screen, 100),
         "4 ms",
     );
@@ -195,11 +195,11 @@ fn playing(folder: &Folder) {
     for panel in PanelId::ALL {
         screen.open_alone(panel);
         screen.settle(3);
-        tell(&format!("  {} alone", panel.title()), played(&mut screen, 20), "");
+        report(&format!("  {} alone", panel.title()), played(&mut screen, 20), "");
     }
 }
 
-/// Times of so many frames of the run played again, each of another moment [s].
+/// Times of a number of frames of playback, each of a different moment [s].
 fn played(screen: &mut Screen, count: usize) -> Vec<f64> {
     let newest_s = screen.app.shared.workbench.view().unwrap().newest_s;
     let times = (1..=count).map(|index| {
@@ -210,10 +210,10 @@ fn played(screen: &mut Screen, count: usize) -> Vec<f64> {
     times.collect()
 }
 
-/// The scene's triangles handed to OpenGL, where there is one without a display.
+/// Transfer of the triangles of the scene to OpenGL, if it works without a display.
 fn uploaded(screen: &Screen) {
     let Ok(offscreen) = Offscreen::new([64, 64]) else {
-        return println!("no OpenGL here: what it takes to hand it a scene is not measured");
+        return println!("no OpenGL here: the transfer of a scene is not measured");
     };
     let mut drawer = Drawer::new(offscreen.gl.clone()).unwrap();
     let (shared, mut made, mut handed) = (&screen.app.shared, Vec::new(), Vec::new());
@@ -225,13 +225,13 @@ fn uploaded(screen: &Screen) {
         drawer.load(&scene);
         handed.push(thread_cpu_s() - start);
     }
-    tell("  of it the triangles of the scene", made, "");
-    tell("  beside it their way to OpenGL", handed, "");
+    report("  of which triangles of the scene", made, "");
+    report("  in addition transfer to OpenGL", handed, "");
 }
 
-/// Ten minutes of a run, any moment of it, with every panel open.
+/// Jumps to moments of a recording of ten minutes, with every panel open.
 fn scrubbing(folder: &Folder) {
-    let mut documents = folder.book_with("hello-endline");
+    let mut documents = folder.documents_of("hello-endline");
     for (field, value) in
         [("duration", "600 s"), ("rope_nodes", "20"), ("whale.position.0", "400 m")]
     {
@@ -255,10 +255,10 @@ fn scrubbing(folder: &Folder) {
         let time_s = newest_s * (f64::from(jump) * 0.618_034).fract();
         jumps.to(&mut screen, time_s);
     }
-    jumps.tell(newest_s);
+    jumps.report(newest_s);
 }
 
-/// What jumps cost until everything of their moment is drawn.
+/// Cost of jumps until everything of their moment is drawn.
 #[derive(Default)]
 struct Jumps {
     cpu_s: Vec<f64>,
@@ -267,9 +267,9 @@ struct Jumps {
 }
 
 impl Jumps {
-    /// Asks for a moment as the transport bar does, and draws until it is shown.
+    /// Seeks a moment as the transport bar does, and draws until it is shown.
     fn to(&mut self, screen: &mut Screen, time_s: f64) {
-        // Of ten minutes every eighth of thirty moments a second is kept.
+        // Of 30 moments a second, every eighth is stored in ten minutes.
         let near = |screen: &Screen| {
             screen
                 .app
@@ -292,13 +292,36 @@ impl Jumps {
         self.frames.push(frames);
     }
 
-    fn tell(self, newest_s: f64) {
-        tell(
+    fn report(self, newest_s: f64) {
+        report(
             &format!("a jump in a recording of {newest_s:.0} s, all panels open: CPU time"),
             self.cpu_s,
             "50 ms",
         );
-        tell("  the same in real time, the run's thread included", self.real_s, "50 ms");
-        println!("  frames drawn for a jump: {} at most", self.frames.iter().max().unwrap());
+        report("  the same in real time, with the thread of the run", self.real_s, "50 ms");
+        println!("  frames drawn for a jump: at most {}", self.frames.iter().max().unwrap());
     }
+}
+
+/// Runs the small study with 40 encounters, and opens its results.
+fn run_study(screen: &mut Screen, folder: &Folder) {
+    add_study(folder);
+    let file = folder.0.join("studies/small.toml");
+    let text = on_disk(folder, "studies/small.toml").replace("encounters = 6", "encounters = 40");
+    std::fs::write(&file, text).unwrap();
+    let studies = &mut screen.app.shared.workbench.studies;
+    (studies.folder, studies.queue.normal_priority) = (Some(folder.0.join("results")), true);
+    screen.app.dock = Layout::Study.dock();
+    screen.app.shared.perform(StudyAction::Open(file));
+    screen.app.shared.perform(StudyAction::Run);
+    let ended = |state: &State| matches!(state, State::Done | State::Failed(_));
+    screen.wait(|app| {
+        app.shared.workbench.studies.queue.jobs.last().is_none_or(|job| ended(&job.state()))
+    });
+    let state = screen.app.shared.workbench.studies.queue.jobs.last().map(StudyJob::state);
+    assert_eq!(state, Some(State::Done), "{:?}", screen.app.shared.workbench.notice);
+    screen.wait(|app| {
+        !app.shared.workbench.studies.results.busy()
+            && app.shared.workbench.studies.results.shown().is_some_and(|shown| shown.whole)
+    });
 }

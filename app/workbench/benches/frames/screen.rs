@@ -1,4 +1,4 @@
-//! A window without a screen, and what a frame of it costs.
+//! A window without a screen, and the time of its frames.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -17,7 +17,7 @@ use endline_workbench::scene::draw::Canvas;
 
 use crate::common::linked;
 
-/// CPU time of this thread since it began [s].
+/// CPU time of this thread since its start [s].
 pub fn thread_cpu_s() -> f64 {
     cpu_time::ThreadTime::now().as_duration().as_secs_f64()
 }
@@ -44,12 +44,12 @@ impl Screen {
             &creation,
             Shared::new(documents, linked(), engine::live(), waker, Pilot::default()),
         );
-        // With a canvas the view makes its triangles as it does beside a graphics card; nobody draws them.
+        // With a canvas the view makes its triangles as with a graphics card; they are not drawn.
         app.panels.view.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
         Self { context, app, frame: eframe::Frame::_new_kittest(), time_s: 0.0, woken }
     }
 
-    /// One frame with these inputs; answers its CPU time [s]: logic, panels, triangles of the scene, tessellation.
+    /// Draws one frame with these inputs. Returns its CPU time [s]: logic, panels, triangles of the scene, tessellation.
     pub fn frame(&mut self, events: Vec<Event>) -> f64 {
         self.time_s += 1.0 / 60.0;
         let input = RawInput {
@@ -69,27 +69,27 @@ impl Screen {
         let shapes =
             self.context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
         let spent = thread_cpu_s() - start;
-        // There is no screen to take them.
+        // There is no screen for them.
         output.textures_delta.clear();
         drop(shapes);
         spent
     }
 
-    /// So many frames without any input.
+    /// Draws a number of frames without input.
     pub fn settle(&mut self, frames: u32) {
         for _ in 0..frames {
             self.frame(Vec::new());
         }
     }
 
-    /// Draws now and then until something is so.
+    /// Draws repeatedly until a condition holds.
     #[track_caller]
     pub fn wait(&mut self, so: impl Fn(&App) -> bool) {
         let patience = Instant::now() + Duration::from_secs(300);
         while !so(&self.app) {
             assert!(
                 Instant::now() < patience,
-                "waited in vain: {:?} {:?}",
+                "timeout: {:?} {:?}",
                 self.app.shared.workbench.status(),
                 self.app.shared.workbench.notice
             );
@@ -98,7 +98,7 @@ impl Screen {
         }
     }
 
-    /// Waits until another thread has something to show, as the window does between two frames; half a second at most.
+    /// Waits until another thread requests a frame, at most half a second.
     pub fn sleep_until_woken(&self) {
         let patience = Instant::now() + Duration::from_millis(500);
         while !self.woken.load(Ordering::Acquire) && Instant::now() < patience {
@@ -106,7 +106,7 @@ impl Screen {
         }
     }
 
-    /// Times of so many frames that each show another moment of the run [s].
+    /// Times of a number of frames that each show a different moment of the run [s].
     pub fn moments(&mut self, count: usize) -> Vec<f64> {
         let (mut times, mut shown) = (Vec::new(), std::ptr::null());
         let patience = Instant::now() + Duration::from_secs(120);
@@ -133,7 +133,7 @@ impl Screen {
         times
     }
 
-    /// Every panel in a place of its own, four in a row.
+    /// Opens every panel in its own place, four in a row.
     pub fn open_all(&mut self) {
         let ids: Vec<Vec<String>> = PanelId::ALL.map(|panel| vec![panel.id().to_owned()]).to_vec();
         let rows: Vec<&[Vec<String>]> = ids.chunks(4).collect();
@@ -156,7 +156,7 @@ impl Screen {
         self.app.dock = dock;
     }
 
-    /// One panel alone.
+    /// Opens only one panel.
     pub fn open_alone(&mut self, panel: PanelId) {
         self.app.dock = DockState::new(vec![panel.id().to_owned()]);
     }

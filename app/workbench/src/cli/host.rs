@@ -7,7 +7,7 @@ use endline_session::plugins::{Loader, PluginProblem, Standing, default_folders}
 use endline_session::{PluginHost, load_with};
 
 use super::output;
-use crate::inside;
+use crate::embedded;
 
 /// Whether the command line allows what is new or has changed.
 static ALLOW: OnceLock<bool> = OnceLock::new();
@@ -56,7 +56,7 @@ fn allow_waiting(loader: &mut Loader, problems: &[PluginProblem]) -> bool {
 
 /// A loader of the folders searched.
 pub(super) fn loader() -> Loader {
-    inside::plugin_loader(&folders())
+    embedded::plugin_loader(&folders())
 }
 
 /// The folders searched.

@@ -43,7 +43,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use endline_session::shipped;
 
-use crate::inside;
+use crate::embedded;
 
 pub use args::Args;
 use args::Command;
@@ -61,7 +61,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
     let library = args.library.as_deref();
     output::tell(args.told());
     host::allow(args.allow_plugins);
-    shipped::carry(inside::GEAR_LIBRARY, output::note);
+    shipped::carry(embedded::GEAR_LIBRARY, output::note);
     match &args.command {
         None => workbench::open(library),
         Some(Command::Run(args)) => run::run(args, library),

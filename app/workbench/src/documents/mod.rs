@@ -1,13 +1,13 @@
-//! The documents that the program carries, in the order and groups of their index, `docs/README.md`.
+//! The documents compiled into the program, in the order and groups of their index, `docs/README.md`.
 
 #[cfg(feature = "gui")]
 pub mod page;
 
 use std::sync::LazyLock;
 
-use crate::inside;
+use crate::embedded;
 
-/// The file of the index.
+/// File name of the index.
 const INDEX: &str = "README.md";
 
 /// A document.
@@ -17,7 +17,7 @@ pub struct Document {
     pub name: &'static str,
     /// Its first heading.
     pub title: &'static str,
-    /// What is in it, as the index says.
+    /// Its content, as described in the index.
     pub contents: &'static str,
     /// Its text in Markdown.
     pub text: &'static str,
@@ -44,20 +44,19 @@ pub fn all() -> impl Iterator<Item = Document> {
     groups().iter().flat_map(|group| group.documents.iter().copied())
 }
 
-/// The document of a name, in any case, with or without `.md`.
-#[must_use]
+/// Finds a document by name, in any case, with or without `.md`.
 pub fn find(named: &str) -> Option<Document> {
     let named = named.strip_suffix(".md").unwrap_or(named);
     all().find(|document| document.name.eq_ignore_ascii_case(named))
 }
 
-/// The text of a file of the documents.
+/// Text of a file in the folder of documents.
 fn text_of(file: &str) -> Option<&'static str> {
-    let (_, bytes) = inside::DOCUMENTS.iter().find(|(name, _)| *name == file)?;
+    let (_, bytes) = embedded::DOCUMENTS.iter().find(|(name, _)| *name == file)?;
     std::str::from_utf8(bytes).ok()
 }
 
-/// The groups that an index lists: headings, and below each a table with a row for a document.
+/// Reads an index: headings, and below each a table with one row per document.
 fn read(index: &'static str) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for line in index.lines() {
@@ -71,7 +70,7 @@ fn read(index: &'static str) -> Vec<Group> {
     groups
 }
 
-/// The document of a row `| [physics.md](physics.md) | contents |`.
+/// Reads the document of a row `| [physics.md](physics.md) | contents |`.
 fn row(line: &'static str) -> Option<Document> {
     let (file, rest) = line.strip_prefix("| [")?.split_once(']')?;
     let (_, contents) = rest.split_once(" | ")?;
@@ -89,10 +88,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_document_stands_in_one_group_of_the_index() {
+    fn every_document_is_in_exactly_one_group_of_the_index() {
         let mut listed: Vec<&str> = all().map(|document| document.name).collect();
         listed.sort_unstable();
-        let mut carried: Vec<&str> = inside::DOCUMENTS
+        let mut carried: Vec<&str> = embedded::DOCUMENTS
             .iter()
             .filter_map(|(file, _)| file.strip_suffix(".md").filter(|_| *file != INDEX))
             .collect();

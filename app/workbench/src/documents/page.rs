@@ -1,4 +1,4 @@
-//! The documents as pages for a browser: read where there is no network, links between them kept.
+//! The documents as HTML pages, readable without a network. Links between documents lead to their pages.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,33 +7,30 @@ use std::{fs, io};
 use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, html};
 
 use super::{Document, all, groups};
-use crate::inside;
+use crate::embedded;
 
-/// Where the files lie that documents link to and the program does not carry.
+/// Address of files that documents link to and that are not in the program.
 const SOURCES: &str = concat!(env!("CARGO_PKG_REPOSITORY"), "/blob/main");
 
-/// The style of reports, and what the list of documents beside the text adds to it.
+/// Style of reports, and of the list of documents beside the text.
 const STYLE: &str = concat!(
     include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/report/report.css")),
     include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/report/document.css")),
 );
 
-/// Writes the page of each document and the pictures into a folder, where they are not there yet, and names the page of one.
-///
-/// # Errors
-/// With the file that cannot be written.
-pub fn written(folder: &Path, document: Document) -> Result<PathBuf, String> {
+/// Writes the pages of all documents and the pictures into a folder, unless they are up to date, and returns the page of one.
+pub fn write(folder: &Path, document: Document) -> Result<PathBuf, String> {
     for document in all() {
-        keep(&folder.join(file(document.name)), page(document).as_bytes())?;
+        write_if_changed(&folder.join(file(document.name)), page(document).as_bytes())?;
     }
-    for (name, bytes) in inside::PICTURES {
-        keep(&folder.join(name), bytes)?;
+    for (name, bytes) in embedded::PICTURES {
+        write_if_changed(&folder.join(name), bytes)?;
     }
     Ok(folder.join(file(document.name)))
 }
 
-/// Writes a file that does not say this yet, and its folder.
-fn keep(file: &Path, bytes: &[u8]) -> Result<(), String> {
+/// Writes a file and creates its folder, unless the file has this content already.
+fn write_if_changed(file: &Path, bytes: &[u8]) -> Result<(), String> {
     if endline_gear::read::bytes(file).is_ok_and(|there| there == bytes) {
         return Ok(());
     }
@@ -43,12 +40,12 @@ fn keep(file: &Path, bytes: &[u8]) -> Result<(), String> {
         .map_err(|error| format!("{}: cannot be written: {error}", file.display()))
 }
 
-/// The file of a document's page.
+/// File name of the page of a document.
 fn file(name: &str) -> String {
     format!("{name}.html")
 }
 
-/// A document as a page, with the list of all of them.
+/// The page of a document, with a list of all documents.
 fn page(document: Document) -> String {
     let mut list = String::new();
     for group in groups() {
@@ -76,18 +73,18 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-/// Markdown as HTML: links lead to the pages beside it, or to the sources; headings can be linked to.
+/// Converts Markdown to HTML. Links lead to other pages or to the sources; headings have ids.
 fn body(markdown: &str) -> String {
     let mut events: Vec<Event> = Parser::new_ext(markdown, Options::ENABLE_TABLES).collect();
     name_headings(&mut events);
-    lead_links(&mut events);
+    set_links(&mut events);
     let mut page = String::new();
     html::push_html(&mut page, events.into_iter());
     page
 }
 
-/// Gives links their targets, and those that show the name of a document's file its title.
-fn lead_links(events: &mut [Event]) {
+/// Sets the targets of links, and replaces the file name of a document in a link by its title.
+fn set_links(events: &mut [Event]) {
     let mut in_link = false;
     for event in events {
         match event {
@@ -106,7 +103,7 @@ fn lead_links(events: &mut [Event]) {
     }
 }
 
-/// Where a link of a document leads from its page.
+/// Target of a link in the page of a document.
 fn target(link: &str) -> String {
     let (path, place) = link.split_at(link.find('#').unwrap_or(link.len()));
     if path.is_empty() || path.contains("://") || path.starts_with("mailto:") {
@@ -122,7 +119,7 @@ fn target(link: &str) -> String {
     }
 }
 
-/// A path with `..` taken into account, with `/` between its parts.
+/// Resolves `..` in a path and joins its parts by `/`.
 fn without_dots(path: &Path) -> String {
     let mut parts: Vec<String> = Vec::new();
     for part in path {
@@ -135,7 +132,7 @@ fn without_dots(path: &Path) -> String {
     parts.join("/")
 }
 
-/// Gives each heading an id made of its words, as GitHub does, so that links to `#its-words` find it.
+/// Sets the id of each heading from its words, as GitHub does, so that links to `#its-words` work.
 fn name_headings(events: &mut [Event]) {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     for start in 0..events.len() {
@@ -160,10 +157,11 @@ fn name_headings(events: &mut [Event]) {
     }
 }
 
-/// Small letters and digits, `-` for each space.
+/// Lower-case letters and digits, with `-` for each space.
 fn words_joined(text: &str) -> String {
-    let kept = text.trim().to_lowercase();
-    kept.chars()
+    let lower = text.trim().to_lowercase();
+    lower
+        .chars()
         .filter(|letter| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_'))
         .map(|letter| if letter == ' ' { '-' } else { letter })
         .collect()
@@ -173,13 +171,13 @@ fn words_joined(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// What stands between the quotes after each of these openings in a page.
+    /// The text between each occurrence of an opening and the next quote.
     fn after<'a>(page: &'a str, opening: &str) -> Vec<&'a str> {
         page.split(opening).skip(1).filter_map(|rest| rest.split('"').next()).collect()
     }
 
     #[test]
-    fn every_link_and_picture_of_every_page_is_there() {
+    fn every_link_and_picture_of_every_page_exists() {
         let pages: BTreeMap<String, String> =
             all().map(|document| (file(document.name), page(document))).collect();
         let mut links = 0;
@@ -195,7 +193,7 @@ mod tests {
                 links += 1;
             }
             for picture in after(page, "src=\"") {
-                let carried = inside::PICTURES.iter().any(|(path, _)| *path == picture);
+                let carried = embedded::PICTURES.iter().any(|(path, _)| *path == picture);
                 assert!(carried, "{name}: {picture}");
             }
         }
@@ -203,25 +201,25 @@ mod tests {
     }
 
     #[test]
-    fn pages_and_pictures_are_written_once() {
+    fn unchanged_pages_and_pictures_are_not_written_again() {
         let folder = std::env::temp_dir().join(format!("endline-documents-{}", std::process::id()));
         let physics = super::super::find("physics").unwrap();
-        let page = written(&folder, physics).unwrap();
+        let page = write(&folder, physics).unwrap();
         assert!(fs::read_to_string(&page).unwrap().contains("<title>Physics: what is solved"));
         let files = fs::read_dir(&folder).unwrap().count();
-        assert_eq!(files, all().count() + 1, "a page each, and the folder of pictures");
+        assert_eq!(files, all().count() + 1, "one page per document, and the folder of pictures");
         let at = fs::metadata(&page).unwrap().modified().unwrap();
-        assert_eq!(written(&folder, physics).unwrap(), page);
+        assert_eq!(write(&folder, physics).unwrap(), page);
         assert_eq!(fs::metadata(&page).unwrap().modified().unwrap(), at);
         fs::remove_dir_all(&folder).unwrap();
         fs::write(&folder, "a file").unwrap();
-        let error = written(&folder, physics).unwrap_err();
+        let error = write(&folder, physics).unwrap_err();
         assert!(error.contains("cannot be written"), "{error}");
         fs::remove_file(&folder).unwrap();
     }
 
     #[test]
-    fn links_lead_to_pages_and_to_sources() {
+    fn links_lead_to_pages_or_to_sources() {
         let shown = body("[physics.md](physics.md#rope), physics.md");
         let link = "<a href=\"physics.html#rope\">Physics: what is solved</a>, physics.md";
         assert!(shown.contains(link), "{shown}");
@@ -236,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn headings_are_named_by_their_words() {
+    fn headings_get_ids_from_their_words() {
         let page =
             body("# `endline run`: a run\n\n## A\n\n## A\n\n| a | b |\n|---|---|\n| 1 | <2 |\n");
         assert!(page.contains("<h1 id=\"endline-run-a-run\">"), "{page}");

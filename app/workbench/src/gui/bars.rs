@@ -1,4 +1,4 @@
-//! The bars of the window: menus at the top, from the declared commands, and status at the bottom.
+//! The bars of the window: the menu bar, made from the declared commands, and the status bar.
 
 use egui::{Align, Button, MenuBar, RichText, Sense, Ui, vec2};
 use egui_dock::DockState;
@@ -15,12 +15,12 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
 
-/// What a menu holds.
+/// An item of a menu.
 #[derive(Clone, Copy, Debug)]
 pub enum Item {
-    /// A command, or each of its choices.
+    /// A command, or an item for each of its choices.
     Command(&'static str),
-    /// A menu of the choices of a command, then further commands.
+    /// A submenu with the choices of a command, then further commands: title, command, further commands.
     Submenu(&'static str, &'static str, &'static [&'static str]),
     /// A line.
     Separator,
@@ -28,7 +28,7 @@ pub enum Item {
 
 use Item::{Command, Separator, Submenu};
 
-/// The menus by title, each with the commands it holds.
+/// Title and items of each menu.
 pub static MENUS: [(&str, &[Item]); 4] = [
     (
         "File",
@@ -74,7 +74,7 @@ pub static MENUS: [(&str, &[Item]); 4] = [
     ),
 ];
 
-/// Commands of the Help menu, after the start page.
+/// Commands of the Help menu, below the start page.
 pub static HELP: [&str; 2] = ["panel.help", "window.palette"];
 
 /// Draws the menu bar.
@@ -86,7 +86,7 @@ pub fn menus(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
             ui.menu_button(title, |ui| {
                 items.iter().for_each(|item| show_item(ui, shared, *item));
                 if title == "Run" {
-                    ui.checkbox(&mut shared.pilot.invert_pitch, "Push to put the nose down");
+                    ui.checkbox(&mut shared.pilot.invert_pitch, "Invert pitch: push for nose down");
                 }
             });
         }
@@ -107,7 +107,7 @@ pub fn menus(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
     });
 }
 
-/// Units and layouts, at the right: as much of them as there is room for. All are in the menus too.
+/// Draws units and layouts at the right, as far as there is room. The menus have them too.
 fn menus_right(ui: &mut Ui, shared: &mut Shared) {
     const UNITS: f32 = 170.0;
     const LAYOUTS: f32 = 300.0;
@@ -150,7 +150,7 @@ fn show_item(ui: &mut Ui, shared: &mut Shared, item: Item) {
     }
 }
 
-/// A command, or each of its choices.
+/// Draws a command, or an item for each of its choices.
 fn command(ui: &mut Ui, shared: &mut Shared, id: &str) {
     let Some(command) = find(id) else { return };
     let asks = command.question(shared).is_some();
@@ -162,7 +162,7 @@ fn command(ui: &mut Ui, shared: &mut Shared, id: &str) {
     }
 }
 
-/// A menu item: greyed with the reason where it does nothing now.
+/// Draws a menu item; a disabled one is grey, with the reason on hover.
 fn show_offer(ui: &mut Ui, shared: &mut Shared, offer: Offer) {
     let button = Button::new(&offer.name).shortcut_text(&offer.keys);
     let response = ui.add_enabled(offer.enabled.is_ok(), button);
@@ -176,7 +176,7 @@ fn show_offer(ui: &mut Ui, shared: &mut Shared, offer: Offer) {
     }
 }
 
-/// The documents, group by group.
+/// Draws the list of documents by group.
 fn documents(ui: &mut Ui, shared: &mut Shared) {
     for (index, group) in crate::documents::groups().iter().enumerate() {
         if index > 0 {
@@ -206,7 +206,9 @@ pub fn status(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     ui.horizontal(|ui| {
         let (text, colour) = match shared.workbench.status() {
-            None if shared.workbench.making() => ("Making the model".to_owned(), palette.warning),
+            None if shared.workbench.making() => {
+                ("Assembling the model".to_owned(), palette.warning)
+            }
             None => ("No model".to_owned(), palette.error),
             Some(status) => {
                 let colour = match status {
@@ -242,14 +244,18 @@ pub fn status(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// How far a film is, with a way to end it; nothing where none is made.
+/// Draws the progress of a film and a button that cancels it, if one is in progress.
 fn film(ui: &mut Ui, shared: &mut Shared) {
     let Some(job) = &shared.film else { return };
     let (drawn, of) = job.counted();
     let text = RichText::new(format!("film: {drawn} of {of} pictures"));
     ui.label(text.color(Theme::palette_of(ui).accent))
         .on_hover_text(job.out().display().to_string());
-    if ui.small_button("Cancel").on_hover_text("Ends the film where it is").clicked() {
+    if ui
+        .small_button("Cancel")
+        .on_hover_text("Stops here; the pictures drawn so far are kept")
+        .clicked()
+    {
         shared.give(ViewAction::CancelFilm);
     }
 }

@@ -1,5 +1,5 @@
-//! The whale's skin laid flat: four views of it at rest, each region in a colour. Pressures and wraps are read off it, and parts are
-//! chosen on it.
+//! A flat map of the whale's skin: four views of the whale at rest, with a colour for each region. Panels show pressures and wraps on
+//! it, and the user selects parts on it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use endline_sim::{ContactPoint, DVec3};
 
 use crate::gui::theme::Theme;
 
-/// From where the whale is looked at.
+/// Direction from which the map shows the whale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
     /// From above, the snout to the right.
@@ -28,11 +28,10 @@ pub enum Face {
 }
 
 impl Face {
-    /// Every face, in the order drawn.
+    /// All faces, in drawing order.
     pub const ALL: [Self; 4] = [Self::Above, Self::Below, Self::Port, Self::Starboard];
 
-    /// Its name.
-    #[must_use]
+    /// Its name on screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::Above => "from above, left is up",
@@ -42,7 +41,7 @@ impl Face {
         }
     }
 
-    /// Right and up of the picture, and towards the eye, in the whale's frame (x to the snout, y to port, z up).
+    /// Unit vectors to the right, up and towards the eye, in the whale's frame (x to the snout, y to port, z up).
     fn axes(self) -> [DVec3; 3] {
         match self {
             Self::Above => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -53,39 +52,38 @@ impl Face {
     }
 }
 
-/// The skin sorted for drawing from every face; made once for a skin.
+/// The triangles of a skin, sorted for drawing, for every face. One map serves a skin for good.
 pub struct BodyMap {
     skin: Arc<Skin>,
     low: DVec3,
     high: DVec3,
-    /// Triangles that face the eye, the farthest first.
+    /// Triangles that face the eye, the farthest first, for each face.
     seen: [Vec<Seen>; 4],
-    /// What was drawn last of each face, and where and in which colours.
+    /// Last mesh of each face.
     drawn: [Option<Drawn>; 4],
 }
 
-/// A face as it was drawn last: where, in which colours of the regions, and its triangles.
+/// Last mesh of a face, with the rectangle and the colours of the regions for which it was made.
 type Drawn = (Rect, [Color32; REGIONS], Arc<Mesh>);
 
-/// A triangle as a face shows it.
+/// A triangle of skin on a face.
 #[derive(Clone, Copy)]
 struct Seen {
-    /// Corners from the middle of the picture, in widths of it, y down.
+    /// Corners relative to the middle of the picture, in picture widths, y down.
     corners: [Vec2; 3],
-    /// Its place in the skin.
+    /// Index in the skin.
     triangle: u32,
     region: Region,
-    /// Whether its middle lies to port.
+    /// Whether its centroid is to port.
     to_port: bool,
-    /// How it is lit [1].
+    /// Brightness [1].
     light: f32,
 }
 
 const REGIONS: usize = Region::ALL.len();
 
 impl BodyMap {
-    /// Of a skin at rest.
-    #[must_use]
+    /// Makes the map of a skin at rest.
     pub fn of(skin: Arc<Skin>) -> Self {
         let low = skin.vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = skin.vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -95,14 +93,12 @@ impl BodyMap {
         map
     }
 
-    /// Whether it is of this skin.
-    #[must_use]
+    /// Whether this is the map of a skin.
     pub fn is_of(&self, skin: &Arc<Skin>) -> bool {
         Arc::ptr_eq(&self.skin, skin)
     }
 
-    /// Height over width of a face.
-    #[must_use]
+    /// Height divided by width of a face.
     pub fn aspect(&self, face: Face) -> f32 {
         let [right, up, _] = face.axes();
         let size = self.high - self.low;
@@ -113,7 +109,7 @@ impl BodyMap {
         rect.center() + self.flat(face, point) * rect.width()
     }
 
-    /// A place from the middle of a face's picture, in widths of it, y down.
+    /// A point relative to the middle of a face, in picture widths, y down.
     fn flat(&self, face: Face, point: DVec3) -> Vec2 {
         let [right, up, _] = face.axes();
         let middle = (self.low + self.high) * 0.5;
@@ -134,8 +130,8 @@ impl BodyMap {
         sorted(&self.skin, face).into_iter().map(seen).collect()
     }
 
-    /// A face in a rectangle, each region in its colour, lit from the eye; the same as last where nothing has changed.
-    #[must_use]
+    /// Returns the mesh of a face in a rectangle, with a colour for each region, lit from the eye. Reuses the last mesh where nothing has
+    /// changed.
     pub fn mesh(
         &mut self,
         face: Face,
@@ -167,8 +163,7 @@ impl BodyMap {
         mesh
     }
 
-    /// Where a contact lies on a face; `None` where it is on the far side.
-    #[must_use]
+    /// Position of a contact on a face; `None` if the contact is on the far side.
     pub fn contact(&self, face: Face, rect: Rect, contact: &ContactPoint) -> Option<Pos2> {
         let corners = self
             .skin
@@ -206,21 +201,19 @@ fn shade(colour: Color32, light: f32) -> Color32 {
     Color32::from_rgb(part(colour.r()), part(colour.g()), part(colour.b()))
 }
 
-/// A line of an outline: its ends from the middle of the picture, in widths of it, y down.
+/// A line of an outline: its two ends relative to the middle of the picture, in picture widths, y down.
 pub type Edge = [Vec2; 2];
 
 impl BodyMap {
-    /// The region at a place of a face; `None` beside the whale.
-    #[must_use]
+    /// The region at a point of a face; `None` beside the whale.
     pub fn hit(&self, face: Face, rect: Rect, place: Pos2) -> Option<Region> {
         let flat = (place - rect.center()) / rect.width();
-        // The nearest to the eye comes last.
+        // The last triangle is the nearest to the eye.
         let mut seen = self.seen[face as usize].iter().rev();
         seen.find(|triangle| holds(triangle.corners, flat)).map(|triangle| triangle.region)
     }
 
-    /// The middle of what a face shows of some regions, on one side where `to_port` says which; `None` where it shows nothing of them.
-    #[must_use]
+    /// Centroid of the visible area of some regions on a face; `None` if none of it is visible. With `to_port`, only that side counts.
     pub fn middle(
         &self,
         face: Face,
@@ -240,8 +233,7 @@ impl BodyMap {
         (whole > 0.0).then(|| rect.center() + sum / whole * rect.width())
     }
 
-    /// The outline of what a face shows of some regions; what lies behind other skin is left out.
-    #[must_use]
+    /// Outline of the visible area of some regions on a face.
     pub fn outline(&self, face: Face, is_it: impl Fn(Region) -> bool) -> Vec<Edge> {
         let mut edges: BTreeMap<[u32; 2], (Edge, u32, u32)> = BTreeMap::new();
         for triangle in self.seen[face as usize].iter().filter(|seen| is_it(seen.region)) {
@@ -260,7 +252,7 @@ impl BodyMap {
             .collect()
     }
 
-    /// Whether a triangle is the nearest to the eye just inside one of its edges.
+    /// Whether a triangle is the nearest to the eye close to one of its edges.
     fn is_seen(&self, face: Face, [one, other]: Edge, triangle: u32) -> bool {
         let seen = &self.seen[face as usize];
         let Some(own) = seen.iter().find(|seen| seen.triangle == triangle) else { return false };
@@ -275,18 +267,17 @@ fn cross(one: Vec2, other: Vec2) -> f32 {
     one.x * other.y - one.y * other.x
 }
 
-/// Whether a triangle holds a point, in either sense of rotation.
+/// Whether a triangle contains a point, for either order of its corners.
 fn holds([a, b, c]: [Vec2; 3], point: Vec2) -> bool {
     let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| cross(to - from, point - from));
     sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
 }
 
-/// Room for the name of a face above it.
+/// Height of the name above a face [points].
 const NAME: f32 = 16.0;
 
 impl BodyMap {
-    /// Colour of skin of which nothing is told.
-    #[must_use]
+    /// Colour of skin without a value.
     pub fn plain(ui: &Ui) -> Color32 {
         if ui.visuals().dark_mode {
             Color32::from_rgb(0x6d, 0x7b, 0x84)
@@ -295,8 +286,8 @@ impl BodyMap {
         }
     }
 
-    /// Draws every face, each region in its colour, and `over` on top of it. Answers the region under the pointer, and whether it
-    /// was clicked.
+    /// Draws every face with a colour for each region, and calls `over` to draw on top. Returns the region under the pointer and whether
+    /// it was clicked.
     pub fn faces(
         &mut self,
         ui: &mut Ui,
@@ -315,8 +306,8 @@ impl BodyMap {
                     if !ui.is_rect_visible(rect) {
                         continue;
                     }
-                    let told = || WidgetInfo::labeled(WidgetType::Image, true, face.name());
-                    response.widget_info(told);
+                    let label = || WidgetInfo::labeled(WidgetType::Image, true, face.name());
+                    response.widget_info(label);
                     let below = rect.with_min_y(rect.top() + NAME).shrink(2.0);
                     self.face(ui, *face, rect, below, &colour);
                     over(self, &ui.painter_at(rect), *face, below);

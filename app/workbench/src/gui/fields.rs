@@ -1,4 +1,4 @@
-//! A field of a text as it is typed: committed on Enter or when left, red where it is wrong.
+//! Text boxes for fields of a file: a value is committed by Enter or when the box loses the focus; an invalid value is red.
 
 use egui::text::{CCursor, CCursorRange};
 use egui::{Context, FontId, Id, Key, Rect, Response, Stroke, TextEdit, Ui, vec2};
@@ -9,10 +9,10 @@ use endline_session::units::Units;
 
 use super::theme::Theme;
 
-/// Least breadth of a field beside whose value there is room for another, in points.
-const BROAD: f32 = 110.0;
+/// Least width of a box that shows a converted value beside its own [points].
+const WIDE: f32 = 110.0;
 
-/// What is said of a field: a hint shown while it is empty, and help on hover.
+/// Texts about a field: a hint shown while it is empty, and help on hover.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Said<'a> {
     /// Shown faintly while the field is empty.
@@ -21,18 +21,18 @@ pub struct Said<'a> {
     pub help: &'a str,
 }
 
-/// A field of a text.
+/// A field of an open file.
 #[derive(Clone, Copy)]
 pub struct Field<'a> {
-    /// The open texts.
+    /// The open files.
     pub documents: &'a Documents,
-    /// The text, by its path.
+    /// Path of the file.
     pub path: &'a str,
-    /// The field, by its dotted path.
+    /// Dotted path of the field.
     pub field: &'a str,
 }
 
-/// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
+/// Shows a field as a text box; returns the new value when it is committed. Escape discards it.
 pub fn edit(
     ui: &mut Ui,
     documents: &Documents,
@@ -44,7 +44,7 @@ pub fn edit(
     edit_as(ui, edit_id(path, field), Field { documents, path, field }, width, said)
 }
 
-/// Shows a field for typing in a second place on screen, under an id of its own.
+/// Shows a field in a second place on screen, under its own id.
 pub fn edit_in(
     ui: &mut Ui,
     place: &str,
@@ -55,7 +55,7 @@ pub fn edit_in(
     edit_as(ui, Id::new((place, field.path, field.field)), field, width, said)
 }
 
-/// Names the text box that had the focus last.
+/// Key under which the text box that had the focus last is stored.
 const FOCUSED: &str = "field that has the focus";
 
 fn edit_as(
@@ -92,8 +92,8 @@ fn edit_as(
         select_all(ui.ctx(), edit_id, &stored);
     }
     outline(ui, &response, problem);
-    // A table's hundreds of narrow fields have no room for it.
-    let wanted = response.rect.width() > BROAD || response.contains_pointer();
+    // The hundreds of narrow boxes of a table have no room for a converted value.
+    let wanted = response.rect.width() > WIDE || response.contains_pointer();
     let instead = if wanted && problem.is_none() && !response.has_focus() {
         units_shown(ui).instead_of(&stored)
     } else {
@@ -117,7 +117,7 @@ fn edit_as(
     (!escaped && typed != stored && typed != shortened(&stored)).then_some(typed)
 }
 
-/// A plain number of many digits to four decimals, for a field that is not typed in; every other text as it stands.
+/// Rounds a plain number with many digits to four decimals, for a box that is not being edited; returns any other text unchanged.
 fn shortened(stored: &str) -> String {
     const MOST: usize = 8;
     let plain = stored.len() > MOST && stored.contains('.');
@@ -127,7 +127,7 @@ fn shortened(stored: &str) -> String {
     }
 }
 
-/// Says once a frame in which units values are shown.
+/// Sets the units in which values are shown; called once a frame.
 pub fn show_in(context: &Context, units: Units) {
     context.data_mut(|data| data.insert_temp(units_id(), units));
 }
@@ -140,9 +140,9 @@ fn units_id() -> Id {
     Id::new("units that values are shown in")
 }
 
-/// Writes the value in the unit shown at the right of its field, where both fit: the file keeps its own.
+/// Writes the converted value at the right of its box, if both fit. The file is not changed.
 fn beside(ui: &Ui, rect: Rect, stored: &str, instead: &str) {
-    /// Margins, the room between the two, and that of a letter of confidence at the right.
+    /// Margins, the gap between both values, and the width of the confidence letter at the right.
     const ROOM: f32 = 40.0;
     let (colour, font) = (Theme::palette_of(ui).faint, FontId::proportional(11.5));
     let painter = ui.painter();
@@ -154,7 +154,7 @@ fn beside(ui: &Ui, rect: Rect, stored: &str, instead: &str) {
     }
 }
 
-/// Selects what stands in a text box that was reached by keys, so that typing replaces it.
+/// Selects the content of a text box that was reached by keys, so that typing replaces it.
 fn select_all(context: &Context, edit_id: Id, text: &str) {
     let mut state = TextEdit::load_state(context, edit_id).unwrap_or_default();
     let end = CCursor::new(text.chars().count());
@@ -162,14 +162,14 @@ fn select_all(context: &Context, edit_id: Id, text: &str) {
     state.store(context, edit_id);
 }
 
-/// Goes to the text box of a field, with all that stands in it selected.
+/// Moves the focus to the text box of a field and selects its content.
 pub fn go_to(context: &Context, documents: &Documents, path: &str, field: &str) {
     let id = edit_id(path, field);
     context.memory_mut(|memory| memory.request_focus(id));
     select_all(context, id, &documents.field(path, field).unwrap_or_default());
 }
 
-/// Whether the text box that has the focus is of a field and still shows its value: nothing was typed into it.
+/// Whether the text box with the focus belongs to a field and nothing was typed into it.
 pub fn is_untouched(context: &Context) -> bool {
     let Some(focused) = context.memory(egui::Memory::focused) else { return false };
     context.data(|data| {
@@ -178,18 +178,17 @@ pub fn is_untouched(context: &Context) -> bool {
     })
 }
 
-/// Id of what is typed into a text box and not committed yet.
+/// Id of the uncommitted content of a text box.
 fn typed_id(edit_id: Id) -> Id {
     edit_id.with("typed")
 }
 
-/// Id of the text box of a field, for whoever asks which has the focus.
-#[must_use]
+/// Id of the text box of a field.
 pub fn edit_id(path: &str, field: &str) -> Id {
     Id::new(("field", path, field))
 }
 
-/// Drops what is typed into a field and not committed.
+/// Discards the uncommitted content of a field.
 pub fn forget(ui: &Ui, path: &str, field: &str) {
     ui.data_mut(|data| data.remove_temp::<String>(typed_id(edit_id(path, field))));
     ui.memory_mut(|memory| memory.surrender_focus(edit_id(path, field)));
@@ -209,7 +208,7 @@ fn outline(ui: &Ui, response: &Response, problem: Option<&Diagnostic>) {
 }
 
 fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
-    // Of a table's hundreds of fields at most one is pointed at.
+    // The pointer is on at most one of the hundreds of boxes of a table.
     if !response.contains_pointer() {
         return;
     }
@@ -222,7 +221,7 @@ fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
     }
 }
 
-/// A choice among ids for a field; answers the one taken.
+/// Shows a list of ids for a field; returns the id that was selected.
 pub fn choose(
     ui: &mut Ui,
     documents: &Documents,
@@ -249,7 +248,7 @@ pub fn choose(
         }
     });
     outline(ui, &response.response, documents.problem_at(path, field));
-    // A long name is cut in a narrow panel.
+    // A narrow panel truncates a long name.
     if !shown.is_empty() {
         response.response.on_hover_text(shown);
     }

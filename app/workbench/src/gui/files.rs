@@ -1,4 +1,4 @@
-//! Files and tables of a gear library that a user chooses among.
+//! Files and tables of a gear library in lists on screen.
 
 use std::path::{Path, PathBuf};
 
@@ -6,8 +6,7 @@ use endline_gear::{Document, Kind};
 use endline_session::locate;
 pub use endline_session::locate::{scenarios, studies};
 
-/// The observations of a library, each by its file and its name.
-#[must_use]
+/// File and name of each observation of a library.
 pub fn observations(root: &Path) -> Vec<(PathBuf, String)> {
     let named = |path: PathBuf| {
         let text = endline_gear::read::text(&path).ok();
@@ -18,16 +17,12 @@ pub fn observations(root: &Path) -> Vec<(PathBuf, String)> {
     locate::observations(root).into_iter().map(named).collect()
 }
 
-/// The name of a file without folder and ending.
-#[must_use]
+/// Name of a file without folder and extension.
 pub fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Shows a folder in the system's file manager, or opens a file with the program that is usual for it.
-///
-/// # Errors
-/// Where there is no program that does.
+/// Shows a folder in the file manager of the system, or opens a file with its default program.
 pub fn open_folder(folder: &Path) -> Result<(), String> {
     let program = if cfg!(target_os = "macos") {
         "open"
@@ -42,7 +37,7 @@ pub fn open_folder(folder: &Path) -> Result<(), String> {
         .map_err(|error| format!("{}: {program} cannot show it: {error}", folder.display()))
 }
 
-/// Kinds with a table, in the order of their tabs.
+/// Kinds with a table and the title of its tab, in the order of the tabs.
 pub const KINDS: [(Kind, &str); 9] = [
     (Kind::Rope, "Ropes"),
     (Kind::Trap, "Traps"),

@@ -1,4 +1,4 @@
-//! The named layouts, and panels opened and closed in them.
+//! Named layouts, and how panels are opened and closed in them.
 
 use egui_dock::{DockState, NodeIndex};
 
@@ -7,24 +7,23 @@ use super::panel::PanelId;
 /// A named arrangement of panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// Edit gear, run, compare.
+    /// For editing gear and running it.
     Design,
-    /// The view large, the pilot's controls at hand.
+    /// For steering the whale: a large view beside the controls.
     Fly,
-    /// Look at what happened.
+    /// For studying what happened in a run.
     Review,
-    /// Compare options on the same encounters: designer and queue, what was found, any run again.
+    /// For comparing options on the same encounters: designer, queue, results, and any run of them.
     Study,
-    /// Find encounters that end like what was seen on a real whale: observation, stories, any of them run.
+    /// For finding encounters that end like an observation on a real whale: observation, stories, and any run of them.
     Search,
 }
 
 impl Layout {
-    /// Every layout, in the order of the menu.
+    /// All layouts, in the order of the menu.
     pub const ALL: [Self; 5] = [Self::Design, Self::Fly, Self::Review, Self::Study, Self::Search];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Design => "Design",
@@ -35,8 +34,7 @@ impl Layout {
         }
     }
 
-    /// Its panels in place.
-    #[must_use]
+    /// Its panels in their places.
     pub fn dock(self) -> DockState<String> {
         match self {
             Self::Design => design(),
@@ -113,12 +111,12 @@ fn ids(panels: &[PanelId]) -> Vec<String> {
     panels.iter().map(|panel| panel.id().to_owned()).collect()
 }
 
-/// Brings a panel to the front, adding it where it is closed.
+/// Brings a panel to the front; adds it if it is closed.
 pub fn open(dock: &mut DockState<String>, panel: PanelId) {
     let id = panel.id().to_owned();
     match dock.find_tab(&id) {
         Some(path) => {
-            // The path was found just now, so it is there.
+            // The tab was found above, so this cannot fail.
             let _ = dock.set_active_tab(path);
             dock.set_focused_node_and_surface(path.node_path());
         }
@@ -126,7 +124,7 @@ pub fn open(dock: &mut DockState<String>, panel: PanelId) {
     }
 }
 
-/// Adds a panel in front of the tabs of another.
+/// Opens a panel among the tabs of another, in front.
 pub fn open_beside(dock: &mut DockState<String>, panel: PanelId, other: PanelId) {
     if let Some(path) = dock.find_tab(&other.id().to_owned()) {
         dock.set_focused_node_and_surface(path.node_path());
@@ -134,7 +132,7 @@ pub fn open_beside(dock: &mut DockState<String>, panel: PanelId, other: PanelId)
     open(dock, panel);
 }
 
-/// Takes a panel away.
+/// Closes a panel.
 pub fn close(dock: &mut DockState<String>, panel: PanelId) {
     if let Some(path) = dock.find_tab(&panel.id().to_owned()) {
         dock.remove_tab(path);
@@ -142,13 +140,11 @@ pub fn close(dock: &mut DockState<String>, panel: PanelId) {
 }
 
 /// Whether a panel is open.
-#[must_use]
 pub fn is_open(dock: &DockState<String>, panel: PanelId) -> bool {
     dock.find_tab(&panel.id().to_owned()).is_some()
 }
 
-/// A saved layout without panels this program does not know; `None` where nothing is left.
-#[must_use]
+/// Removes panels that this program does not know from a saved layout; returns `None` if no panel remains.
 pub fn known(mut dock: DockState<String>) -> Option<DockState<String>> {
     dock.retain_tabs(|id| PanelId::find(id).is_some());
     let empty = dock.iter_all_tabs().next().is_none();
@@ -160,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panel_opens_once_in_every_layout() {
+    fn a_panel_opens_only_once_in_every_layout() {
         for layout in Layout::ALL {
             let mut dock = layout.dock();
             for panel in PanelId::ALL.into_iter().chain(PanelId::ALL) {
@@ -176,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_saved_layout_loses_what_is_unknown_and_only_that() {
+    fn a_saved_layout_loses_only_unknown_panels() {
         let mut dock = Layout::Design.dock();
         let before = dock.iter_all_tabs().count();
         dock.push_to_focused_leaf("crystal-ball".to_owned());

@@ -1,8 +1,7 @@
-//! The workbench: an egui window over a session.
+//! The window of the workbench, drawn with egui.
 //!
-//! The window holds no state of a simulation: it reads the newest [`LiveView`](endline_session::live::LiveView)
-//! and sends commands. Panels draw from what they [share](shared::Shared) and give
-//! [commands](command).
+//! The window holds no state of a simulation: it reads the newest [`LiveView`](endline_session::live::LiveView) and sends commands.
+//! Panels draw from what they [share](shared::Shared) and give [commands](command).
 
 pub mod app;
 pub mod bars;
@@ -30,33 +29,30 @@ use endline_session::edit::recovery::Autosave;
 use endline_session::task::Waker;
 use endline_session::{live, load_with, locate};
 
+use crate::embedded;
 use crate::input::{GilrsPads, PadSource, Pilot};
-use crate::inside;
 use app::App;
 use shared::Shared;
 
-/// How the workbench starts.
+/// Options for the start of the workbench.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Folder of the gear library; searched for where `None`.
+    /// Folder of the gear library; `None` searches for it.
     pub library: Option<PathBuf>,
-    /// Scenario opened at the start; `hello-endline` of the library where `None`.
+    /// Scenario to open; `None` opens `hello-endline` of the library.
     pub scenario: Option<PathBuf>,
-    /// Folders searched for plugins.
+    /// Folders to search for plugins.
     pub plugins: Vec<PathBuf>,
-    /// Where layout and preferences are kept; the user's data folder where `None`.
+    /// File for layout and preferences; `None` selects one in the user's data folder.
     pub settings: Option<PathBuf>,
 }
 
 /// Opens the workbench and returns when its window is closed.
-///
-/// # Errors
-/// With the reason, where the library cannot be read or no window can be opened (no display, no OpenGL).
 pub fn open(options: Options) -> Result<(), String> {
     let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
     let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
     let documents = Documents::open(&root, &scenario)?;
-    let mut loader = inside::plugin_loader(&options.plugins);
+    let mut loader = embedded::plugin_loader(&options.plugins);
     let (host, refused) = load_with(&mut loader);
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -69,7 +65,7 @@ pub fn open(options: Options) -> Result<(), String> {
         persistence_path: options.settings.clone(),
         ..eframe::NativeOptions::default()
     };
-    // What is kept between sessions lies beside the settings.
+    // Recordings and results are stored in the folder of the settings.
     let data = match options.settings.as_deref().and_then(std::path::Path::parent) {
         Some(folder) => Some(folder.to_owned()),
         None => eframe::storage_dir("endline"),
@@ -95,14 +91,14 @@ pub fn open(options: Options) -> Result<(), String> {
         .map_err(|error| format!("no window can be opened: {error}"))
 }
 
-/// The window's icon; an empty one, which the system replaces by its own, where it cannot be read.
+/// The window's icon. If it cannot be decoded, an empty icon makes the system use its own.
 fn icon() -> egui::IconData {
     const PNG: &[u8] =
         include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/icon/endline.png"));
     eframe::icon_data::from_png_bytes(PNG).unwrap_or_default()
 }
 
-/// The machine's pads; without them the keyboard flies alone.
+/// The pads of this machine; `None` if the system gives no access, so that only the keyboard steers.
 fn pads() -> Option<Box<dyn PadSource>> {
     let pads: Box<dyn PadSource> = Box::new(GilrsPads::new().ok()?);
     Some(pads)

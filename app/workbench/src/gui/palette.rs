@@ -1,4 +1,4 @@
-//! The command palette: every command by its name (Ctrl+P).
+//! The command palette (Ctrl+P): a list of all commands, searched by name.
 
 use egui::{Align2, Button, Context, Key, RichText, TextEdit, Ui, Window, vec2};
 
@@ -7,10 +7,10 @@ use super::command::{Offer, declared};
 use super::shared::Shared;
 use super::theme::Theme;
 
-/// Names shown at once.
+/// Number of commands shown.
 const SHOWN: usize = 10;
 
-/// The palette, open or not.
+/// State of the palette.
 #[derive(Clone, Debug, Default)]
 pub struct Palette {
     open: bool,
@@ -18,13 +18,12 @@ pub struct Palette {
     chosen: usize,
 }
 
-/// Every command that can be given by name, whether it is enabled now or not.
-#[must_use]
+/// All commands that the palette lists, enabled or not.
 pub fn offers(shared: &Shared) -> Vec<Offer> {
     declared().flat_map(|command| command.offers(shared)).collect()
 }
 
-/// Words that other programs use, and those that stand in names here.
+/// Words of other programs, each with words of names in this program.
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("remove", &["delete"]),
     ("erase", &["delete"]),
@@ -57,7 +56,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("measure", &["ruler"]),
 ];
 
-/// The commands that every typed word fits, whatever its case: those first whose name has the words.
+/// Commands that match every typed word, in any case, best match first.
 fn matching(all: Vec<Offer>, typed: &str) -> Vec<Offer> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let whole = words.join(" ");
@@ -71,16 +70,16 @@ fn matching(all: Vec<Offer>, typed: &str) -> Vec<Offer> {
     found.into_iter().map(|(.., offer)| offer).collect()
 }
 
-/// How far a typed word is from a command, by name in lower case and help; `None` where it does not fit.
+/// Rank of a typed word for a command with this lower-case name and help, 0 best; `None` if it does not match.
 fn rank(name: &str, help: &str, word: &str) -> Option<u32> {
-    // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
+    // "1" is also in "Speed 0.1×": a word that begins as typed ranks first.
     if name.split_whitespace().any(|own| own.starts_with(word)) {
         return Some(0);
     }
     if name.contains(word) {
         return Some(1);
     }
-    // A word of which less is typed means much else.
+    // Shorter words would match too many synonyms.
     let meant = SYNONYMS.iter().filter(|(other, _)| word.len() > 2 && other.starts_with(word));
     if meant.flat_map(|(_, names)| *names).any(|own| name.contains(own)) {
         return Some(10);
@@ -90,12 +89,11 @@ fn rank(name: &str, help: &str, word: &str) -> Option<u32> {
 
 impl Palette {
     /// Whether it is open.
-    #[must_use]
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Opens it, or closes it. What was typed before the frame in which it opens was drawn is its text.
+    /// Opens or closes it. Text typed in the frame in which it opens becomes its content.
     pub fn toggle(&mut self, context: &Context) {
         let text = |event: &egui::Event| {
             if let egui::Event::Text(text) = event { Some(text.clone()) } else { None }
@@ -108,7 +106,7 @@ impl Palette {
         *self = Self { open: !self.open, typed, ..Self::default() };
     }
 
-    /// Draws it where open; gives the command chosen.
+    /// Draws it if it is open, and gives the selected command.
     pub fn show(&mut self, context: &Context, shared: &mut Shared) {
         if !self.open {
             return;
@@ -123,7 +121,7 @@ impl Palette {
         let mut taken: Option<WindowCommand> = None;
         window.show(context, |ui| {
             self.field(ui);
-            // What was typed in this frame counts for an Enter in it.
+            // Filtered after the text box, so that Enter in the same frame applies to all that was typed.
             let found = matching(offers(shared), &self.typed);
             self.chosen = (self.chosen + usize::from(down))
                 .saturating_sub(usize::from(up))
@@ -149,7 +147,7 @@ impl Palette {
         }
     }
 
-    /// The commands found; a disabled one is grey, and hovering it gives the reason.
+    /// Lists commands; a disabled one is grey, with the reason on hover.
     fn list(&self, ui: &mut Ui, found: &[Offer]) -> Option<WindowCommand> {
         let faint = Theme::palette_of(ui).faint;
         let first = self.chosen.saturating_sub(SHOWN - 1);
@@ -164,7 +162,7 @@ impl Palette {
             }
         }
         if found.is_empty() {
-            ui.label(RichText::new("no such command").color(faint));
+            ui.label(RichText::new("no command matches").color(faint));
         }
         taken
     }
@@ -187,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn words_narrow_the_list_in_any_order_and_case() {
+    fn typed_words_filter_the_list_in_any_order_and_case() {
         let all = || ["Show Tension", "Show Events", "Undo"].map(offer).to_vec();
         let names = |typed: &str| {
             matching(all(), typed).into_iter().map(|offer| offer.name).collect::<Vec<_>>()
@@ -198,18 +196,22 @@ mod tests {
             assert_eq!(
                 matching(speeds(), typed)[0].name,
                 "Speed 1×",
-                "{typed}: a word's beginning comes before its middle"
+                "{typed}: the beginning of a word ranks before its middle"
             );
         }
         assert_eq!(names("").len(), 3);
-        assert_eq!(names("graph"), ["Show Tension"], "a word of another program");
-        let told = || {
+        assert_eq!(names("graph"), ["Show Tension"], "a synonym");
+        let with_help = || {
             let undo = Offer { help: "Takes the last edit back.", ..offer("Undo") };
             vec![undo, offer("Edit inputs")]
         };
         let found: Vec<String> =
-            matching(told(), "edit").into_iter().map(|offer| offer.name).collect();
-        assert_eq!(found, ["Edit inputs", "Undo"], "what it does counts after what it is called");
+            matching(with_help(), "edit").into_iter().map(|offer| offer.name).collect();
+        assert_eq!(
+            found,
+            ["Edit inputs", "Undo"],
+            "a match in the help ranks after a match in the name"
+        );
         assert!(names("dance").is_empty());
     }
 }

@@ -1,10 +1,10 @@
-//! The panels of the window: their trait, and their names as layouts and commands use them.
+//! What a panel is, and the id and title of every panel.
 
 use egui::Ui;
 
 use crate::gui::shared::Shared;
 
-/// Names a panel.
+/// Id and title of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PanelId {
     id: &'static str,
@@ -14,52 +14,52 @@ pub struct PanelId {
 impl PanelId {
     /// Tables of the gear library.
     pub const LIBRARY: Self = Self::new("library", "Library");
-    /// A rig's parts, its statics drawn to scale.
+    /// Parts of an assembly, and its statics drawn to scale.
     pub const ASSEMBLY: Self = Self::new("assembly", "Assembly");
-    /// What happens: scenario, current, whale, weak links.
+    /// Fields of the scenario: sea, whale, weak links, run.
     pub const SCENARIO: Self = Self::new("scenario", "Scenario");
     /// The 3-D view.
     pub const VIEW: Self = Self::new("view", "3-D view");
-    /// Start, pause, speed; figures of the solver.
+    /// Start, pause and speed of a run; figures of the solver.
     pub const RUN: Self = Self::new("run", "Run");
     /// Tension over time.
     pub const TENSION: Self = Self::new("tension", "Tension");
-    /// Tension, force, wraps, depth and speed.
+    /// Tension, force, wraps, depth and speed over time.
     pub const PLOTS: Self = Self::new("plots", "Plots");
-    /// Rope on the whale's body, and the outcome.
+    /// Rope on the whale's body, and the outcome of the run.
     pub const ENTANGLEMENT: Self = Self::new("entanglement", "Entanglement");
-    /// What happened when.
+    /// Events of the run, with their times.
     pub const EVENTS: Self = Self::new("events", "Events");
     /// Outcome and loads by part of the whale.
     pub const SUMMARY: Self = Self::new("summary", "Summary");
-    /// Everything wrong with the files.
+    /// Errors and warnings of all files.
     pub const PROBLEMS: Self = Self::new("problems", "Problems");
     /// Keys and pad.
     pub const HELP: Self = Self::new("help", "Keys and help");
-    /// What was open last, and examples.
+    /// Recent files and examples.
     pub const START: Self = Self::new("start", "Start");
-    /// Runs that were kept.
+    /// Recorded runs.
     pub const RECORDINGS: Self = Self::new("recordings", "Recordings");
-    /// What the pad does.
+    /// Assignment of sticks, triggers and buttons of the pad.
     pub const PAD: Self = Self::new("pad", "Pad");
     /// Motions, friction laws and gear types.
     pub const PLUGINS: Self = Self::new("plugins", "Plugins");
     /// The designer of a study, and the queue.
     pub const STUDY: Self = Self::new("study", "Study");
-    /// What a study found.
+    /// Results of a study.
     pub const RESULTS: Self = Self::new("results", "Results");
-    /// What was seen on a whale, and the search for encounters that end like it.
+    /// An observation on a whale, and the search for encounters that end like it.
     pub const SEARCH: Self = Self::new("search", "Search");
-    /// What a search found.
+    /// Results of a search.
     pub const STORIES: Self = Self::new("stories", "Stories");
-    /// What laws ask of an assembly, and edits by which it would comply.
+    /// Rules of law checked on an assembly, and edits by which it would comply.
     pub const RULES: Self = Self::new("rules", "Rules");
-    /// The pilot program on a timeline.
+    /// The pilot program as a timeline.
     pub const PROGRAM: Self = Self::new("pilot", "Pilot program");
-    /// Two runs beside one another.
+    /// Two runs side by side.
     pub const COMPARE: Self = Self::new("compare", "Compare");
 
-    /// Every panel, in the order of the Window menu.
+    /// All panels, in the order of the Window menu.
     pub const ALL: [Self; 23] = [
         Self::LIBRARY,
         Self::ASSEMBLY,
@@ -90,34 +90,30 @@ impl PanelId {
         Self { id, title }
     }
 
-    /// Its stable id in saved layouts.
-    #[must_use]
+    /// Its id in saved layouts, which never changes.
     pub fn id(self) -> &'static str {
         self.id
     }
 
-    /// Its title.
-    #[must_use]
+    /// Title of its tab.
     pub fn title(self) -> &'static str {
         self.title
     }
 
-    /// The panel of an id.
-    #[must_use]
+    /// Finds the panel with an id.
     pub fn find(id: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|panel| panel.id == id)
     }
 }
 
-/// A panel of the window. It owns its state and reads what all panels share from the shared.
+/// A panel of the window. It owns its state and reads everything else from [`Shared`].
 ///
-/// A panel never names another one. Where it wants something of another, it leaves an order on the shared, and the window
-/// hands that order to the panel it concerns.
+/// A panel never names another one: it gives a command, and the window passes the command to the panel concerned.
 pub trait Panel {
-    /// Which panel it is.
+    /// Its id.
     fn id(&self) -> PanelId;
 
-    /// The title of its tab.
+    /// Title of its tab.
     fn title(&self) -> &'static str {
         self.id().title()
     }
@@ -132,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_id_leads_to_its_own_panel() {
+    fn ids_are_unique() {
         for panel in PanelId::ALL {
             assert_eq!(PanelId::find(panel.id()), Some(panel));
         }

@@ -1,4 +1,4 @@
-//! Pictures of runs, drawn on threads of their own: a film of the run shown, and the picture beside a recording.
+//! Pictures made in the background: a film of the run shown, and the thumbnail of a recording. Neither simulates anything again.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -21,22 +21,22 @@ use crate::scene::{
     Camera, CameraPath, Eye, Reel, RenderRequest, Renderer, View, Water, write_png,
 };
 
-/// Width and height [px], and pictures a second.
+/// Width and height [px], and pictures per second, of a film.
 const FILM_SIZE: [u32; 2] = [1280, 720];
 const FPS: u32 = 20;
 
-/// How long the run may take to hand over what it keeps.
+/// Time limit for the run to send its stored frames.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// What a film shows, and where it goes.
+/// Content and file of a film.
 pub struct FilmOrder {
     /// The gear, sea and whale.
     pub model: Arc<Model>,
-    /// Brings the moments that the run keeps.
+    /// Receives the stored frames of the run.
     pub frames: Receiver<Vec<Arc<Frame>>>,
-    /// Where it is seen from; an eye that goes with the whale does so.
+    /// The eye, used where the camera path has no keys.
     pub eye: Eye,
-    /// The keys of its camera, which come before the eye where there are any.
+    /// Camera path; its keys override the eye.
     pub path: CameraPath<Eye>,
     /// What is drawn.
     pub show: Show,
@@ -46,59 +46,54 @@ pub struct FilmOrder {
     pub caption: String,
     /// Units of the scale bar.
     pub units: Units,
-    /// The file: GIF, MP4 or WebM by its ending.
+    /// The file: GIF, MP4 or WebM by its extension.
     pub out: PathBuf,
 }
 
-/// A film in the making.
+/// A film in progress.
 pub struct FilmJob {
     out: PathBuf,
     progress: Arc<Progress>,
     task: Task<Result<(), String>>,
 }
 
-/// Pictures drawn and to be drawn, and whether the rest is wanted.
+/// Number of pictures drawn and in total, and whether to stop.
 #[derive(Default)]
 struct Progress {
     drawn: AtomicUsize,
-    of: AtomicUsize,
+    total: AtomicUsize,
     stop: AtomicBool,
 }
 
 impl FilmJob {
-    /// Begins a film; what is wrong with its file is told at once.
-    ///
-    /// # Errors
-    /// A file that cannot be begun, or no thread.
+    /// Starts a film. Errors of its file are returned immediately.
     pub fn begin(order: FilmOrder, waker: Waker) -> Result<Self, String> {
         let film = Film::begin(&order.out, FILM_SIZE, FPS)?;
         let (progress, mut task) = (Arc::new(Progress::default()), Task::default());
-        let (out, told) = (order.out.clone(), Arc::clone(&progress));
+        let (out, shared_progress) = (order.out.clone(), Arc::clone(&progress));
         let awake = Arc::clone(&waker);
-        task.start("endline-film", move || order.draw(film, &told, &awake), waker)
-            .map_err(|error| format!("the film cannot be begun: {error}"))?;
+        task.start("endline-film", move || order.draw(film, &shared_progress, &awake), waker)
+            .map_err(|error| format!("the film cannot be started: {error}"))?;
         Ok(Self { out, progress, task })
     }
 
-    /// Ends it at the picture that is being drawn.
+    /// Ends it after the picture that is being drawn.
     pub fn cancel(&self) {
         self.progress.stop.store(true, Ordering::Relaxed);
     }
 
     /// The file.
-    #[must_use]
     pub fn out(&self) -> &Path {
         &self.out
     }
 
-    /// Pictures drawn, and how many there will be.
-    #[must_use]
+    /// Number of pictures drawn, and in total.
     pub fn counted(&self) -> (usize, usize) {
         let count = |number: &AtomicUsize| number.load(Ordering::Relaxed);
-        (count(&self.progress.drawn), count(&self.progress.of))
+        (count(&self.progress.drawn), count(&self.progress.total))
     }
 
-    /// What became of it, once, when it has ended.
+    /// Returns the outcome once, after it has ended.
     pub fn ended(&mut self) -> Option<Notice> {
         let ended = self.task.poll()?;
         let ((drawn, of), out) = (self.counted(), self.out.display());
@@ -112,9 +107,9 @@ impl FilmJob {
 
 impl FilmOrder {
     fn draw(&self, film: Film, progress: &Progress, waker: &Waker) -> Result<(), String> {
-        let kept = self.frames.recv_timeout(PATIENCE);
-        let frames = paced(&kept.map_err(|_| "the run does not hand over its moments")?);
-        progress.of.store(frames.len(), Ordering::Relaxed);
+        let stored = self.frames.recv_timeout(PATIENCE);
+        let frames = paced(&stored.map_err(|_| "the run does not send its frames")?);
+        progress.total.store(frames.len(), Ordering::Relaxed);
         let aspect = f64::from(FILM_SIZE[0]) / f64::from(FILM_SIZE[1]);
         let camera = |frame: &Frame| {
             let placed = |eye: &Eye| eye.at_moment(&self.model, frame, aspect);
@@ -139,44 +134,43 @@ impl FilmOrder {
     }
 }
 
-/// For each picture the kept moment nearest to its time, from the first to the last.
-fn paced(kept: &[Arc<Frame>]) -> Vec<Arc<Frame>> {
-    let (Some(first), Some(last)) = (kept.first(), kept.last()) else { return Vec::new() };
+/// The stored frame nearest in time to each picture, from the first stored frame to the last.
+fn paced(stored: &[Arc<Frame>]) -> Vec<Arc<Frame>> {
+    let (Some(first), Some(last)) = (stored.first(), stored.last()) else { return Vec::new() };
     let count = ((last.time_s - first.time_s) * f64::from(FPS) + 1e-6).floor() as usize + 1;
     let at = |picture: usize| {
         let time_s = first.time_s + picture as f64 / f64::from(FPS);
-        let after = kept.partition_point(|frame| frame.time_s < time_s).min(kept.len() - 1);
+        let after = stored.partition_point(|frame| frame.time_s < time_s).min(stored.len() - 1);
         let before = after.saturating_sub(1);
-        let off = |index: usize| (kept[index].time_s - time_s).abs();
-        Arc::clone(&kept[if off(before) < off(after) { before } else { after }])
+        let off = |index: usize| (stored[index].time_s - time_s).abs();
+        Arc::clone(&stored[if off(before) < off(after) { before } else { after }])
     };
     (0..count).map(at).collect()
 }
 
-/// Width and height [px].
-const KEPT_SIZE: [u32; 2] = [256, 144];
+/// Width and height of a thumbnail [px].
+const THUMBNAIL_SIZE: [u32; 2] = [256, 144];
 
-/// The picture that is being drawn.
+/// The thumbnail that is being drawn: it shows the last frame of a recorded run.
 #[derive(Debug, Default)]
-pub struct KeptPicture {
+pub struct Thumbnail {
     task: Task<()>,
 }
 
-impl KeptPicture {
-    /// Draws the moment that a view shows beside a recording. A recording without a picture is as good: nobody is told
-    /// where none can be drawn.
+impl Thumbnail {
+    /// Draws the moment of a view and saves it beside a recording. Errors are ignored: a recording needs no thumbnail.
     pub fn begin(&mut self, view: Arc<LiveView>, recording: &Path, waker: Waker) {
         let file = kept::picture(recording);
         let _ = self.task.start("endline-picture", move || drop(draw_ending(&view, &file)), waker);
     }
 
-    /// Whether one has been drawn, or given up, since the last call.
+    /// Whether a thumbnail was finished, or failed, since the last call.
     pub fn ended(&mut self) -> bool {
         self.task.poll().is_some()
     }
 }
 
-/// The whale from its side where rope or gear has touched it, else everything.
+/// Draws the whale from its side if rope or gear has touched it, otherwise everything.
 fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
     let (model, frame) = (&view.model, &view.frame);
     let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
@@ -184,13 +178,13 @@ fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
         whale.is_some_and(|whale| whale.first_contact_s.is_some() || whale.peak_body_push_n > 0.0);
     let from = if touched { View::WhaleSide } else { View::Orbit };
     let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
-    let aspect = f64::from(KEPT_SIZE[0]) / f64::from(KEPT_SIZE[1]);
+    let aspect = f64::from(THUMBNAIL_SIZE[0]) / f64::from(THUMBNAIL_SIZE[1]);
     let places = Scene::places_of(model, frame);
     let camera = Camera::of_view(from, &places, frame.whale.as_ref(), length_m, aspect);
     let request = RenderRequest {
         model,
         frame,
-        size: KEPT_SIZE,
+        size: THUMBNAIL_SIZE,
         view: "",
         scale_n: None,
         fit: &[],
@@ -201,14 +195,13 @@ fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
     let show = Show { names: false, ..Show::default() };
     write_png(
         file,
-        KEPT_SIZE,
-        &Renderer::new(KEPT_SIZE)?.bare(&request, &show, &camera, Water::DARK),
+        THUMBNAIL_SIZE,
+        &Renderer::new(THUMBNAIL_SIZE)?.bare(&request, &show, &camera, Water::DARK),
     )
 }
 
-/// The picture beside a recording; none where there is none that can be read.
-#[must_use]
-pub fn of_recording(recording: &Path) -> Option<ColorImage> {
+/// Reads the thumbnail of a recording; `None` if there is none or it cannot be read.
+pub fn thumbnail(recording: &Path) -> Option<ColorImage> {
     let file = endline_gear::read::open(&kept::picture(recording)).ok()?;
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().ok()?;
     let info = reader.info();
@@ -227,11 +220,11 @@ mod tests {
     use crate::scene::sample;
 
     #[test]
-    fn each_picture_has_the_moment_nearest_to_its_time() {
+    fn each_picture_shows_the_frame_nearest_to_its_time() {
         let model = sample::model();
         let frame = |time_s: f64| Arc::new(Frame { time_s, ..sample::frame(&model) });
-        let kept: Vec<Arc<Frame>> = (0..=30).map(|step| frame(f64::from(step) / 30.0)).collect();
-        let times: Vec<f64> = paced(&kept).iter().map(|frame| frame.time_s).collect();
+        let stored: Vec<Arc<Frame>> = (0..=30).map(|step| frame(f64::from(step) / 30.0)).collect();
+        let times: Vec<f64> = paced(&stored).iter().map(|frame| frame.time_s).collect();
         assert_eq!(times.len(), 21);
         for (picture, time_s) in times.iter().enumerate() {
             assert!(

@@ -1,8 +1,8 @@
-//! What the window asks: for the path of a file, what to do with edits a crash left, with unsaved ones as it closes or another scenario
-//! is opened, with a file that was changed on disk, and with a plugin it does not know.
+//! Questions to the user: edits to recover after a crash, unsaved edits before closing or opening, files changed on disk, unknown
+//! plugins, and the path of a file.
 //!
-//! A file dialog runs on a thread of its own, so that the window stays alive. A system without a desktop portal and without zenity
-//! shows none: its answer is immediate, and the window then asks for the path itself.
+//! A file dialog runs on its own thread, so that the window keeps responding. A system without a desktop portal and without zenity
+//! returns immediately without a dialog; the window then asks for the path itself.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,36 +21,35 @@ use crate::gui::files::stem;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
-/// What is asked, and what was answered.
+/// Open questions and their answers.
 #[derive(Default)]
 pub struct Questions {
-    /// Edits that a crash left, with their files.
+    /// Unsaved edits from before a crash, each with its recovery file.
     pub left_behind: Vec<(PathBuf, UnsavedEdits)>,
-    /// The scenario to be opened, while it is asked what to do with unsaved edits of the present one.
+    /// Scenario to open after the question about unsaved edits of the current one.
     pub opening: Option<PathBuf>,
-    /// Whether it is asked what to do with unsaved edits.
+    /// Whether the question about unsaved edits is shown before closing.
     closing: bool,
-    /// Whether the window may close as it is.
+    /// Whether the window may close without a question.
     leave: bool,
 }
 
 impl Questions {
-    /// Offers back edits that a crash left.
-    #[must_use]
+    /// Starts with unsaved edits from before a crash.
     pub fn new(left_behind: Vec<(PathBuf, UnsavedEdits)>) -> Self {
         Self { left_behind, ..Self::default() }
     }
 
-    /// The bar that offers edits back, where a crash left some.
+    /// Shows a bar that offers to recover edits, if a crash left any.
     pub fn recovery(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some((file, kept)) = self.left_behind.first().cloned() else { return };
-        let here = kept.root == shared.workbench.project.documents.root();
+        let here = kept.root == shared.documents().root();
         let palette = Theme::palette_of(ui);
         ui.horizontal(|ui| {
             let count = kept.texts.len();
             let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
             let text =
-                format!("Endline was not closed last time. Unsaved edits of {files} were kept.");
+                format!("Endline did not close normally last time. Unsaved edits of {files} can be recovered.");
             ui.label(RichText::new(text).color(palette.warning))
                 .on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
             if here {
@@ -60,7 +59,7 @@ impl Questions {
                 }
             } else {
                 ui.label(
-                    RichText::new(format!("They are of {}.", kept.root.display()))
+                    RichText::new(format!("They belong to the library {}.", kept.root.display()))
                         .color(palette.faint),
                 );
             }
@@ -70,17 +69,17 @@ impl Questions {
         });
     }
 
-    /// Drops edits that a crash left.
+    /// Discards edits from before a crash.
     fn drop_left_behind(&mut self, file: &Path) {
-        // A file that cannot be removed is offered again next time.
+        // If the file cannot be removed, the edits are offered again at the next start.
         recovery::forget(file);
         self.left_behind.retain(|(known, _)| known != file);
     }
 
-    /// Asks before unsaved edits are lost with the window.
+    /// Asks about unsaved edits before the window closes.
     pub fn before_closing(&mut self, context: &Context, shared: &mut Shared) {
         let wanted = context.input(|input| input.viewport().close_requested());
-        let unsaved = shared.workbench.project.documents.unsaved().len();
+        let unsaved = shared.documents().unsaved().len();
         if wanted && unsaved > 0 && !self.leave {
             context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.closing = true;
@@ -101,7 +100,7 @@ impl Questions {
             ui.horizontal(|ui| {
                 if primary(ui, true, "Save and quit").clicked() {
                     shared.perform(EditAction::Save);
-                    self.leave = shared.workbench.project.documents.unsaved().is_empty();
+                    self.leave = shared.documents().unsaved().is_empty();
                     self.closing = false;
                 }
                 if ui.button("Quit without saving").clicked() {
@@ -118,17 +117,16 @@ impl Questions {
         }
     }
 
-    /// Asks before unsaved edits of the scenario are lost with it, as another is opened.
+    /// Asks about unsaved edits of the scenario before another one is opened.
     pub fn before_opening(&mut self, context: &Context, shared: &mut Shared) {
         let Some(path) = self.opening.clone() else { return };
-        let (present, next) =
-            (stem(shared.workbench.project.documents.scenario_path()), stem(&path));
+        let (present, next) = (stem(shared.documents().scenario_path()), stem(&path));
         let window = Window::new("Unsaved scenario")
             .collapsible(false)
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
         window.show(context, |ui| {
-            ui.label(format!("{present} has edits that are not saved. {next} takes its place."));
+            ui.label(format!("{present} has unsaved edits. Save them before {next} is opened?"));
             ui.horizontal(|ui| {
                 let mut open = false;
                 if primary(ui, true, "Save and open")
@@ -136,12 +134,12 @@ impl Questions {
                     .clicked()
                 {
                     shared.perform(EditAction::Save);
-                    open = !shared.workbench.project.documents.is_unsaved(Documents::SCENARIO);
+                    open = !shared.documents().is_unsaved(Documents::SCENARIO);
                     self.opening = None;
                 }
                 open |= ui
                     .button("Open without saving")
-                    .on_hover_text("The edits are lost; Undo does not bring them back")
+                    .on_hover_text("The edits are lost; Undo does not restore them")
                     .clicked();
                 if open {
                     self.opening = None;
@@ -155,12 +153,12 @@ impl Questions {
     }
 }
 
-/// Lines of a file changed on disk that are shown at most.
+/// Maximum number of lines shown of a file that was changed on disk.
 const LINES_SHOWN: usize = 5;
 
-/// Asks what becomes of a file that someone else changed on disk, as edits of it are saved.
+/// Asks which version to keep when a file with edits was also changed on disk.
 pub fn newer(context: &Context, shared: &mut Shared) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let Some((path, theirs)) = documents.newer().next() else { return };
     let (path, name) = (path.to_owned(), documents.shown_name(path));
     let read = documents.saved_text(&path).unwrap_or_default();
@@ -178,27 +176,27 @@ pub fn newer(context: &Context, shared: &mut Shared) {
     window.show(context, |ui| {
         ui.label(RichText::new(name).strong());
         ui.add(
-            Label::new("The file was changed since Endline read it. Your edits are not saved.")
+            Label::new("Another program changed this file after Endline read it. Your edits are not saved yet.")
                 .wrap(),
         );
         if !theirs.is_empty() {
-            ui.label(RichText::new("On disk it now has").color(Theme::palette_of(ui).faint));
+            ui.label(RichText::new("New lines on disk").color(Theme::palette_of(ui).faint));
             ui.add(Label::new(RichText::new(theirs.join("\n")).monospace().size(12.0)).truncate());
         }
         ui.add_space(4.0);
         ui.horizontal(|ui| {
             let answers = [
-                ("Keep both", Keep::Both, "Your edits go to a file of their own beside it"),
-                ("Keep mine", Keep::Mine, "Your edits replace what is on disk"),
+                ("Keep both", Keep::Both, "Saves your edits as a separate file in the same folder"),
+                ("Keep mine", Keep::Mine, "Replaces the file on disk by your edits"),
                 (
                     "Take theirs",
                     Keep::Theirs,
-                    "What is on disk replaces your edits; Undo brings them back",
+                    "Replaces your edits by the file on disk; Undo restores them",
                 ),
                 (
                     "Not now",
                     Keep::Undecided,
-                    "The file stays as it is, and your edits stay unsaved",
+                    "The file is not changed, and your edits stay unsaved",
                 ),
             ];
             for (label, keep, help) in answers {
@@ -212,7 +210,7 @@ pub fn newer(context: &Context, shared: &mut Shared) {
     });
 }
 
-/// Asks before a plugin library is opened that is new, or has changed since it was allowed.
+/// Asks before a plugin is loaded that is new or has changed since it was allowed.
 pub fn plugin(context: &Context, shared: &mut Shared) {
     let Some((file, ask)) = shared.workbench.plugins.asked() else { return };
     let title = if ask.change == Change::New { "A new plugin" } else { "A plugin has changed" };
@@ -230,14 +228,14 @@ pub fn plugin(context: &Context, shared: &mut Shared) {
         ui.add(Label::new(RichText::new(format!("in {folder}")).color(palette.faint)).wrap());
         ui.add_space(4.0);
         let why = if ask.change == Change::New {
-            "It was never opened here."
+            "This plugin has not been allowed yet."
         } else {
-            "It was allowed with other content than it has now."
+            "This plugin has changed since you allowed it."
         };
-        let place = if cfg!(unix) { "in a process of its own, but " } else { "" };
+        let place = if cfg!(unix) { "in a separate process, but " } else { "" };
         ui.add(
             Label::new(format!(
-                "{why} It runs {place}with your rights: allow it only if you trust who made it."
+                "{why} It runs {place}with your rights: allow it only if you trust its author."
             ))
             .wrap(),
         );
@@ -250,7 +248,7 @@ pub fn plugin(context: &Context, shared: &mut Shared) {
         .on_hover_text(&ask.hash);
         ui.horizontal(|ui| {
             if primary(ui, !shared.workbench.plugins.busy(), "Allow")
-                .on_hover_text("It is checked in a process of its own, then loaded")
+                .on_hover_text("Checks it in a separate process, then loads it")
                 .clicked()
             {
                 shared.give(PluginAction::Allow { file: file.clone(), hash: ask.hash.clone() });
@@ -262,20 +260,20 @@ pub fn plugin(context: &Context, shared: &mut Shared) {
     });
 }
 
-/// No user cancels a dialog sooner after it was asked for.
-const AT_ONCE: Duration = Duration::from_millis(300);
+/// An empty answer sooner than this comes from a system without dialogs, not from a user.
+const FASTEST_USER: Duration = Duration::from_millis(300);
 
-/// The dialog that is open, if any.
+/// The open file dialog, if any.
 #[derive(Default)]
 pub struct Dialogs {
     task: Task<Option<PathBuf>>,
-    /// The command that waits for its file.
+    /// Command that waits for its file.
     waiting: Option<Waiting>,
-    /// The path as it is typed, where the system shows no dialog.
+    /// Path being typed, if the system shows no dialog.
     typed: Option<(Waiting, String)>,
 }
 
-/// A command that waits for its file.
+/// A command with its question for a file.
 #[derive(Clone)]
 struct Waiting {
     command: Declared,
@@ -284,10 +282,7 @@ struct Waiting {
 }
 
 impl Dialogs {
-    /// Asks for the file of a command.
-    ///
-    /// # Errors
-    /// Where the system gives no thread.
+    /// Opens a dialog for the file of a command.
     pub fn ask(
         &mut self,
         command: Declared,
@@ -301,14 +296,14 @@ impl Dialogs {
         Ok(())
     }
 
-    /// The command and the file that a dialog answered with, once.
+    /// Returns the command and the selected file, once.
     pub fn take(&mut self) -> Option<(Declared, PathBuf)> {
         let answer = self.task.poll()?;
         let waiting = self.waiting.take()?;
         match answer.ok().flatten() {
             Some(file) => Some((waiting.command, file)),
             None => {
-                if waiting.since.elapsed() < AT_ONCE {
+                if waiting.since.elapsed() < FASTEST_USER {
                     self.type_instead(waiting);
                 }
                 None
@@ -316,7 +311,7 @@ impl Dialogs {
         }
     }
 
-    /// Asks for the path in the window, beginning with what a dialog would propose.
+    /// Asks for the path in the window, with the proposal of the dialog filled in.
     fn type_instead(&mut self, waiting: Waiting) {
         let FileQuestion { folder, file_name, .. } = &waiting.question;
         let folder = folder.clone().or_else(|| std::env::current_dir().ok()).unwrap_or_default();
@@ -324,13 +319,12 @@ impl Dialogs {
         self.typed = Some((waiting, path));
     }
 
-    /// Whether a path is being typed: keys are for it then.
-    #[must_use]
+    /// Whether a path is being typed, so that keys give no commands.
     pub fn asks(&self) -> bool {
         self.typed.is_some()
     }
 
-    /// Draws the question for a path; answers the command and the path that was typed, once.
+    /// Draws the question for a path; returns the command and the typed path, once.
     pub fn show(&mut self, context: &Context) -> Option<(Declared, PathBuf)> {
         let (waiting, path) = self.typed.as_mut()?;
         let [mut taken, mut left] = [false, context.input(|input| input.key_pressed(Key::Escape))];
@@ -340,7 +334,7 @@ impl Dialogs {
             .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
         window.show(context, |ui| {
             let why =
-                "This system shows no file dialog: a desktop portal or the program zenity would.";
+                "This system shows no file dialog. Install a desktop portal or the program zenity to get one.";
             ui.add(
                 Label::new(RichText::new(why).small().color(Theme::palette_of(ui).faint)).wrap(),
             );
@@ -348,7 +342,7 @@ impl Dialogs {
             if !field.has_focus() && !field.lost_focus() {
                 field.request_focus();
             }
-            // A letter and Enter may come in one frame: what is typed by now counts.
+            // A letter and Enter can arrive in one frame, so the current text is checked.
             let problem = problem(&waiting.question, path);
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if let Some(problem) = &problem {
@@ -370,12 +364,12 @@ impl Dialogs {
     }
 }
 
-/// Whether a file that is there would be written over: that takes a click on a button that says so.
+/// Whether an existing file would be overwritten. That needs a click on a button that says so, not Enter.
 fn replaces(purpose: FileUse, path: &str) -> bool {
     purpose == FileUse::Write && PathBuf::from(path.trim()).is_file()
 }
 
-/// What is done with a path.
+/// Label of the button that confirms a path.
 fn verb(purpose: FileUse, path: &str) -> &'static str {
     match purpose {
         FileUse::Read | FileUse::Folder => "Open",
@@ -384,21 +378,21 @@ fn verb(purpose: FileUse, path: &str) -> &'static str {
     }
 }
 
-/// Why a path is none that is asked for.
+/// Why a path cannot be used; `None` if it can.
 fn problem(question: &FileQuestion, path: &str) -> Option<String> {
     let path = PathBuf::from(path.trim());
     let folder =
         || path.parent().is_some_and(|folder| folder.as_os_str().is_empty() || folder.is_dir());
     match question.purpose {
-        FileUse::Read if !path.is_file() => Some("there is no such file".to_owned()),
-        FileUse::Folder if !path.is_dir() => Some("there is no such folder".to_owned()),
-        FileUse::Write if path.is_dir() => Some("this is a folder: add a file name".to_owned()),
-        FileUse::Write if !folder() => Some("its folder is not there".to_owned()),
+        FileUse::Read if !path.is_file() => Some("the file does not exist".to_owned()),
+        FileUse::Folder if !path.is_dir() => Some("the folder does not exist".to_owned()),
+        FileUse::Write if path.is_dir() => Some("this is a folder; add a file name".to_owned()),
+        FileUse::Write if !folder() => Some("the folder of this file does not exist".to_owned()),
         _ => None,
     }
 }
 
-/// Shows a dialog and waits for its answer; `None` where the user cancels it.
+/// Shows a dialog and waits; returns `None` if the user cancels.
 fn answer(question: FileQuestion) -> Option<PathBuf> {
     let mut dialog = rfd::FileDialog::new();
     if let Some(folder) = &question.folder {
@@ -423,11 +417,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_is_told_what_is_wrong_with_it_before_it_is_taken() {
+    fn an_unusable_path_gets_a_reason_before_it_is_confirmed() {
         let folder = std::env::temp_dir();
         let text = |path: PathBuf| path.display().to_string();
         let read = FileQuestion::read("study", &["toml"]);
-        assert_eq!(problem(&read, "/no/such.toml").as_deref(), Some("there is no such file"));
+        assert_eq!(problem(&read, "/no/such.toml").as_deref(), Some("the file does not exist"));
         let write = FileQuestion::write("table", &["csv"], String::new());
         assert_eq!(problem(&write, &text(folder.join("new.csv"))), None);
         assert!(problem(&write, &text(folder.clone())).is_some_and(|why| why.contains("folder")));

@@ -1,28 +1,28 @@
-//! The fields of a scenario: what each is called, where it stands, what it means.
+//! The fields of a scenario: label, path in the file, default and help of each.
 
-/// A field of the scenario's file that is typed.
+/// A field with a value that is typed.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'a> {
-    /// Its name on screen.
+    /// Label on screen.
     pub label: &'a str,
-    /// Where it stands in the file.
+    /// Dotted path in the file.
     pub field: &'a str,
-    /// What holds where it is empty.
+    /// Default value, shown while the field is empty.
     pub usual: &'a str,
-    /// What it means, with an example.
+    /// Help, with an example.
     pub help: &'a str,
 }
 
 /// A field that is on or off.
 #[derive(Clone, Copy, Debug)]
 pub struct Flag {
-    /// Its name on screen.
+    /// Label on screen.
     pub label: &'static str,
-    /// Where it stands in the file.
+    /// Dotted path in the file.
     pub field: &'static str,
-    /// What holds where it is not there.
+    /// Default value.
     pub usual: bool,
-    /// What it means.
+    /// Help.
     pub help: &'static str,
 }
 
@@ -39,9 +39,9 @@ const fn flag(label: &'static str, field: &'static str, usual: bool, help: &'sta
     Flag { label, field, usual, help }
 }
 
-/// Of the sea.
+/// Fields of the sea.
 pub const SEA: &[Row<'static>] = &[
-    row("Depth", "site.depth", "", "Water depth, over the site's, such as 40 fathom"),
+    row("Depth", "site.depth", "", "Water depth, instead of that of the site, such as 40 fathom"),
     row("Current", "current.speed", "", "Surface speed of the current, such as 0.5 m/s or 1 kn"),
     row(
         "Towards",
@@ -51,7 +51,7 @@ pub const SEA: &[Row<'static>] = &[
     ),
 ];
 
-/// Of a tide that turns.
+/// Fields of a tide that turns.
 pub const TIDE: &[Row<'static>] = &[
     row(
         "Period",
@@ -69,11 +69,11 @@ pub const TIDE: &[Row<'static>] = &[
         "Residual",
         "current.tide.residual",
         "none",
-        "Steady current that is left without the tide, such as 0.05 m/s",
+        "Steady current besides the tide, such as 0.05 m/s",
     ),
 ];
 
-/// Of waves.
+/// Fields of waves.
 pub const WAVES: &[Row<'static>] = &[
     row(
         "Height",
@@ -82,34 +82,39 @@ pub const WAVES: &[Row<'static>] = &[
         "Height from trough to crest, such as 1.2 m; empty for a flat sea",
     ),
     row("Period", "waves.period", "", "Period of the waves, such as 6 s"),
-    row("Towards", "waves.toward", "90 deg", "Compass bearing towards which they run"),
+    row(
+        "Towards",
+        "waves.toward",
+        "90 deg",
+        "Compass bearing the waves run towards, such as 90 deg",
+    ),
     row(
         "Spectrum",
         "waves.spectrum",
         "regular",
-        "jonswap for irregular waves, drawn from the seed; height is then the significant one",
+        "regular, or jonswap for irregular waves drawn from the seed; the height is then the significant height",
     ),
 ];
 
-/// Of a whale.
+/// Fields of a whale.
 pub const WHALE: &[Row<'static>] = &[
     row(
         "Length",
         "whale.length",
-        "of its file",
+        "from the whale's file",
         "Body length, snout to fluke notch, such as 13 m; or an age",
     ),
     row(
         "Age",
         "whale.age",
         "by length",
-        "Age, such as 2 yr: the length follows by the law of the whale's file",
+        "Age, such as 2 yr; sets the length by the growth law in the whale's file",
     ),
     row(
         "Condition",
         "whale.condition",
         "1",
-        "Volume over that of middling condition, 0.65 to 1.5; below 1 is thin",
+        "Body volume relative to average condition, 0.65 to 1.5; below 1 is thin",
     ),
     row("Start east", "whale.position.0", "", "Where mid-body starts, east of the origin"),
     row("Start north", "whale.position.1", "", "Where mid-body starts, north of the origin"),
@@ -119,82 +124,82 @@ pub const WHALE: &[Row<'static>] = &[
     row("Roll", "whale.roll", "0 deg", "Roll to starboard at the start"),
 ];
 
-/// Of a living whale.
+/// Fields of a whale that swims.
 pub const SWIMS: &[Row<'static>] =
     &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
 
-/// Of the run as a whole.
+/// Fields of the run as a whole.
 pub const RUN: &[Row<'static>] = &[
-    row("Duration", "duration", "", "Length of the run, such as 60 s"),
-    row("Seed", "seed", "0", "Seed of everything drawn at random"),
+    row("Duration", "duration", "", "Simulated time, such as 60 s"),
+    row("Seed", "seed", "0", "Seed of all random numbers"),
     row(
         "Rope nodes",
         "rope_nodes",
         "",
-        "Nodes of all ropes, shared out by length; more is finer and slower",
+        "Nodes of all ropes together, distributed by length; more nodes are finer and slower",
     ),
 ];
 
-/// Whether weak links part.
+/// Whether weak links can part.
 pub const LINKS_PART: Flag = flag(
     "Weak links part",
     "weak_links",
     true,
-    "Off: links hold whatever they are rated (K when flying)",
+    "Off: links hold any load, whatever their rating (key K while steering)",
 );
 
-/// What is on or off.
+/// Flags of the run.
 pub const FLAGS: &[Flag] = &[
     flag(
         "Strengths are drawn at random",
         "strength_scatter",
         false,
-        "Strengths of ropes and links scatter as their files say, by the seed",
+        "Draws strengths of ropes and links from the distributions in their files, by the seed",
     ),
     flag(
         "Ropes touch each other",
         "rope_on_rope",
         true,
-        "Twists and hitches hold; off: ropes pass through each other",
+        "On: twists and hitches hold. Off: ropes pass through each other",
     ),
     flag(
         "Traps and buoys touch the whale",
         "bodies_on_whale",
         true,
-        "A buoy jams against a flipper; off: traps, buoys and anchors pass through the whale",
+        "On: a buoy can jam against a flipper. Off: traps, buoys and anchors pass through the whale",
     ),
     flag(
         "Traps and buoys touch each other",
         "bodies_on_bodies",
         true,
-        "Traps lie on traps; off: they pass through each other",
+        "On: traps can lie on traps. Off: they pass through each other",
     ),
     flag(
         "Ropes touch traps and buoys",
         "rope_on_bodies",
         true,
-        "Rope lies on traps, buoys and anchors; off: it passes through them",
+        "On: rope can lie on traps, buoys and anchors. Off: it passes through them",
     ),
 ];
 
-/// What an option of a study may set besides, where no row or flag stands for it.
-const BESIDE: &[Row<'static>] = &[
-    row("Assembly", "gear.0.assembly", "", "The gear, by its id in the library"),
-    row("Site", "site.item", "", "The place at sea, by its id in the library"),
-    row("Animal", "whale.item", "", "The species or animal, by its id in the library"),
+/// Further fields that an option of a study can set.
+const FURTHER: &[Row<'static>] = &[
+    row("Assembly", "gear.0.assembly", "", "Id of the gear in the library"),
+    row("Site", "site.item", "", "Id of the site in the library"),
+    row("Animal", "whale.item", "", "Id of the species or animal in the library"),
     row(
         "Feels gear",
         "whale.dynamics",
         "",
-        "kinetic: gear holds the whale; kinematic: it goes as it is steered",
+        "kinetic: forces of the gear act on the whale; kinematic: the whale moves as steered, whatever pulls",
     ),
-    row("Friction", "friction.model", "", "The law of friction, by its plugin's id"),
+    row("Friction", "friction.model", "", "Id of the plugin with the friction law"),
 ];
 
-/// Every field by the heading it stands under.
+/// Every field with its heading.
 pub fn all() -> impl Iterator<Item = (&'static str, Row<'static>)> {
     let headed = [
-        ("Gear, place and animal", BESIDE),
+        ("Gear, place and animal", FURTHER),
         ("Sea", SEA),
         ("Tide", TIDE),
         ("Waves", WAVES),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use endline_gear::Kind;
+use endline_gear::{Document, Kind};
 use endline_session::PluginHost;
 use endline_session::command::Command;
 use endline_session::edit::Documents;
@@ -14,54 +14,54 @@ use serde::{Deserialize, Serialize};
 
 use crate::gui::command::action::WindowCommand;
 use crate::gui::panel::PanelId;
-use crate::gui::pictures::{FilmJob, KeptPicture};
+use crate::gui::pictures::{FilmJob, Thumbnail};
 use crate::gui::theme::Theme;
 use crate::input::{Mapping, Pilot, Rumble};
 
 /// What all panels share.
 pub struct Shared {
-    /// What the user has open and does, without a screen.
+    /// Open files, runs, studies and searches: all that needs no screen.
     pub workbench: Workbench,
-    /// What the user prefers of the window.
+    /// Preferences for the window.
     pub preferences: Preferences,
-    /// The pilot's hands.
+    /// Controls of the pilot.
     pub pilot: Pilot,
-    /// Whether they steer.
+    /// Whether the pilot steers the whale.
     pub flying: bool,
-    /// What the pilot feels.
+    /// Pulses of the pad.
     pub rumble: Rumble,
-    /// While the 3-D view is presented alone: the size of everything on screen before.
+    /// While only the 3-D view is shown: the screen scale before.
     pub presented_from: Option<f32>,
-    /// Whether handles in the 3-D view drag the whale's start.
+    /// Whether the 3-D view shows handles for the start of the whale.
     pub posing: bool,
-    /// What is chosen in the panels.
+    /// Selection in the panels.
     pub selection: Selection,
-    /// The film that is being made.
+    /// The film in progress.
     pub film: Option<FilmJob>,
-    /// The picture of a kept run that is being drawn.
-    pub kept_picture: KeptPicture,
-    /// Where documents are written as pages; none where the system names no home.
+    /// The thumbnail of a recording in progress.
+    pub thumbnail: Thumbnail,
+    /// Folder for documents as HTML pages; `None` if the system has no data folder.
     pub pages: Option<PathBuf>,
-    /// Commands given by panels, performed after drawing.
+    /// Commands of the panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
 
-/// What is chosen in the panels, for commands to be judged on.
+/// What is selected in the panels; commands depend on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// The entry chosen in the library, by its path.
+    /// Path of the selected library entry.
     pub entry: Option<String>,
-    /// The table of the library that is shown.
+    /// Table of the library that is shown.
     pub table: Kind,
-    /// The entry chosen in the pilot program, by its place.
+    /// Index of the selected entry of the pilot program.
     pub program_entry: Option<usize>,
-    /// Whether the gear of the assembly panel is at rest.
+    /// Whether the statics of the assembly panel have converged.
     pub gear_at_rest: bool,
     /// Whether something is inspected or measured in the 3-D view.
     pub inspects: bool,
-    /// How many keys the camera has.
+    /// Number of keys of the camera path.
     pub camera_keys: usize,
-    /// Panels that are open.
+    /// Open panels.
     pub open: Vec<PanelId>,
 }
 
@@ -80,8 +80,7 @@ impl Default for Selection {
 }
 
 impl Shared {
-    /// With its texts; the first model is being made.
-    #[must_use]
+    /// Opens a workbench on files; the first model is assembled in the background.
     pub fn new(
         documents: Documents,
         host: Arc<PluginHost>,
@@ -99,14 +98,25 @@ impl Shared {
             posing: false,
             selection: Selection::default(),
             film: None,
-            kept_picture: KeptPicture::default(),
+            thumbnail: Thumbnail::default(),
             pages: None,
             commands: Vec::new(),
         }
     }
 
-    /// Whether the 3-D view is presented alone.
-    #[must_use]
+    /// The open files.
+    pub fn documents(&self) -> &Documents {
+        &self.workbench.project.documents
+    }
+
+    /// Edits an open file as one step of undo, and reports a failure in the notice.
+    pub fn alter(&mut self, path: &str, edit: impl FnOnce(&mut Document) -> Result<(), String>) {
+        if let Err(error) = self.workbench.project.documents.alter(path, edit) {
+            self.fault(error);
+        }
+    }
+
+    /// Whether only the 3-D view is shown.
     pub fn presents(&self) -> bool {
         self.presented_from.is_some()
     }
@@ -116,15 +126,15 @@ impl Shared {
         self.commands.push(command.into());
     }
 
-    /// Performs a command of the workbench at once; the notice says where nothing came of it.
+    /// Performs a command of the workbench immediately; the notice reports a failure.
     pub fn perform(&mut self, command: impl Into<Command>) {
-        // The reason stands in the notice.
+        // The notice has the reason.
         let _ = self.workbench.perform(command.into());
     }
 
-    /// Takes in a film and a picture that have ended.
+    /// Processes a finished film and a finished thumbnail.
     pub fn refresh_pictures(&mut self) {
-        if self.kept_picture.ended() {
+        if self.thumbnail.ended() {
             self.workbench.recordings_changed();
         }
         if let Some(notice) = self.film.as_mut().and_then(FilmJob::ended) {
@@ -132,12 +142,12 @@ impl Shared {
         }
     }
 
-    /// Says that something failed, and why.
+    /// Reports a failure and its reason in the notice.
     pub fn fault(&mut self, text: impl Into<String>) {
         self.workbench.notice = Some(Notice::fault(text));
     }
 
-    /// Says that a file was written, or why it was not.
+    /// Reports in the notice that a file was written, or why not.
     pub fn notice_saved(&mut self, path: &std::path::Path, written: Result<(), String>) {
         self.workbench.notice = Some(match written {
             Ok(()) => Notice::done(format!("saved {}", path.display())),
@@ -146,33 +156,33 @@ impl Shared {
     }
 }
 
-/// What a user prefers of the window.
+/// Preferences for the window.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
     /// Dark or light.
     pub theme: Theme,
-    /// Whether pushing the stick puts the nose down.
+    /// Whether pushing the stick pitches the nose down.
     pub invert_pitch: bool,
-    /// What the pad does.
+    /// Assignment of the pad.
     pub mapping: Mapping,
-    /// Size of everything on screen, 1 for usual; larger for a projector.
+    /// Screen scale, 1 normal; larger for a projector.
     pub scale: Scale,
 }
 
-/// Preferences of window and workbench, as they are kept in one place.
+/// Preferences of window and workbench, as they are stored in one text.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Kept {
-    /// Those of the window.
+pub struct StoredPreferences {
+    /// Of the window.
     #[serde(flatten)]
     pub window: Preferences,
-    /// Those of the workbench.
+    /// Of the workbench.
     #[serde(flatten)]
     pub workbench: WorkbenchPreferences,
 }
 
-/// Size of everything on screen.
+/// Screen scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scale(pub f32);
 
@@ -188,12 +198,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn preferences_of_window_and_workbench_are_kept_in_one_text_and_read_from_an_older_one() {
+    fn preferences_of_window_and_workbench_survive_one_text_and_an_older_text_is_read() {
         let text = r#"{"theme":"Light","units":"Noaa","invert_pitch":true,"scale":1.5,"recent":["a.toml"]}"#;
-        let kept: Kept = serde_json::from_str(text).unwrap();
-        assert_eq!((kept.window.theme, kept.window.scale), (Theme::Light, Scale(1.5)));
-        assert_eq!(kept.workbench.recent, [PathBuf::from("a.toml")]);
-        let again: Kept = serde_json::from_str(&serde_json::to_string(&kept).unwrap()).unwrap();
-        assert_eq!((again.window, again.workbench), (kept.window, kept.workbench));
+        let stored: StoredPreferences = serde_json::from_str(text).unwrap();
+        assert_eq!((stored.window.theme, stored.window.scale), (Theme::Light, Scale(1.5)));
+        assert_eq!(stored.workbench.recent, [PathBuf::from("a.toml")]);
+        let again: StoredPreferences =
+            serde_json::from_str(&serde_json::to_string(&stored).unwrap()).unwrap();
+        assert_eq!((again.window, again.workbench), (stored.window, stored.workbench));
     }
 }

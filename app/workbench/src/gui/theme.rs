@@ -1,4 +1,4 @@
-//! Looks: calm and dense, dark by default, one accent colour.
+//! Themes: colours and styles of the window, dark (default) or light, with one accent colour.
 
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, TextStyle, Vec2, Visuals};
 use egui_dock::Style as DockStyle;
@@ -17,11 +17,11 @@ pub enum Theme {
 /// The colours of a theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Palette {
-    /// Behind panels.
+    /// Background behind panels.
     pub ground: Color32,
-    /// Panels.
+    /// Background of panels.
     pub panel: Color32,
-    /// Fields and tables.
+    /// Background of fields and tables.
     pub field: Color32,
     /// Buttons.
     pub button: Color32,
@@ -31,23 +31,22 @@ pub struct Palette {
     pub line: Color32,
     /// Text.
     pub text: Color32,
-    /// Text that matters less.
+    /// Secondary text.
     pub faint: Color32,
-    /// What can be acted on, and what is selected.
+    /// Links, main buttons and the selection.
     pub accent: Color32,
     /// Text on the accent.
     pub on_accent: Color32,
-    /// What is wrong.
+    /// Errors.
     pub error: Color32,
-    /// What is worth a look.
+    /// Warnings.
     pub warning: Color32,
-    /// What is well.
+    /// Success.
     pub good: Color32,
 }
 
 impl Theme {
     /// Its colours.
-    #[must_use]
     pub fn palette(self) -> Palette {
         let rgb = Color32::from_rgb;
         match self {
@@ -84,13 +83,12 @@ impl Theme {
         }
     }
 
-    /// The palette of whatever theme a ui is drawn in.
-    #[must_use]
+    /// The colours of the theme in which a ui is drawn.
     pub fn palette_of(ui: &egui::Ui) -> Palette {
         if ui.visuals().dark_mode { Self::Dark.palette() } else { Self::Light.palette() }
     }
 
-    /// Dresses a context in this theme.
+    /// Applies the theme to a context.
     pub fn apply(self, context: &egui::Context) {
         context.set_theme(if self == Self::Dark { egui::Theme::Dark } else { egui::Theme::Light });
         let visuals = self.visuals();
@@ -121,11 +119,11 @@ impl Theme {
         visuals.weak_text_color = Some(palette.faint);
         visuals.selection.bg_fill = palette.accent.gamma_multiply(0.35);
         visuals.selection.stroke = Stroke::new(1.0, palette.accent);
-        self.dress_widgets(&mut visuals);
+        self.style_widgets(&mut visuals);
         visuals
     }
 
-    fn dress_widgets(self, visuals: &mut Visuals) {
+    fn style_widgets(self, visuals: &mut Visuals) {
         let palette = self.palette();
         let widgets = &mut visuals.widgets;
         for widget in [
@@ -152,8 +150,7 @@ impl Theme {
         widgets.active.bg_stroke = Stroke::new(1.0, palette.accent);
     }
 
-    /// The dock's style in this theme.
-    #[must_use]
+    /// Style of the dock in this theme.
     pub fn dock(self, egui_style: &egui::Style) -> DockStyle {
         let palette = self.palette();
         let mut style = DockStyle::from_egui(egui_style);
@@ -205,7 +202,7 @@ fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
     .into()
 }
 
-/// A button for the one thing to do next: filled with the accent.
+/// Draws the main button of a group, filled with the accent colour.
 pub fn primary(ui: &mut egui::Ui, enabled: bool, text: &str) -> egui::Response {
     let palette = Theme::palette_of(ui);
     let label =
@@ -232,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn every_text_colour_can_be_read_on_its_ground() {
+    fn every_text_colour_has_the_contrast_of_wcag_on_its_background() {
         for theme in [Theme::Dark, Theme::Light] {
             let palette = theme.palette();
             for ground in [palette.panel, palette.field, palette.ground] {

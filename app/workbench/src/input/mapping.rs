@@ -1,14 +1,14 @@
-//! Which key, stick, trigger and button does what: keys of the keyboard; presets, dead zones and curve of the pad, stored with the
-//! preferences.
+//! Assignment of keys, sticks, triggers and buttons: fixed keys of the keyboard; presets, dead zones and curve of the pad, which are
+//! stored with the preferences.
 //!
-//! A stick's deflection beyond its dead zone becomes `y = x^curve`, so that a curve above 1 is fine about the middle.
+//! A deflection x beyond the dead zone, scaled to 0..1, becomes `y = x^curve`: a curve above 1 is less sensitive near the middle.
 
 use egui::{InputState, Key};
 use serde::{Deserialize, Serialize};
 
 use crate::input::pad::{PadAxis, PadButton};
 
-/// What a stick or trigger can steer.
+/// What a stick or trigger can control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Steered {
     /// Swimming speed.
@@ -25,12 +25,12 @@ pub enum Steered {
     FlipperTwist,
     /// Flippers swept forward.
     FlipperSweep,
-    /// Mouth open, as far as it is pulled.
+    /// Opening of the mouth.
     Mouth,
 }
 
 impl Steered {
-    /// Everything, in the order shown.
+    /// All, in the order shown.
     pub const ALL: [Self; 8] = [
         Self::Speed,
         Self::Pitch,
@@ -42,8 +42,7 @@ impl Steered {
         Self::Mouth,
     ];
 
-    /// In words.
-    #[must_use]
+    /// Name on screen.
     pub fn words(self) -> &'static str {
         match self {
             Self::Speed => "Swim faster",
@@ -58,22 +57,22 @@ impl Steered {
     }
 }
 
-/// What a button can do.
+/// Function of a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pressed {
-    /// While held, sticks and triggers do their second thing.
+    /// While held, sticks and triggers have their second function.
     Second,
     /// Burst, while held.
     Burst,
-    /// The chosen act, while held.
+    /// The selected act, while held.
     Act,
-    /// Choose the next act.
+    /// Select the next act.
     NextAct,
     /// Open or close the mouth.
     Mouth,
-    /// Back to the start and go.
+    /// Reset and start the run.
     Restart,
-    /// Pause, or go on.
+    /// Pause or continue.
     PlayPause,
     /// First or third person.
     Person,
@@ -86,7 +85,7 @@ pub enum Pressed {
 }
 
 impl Pressed {
-    /// Everything, in the order shown.
+    /// All, in the order shown.
     pub const ALL: [Self; 11] = [
         Self::Second,
         Self::Burst,
@@ -101,14 +100,13 @@ impl Pressed {
         Self::Faster,
     ];
 
-    /// In words.
-    #[must_use]
+    /// Name on screen.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Second => "Second thing of sticks and triggers, while held",
+            Self::Second => "Second function of sticks and triggers, while held",
             Self::Burst => "Burst",
-            Self::Act => "Do the chosen act",
-            Self::NextAct => "Choose the next act",
+            Self::Act => "Do the selected act",
+            Self::NextAct => "Select the next act",
             Self::Mouth => "Open, close the mouth",
             Self::Restart => "Restart",
             Self::PlayPause => "Run, pause",
@@ -120,20 +118,21 @@ impl Pressed {
     }
 }
 
-/// A stick or trigger and what it steers.
+/// A stick or trigger with its function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AxisUse {
     /// The stick or trigger.
     pub axis: PadAxis,
-    /// Whether it does so while the second thing is asked for, or while it is not.
+    /// Whether this is its second function, used while the button for it is held.
     pub second: bool,
-    /// What it steers.
+    /// Its function.
     pub steers: Steered,
-    /// Whether its way is turned over.
-    pub turned: bool,
+    /// Whether the direction is inverted; `turned` in stored preferences.
+    #[serde(rename = "turned")]
+    pub inverted: bool,
 }
 
-/// What a pad does.
+/// Assignment of a pad.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Mapping {
@@ -141,11 +140,11 @@ pub struct Mapping {
     pub axes: Vec<AxisUse>,
     /// Buttons.
     pub buttons: Vec<(PadButton, Pressed)>,
-    /// Share of a stick's way about its middle that counts as the middle, 0 to 0.9.
+    /// Dead zone of sticks, as a share of the full deflection, 0 to 0.9.
     pub dead_zone: f64,
-    /// The same of triggers.
+    /// Dead zone of triggers, 0 to 0.9.
     pub trigger_dead_zone: f64,
-    /// Power of the way beyond the dead zone, 1 to 3.
+    /// Exponent of the deflection beyond the dead zone, 1 to 3.
     pub curve: f64,
     /// Strength of the rumble, 0 to 1.
     pub rumble: f64,
@@ -158,19 +157,17 @@ impl Default for Mapping {
 }
 
 impl Mapping {
-    /// Presets by name.
-    #[must_use]
+    /// Presets with their names.
     pub fn presets() -> [(&'static str, Self); 2] {
         [("VWES 2012", Self::of_2012()), ("Feeding", Self::feeding())]
     }
 
-    /// The preset of 2012, with what was added since: flippers, acts, mouth.
-    #[must_use]
+    /// The preset of 2012, extended by flippers, acts and mouth.
     pub fn of_2012() -> Self {
         use PadAxis::{LeftTrigger, LeftX, LeftY, RightTrigger, RightX, RightY};
-        let to = |axis, second, steers, turned| AxisUse { axis, second, steers, turned };
-        let both = |axis, steers, turned| {
-            [to(axis, false, steers, turned), to(axis, true, steers, turned)]
+        let to = |axis, second, steers, inverted| AxisUse { axis, second, steers, inverted };
+        let both = |axis, steers, inverted| {
+            [to(axis, false, steers, inverted), to(axis, true, steers, inverted)]
         };
         let mut axes = Vec::new();
         axes.extend(both(LeftTrigger, Steered::Speed, false));
@@ -199,8 +196,7 @@ impl Mapping {
         Self { axes, buttons, dead_zone: 0.12, trigger_dead_zone: 0.12, curve: 1.0, rumble: 1.0 }
     }
 
-    /// The same with the mouth on the right trigger.
-    #[must_use]
+    /// The preset of 2012 with the mouth on the right trigger.
     pub fn feeding() -> Self {
         let mut mapping = Self::of_2012();
         for uses in mapping
@@ -208,14 +204,13 @@ impl Mapping {
             .iter_mut()
             .filter(|uses| uses.axis == PadAxis::RightTrigger && !uses.second)
         {
-            (uses.steers, uses.turned) = (Steered::Mouth, false);
+            (uses.steers, uses.inverted) = (Steered::Mouth, false);
         }
         mapping
     }
 
-    /// What a stick or trigger gives at a place of its way, -1 to 1.
-    #[must_use]
-    pub fn live(&self, axis: PadAxis, value: f64) -> f64 {
+    /// Value of a stick or trigger for a deflection from -1 to 1, after dead zone and curve.
+    pub fn shaped(&self, axis: PadAxis, value: f64) -> f64 {
         let dead =
             if axis.is_trigger() { self.trigger_dead_zone } else { self.dead_zone }.clamp(0.0, 0.9);
         if value.abs() <= dead {
@@ -225,19 +220,18 @@ impl Mapping {
             * value.signum()
     }
 
-    /// What a button does.
-    #[must_use]
+    /// Function of a button.
     pub fn of_button(&self, button: PadButton) -> Option<Pressed> {
         self.buttons.iter().find(|(known, _)| *known == button).map(|(_, does)| *does)
     }
 
-    /// Gives a button to something; what it did before, and what else did this, are given up.
+    /// Assigns a function to a button. Removes its former function, and the former button of this function.
     pub fn bind_button(&mut self, button: PadButton, does: Pressed) {
         self.buttons.retain(|(known, done)| *known != button && *done != does);
         self.buttons.push((button, does));
     }
 
-    /// Gives a stick or trigger to something, as its first or second thing.
+    /// Assigns a function to a stick or trigger, as its first or second function.
     pub fn bind_axis(&mut self, uses: AxisUse) {
         self.axes.retain(|known| {
             (known.axis, known.second) != (uses.axis, uses.second)
@@ -247,16 +241,16 @@ impl Mapping {
     }
 }
 
-/// A pair of keys held down to steer, or one.
+/// A pair of keys, or one key, that steers while held.
 #[derive(Clone, Copy, Debug)]
 pub struct Steer {
-    /// What they do, in the list of keys.
+    /// Function, as shown in the list of keys.
     pub what: &'static str,
-    /// The key that gives 1.
+    /// Key for the value 1.
     pub more: Key,
-    /// The key that gives -1.
+    /// Key for the value -1.
     pub less: Option<Key>,
-    /// The same on the pad, as it is preset.
+    /// Control on the pad with the same function in the preset.
     pub pad: &'static str,
 }
 
@@ -265,8 +259,7 @@ impl Steer {
         Self { what, more, less: Some(less), pad }
     }
 
-    /// Its keys, for the list.
-    #[must_use]
+    /// Names of its keys, for the list.
     pub fn keys(&self) -> String {
         let less = self.less.map_or_else(String::new, |key| format!(", {}", key.symbol_or_name()));
         format!("{}{less}", self.more.symbol_or_name())
@@ -278,7 +271,7 @@ impl Steer {
     }
 }
 
-/// Every key that steers, in the order of the fields of [`HeldKeys`] but the burst, which is Shift.
+/// All keys that steer, in the order of the fields of [`HeldKeys`] without the burst, which is Shift.
 pub static STEERING: [Steer; 8] = [
     Steer::pair("Swim faster, slower", Key::W, Key::S, "left trigger"),
     Steer::pair("Nose up, down", Key::ArrowUp, Key::ArrowDown, "left stick"),
@@ -292,10 +285,10 @@ pub static STEERING: [Steer; 8] = [
         Key::T,
         "right trigger; aft with left shoulder",
     ),
-    Steer { what: "Do the chosen act", more: Key::G, less: None, pad: "right stick pressed" },
+    Steer { what: "Do the selected act", more: Key::G, less: None, pad: "right stick pressed" },
 ];
 
-/// What is held down; each pair is one axis.
+/// Keys that are held; each pair is one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HeldKeys {
     /// Faster (1) or slower (-1).
@@ -314,13 +307,12 @@ pub struct HeldKeys {
     pub flipper_twist: f64,
     /// Flippers swept forward (1) or aft (-1).
     pub flipper_sweep: f64,
-    /// The chosen act.
+    /// The selected act.
     pub act: bool,
 }
 
 impl HeldKeys {
-    /// What is held in egui's input.
-    #[must_use]
+    /// Reads the held keys from egui's input.
     pub fn of(input: &InputState) -> Self {
         let [throttle, pitch, roll, yaw, flipper_raise, flipper_twist, flipper_sweep, act] =
             STEERING.each_ref().map(|steer| steer.held(input));
@@ -345,22 +337,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_way_beyond_the_dead_zone_is_stretched_and_bent() {
+    fn the_deflection_beyond_the_dead_zone_is_scaled_and_raised_to_a_power() {
         let mapping = Mapping { dead_zone: 0.2, curve: 2.0, ..Mapping::of_2012() };
-        assert!(mapping.live(PadAxis::LeftX, 0.2).abs() < 1e-12);
-        assert!((mapping.live(PadAxis::LeftX, -1.0) + 1.0).abs() < 1e-12);
+        assert!(mapping.shaped(PadAxis::LeftX, 0.2).abs() < 1e-12);
+        assert!((mapping.shaped(PadAxis::LeftX, -1.0) + 1.0).abs() < 1e-12);
         assert!(
-            (mapping.live(PadAxis::LeftX, 0.6) - 0.25).abs() < 1e-12,
-            "half of the way beyond, squared"
+            (mapping.shaped(PadAxis::LeftX, 0.6) - 0.25).abs() < 1e-12,
+            "half of the deflection beyond the dead zone, squared"
         );
         assert!(
-            mapping.live(PadAxis::LeftTrigger, 0.2) > 0.0,
-            "triggers have a dead zone of their own"
+            mapping.shaped(PadAxis::LeftTrigger, 0.2) > 0.0,
+            "triggers have their own dead zone"
         );
     }
 
     #[test]
-    fn what_is_bound_anew_is_bound_once() {
+    fn a_new_assignment_replaces_the_former_ones() {
         let mut mapping = Mapping::of_2012();
         mapping.bind_button(PadButton::South, Pressed::Burst);
         assert_eq!(mapping.of_button(PadButton::South), Some(Pressed::Burst));
@@ -369,7 +361,7 @@ mod tests {
             axis: PadAxis::RightTrigger,
             second: false,
             steers: Steered::Speed,
-            turned: false,
+            inverted: false,
         };
         mapping.bind_axis(uses);
         let speed: Vec<_> = mapping
@@ -381,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mapping_survives_its_file() {
+    fn a_mapping_is_read_as_it_was_written() {
         let text = serde_json::to_string(&Mapping::feeding()).unwrap();
         assert_eq!(serde_json::from_str::<Mapping>(&text).unwrap(), Mapping::feeding());
         assert_eq!(

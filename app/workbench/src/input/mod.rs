@@ -1,10 +1,10 @@
-//! Gamepad and keyboard as the pilot's controls.
+//! Gamepad and keyboard as controls of the whale.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
-//! | [`pad`] | a pad behind a trait: gilrs, or a script in tests; its pulses |
-//! | [`mapping`] | which key, stick, trigger and button does what |
-//! | [`pilot`] | both as [`Controls`](endline_sdk::Controls) and [`PilotAction`]s |
+//! | [`pad`] | pads of this machine, or a script in tests; pulses of the pad |
+//! | [`mapping`] | assignment of keys, sticks, triggers and buttons |
+//! | [`pilot`] | pad and keyboard combined into [`Controls`](endline_sdk::Controls) and [`PilotAction`]s |
 
 pub mod mapping;
 pub mod pad;

@@ -1,4 +1,4 @@
-//! Gamepads behind a trait, so that tests fly by script, and the pulses by which a pilot feels seabed, surface, contact, slip and parting.
+//! Gamepads behind a trait, so that a test can use a script, and pulses of the pad for seabed, surface, contact, slip and parting.
 //!
 //! Pads over radio lag when pulses are sent too often, so pulses are at least 1/30 s apart and end by themselves.
 
@@ -26,7 +26,7 @@ pub enum PadAxis {
 }
 
 impl PadAxis {
-    /// Every stick and trigger.
+    /// All sticks and triggers.
     pub const ALL: [Self; 6] = [
         Self::LeftX,
         Self::LeftY,
@@ -36,8 +36,7 @@ impl PadAxis {
         Self::RightTrigger,
     ];
 
-    /// In words.
-    #[must_use]
+    /// Name on screen.
     pub fn words(self) -> &'static str {
         match self {
             Self::LeftX => "left stick, sideways",
@@ -50,7 +49,6 @@ impl PadAxis {
     }
 
     /// Whether it is a trigger, 0 to 1.
-    #[must_use]
     pub fn is_trigger(self) -> bool {
         matches!(self, Self::LeftTrigger | Self::RightTrigger)
     }
@@ -90,8 +88,7 @@ pub enum PadButton {
 }
 
 impl PadButton {
-    /// In words.
-    #[must_use]
+    /// Name on screen.
     pub fn words(self) -> &'static str {
         match self {
             Self::South => "A",
@@ -112,45 +109,42 @@ impl PadButton {
     }
 }
 
-/// Something a pad did.
+/// An event of a pad.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PadEvent {
-    /// A pad of this name is there.
+    /// A pad with this name was connected.
     Connected(String),
-    /// The pad is gone.
+    /// The pad was disconnected.
     Disconnected,
     /// A stick or trigger moved to a value, -1 to 1 (triggers 0 to 1).
     Moved(PadAxis, f64),
-    /// A button went down.
+    /// A button was pressed.
     Pressed(PadButton),
-    /// A button came up.
+    /// A button was released.
     Released(PadButton),
 }
 
-/// Where pad events come from.
+/// A source of pad events.
 pub trait PadSource {
-    /// Adds what happened since the last call.
+    /// Appends the events since the last call.
     fn poll(&mut self, out: &mut Vec<PadEvent>);
 
-    /// Shakes the pad with a strength of 0 to 1 for a time; one that cannot shake does nothing.
+    /// Vibrates the pad with a strength of 0 to 1 for a time, if it can.
     fn rumble(&mut self, strength: f64, long: Duration) {
         let _ = (strength, long);
     }
 }
 
-/// Pads of this machine, by gilrs.
+/// Pads of this machine, by the library gilrs.
 pub struct GilrsPads {
     gilrs: gilrs::Gilrs,
     announced: bool,
-    /// The pulse under way; it ends when dropped.
+    /// The current pulse; dropping it ends it.
     pulse: Option<gilrs::ff::Effect>,
 }
 
 impl GilrsPads {
-    /// Looks for pads; none is no error.
-    ///
-    /// # Errors
-    /// Where the system gives no access to pads at all.
+    /// Opens the pads of this machine. That there is none is not an error.
     pub fn new() -> Result<Self, String> {
         let gilrs =
             gilrs::Gilrs::new().map_err(|error| format!("gamepads cannot be read: {error}"))?;
@@ -212,7 +206,7 @@ impl PadSource for GilrsPads {
             scheduling,
             ..BaseEffect::default()
         };
-        // A pad that does not take the effect flies as well without.
+        // A pad that cannot vibrate still steers.
         self.pulse =
             EffectBuilder::new().add_effect(effect).gamepads(&pads).finish(&mut self.gilrs).ok();
         let _ = self.pulse.as_ref().map(gilrs::ff::Effect::play);
@@ -249,10 +243,10 @@ fn button_of(button: gilrs::Button) -> Option<PadButton> {
     }
 }
 
-/// A pad that does what it was told, one entry a poll.
+/// A pad that replays a script, one entry for each poll.
 #[derive(Clone, Debug, Default)]
 pub struct ScriptedPad {
-    /// What is still to come: the events of each poll.
+    /// Events of each remaining poll.
     pub script: VecDeque<Vec<PadEvent>>,
 }
 
@@ -270,12 +264,11 @@ const APART_S: f64 = 1.0 / 30.0;
 pub struct Pulse {
     /// Strength, 0 to 1.
     pub strength: f64,
-    /// How long [s].
+    /// Duration [s].
     pub long_s: f64,
 }
 
-/// The pulse of an event; `None` where there is nothing to feel.
-#[must_use]
+/// The pulse for a kind of event; `None` if it has none.
 pub fn pulse(kind: EventKind) -> Option<Pulse> {
     let (strength, long_s) = match kind {
         EventKind::LinkParted | EventKind::LineParted => (1.0, 0.35),
@@ -288,19 +281,19 @@ pub fn pulse(kind: EventKind) -> Option<Pulse> {
     Some(Pulse { strength, long_s })
 }
 
-/// Turns the events of a run into pulses.
+/// Converts the events of a run into pulses.
 #[derive(Clone, Debug, Default)]
 pub struct Rumble {
     seen: usize,
     last_s: Option<f64>,
-    /// The pulse felt last, and when it began [s].
+    /// The last pulse and its start [s].
     felt: Option<(Pulse, f64)>,
 }
 
 impl Rumble {
-    /// The strongest pulse of events since the last call, where it is time for one.
+    /// Returns the strongest pulse of the events since the last call, unless the last pulse was too recent.
     pub fn feel(&mut self, events: &[Event], now_s: f64) -> Option<Pulse> {
-        // A run begun anew has fewer events than were seen.
+        // A run that was reset has fewer events than were seen.
         let fresh = events.get(self.seen..).unwrap_or_default();
         if events.len() < self.seen {
             self.seen = events.len();
@@ -321,13 +314,12 @@ impl Rumble {
         strongest
     }
 
-    /// Events up to now are not felt any more.
+    /// Ignores all events so far.
     pub fn skip(&mut self, events: &[Event]) {
         self.seen = events.len();
     }
 
-    /// How strong the pulse is at a time, fading to its end, for the screen to mirror.
-    #[must_use]
+    /// Strength of the last pulse at a time, fading to zero, for display on screen.
     pub fn strength(&self, now_s: f64) -> f64 {
         let Some((pulse, begun_s)) = self.felt else { return 0.0 };
         let left = 1.0 - (now_s - begun_s) / (2.0 * pulse.long_s);
@@ -345,19 +337,15 @@ mod tests {
     }
 
     #[test]
-    fn the_strongest_of_new_events_is_felt_once_and_not_too_often() {
+    fn the_strongest_new_event_gives_one_pulse_and_pulses_keep_their_distance() {
         let mut rumble = Rumble::default();
         let events = [event(EventKind::Slip), event(EventKind::LinkParted), event(EventKind::Wrap)];
         assert_eq!(rumble.feel(&events, 1.0), pulse(EventKind::LinkParted));
         assert_eq!(rumble.feel(&events, 2.0), None);
         let more = [events.as_slice(), &[event(EventKind::Contact)]].concat();
-        assert_eq!(rumble.feel(&more, 1.01), None, "too soon after the last");
-        assert_eq!(
-            rumble.feel(&more, 1.1),
-            pulse(EventKind::Contact),
-            "it is felt when it is time"
-        );
-        assert_eq!(rumble.feel(&[], 3.0), None, "a run begun anew");
+        assert_eq!(rumble.feel(&more, 1.01), None, "too soon after the last pulse");
+        assert_eq!(rumble.feel(&more, 1.1), pulse(EventKind::Contact), "the event is not lost");
+        assert_eq!(rumble.feel(&[], 3.0), None, "the run was reset");
         assert_eq!(rumble.feel(&[event(EventKind::Slip)], 4.0), pulse(EventKind::Slip));
         assert!(rumble.strength(4.05) > 0.0 && rumble.strength(5.0) <= 0.0);
     }

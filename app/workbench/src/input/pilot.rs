@@ -1,7 +1,7 @@
-//! Pad and keyboard together as controls and actions, by the pilot's mapping.
+//! Combines pad and keyboard into controls and actions, by the mapping.
 //!
-//! A pad that is unplugged in flight holds its last input for a moment; then the whale glides until a pad or the
-//! keyboard takes over.
+//! If the pad is disconnected while it steers, its last input holds for a moment. Then the whale glides until a pad or the keyboard
+//! steers again.
 
 use std::time::Duration;
 
@@ -10,12 +10,12 @@ use endline_sdk::Controls;
 use super::mapping::{HeldKeys, Mapping, Pressed, Steered};
 use super::pad::{PadAxis, PadButton, PadEvent, PadSource};
 
-/// What a pilot asks for besides steering.
+/// An action of the pilot other than steering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PilotAction {
-    /// Back to the start and go.
+    /// Reset and start the run.
     Restart,
-    /// Pause, or go on.
+    /// Pause or continue.
     PlayPause,
     /// First or third person.
     Person,
@@ -29,43 +29,43 @@ pub enum PilotAction {
     Faster,
 }
 
-/// How the hands are on the whale.
+/// What steers the whale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hands {
     /// Pad or keyboard.
     #[default]
     On,
-    /// The pad is gone; its last input holds for a moment.
+    /// The pad was disconnected; its last input holds for a moment.
     Holding,
-    /// The pad is gone, and the whale glides.
+    /// The pad was disconnected, and the whale glides.
     Gliding,
 }
 
-/// How long the last input of a lost pad holds [s].
+/// Time for which the last input of a disconnected pad holds [s].
 const HOLD_S: f64 = 0.5;
-/// How fast the throttle follows its keys, and smooth axes theirs [1/s].
+/// Rates at which the throttle and the other axes follow their keys [1/s].
 const THROTTLE_RATE: f64 = 0.5;
 const KEY_RATE: f64 = 4.0;
 
-/// The state of a pilot's hands.
+/// State of the controls.
 #[derive(Default)]
 pub struct Pilot {
     source: Option<Box<dyn PadSource>>,
     events: Vec<PadEvent>,
     pad_name: Option<String>,
-    /// What the pad does.
+    /// Assignment of the pad.
     pub mapping: Mapping,
     stick: Stick,
     throttle: f64,
     smooth: Smooth,
     mouth_open: bool,
-    /// Time since the pad was lost [s].
+    /// Time since the pad was disconnected [s].
     lost_s: Option<f64>,
-    /// The button that went down last, for the mapping editor.
+    /// Last button pressed, for the mapping editor.
     last_pressed: Option<PadButton>,
-    /// Index of the chosen act.
+    /// Index of the selected act.
     act: usize,
-    /// Whether pushing the stick (or the up arrow) puts the nose down, as in an aeroplane.
+    /// Whether pushing the stick (or the up arrow) pitches the nose down, as in an aeroplane.
     pub invert_pitch: bool,
 }
 
@@ -75,11 +75,11 @@ struct Stick {
     second: bool,
     burst: bool,
     act: bool,
-    /// Whether the act was asked for since the controls were last read: a short press counts.
+    /// Whether the act was requested since the controls were last read, so that a short press is not lost.
     act_pressed: bool,
 }
 
-/// Key axes brought smoothly to their ends, so that a tap is a small correction.
+/// Axes of keys, which change gradually so that a short press is a small correction.
 #[derive(Clone, Copy, Debug, Default)]
 struct Smooth {
     pitch: f64,
@@ -91,20 +91,17 @@ struct Smooth {
 }
 
 impl Pilot {
-    /// A pilot with a pad, or with the keyboard alone.
-    #[must_use]
+    /// Controls with a pad, or with the keyboard only.
     pub fn new(source: Option<Box<dyn PadSource>>) -> Self {
         Self { source, ..Self::default() }
     }
 
     /// Name of the connected pad.
-    #[must_use]
     pub fn pad_name(&self) -> Option<&str> {
         self.pad_name.as_deref()
     }
 
-    /// How the hands are on the whale.
-    #[must_use]
+    /// What steers the whale.
     pub fn hands(&self) -> Hands {
         match self.lost_s {
             None => Hands::On,
@@ -113,18 +110,17 @@ impl Pilot {
         }
     }
 
-    /// Where a stick or trigger stands, as the pad tells it.
-    #[must_use]
+    /// Raw deflection of a stick or trigger.
     pub fn axis(&self, axis: PadAxis) -> f64 {
         self.stick.axes[axis as usize]
     }
 
-    /// The button that went down last, once.
+    /// Returns the last button pressed, once.
     pub fn take_pressed(&mut self) -> Option<PadButton> {
         self.last_pressed.take()
     }
 
-    /// Shakes the pad, as strongly as its pilot likes it.
+    /// Vibrates the pad, scaled by the strength in the mapping.
     pub fn rumble(&mut self, strength: f64, long_s: f64) {
         let strength = strength * self.mapping.rumble;
         if let (Some(source), true) = (&mut self.source, strength > 0.0) {
@@ -132,7 +128,7 @@ impl Pilot {
         }
     }
 
-    /// Takes in the pad and answers the actions asked for.
+    /// Reads the events of the pad and returns the requested actions.
     pub fn poll_pad(&mut self) -> Vec<PilotAction> {
         let Some(source) = &mut self.source else { return Vec::new() };
         let mut events = std::mem::take(&mut self.events);
@@ -145,7 +141,7 @@ impl Pilot {
     fn take(&mut self, event: PadEvent) -> Option<PilotAction> {
         match event {
             PadEvent::Connected(name) => (self.pad_name, self.lost_s) = (Some(name), None),
-            // What it last gave holds for a moment; `controls` lets go of it.
+            // The last input holds for a moment; `watch_pad` releases it.
             PadEvent::Disconnected => (self.pad_name, self.lost_s) = (None, Some(0.0)),
             PadEvent::Moved(axis, value) => {
                 self.stick.axes[axis as usize] =
@@ -182,14 +178,12 @@ impl Pilot {
         None
     }
 
-    /// The index of the act chosen.
-    #[must_use]
+    /// Index of the selected act, which may exceed the number of acts.
     pub fn act(&self) -> usize {
         self.act
     }
 
-    /// Whether the mouth is opened.
-    #[must_use]
+    /// Whether the mouth is open.
     pub fn mouth_open(&self) -> bool {
         self.mouth_open
     }
@@ -199,42 +193,41 @@ impl Pilot {
         self.mouth_open = !self.mouth_open;
     }
 
-    /// Chooses the next of the acts that the whale's motion declares.
+    /// Selects the next act of the whale's motion.
     pub fn next_act(&mut self, acts: usize) {
         self.act = if acts == 0 { 0 } else { (self.act + 1) % acts };
     }
 
-    /// Chooses an act by its index.
+    /// Selects an act by its index.
     pub fn choose_act(&mut self, act: usize) {
         self.act = act;
     }
 
-    /// Index of the chosen act among so many; `None` where there are none.
-    #[must_use]
+    /// Index of the selected act, limited to the number of acts; `None` if there are none.
     pub fn chosen_act(&self, acts: usize) -> Option<usize> {
         (acts > 0).then(|| self.act.min(acts - 1))
     }
 
-    /// Sets the keyboard's throttle, 0 to 1: the speed it starts from.
+    /// Sets the throttle of the keyboard, 0 to 1.
     pub fn set_throttle(&mut self, throttle: f64) {
         self.throttle = throttle.clamp(0.0, 1.0);
     }
 
-    /// What sticks and triggers give to something.
+    /// Sum of the values of all sticks and triggers with a function.
     fn steered(&self, steered: Steered) -> f64 {
         let uses = self
             .mapping
             .axes
             .iter()
             .filter(|uses| uses.steers == steered && uses.second == self.stick.second);
-        let given = uses.map(|uses| {
-            self.mapping.live(uses.axis, self.axis(uses.axis))
-                * if uses.turned { -1.0 } else { 1.0 }
+        let values = uses.map(|uses| {
+            self.mapping.shaped(uses.axis, self.axis(uses.axis))
+                * if uses.inverted { -1.0 } else { 1.0 }
         });
-        given.sum::<f64>().clamp(-1.0, 1.0)
+        values.sum::<f64>().clamp(-1.0, 1.0)
     }
 
-    /// Lets go of a lost pad's last input when its moment is over; a key held takes over at once.
+    /// Releases the last input of a disconnected pad after its time, or as soon as a key is held.
     fn watch_pad(&mut self, keys: &HeldKeys, elapsed_s: f64) {
         let Some(lost_s) = &mut self.lost_s else { return };
         let held = *lost_s < HOLD_S;
@@ -247,7 +240,7 @@ impl Pilot {
         }
     }
 
-    /// The controls after `elapsed_s` seconds of these keys, pad included, for a motion with so many acts.
+    /// Controls after `elapsed_s` seconds with these keys held, pad included, for a motion with a number of acts.
     pub fn controls(&mut self, keys: &HeldKeys, acts: usize, elapsed_s: f64) -> Controls {
         self.watch_pad(keys, elapsed_s);
         self.throttle = (self.throttle + keys.throttle * THROTTLE_RATE * elapsed_s).clamp(0.0, 1.0);
@@ -303,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn the_preset_of_2012() {
+    fn the_preset_of_2012_gives_controls_and_actions() {
         let (mut pilot, actions) = flown(vec![
             vec![
                 PadEvent::Connected("pad".into()),
@@ -347,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stick_near_its_middle_is_at_rest() {
+    fn a_stick_within_its_dead_zone_gives_zero() {
         let (mut pilot, _) = flown(vec![vec![
             PadEvent::Moved(PadAxis::LeftX, 0.1),
             PadEvent::Moved(PadAxis::LeftTrigger, 0.8),
@@ -357,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_pad_holds_its_last_input_for_a_moment_then_the_whale_glides() {
+    fn the_last_input_of_a_disconnected_pad_holds_for_a_moment_then_the_whale_glides() {
         let lost = || {
             flown(vec![vec![
                 PadEvent::Moved(PadAxis::LeftTrigger, 0.8),
@@ -376,7 +369,7 @@ mod tests {
         assert_eq!(pilot.controls(&HeldKeys::default(), 2, 0.2), Controls::default());
         assert_eq!(pilot.hands(), Hands::Gliding);
         pilot.take(PadEvent::Connected("pad".into()));
-        assert_eq!(pilot.hands(), Hands::On, "it is plugged in again");
+        assert_eq!(pilot.hands(), Hands::On, "the pad is connected again");
         let mut pilot = lost();
         let keys = HeldKeys { yaw: 1.0, ..HeldKeys::default() };
         assert!(
@@ -386,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn the_feeding_preset_opens_the_mouth_by_the_right_trigger() {
+    fn the_feeding_preset_opens_the_mouth_with_the_right_trigger() {
         let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::RightTrigger, 1.0)]]);
         pilot.mapping = Mapping::feeding();
         let controls = pilot.controls(&HeldKeys::default(), 0, 0.1);
@@ -394,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_hold_the_speed_and_steer_smoothly() {
+    fn keys_change_the_speed_lastingly_and_steer_gradually() {
         let mut pilot = Pilot::new(None);
         let held = HeldKeys { throttle: 1.0, yaw: 1.0, ..HeldKeys::default() };
         let first = pilot.controls(&held, 2, 0.1);
@@ -403,12 +396,12 @@ mod tests {
             pilot.controls(&held, 2, 0.1);
         }
         let released = pilot.controls(&HeldKeys::default(), 2, 1.0);
-        assert!((released.speed - 1.0).abs() < 1e-12, "speed stays when the key is let go");
+        assert!((released.speed - 1.0).abs() < 1e-12, "the speed stays after the key is released");
         assert!(released.yaw.abs() < 1e-12, "the turn ends");
     }
 
     #[test]
-    fn every_control_stays_in_its_range_whatever_the_hands_do() {
+    fn every_control_stays_in_its_range_for_any_input() {
         let (mut pilot, _) = flown(vec![vec![
             PadEvent::Moved(PadAxis::LeftY, 7.0),
             PadEvent::Moved(PadAxis::RightX, f64::NAN),
@@ -435,14 +428,14 @@ mod tests {
     }
 
     #[test]
-    fn pitch_can_be_turned_over() {
+    fn pitch_can_be_inverted() {
         let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::LeftY, 1.0)]]);
         pilot.invert_pitch = true;
         assert!((pilot.controls(&HeldKeys::default(), 2, 0.1).pitch + 1.0).abs() < 1e-12);
     }
 
     #[test]
-    fn the_left_shoulder_gives_the_right_hand_to_the_flippers() {
+    fn the_left_shoulder_button_switches_the_right_stick_to_the_flippers() {
         let moved = |axis, value| PadEvent::Moved(axis, value);
         let (mut pilot, _) = flown(vec![vec![
             moved(PadAxis::RightX, 1.0),
@@ -465,14 +458,14 @@ mod tests {
     }
 
     #[test]
-    fn acts_are_chosen_in_turn_and_last_as_long_as_they_are_asked_for() {
+    fn acts_are_selected_in_turn_and_last_while_requested() {
         let mut pilot = Pilot::new(None);
         let act = |pilot: &mut Pilot, keys: &HeldKeys| pilot.controls(keys, 3, 0.1).act as usize;
         let held = HeldKeys { act: true, ..HeldKeys::default() };
         assert_eq!([act(&mut pilot, &HeldKeys::default()), act(&mut pilot, &held)], [0, 1]);
         assert_eq!(pilot.take(PadEvent::Pressed(PadButton::LeftStick)), Some(PilotAction::NextAct));
         pilot.next_act(3);
-        // A press shorter than a frame counts once.
+        // A press shorter than a frame gives the act once.
         pilot.take(PadEvent::Pressed(PadButton::RightStick));
         pilot.take(PadEvent::Released(PadButton::RightStick));
         assert_eq!(
@@ -481,7 +474,7 @@ mod tests {
         );
         pilot.next_act(3);
         pilot.next_act(3);
-        assert_eq!(act(&mut pilot, &held), 1, "the first follows the last");
+        assert_eq!(act(&mut pilot, &held), 1, "the first act follows the last");
         assert_eq!(
             pilot.controls(&held, 0, 0.1).act.to_bits(),
             0.0_f64.to_bits(),

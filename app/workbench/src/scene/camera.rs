@@ -1,4 +1,4 @@
-//! The eye: an orbit about a target, the named views, and following the whale.
+//! The camera: an orbit about a target, named views, and views that follow the whale.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,7 +21,7 @@ pub enum View {
     Front,
     /// Third person: behind the whale and above it.
     Whale,
-    /// First person: out of the whale's head, over its rostrum.
+    /// First person: from the whale's head, over its rostrum.
     FirstPerson,
     /// The whale alone, from its starboard side.
     WhaleSide,
@@ -32,25 +32,23 @@ pub enum View {
 }
 
 impl View {
-    /// Views of all there is, in the order of menus.
+    /// Views of everything, in the order of menus.
     pub const WHOLE: [Self; 4] = [Self::Orbit, Self::Side, Self::Top, Self::Front];
     /// Views of the whale or from it, in the order of menus.
     pub const OF_WHALE: [Self; 5] =
         [Self::Whale, Self::FirstPerson, Self::WhaleSide, Self::WhaleTop, Self::WhaleFront];
 
-    /// Every view.
+    /// All views.
     pub fn all() -> impl Iterator<Item = Self> {
         Self::WHOLE.into_iter().chain(Self::OF_WHALE)
     }
 
-    /// Whether the eye goes with the whale.
-    #[must_use]
+    /// Whether the camera follows the whale.
     pub fn is_of_whale(self) -> bool {
         Self::OF_WHALE.contains(&self)
     }
 
     /// Its name on the command line and in menus.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Orbit => "orbit",
@@ -65,14 +63,12 @@ impl View {
         }
     }
 
-    /// Every view's name, for messages.
-    #[must_use]
+    /// Names of all views, for messages.
     pub fn names() -> String {
         Self::all().map(Self::name).collect::<Vec<_>>().join(", ")
     }
 
-    /// The view of a name.
-    #[must_use]
+    /// Finds a view by name.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().find(|view| view.name() == name)
     }
@@ -81,7 +77,7 @@ impl View {
 /// A camera that orbits a target; z is up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// What it looks at [m].
+    /// Point in the middle of the picture [m].
     pub target: DVec3,
     /// Distance from the target [m].
     pub distance_m: f64,
@@ -89,25 +85,25 @@ pub struct Camera {
     pub azimuth: f64,
     /// Height of the eye above the target's level [rad].
     pub elevation: f64,
-    /// Whole angle of view, bottom to top [rad].
+    /// Vertical angle of view [rad].
     pub field_of_view: f64,
-    /// How far the eye is rolled to starboard about its line of sight [rad].
+    /// Roll to starboard about the line of sight [rad].
     pub roll: f64,
 }
 
-/// Nearest to straight up or down that the eye may go, so that "up" stays defined [rad].
+/// Greatest elevation, less than vertical so that "up" stays defined [rad].
 const STEEPEST: f64 = 1.5705;
-/// Angle of view of a free orbit: wide enough for depth [rad].
+/// Angle of view of a free orbit: wide enough for an impression of depth [rad].
 const FREE_ANGLE: f64 = 0.6;
-/// Angle of view of side, top and front: so narrow that lengths compare all over the picture [rad].
+/// Angle of view of side, top and front: narrow, so that lengths are comparable across the picture [rad].
 const FLAT_ANGLE: f64 = 0.12;
-/// Air round what is framed, as a factor on its size.
+/// Margin around what is framed, as a factor on its size.
 const MARGIN: f64 = 1.08;
 /// Width of a portrait of the whale [body lengths].
 const PORTRAIT: f64 = 1.2;
 /// Angle of view when flying behind the whale [rad].
 const FLY_ANGLE: f64 = 1.0;
-/// Angle of view out of the whale's head: its own rostrum stays in sight [rad].
+/// Angle of view from the whale's head: its rostrum is visible [rad].
 const HEAD_ANGLE: f64 = 1.25;
 
 impl Default for Camera {
@@ -124,8 +120,7 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A camera at a named view with all of `places` in sight; `aspect` is width over height.
-    #[must_use]
+    /// A camera at a named view that shows all `places`; `aspect` is width over height.
     pub fn of_view(
         view: View,
         places: &[DVec3],
@@ -135,14 +130,14 @@ impl Camera {
     ) -> Self {
         let mut camera = Self::default();
         match whale.filter(|_| view.is_of_whale()) {
-            Some(whale) => camera.go_with(view, whale, length_m, aspect),
-            None => camera.look_at_all(view, places, aspect),
+            Some(whale) => camera.follow(view, whale, length_m, aspect),
+            None => camera.show_all(view, places, aspect),
         }
         camera
     }
 
-    /// All of `places` in sight, from where a view of everything stands.
-    fn look_at_all(&mut self, view: View, places: &[DVec3], aspect: f64) {
+    /// Shows all `places` from the direction of a view.
+    fn show_all(&mut self, view: View, places: &[DVec3], aspect: f64) {
         (self.azimuth, self.elevation, self.field_of_view) = match view {
             View::Side | View::WhaleSide => (-FRAC_PI_2, 0.0, FLAT_ANGLE),
             View::Top | View::WhaleTop => (-FRAC_PI_2, STEEPEST, FLAT_ANGLE),
@@ -153,8 +148,8 @@ impl Camera {
         self.frame(places, aspect);
     }
 
-    /// Goes to a view of the whale or from it; any other view is third person.
-    pub fn go_with(&mut self, view: View, whale: &WhaleFrame, length_m: f64, aspect: f64) {
+    /// Moves to a view of the whale or from it; any other view is third person.
+    pub fn follow(&mut self, view: View, whale: &WhaleFrame, length_m: f64, aspect: f64) {
         let ahead = whale.orientation * DVec3::X;
         let heading = ahead.y.atan2(ahead.x);
         match view {
@@ -164,11 +159,11 @@ impl Camera {
                 self.portrait(whale, [heading - FRAC_PI_2, STEEPEST], length_m, aspect)
             }
             View::WhaleFront => self.portrait(whale, [heading, 0.0], length_m, aspect),
-            _ => self.follow(whale, length_m),
+            _ => self.third_person(whale, length_m),
         }
     }
 
-    /// The whale alone, from an azimuth and elevation [rad], through a long lens.
+    /// Shows the whale alone from an azimuth and elevation [rad], with a narrow angle of view.
     fn portrait(
         &mut self,
         whale: &WhaleFrame,
@@ -185,7 +180,7 @@ impl Camera {
     /// Moves so that `places` fill the picture.
     pub fn frame(&mut self, places: &[DVec3], aspect: f64) {
         self.target = Bounds::of(places.iter().copied()).centre();
-        // What is near looks larger, so the middle of the picture is not that of the places: centre, then fit, until both hold.
+        // Perspective moves the middle of the picture away from that of the places: alternate fitting and centring.
         for _ in 0..4 {
             self.distance_m = self.fitting_distance(places, aspect);
             let (right, up, _) = self.axes();
@@ -196,8 +191,8 @@ impl Camera {
         self.distance_m = self.fitting_distance(places, aspect);
     }
 
-    /// Least distance at which every place is in sight [m]: one is where its offset across is at most
-    /// its distance ahead times the tangent of the half angle.
+    /// Least distance at which every place is visible [m]: its lateral offset is at most its distance ahead times the tangent of half the
+    /// angle of view.
     fn fitting_distance(&self, places: &[DVec3], aspect: f64) -> f64 {
         let (right, up, ahead) = self.axes();
         let height = (self.field_of_view / 2.0).tan() / MARGIN;
@@ -210,7 +205,7 @@ impl Camera {
         places.iter().map(needed).fold(1.0, f64::max)
     }
 
-    /// Least and greatest tangent of the places from the middle of the picture, across and up.
+    /// Least and greatest tangent of the angle of the places to the line of sight, across and up.
     fn extent(&self, places: &[DVec3]) -> (DVec2, DVec2) {
         let ((right, up, ahead), eye) = (self.axes(), self.eye());
         let tangent = |place: &DVec3| {
@@ -225,8 +220,8 @@ impl Camera {
             })
     }
 
-    /// Third person: behind and above the whale, looking where it looks.
-    pub fn follow(&mut self, whale: &WhaleFrame, length_m: f64) {
+    /// Third person: behind and above the whale, in the direction of its head.
+    pub fn third_person(&mut self, whale: &WhaleFrame, length_m: f64) {
         let ahead = whale.orientation * DVec3::X;
         self.target = whale.position + ahead * (0.25 * length_m);
         self.azimuth = (-ahead.y).atan2(-ahead.x) + 0.25;
@@ -235,7 +230,7 @@ impl Camera {
         (self.field_of_view, self.roll) = (FLY_ANGLE, 0.0);
     }
 
-    /// First person: above and behind the whale's blowholes, looking ahead over its rostrum, rolled as it is rolled.
+    /// First person: from above and behind the whale's blowholes ahead over its rostrum, rolled with the whale.
     pub fn first_person(&mut self, whale: &WhaleFrame, length_m: f64) {
         let [ahead, dorsal] = [DVec3::X, DVec3::Z].map(|axis| whale.orientation * axis);
         let eye = whale.position + ahead * (0.27 * length_m) + dorsal * (0.115 * length_m);
@@ -248,8 +243,7 @@ impl Camera {
         self.roll = dorsal.dot(right).atan2(dorsal.dot(up));
     }
 
-    /// Where the eye is [m].
-    #[must_use]
+    /// Position of the eye [m].
     pub fn eye(&self) -> DVec3 {
         let (sin, cos) = self.azimuth.sin_cos();
         let (up, out) = self.elevation.sin_cos();
@@ -257,7 +251,6 @@ impl Camera {
     }
 
     /// Unit vectors to the right, up, and from the eye to the target.
-    #[must_use]
     pub fn axes(&self) -> (DVec3, DVec3, DVec3) {
         let ahead = (self.target - self.eye()).normalize_or_zero();
         let level = DVec3::new(-self.azimuth.sin(), self.azimuth.cos(), 0.0);
@@ -266,7 +259,7 @@ impl Camera {
         (right, right.cross(ahead), ahead)
     }
 
-    /// Turns about the target by a drag [points].
+    /// Orbits the target by a drag [points].
     pub fn orbit(&mut self, drag: DVec2) {
         self.azimuth -= drag.x * 0.008;
         self.elevation = (self.elevation + drag.y * 0.008).clamp(-STEEPEST, STEEPEST);
@@ -275,51 +268,48 @@ impl Camera {
         }
     }
 
-    /// Goes from a flat view to the free angle, keeping the target's size on screen.
+    /// Changes a flat view to the free angle of view without changing the size of the target on screen.
     fn widen(&mut self) {
         self.distance_m *= (self.field_of_view / 2.0).tan() / (FREE_ANGLE / 2.0).tan();
         self.field_of_view = FREE_ANGLE;
     }
 
-    /// Moves the target with a drag, so that the point under the pointer follows it; `height` is the picture's [points].
+    /// Moves the target by a drag, so that the point under the pointer follows it; `height` is that of the picture [points].
     pub fn pan(&mut self, drag: DVec2, height: f64) {
         let (right, up, _) = self.axes();
         let metres = self.metres_a_point(height);
         self.target += (up * drag.y - right * drag.x) * metres;
     }
 
-    /// Comes nearer by a share for each notch of a wheel.
+    /// Moves closer by a constant factor for each notch of a wheel.
     pub fn zoom(&mut self, notches: f64) {
         self.distance_m = (self.distance_m * 0.88_f64.powf(notches)).clamp(0.5, 20_000.0);
     }
 
-    /// This camera moved towards another by a share, 0 to 1: angles by the shorter way, and what the picture spans at the
-    /// target by equal factors, so that coming nearer looks even also from a flat view to a wide one.
-    #[must_use]
+    /// Interpolates between this camera and another by a share, 0 to 1. Angles take the shorter way; the length that the picture spans at
+    /// the target is interpolated geometrically, so that zooming appears even, also between a flat and a wide view.
     pub fn towards(&self, other: &Self, share: f64) -> Self {
-        let even = |from: f64, to: f64| from + (to - from) * share;
-        let turned = |from: f64, to: f64| from + ((to - from + PI).rem_euclid(TAU) - PI) * share;
+        let linear = |from: f64, to: f64| from + (to - from) * share;
+        let angle = |from: f64, to: f64| from + ((to - from + PI).rem_euclid(TAU) - PI) * share;
         let span_m = |camera: &Self| camera.distance_m * (camera.field_of_view / 2.0).tan();
-        let field_of_view = even(self.field_of_view, other.field_of_view);
+        let field_of_view = linear(self.field_of_view, other.field_of_view);
         let spanned_m = span_m(self) * (span_m(other) / span_m(self)).powf(share);
         Self {
             target: self.target.lerp(other.target, share),
             distance_m: spanned_m / (field_of_view / 2.0).tan(),
-            azimuth: turned(self.azimuth, other.azimuth),
-            elevation: even(self.elevation, other.elevation),
+            azimuth: angle(self.azimuth, other.azimuth),
+            elevation: linear(self.elevation, other.elevation),
             field_of_view,
-            roll: turned(self.roll, other.roll),
+            roll: angle(self.roll, other.roll),
         }
     }
 
     /// Length that one point of the picture spans at the target [m].
-    #[must_use]
     pub fn metres_a_point(&self, height: f64) -> f64 {
         2.0 * self.distance_m * (self.field_of_view / 2.0).tan() / height.max(1.0)
     }
 
-    /// From world to clip space, OpenGL's way; `aspect` is width over height.
-    #[must_use]
+    /// Matrix from world to clip space of OpenGL; `aspect` is width over height.
     pub fn matrix(&self, aspect: f64) -> DMat4 {
         let (right, up, ahead) = self.axes();
         let eye = self.eye();
@@ -340,8 +330,7 @@ impl Camera {
         projection * view
     }
 
-    /// The eye [m], and the unit vector from it through a place of a picture of `size`, from its top left corner [points].
-    #[must_use]
+    /// Position of the eye [m], and the unit vector from it through a point of a picture of `size`, from its top left corner [points].
     pub fn ray(&self, at: DVec2, size: DVec2) -> (DVec3, DVec3) {
         let (right, up, ahead) = self.axes();
         let half = (self.field_of_view / 2.0).tan();
@@ -350,8 +339,7 @@ impl Camera {
         (self.eye(), (ahead + right * x + up * y).normalize_or_zero())
     }
 
-    /// Where a place falls in a picture of `size`, from its top left corner [points]; `None` behind the eye.
-    #[must_use]
+    /// Position of a place in a picture of `size`, from its top left corner [points]; `None` behind the eye.
     pub fn project(&self, place: DVec3, size: DVec2) -> Option<DVec2> {
         let clip = self.matrix(size.x / size.y.max(1.0)) * place.extend(1.0);
         (clip.w > 0.0).then(|| {
@@ -370,7 +358,7 @@ mod tests {
 
     const SIZE: DVec2 = DVec2::new(800.0, 600.0);
 
-    /// A whale 12 m down.
+    /// A whale at a depth of 12 m.
     fn swimming(orientation: DQuat) -> WhaleFrame {
         WhaleFrame {
             position: DVec3::new(9.0, 1.0, -12.0),
@@ -392,13 +380,13 @@ mod tests {
             for corner in gear().corners() {
                 let at = camera.project(corner, SIZE).unwrap();
                 let inside = at.x > 0.0 && at.x < SIZE.x && at.y > 0.0 && at.y < SIZE.y;
-                assert!(inside, "{view:?}: {corner} falls at {at}");
+                assert!(inside, "{view:?}: {corner} is drawn at {at}");
             }
         }
     }
 
     #[test]
-    fn what_is_framed_fills_the_picture_and_stands_in_its_middle() {
+    fn framed_places_fill_the_picture_and_are_centred() {
         let places = [
             DVec3::new(0.0, 0.0, -25.0),
             DVec3::new(17.0, 2.0, 0.0),
@@ -421,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn east_is_right_and_up_is_up_from_the_south_and_north_is_up_from_above() {
+    fn east_is_right_and_up_is_up_in_the_side_view_and_north_is_up_in_the_top_view() {
         let side = Camera::of_view(View::Side, &gear().corners(), None, 13.0, 1.0);
         assert!(
             side.project(DVec3::new(50.0, 0.0, -20.0), SIZE).unwrap().x
@@ -439,7 +427,7 @@ mod tests {
     }
 
     #[test]
-    fn the_target_is_in_the_middle_and_the_scale_is_that_of_the_projection() {
+    fn the_target_is_in_the_middle_and_the_scale_matches_the_projection() {
         let camera =
             Camera { target: DVec3::new(3.0, 4.0, -10.0), distance_m: 25.0, ..Camera::default() };
         let middle = camera.project(camera.target, SIZE).unwrap();
@@ -459,7 +447,7 @@ mod tests {
     }
 
     #[test]
-    fn a_passage_turns_by_the_shorter_way() {
+    fn an_interpolation_turns_by_the_shorter_way() {
         let [from, to] = [3.0, -3.0].map(|azimuth| Camera { azimuth, ..Camera::default() });
         let middle = from.towards(&to, 0.5);
         assert!((middle.azimuth - PI).abs() < 1e-12, "{}", middle.azimuth);
@@ -467,7 +455,7 @@ mod tests {
     }
 
     #[test]
-    fn a_passage_from_a_flat_view_to_a_wide_one_keeps_what_the_picture_spans() {
+    fn an_interpolation_from_a_flat_view_to_a_wide_one_keeps_the_span_of_the_picture() {
         let flat = Camera { field_of_view: FLAT_ANGLE, distance_m: 500.0, ..Camera::default() };
         let mut wide = flat.clone();
         wide.widen();
@@ -481,11 +469,11 @@ mod tests {
     }
 
     #[test]
-    fn following_looks_the_way_the_whale_swims() {
+    fn a_following_camera_points_in_the_direction_of_the_whale() {
         let orientation = DQuat::from_rotation_z(2.0);
         let whale = swimming(orientation);
         let mut camera = Camera::default();
-        camera.follow(&whale, 13.0);
+        camera.third_person(&whale, 13.0);
         assert!(camera.axes().2.dot(orientation * DVec3::X) > 0.9);
         camera.first_person(&whale, 13.0);
         assert!((camera.axes().2 - orientation * DVec3::X).length() < 1e-9);
@@ -510,7 +498,7 @@ mod tests {
     }
 
     #[test]
-    fn a_portrait_holds_the_whole_whale_with_its_snout_to_the_right() {
+    fn a_portrait_shows_the_whole_whale_with_its_snout_to_the_right() {
         let orientation = DQuat::from_rotation_z(2.0);
         let whale = swimming(orientation);
         for view in [View::WhaleSide, View::WhaleTop] {

@@ -1,4 +1,4 @@
-//! Drawing a scene with three-d: into a smoothed texture, then onto a window, inside egui, or into a picture.
+//! Drawing of a scene with three-d: into an antialiased texture, which is copied onto a window, a pane of egui or a picture.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,7 +15,7 @@ use three_d::{
 
 use crate::scene::camera::Camera;
 
-/// Samples a pixel for smooth edges.
+/// Samples per pixel for antialiasing.
 const SAMPLES: u32 = 4;
 
 /// Colours of the sea (sRGB).
@@ -44,7 +44,7 @@ impl Water {
     };
 }
 
-/// Draws scenes; owns its programs, buffers and textures on the graphics card.
+/// Draws scenes. Owns shader programs, buffers and textures on the graphics card.
 pub struct Drawer {
     context: Context,
     part: Program,
@@ -53,11 +53,11 @@ pub struct Drawer {
     loaded: Vec<Loaded>,
     depth_m: f32,
     time_s: f32,
-    /// One for each place that shows the scene.
+    /// One for each slot.
     pictures: Vec<Option<Picture>>,
 }
 
-/// The scene as it was drawn last for one place on screen.
+/// The last drawing of the scene for one slot.
 struct Picture {
     target: RenderTargetMultisample<[u8; 4], f32>,
     picture: Option<Texture2D>,
@@ -76,11 +76,11 @@ struct Loaded {
     triangles: ElementBuffer<u32>,
 }
 
-/// What a draw call needs to know of the eye and the sea.
-struct Eye {
+/// Uniforms of a draw call that describe the camera and the sea.
+struct Uniforms {
     to_clip: Mat4,
     place: GlVec3,
-    /// From the eye to the right edge, the upper edge and the middle of the picture, one unit ahead.
+    /// Vectors from the eye to the right edge, the upper edge and the middle of the picture, at unit distance.
     sight: [GlVec3; 3],
     pixel_angle: f32,
     clear_m: f32,
@@ -91,16 +91,16 @@ struct Eye {
     viewport: Viewport,
 }
 
-/// What of a part is drawn.
+/// What is drawn of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pass {
     /// The part itself.
     Whole,
-    /// A dark edge round it.
+    /// A dark outline.
     Edge,
 }
 
-/// Width of a rope's dark edge [px].
+/// Width of the dark outline of a rope [px].
 const EDGE_PX: f32 = 1.0;
 
 /// Source of a shader in `assets/shaders`.
@@ -110,14 +110,14 @@ macro_rules! source {
     };
 }
 
-/// Source of a shader that needs the light and colour of the sea, which stand before it.
+/// Source of a shader that includes the light and colour of the sea.
 macro_rules! sea_shader {
     ($name:literal) => {
         concat!(source!("sea"), source!($name))
     };
 }
 
-/// The colours of skin and its marks as the shader of parts knows them.
+/// Colours of skin and its marks, as constants for the shader of parts.
 fn skin_colours() -> String {
     let colours = [("SKIN", SKIN), ("CALLOSITY", CALLOSITY), ("WHITE", WHITE)];
     let line = |(name, [red, green, blue, _]): (&str, Colour)| {
@@ -127,10 +127,7 @@ fn skin_colours() -> String {
 }
 
 impl Drawer {
-    /// A drawer on an OpenGL context that is current.
-    ///
-    /// # Errors
-    /// With the reason, where the context is too old or a shader does not compile.
+    /// A drawer on the current OpenGL context.
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
         let build = || -> Result<Self, CoreError> {
             let context = Context::from_gl_context(gl)?;
@@ -160,7 +157,7 @@ impl Drawer {
         build().map_err(|error| format!("the 3-D view cannot use this OpenGL: {error}"))
     }
 
-    /// Hands a scene's triangles to the graphics card.
+    /// Copies the triangles of a scene to the graphics card.
     pub fn load(&mut self, scene: &Scene) {
         (self.depth_m, self.time_s) = (scene.depth_m.max(1.0) as f32, scene.time_s as f32);
         self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
@@ -172,7 +169,7 @@ impl Drawer {
         }
     }
 
-    /// Draws the loaded scene into a texture of the drawer's own of `size` pixels; each `slot` has one.
+    /// Draws the loaded scene into the texture of a slot, of `size` pixels.
     pub fn draw(&mut self, slot: usize, camera: &Camera, size: [u32; 2], water: Water) {
         let [width, height] = size.map(|side| side.max(1));
         if self.pictures.len() <= slot {
@@ -201,11 +198,11 @@ impl Drawer {
         self.pictures[slot] = Some(Picture { target, picture });
     }
 
-    fn draw_backdrop(&self, eye: &Eye) {
+    fn draw_backdrop(&self, eye: &Uniforms) {
         for (name, sight) in ["right", "up", "ahead"].into_iter().zip(eye.sight) {
             self.backdrop.use_uniform(name, sight);
         }
-        eye.sea(&self.backdrop);
+        eye.set_sea(&self.backdrop);
         self.backdrop.use_vertex_attribute("corner", &self.corners);
         let states = RenderStates {
             depth_test: DepthTest::Always,
@@ -215,8 +212,7 @@ impl Drawer {
         self.backdrop.draw_arrays(states, eye.viewport, 3);
     }
 
-    /// Copies the picture drawn for a slot onto a window of `window` pixels, at `viewport`, inside `clip` (both from the
-    /// bottom left).
+    /// Copies the picture of a slot onto a window of `window` pixels, at `viewport`, clipped to `clip` (both from the bottom left).
     pub fn show(&self, slot: usize, window: [u32; 2], viewport: Viewport, clip: ScissorBox) {
         if let Some(picture) = self
             .pictures
@@ -266,7 +262,7 @@ impl Loaded {
         self.triangles.fill(mesh.triangles.as_flattened());
     }
 
-    fn draw(&self, program: &Program, eye: &Eye, pass: Pass) {
+    fn draw(&self, program: &Program, eye: &Uniforms, pass: Pass) {
         let look = match (pass, self.look) {
             (Pass::Edge, _) => 6,
             (_, Look::Solid) => 0,
@@ -277,7 +273,7 @@ impl Loaded {
             (_, Look::Rope) => 5,
         };
         let grid_m = if let Look::Seabed { grid_m } = self.look { grid_m } else { 10.0 };
-        eye.sea(program);
+        eye.set_sea(program);
         program.use_uniform("to_clip", eye.to_clip);
         program.use_uniform("pixel_angle", eye.pixel_angle);
         program.use_uniform("least_px", self.least_px);
@@ -300,20 +296,20 @@ fn render_states(see_through: bool, pass: Pass) -> RenderStates {
     } else {
         (Blend::Disabled, WriteMask::COLOR_AND_DEPTH)
     };
-    // Of the wider tube, only the far side shows: round the rope, never over it.
+    // Only the far side of the wider tube is drawn, so that it outlines the rope and never covers it.
     let cull = if pass == Pass::Edge { Cull::Front } else { Cull::None };
     RenderStates { depth_test: DepthTest::LessOrEqual, cull, blend, write_mask }
 }
 
 impl Drawer {
-    fn eye(&self, camera: &Camera, size: [u32; 2], water: Water) -> Eye {
+    fn eye(&self, camera: &Camera, size: [u32; 2], water: Water) -> Uniforms {
         let [width, height] = size;
         let aspect = f64::from(width) / f64::from(height);
         let seen_m = camera.metres_a_point(1.0) as f32;
         let gl = |vector: Vec3| GlVec3::new(vector.x, vector.y, vector.z);
         let (right, up, ahead) = camera.axes();
         let half = (camera.field_of_view / 2.0).tan();
-        Eye {
+        Uniforms {
             to_clip: Mat4::from(camera.matrix(aspect).as_mat4().to_cols_array_2d()),
             place: gl(camera.eye().as_vec3()),
             sight: [right * half * aspect, up * half, ahead].map(|vector| gl(vector.as_vec3())),
@@ -329,9 +325,9 @@ impl Drawer {
     }
 }
 
-impl Eye {
-    /// Tells a program what `sea.glsl` asks.
-    fn sea(&self, program: &Program) {
+impl Uniforms {
+    /// Sets the uniforms of `sea.glsl`.
+    fn set_sea(&self, program: &Program) {
         program.use_uniform("eye", self.place);
         program.use_uniform("clear_m", self.clear_m);
         program.use_uniform("depth_m", self.depth_m);
@@ -343,36 +339,33 @@ impl Eye {
     }
 }
 
-/// Panes of the 3-D view at most.
+/// Maximum number of panes of the 3-D view.
 pub const MOST_PANES: usize = 4;
 
-/// What a slot was drawn with last.
+/// Camera, size and colours of the last drawing of a slot.
 type Drawn = (Camera, [u32; 2], Water);
 
-/// A drawer with the scene that waits for it and what it drew last, for each slot: a pane that shows the scene.
+/// The 3-D drawing inside egui. It has a slot for each pane that shows the scene, and draws a slot again only after a change.
 #[derive(Default)]
 pub struct Canvas {
-    /// Made when it is first needed.
+    /// Made at the first use.
     drawer: Option<Drawer>,
     waiting: Option<Scene>,
     drawn: Vec<Option<Drawn>>,
 }
 
 impl Canvas {
-    /// A canvas on eframe's OpenGL.
-    ///
-    /// # Errors
-    /// Where this OpenGL cannot draw the scene.
+    /// A canvas on the OpenGL context of eframe.
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
         Ok(Self { drawer: Some(Drawer::new(gl)?), waiting: None, drawn: Vec::new() })
     }
 
-    /// Takes a scene to be drawn next.
+    /// Sets the scene to be drawn next.
     pub fn load(&mut self, scene: Scene) {
         self.waiting = Some(scene);
     }
 
-    /// What egui calls to have a slot of the canvas painted in a rectangle.
+    /// Callback by which egui paints a slot of the canvas in a rectangle.
     pub fn callback(
         canvas: &Arc<Mutex<Self>>,
         slot: usize,
@@ -403,7 +396,7 @@ impl Canvas {
             return;
         }
         if self.drawer.is_none() {
-            // A card that cannot draw has said so when the window was opened.
+            // An error was already reported when the window was opened.
             self.drawer = Drawer::new(Arc::clone(gl)).ok();
         }
         let Some(drawer) = &mut self.drawer else { return };

@@ -1,4 +1,7 @@
-//! An eye of the 3-D view, and the path of a camera through a film.
+//! The eye of a pane: a camera that the mouse moves or that follows the whale; and camera paths, keys between which it moves in a film.
+//!
+//! Between keys at times a and b the camera is interpolated with the share s²(3 − 2s), s = (t − a) / (b − a), so that it is at rest at
+//! every key. Both eyes are evaluated at each moment, so that an eye that follows the whale also does so between keys.
 
 use egui::{PointerButton, Rect, Response, Ui};
 use endline_gear::units::{self, Quantity};
@@ -9,19 +12,19 @@ use glam::DVec2;
 
 use crate::scene::camera::{Camera, View};
 
-/// An eye; each pane of the 3-D view has one.
+/// The eye of a pane of the 3-D view.
 #[derive(Clone, Debug)]
 pub struct Eye {
-    /// Where it stands and looks.
+    /// Camera, used if the eye does not follow the whale.
     pub camera: Camera,
-    /// Whether it goes with the whale.
+    /// Whether it follows the whale.
     pub follow: bool,
     /// The last named view.
     pub named: View,
-    /// Whether to bring everything into sight with the next frame.
+    /// Whether to frame everything at the next frame.
     pub frame_again: bool,
-    /// How far the user has turned from the following camera's own direction: azimuth, elevation, nearness.
-    turned: [f64; 3],
+    /// Offsets of the user to the camera that follows the whale: azimuth [rad], elevation [rad], zoom [notches].
+    offset: [f64; 3],
 }
 
 impl Default for Eye {
@@ -32,28 +35,27 @@ impl Default for Eye {
 
 impl Eye {
     /// An eye at a named view.
-    #[must_use]
     pub fn at(view: View) -> Self {
         Self {
             camera: Camera::default(),
             follow: view.is_of_whale(),
             named: view,
             frame_again: true,
-            turned: [0.0; 3],
+            offset: [0.0; 3],
         }
     }
 
-    /// Goes to a named view.
-    pub fn look(&mut self, view: View) {
+    /// Changes to a named view.
+    pub fn set_view(&mut self, view: View) {
         *self = Self { camera: self.camera.clone(), ..Self::at(view) };
     }
 
-    /// Brings everything into sight.
+    /// Frames everything, and stops following the whale.
     pub fn frame(&mut self) {
         (self.follow, self.frame_again) = (false, true);
     }
 
-    /// Drag orbits, right drag or Shift and drag pans, the wheel comes nearer.
+    /// Handles the mouse: drag orbits, right drag or Shift and drag pans, the wheel zooms.
     pub fn turn(&mut self, ui: &Ui, response: &Response, flying: bool) {
         let drag =
             DVec2::new(f64::from(response.drag_delta().x), f64::from(response.drag_delta().y));
@@ -67,10 +69,10 @@ impl Eye {
             0.0
         };
         if self.follow {
-            self.turned = [
-                self.turned[0] - drag.x * 0.008,
-                self.turned[1] + drag.y * 0.008,
-                self.turned[2] + notches,
+            self.offset = [
+                self.offset[0] - drag.x * 0.008,
+                self.offset[1] + drag.y * 0.008,
+                self.offset[2] + notches,
             ];
         } else if response.dragged() && pan {
             self.camera.pan(drag, f64::from(response.rect.height()));
@@ -82,23 +84,21 @@ impl Eye {
         }
     }
 
-    /// Where it stands for a run's moment, drawn in a rectangle.
-    #[must_use]
+    /// Camera for the moment of a view, drawn in a rectangle.
     pub fn placed(&self, view: &LiveView, rect: Rect) -> Camera {
         self.at_moment(&view.model, &view.frame, f64::from(rect.width() / rect.height().max(1.0)))
     }
 
-    /// Where it stands for a moment, in a picture so many times as wide as it is high.
-    #[must_use]
+    /// Camera for a frame; `aspect` is width over height of the picture.
     pub fn at_moment(&self, model: &Model, frame: &Frame, aspect: f64) -> Camera {
         let mut camera = self.camera.clone();
         let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
         if let (true, Some(whale)) = (self.follow, &frame.whale) {
-            camera.go_with(self.named, whale, length_m, aspect);
+            camera.follow(self.named, whale, length_m, aspect);
             if self.named != View::FirstPerson {
-                camera.azimuth += self.turned[0];
-                camera.elevation = (camera.elevation + self.turned[1]).clamp(-1.4, 1.4);
-                camera.zoom(self.turned[2]);
+                camera.azimuth += self.offset[0];
+                camera.elevation = (camera.elevation + self.offset[1]).clamp(-1.4, 1.4);
+                camera.zoom(self.offset[2]);
             }
         } else if self.frame_again {
             let places = Scene::places_of(model, frame);
@@ -108,10 +108,10 @@ impl Eye {
     }
 }
 
-/// Keys nearer to one another than this are one [s].
+/// Keys closer in time than this are the same key [s].
 const SAME_S: f64 = 0.02;
 
-/// Eyes at times, in order.
+/// Keys of a camera path, in order of time.
 #[derive(Clone, Debug)]
 pub struct CameraPath<E> {
     keys: Vec<(f64, E)>,
@@ -124,14 +124,14 @@ impl<E> Default for CameraPath<E> {
 }
 
 impl<E> CameraPath<E> {
-    /// Sets the eye at a time [s]; one that is there already is replaced.
+    /// Sets a key at a time [s]; replaces a key at the same time.
     pub fn set(&mut self, time_s: f64, eye: E) {
         self.keys.retain(|(at_s, _)| (at_s - time_s).abs() > SAME_S);
         let place = self.keys.partition_point(|(at_s, _)| *at_s < time_s);
         self.keys.insert(place, (time_s, eye));
     }
 
-    /// Takes every key away.
+    /// Removes all keys.
     pub fn clear(&mut self) {
         self.keys.clear();
     }
@@ -141,7 +141,7 @@ impl<E> CameraPath<E> {
         self.keys.iter().map(|(time_s, _)| *time_s)
     }
 
-    /// The camera at a time [s], by what places an eye at that moment; `None` without keys.
+    /// Camera at a time [s]; `place` returns the camera of a key at that moment. `None` without keys.
     pub fn camera(&self, time_s: f64, place: impl Fn(&E) -> Camera) -> Option<Camera> {
         let next = self.keys.partition_point(|(at_s, _)| *at_s <= time_s);
         let before = next.checked_sub(1).and_then(|before| self.keys.get(before));
@@ -157,10 +157,7 @@ impl<E> CameraPath<E> {
 }
 
 impl CameraPath<View> {
-    /// Reads `side`, or keys with times, `side@0s,whale@10s`.
-    ///
-    /// # Errors
-    /// A view that does not exist, or a time without a unit.
+    /// Parses a view, `side`, or views with times, `side@0s,whale@10s`.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut path = Self::default();
         for key in text.split(',').map(str::trim) {
@@ -178,8 +175,7 @@ impl CameraPath<View> {
         Ok(path)
     }
 
-    /// The view, where there is but one.
-    #[must_use]
+    /// The view, if the path has only one key.
     pub fn single(&self) -> Option<View> {
         match self.keys.as_slice() {
             [(_, view)] => Some(*view),
@@ -198,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn the_camera_stands_at_its_keys_and_passes_smoothly_between_them() {
+    fn the_camera_is_at_rest_at_its_keys_and_moves_smoothly_between_them() {
         let mut path = CameraPath::default();
         for (time_s, distance_m) in [(10.0, 40.0), (2.0, 10.0), (10.01, 90.0)] {
             path.set(time_s, distance_m);
@@ -208,7 +204,7 @@ mod tests {
         for (time_s, there_m) in [(0.0, 10.0), (2.0, 10.0), (10.01, 90.0), (99.0, 90.0)] {
             assert!((at(time_s) - there_m).abs() < 1e-9, "{time_s}: {}", at(time_s));
         }
-        // Half way, distances are the geometric mean: coming nearer looks even.
+        // Half way, the distance is the geometric mean.
         assert!((at(6.005) - 30.0).abs() < 1e-9, "{}", at(6.005));
         let speed = |time_s: f64| (at(time_s + 1e-4) - at(time_s - 1e-4)) / 2e-4;
         assert!(speed(2.001).abs() < 0.01 && speed(6.0) > 5.0, "{} {}", speed(2.001), speed(6.0));
@@ -216,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn views_with_times_are_read_and_bad_ones_say_what_is_wrong() {
+    fn views_with_times_are_parsed_and_errors_name_the_problem() {
         let path = CameraPath::read("side, whale@10 s,first-person@12.5s").unwrap();
         assert_eq!(path.times().collect::<Vec<_>>(), [0.0, 10.0, 12.5]);
         assert_eq!(CameraPath::read("top").unwrap().single(), Some(View::Top));

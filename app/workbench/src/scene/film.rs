@@ -1,4 +1,4 @@
-//! Films of a run: pictures one after the other, into a GIF, or by ffmpeg into MP4 or WebM.
+//! Films of a run: pictures written to a GIF, or by ffmpeg to MP4 or WebM.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -15,10 +15,10 @@ use crate::scene::camera::Camera;
 use crate::scene::draw::Water;
 use crate::scene::picture::{RenderRequest, Renderer};
 
-/// How finely a GIF's palette is sought: 1 best and slowest, 30 fastest.
+/// Quality of the search for a GIF's palette: 1 best and slowest, 30 fastest.
 const PALETTE_SPEED: i32 = 10;
 
-/// A film file that is being written.
+/// A film file in progress.
 pub struct Film {
     out: PathBuf,
     size: [u32; 2],
@@ -33,15 +33,14 @@ enum Target {
 
 impl Film {
     /// Whether a file is a film by its extension.
-    #[must_use]
     pub fn is_named(out: &Path) -> bool {
         ["gif", "mp4", "webm"].contains(&extension(out).as_str())
     }
 
-    /// Begins a film of a size [px] at so many pictures a second.
+    /// Starts a film of a size [px] with a number of pictures per second.
     ///
     /// # Errors
-    /// A file that cannot be written, a size that its format does not take, or ffmpeg that is not there.
+    /// If the file cannot be written, its format does not allow the size, or ffmpeg is missing.
     pub fn begin(out: &Path, size: [u32; 2], fps: u32) -> Result<Self, String> {
         let to = match extension(out).as_str() {
             "gif" => Target::Gif(Box::new(begin_gif(out, size)?)),
@@ -51,9 +50,6 @@ impl Film {
     }
 
     /// Adds a picture, row by row from the top: red, green, blue, opacity.
-    ///
-    /// # Errors
-    /// A file that cannot be written on.
     pub fn add(&mut self, pixels: &[[u8; 4]]) -> Result<(), String> {
         let added = match &mut self.to {
             Target::Gif(encoder) => {
@@ -68,7 +64,7 @@ impl Film {
                 Some(input) => {
                     input.write_all(pixels.as_flattened()).map_err(|error| error.to_string())
                 }
-                None => Err("ffmpeg takes nothing more".to_owned()),
+                None => Err("ffmpeg has closed its input".to_owned()),
             },
         };
         added.map_err(|reason| {
@@ -77,18 +73,15 @@ impl Film {
     }
 
     /// Ends the film.
-    ///
-    /// # Errors
-    /// With what ffmpeg said, where it failed.
     pub fn end(self) -> Result<(), String> {
         let Target::Ffmpeg(child) = self.to else { return Ok(()) };
-        // Its input is closed first, so that it ends.
+        // `wait_with_output` closes the input of ffmpeg first, so that it ends.
         let ended = child.wait_with_output().map_err(|error| error.to_string())?;
         if ended.status.success() {
             return Ok(());
         }
-        let said = String::from_utf8_lossy(&ended.stderr);
-        let last = said.lines().last().unwrap_or("nothing was said").to_owned();
+        let messages = String::from_utf8_lossy(&ended.stderr);
+        let last = messages.lines().last().unwrap_or("no message").to_owned();
         Err(format!("{}: ffmpeg could not make the film: {last}", self.out.display()))
     }
 }
@@ -97,7 +90,7 @@ fn extension(out: &Path) -> String {
     out.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// Time that a picture of a GIF stands [1/100 s].
+/// Display time of a picture of a GIF [1/100 s].
 fn hundredths(fps: u32) -> u16 {
     (100.0 / f64::from(fps.max(1))).round().max(2.0) as u16
 }
@@ -143,15 +136,15 @@ fn begin_ffmpeg(out: &Path, size: [u32; 2], fps: u32, format: &str) -> Result<Ch
     })
 }
 
-/// What a film shows.
+/// Frames of a run to be drawn as a film. One tension scale applies to all, so that a colour has one meaning.
 pub struct Reel<'a> {
     /// The gear, sea and whale.
     pub model: &'a Model,
-    /// A moment for each picture.
+    /// A frame for each picture.
     pub frames: &'a [Arc<Frame>],
     /// Width and height [px].
     pub size: [u32; 2],
-    /// Where each moment is seen from.
+    /// Camera for each frame.
     pub camera: &'a dyn Fn(&Frame) -> Camera,
     /// What is drawn.
     pub show: Show,
@@ -164,15 +157,12 @@ pub struct Reel<'a> {
 }
 
 impl Reel<'_> {
-    /// Draws every moment into a film and ends it; `go_on` hears of each picture and ends the film there where it
-    /// answers `false`. Answers how many were drawn.
-    ///
-    /// # Errors
-    /// Without OpenGL, or where the film cannot be written.
+    /// Draws all frames into a film and ends it. After each picture, `proceed` receives the number drawn so far; the film ends there if it
+    /// returns `false`. Returns the number of pictures drawn.
     pub fn draw(
         &self,
         mut film: Film,
-        mut go_on: impl FnMut(usize) -> bool,
+        mut proceed: impl FnMut(usize) -> bool,
     ) -> Result<usize, String> {
         let mut renderer = Renderer::new(self.size)?;
         let tensions = self.frames.iter().flat_map(|frame| frame.tension_n.iter().copied());
@@ -193,7 +183,7 @@ impl Reel<'_> {
             };
             film.add(&renderer.seen_by(&request, &show, &(self.camera)(frame), self.water))?;
             drawn += 1;
-            if !go_on(drawn) {
+            if !proceed(drawn) {
                 break;
             }
         }
@@ -208,7 +198,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_gif_has_every_picture_in_its_colours_and_time() {
+    fn a_gif_has_every_picture_with_its_colours_and_time() {
         let out = std::env::temp_dir().join(format!("endline-film-{}.gif", std::process::id()));
         let mut film = Film::begin(&out, [32, 16], 20).unwrap();
         let colours = [[200, 30, 30, 255], [20, 180, 40, 255], [10, 20, 220, 255]];
@@ -233,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn an_odd_size_and_a_folder_that_is_not_there_are_refused() {
+    fn an_odd_size_and_a_missing_folder_are_refused() {
         let odd = Film::begin(Path::new("x.mp4"), [33, 16], 20).err().unwrap();
         assert!(odd.contains("try --size 34x16"), "{odd}");
         let nowhere = Film::begin(Path::new("/nowhere/x.gif"), [32, 16], 20).err().unwrap();

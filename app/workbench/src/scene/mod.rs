@@ -1,8 +1,7 @@
-//! Drawing a scene with or without a display.
+//! Drawing of a scene with or without a display.
 //!
-//! One path: [`Scene::of`](endline_session::scene::Scene::of) makes plain triangles from a model and
-//! a frame; [`Drawer`] draws them by OpenGL, in the workbench's window, in [`render_png`] and in
-//! tests.
+//! [`Scene::of`](endline_session::scene::Scene::of) makes triangles from a model and a frame; [`Drawer`] draws them by OpenGL. The
+//! window, [`render_png`] and tests use the same code.
 
 pub mod camera;
 pub mod draw;

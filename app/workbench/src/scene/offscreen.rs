@@ -1,7 +1,6 @@
 //! OpenGL without a display: an EGL off-screen surface, for pictures and tests.
 //!
-//! Asking the system for an OpenGL context is a call into a C library, so this file may use `unsafe`:
-//! each block states why its call is sound.
+//! A request for an OpenGL context calls a C library, so this file may use `unsafe`. Each block states why its call is sound.
 #![expect(unsafe_code, reason = "making an OpenGL context calls the system's EGL library")]
 
 use std::ffi::CStr;
@@ -29,10 +28,10 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// A surface of `size` pixels on the first device that gives one.
+    /// A surface of `size` pixels on the first device that has one.
     ///
     /// # Errors
-    /// With what was missing and the packages that bring it.
+    /// The reason, and the packages that are needed.
     pub fn new(size: [u32; 2]) -> Result<Self, String> {
         let explain = |reason: String| {
             format!(
@@ -65,7 +64,7 @@ impl Offscreen {
         // SAFETY: `config` comes from this display.
         let surface = unsafe { display.create_pbuffer_surface(&config, &wanted) }?;
         let context = context.make_current(&surface)?;
-        // SAFETY: the context is current on this thread, and the display answers with its own functions' addresses.
+        // SAFETY: the context is current on this thread, and the display returns the addresses of its own functions.
         let gl =
             unsafe { Gl::from_loader_function_cstr(|name: &CStr| display.get_proc_address(name)) };
         Ok(Self { gl: Arc::new(gl), _context: context, _surface: surface })

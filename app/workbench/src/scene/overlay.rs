@@ -1,4 +1,4 @@
-//! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar, names of small bodies.
+//! Text over a scene: caption and time, the tension scale in lbf and N, a scale bar, names of small bodies.
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
 use endline_session::scales::{decimals, nice_below, ticks};
@@ -10,16 +10,16 @@ use glam::DVec2;
 use crate::scene::camera::Camera;
 use crate::scene::silhouette::silhouette;
 
-/// What the overlay says.
+/// Content of the overlay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay<'a> {
     /// Line at the top left, such as the scenario's name; may be empty.
     pub caption: &'a str,
     /// Simulated time [s].
     pub time_s: f64,
-    /// Tension at the top of the colour scale [N]; zero for a scene without rope, which needs no scale.
+    /// Tension at the top of the colour scale [N]; zero for a scene without rope, which has no scale.
     pub scale_n: f64,
-    /// Length that one point spans at the camera's target [m].
+    /// Length of one point at the camera's target [m].
     pub metres_a_point: f64,
     /// Units of the scale bar.
     pub units: Units,
@@ -32,13 +32,13 @@ const MARGIN: f32 = 12.0;
 /// Width below which a pane is narrow [points].
 const NARROW: f32 = 700.0;
 
-/// Writes the overlay into `rect`.
+/// Draws the overlay into `rect`.
 pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     caption(painter, rect, overlay);
     if overlay.scale_n > 0.0 && rect.height() > 260.0 && rect.width() > 320.0 {
         legend(painter, rect, overlay.scale_n);
     }
-    // In a flat pane it would lie on the caption.
+    // In a low pane it would overlap the caption.
     if rect.height() > 90.0 {
         scale_bar(painter, rect, overlay.metres_a_point, overlay.units);
     }
@@ -54,9 +54,9 @@ fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     painter.galley(at, galley, INK);
 }
 
-/// The colour bar: pounds-force to its left, newtons to its right.
+/// Draws the colour bar, with pounds-force at its left and newtons at its right.
 fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
-    // In a narrow pane, as where two runs are compared, what is looked at lies near: the bar is short there.
+    // The bar is short in a narrow pane, such as for two compared runs, where it would cover the scene.
     let share = if rect.width() < NARROW { 0.2 } else { 0.35 };
     let height = (rect.height() * share).clamp(90.0, 220.0);
     let bar = Rect::from_min_size(
@@ -112,7 +112,7 @@ fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
     }
 }
 
-/// The colours of the scale in a bar, from its longer side's foot or left end on.
+/// Draws the colours of the scale in a bar, upwards or to the right along its longer side.
 pub fn gradient(painter: &Painter, bar: Rect) {
     const STEPS: u32 = 24;
     let upright = bar.height() > bar.width();
@@ -168,7 +168,7 @@ fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64, units: Units) {
     );
 }
 
-/// A number to so many decimals, a thin space between thousands; zero is only 0.
+/// A number with a number of decimals and a thin space between thousands; zero is 0.
 fn thousands(value: f64, places: usize) -> String {
     let text = if value == 0.0 { "0".to_owned() } else { format!("{value:.places$}") };
     let mut out = String::new();
@@ -182,22 +182,21 @@ fn thousands(value: f64, places: usize) -> String {
     out
 }
 
-/// The colour of a share of the scale's top.
-#[must_use]
+/// Colour of a share of the top of the scale.
 pub fn scale_colour(share: f64) -> Color32 {
     let [red, green, blue, _] = tension_colour(share).map(|part| (part * 255.0).round() as u8);
     Color32::from_rgb(red, green, blue)
 }
 
-/// A body that looks larger than this needs no name [points].
+/// A body larger than this on screen needs no name [points].
 const LARGE: f64 = 36.0;
-/// From the middle of a body to its name [points].
+/// Distance from the middle of a body to its name [points].
 const AWAY: f32 = 13.0;
 
 const NAME_INK: Color32 = Color32::from_rgb(0xdf, 0xea, 0xec);
 const NAME_PLATE: Color32 = Color32::from_black_alpha(120);
 
-/// Writes the ids of small bodies beside them; a name that would lie on another is left out.
+/// Writes the ids of small bodies beside them, without names that would overlap another.
 pub fn paint_names(painter: &Painter, rect: Rect, camera: &Camera, model: &Model, frame: &Frame) {
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
     let mut taken: Vec<Rect> = Vec::new();

@@ -1,7 +1,7 @@
-//! What stands under the pointer: a place on a rope, a body, a place on the whale's skin, or a place where rope or a body presses on skin.
+//! Picking: finds the thing under the pointer, which is a place on a rope, a body, a place on the whale's skin, or a contact with skin.
 //!
-//! Ropes, marks and arrows are thin, so they are found by their distance on screen; bodies and skin by the ray from the eye,
-//! x(t) = e + t d. What is nearer to the eye counts, but rope wins over the skin that it lies on.
+//! Ropes, marks and arrows are thin and found by their distance on screen; bodies and skin by the ray from the eye, x(t) = e + t d. The
+//! thing nearest to the eye is picked, but rope takes precedence over the skin that it touches.
 
 use endline_session::scene::Show;
 use endline_session::scene::forces::{Presser, SkinForce, greatest_n, on_skin};
@@ -13,21 +13,21 @@ use glam::{DVec2, DVec3};
 
 use crate::scene::camera::Camera;
 
-/// How far beside a rope the pointer may be, and how large a small body is taken to be [points].
-const NEAR: f64 = 7.0;
-/// How near to a place of contact the pointer must be for it to win over the rope that presses there [points].
+/// Greatest distance of the pointer to a rope, and least size of a body for picking [points].
+const NEAR_PT: f64 = 7.0;
+/// Distance to a contact below which it takes precedence over the rope that presses there [points].
 const ON_MARK: f64 = 3.0;
-/// How far behind the skin's front a rope may lie and still be found: rope pressed in, or at a flat angle [m].
+/// Greatest depth of a rope behind the visible skin: for rope pressed in, or seen at a flat angle [m].
 const BEHIND_M: f64 = 0.15;
 
-/// What was picked; it stays on the thing while that moves.
+/// A picked thing; it is stored relative to the thing, so that it moves with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Picked {
     /// A place on a line.
     Rope {
         /// Index of the line.
         line: usize,
-        /// Unstretched rope from its first end [m].
+        /// Unstretched length from its first end [m].
         at_m: f64,
     },
     /// A body by its index.
@@ -36,14 +36,14 @@ pub enum Picked {
     Skin {
         /// Index of the skin's triangle.
         triangle: usize,
-        /// Shares of its corners.
+        /// Barycentric coordinates.
         barycentric: [f64; 3],
     },
     /// A place at which a line presses on skin.
     RopeOnSkin {
         /// Index of the line.
         line: usize,
-        /// Unstretched rope from its first end [m].
+        /// Unstretched length from its first end [m].
         at_m: f64,
     },
     /// A place at which a body presses on skin.
@@ -55,7 +55,7 @@ pub enum Picked {
     },
 }
 
-/// The ray from the eye through the pointer, and the picture that the pointer is in.
+/// The ray from the eye through the pointer, and the picture with the pointer.
 struct Sight<'a> {
     eye: DVec3,
     along: DVec3,
@@ -65,29 +65,28 @@ struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// How far a place is from the eye, along the ray [m].
+    /// Distance of a place from the eye along the ray [m].
     fn away_m(&self, place: DVec3) -> f64 {
         (place - self.eye).dot(self.along).max(0.0)
     }
 
-    /// Length that one point spans so far from the eye [m].
+    /// Length of one point at a distance from the eye [m].
     fn metres_a_point(&self, away_m: f64) -> f64 {
         self.camera.metres_a_point(self.size.y) * away_m / self.camera.distance_m
     }
 }
 
-/// Something thin near the pointer.
+/// A thin thing near the pointer.
 #[derive(Clone, Copy)]
 struct Thin {
-    /// Beside the pointer [points].
+    /// Distance to the pointer [points].
     beside: f64,
-    /// From the eye [m].
+    /// Distance from the eye [m].
     away_m: f64,
     picked: Picked,
 }
 
-/// What stands at a place of a picture of `size` [points], of what is shown; `None` in open water.
-#[must_use]
+/// Picks the visible thing at a point of a picture of `size` [points]; `None` in open water.
 pub fn pick(
     model: &Model,
     frame: &Frame,
@@ -112,8 +111,7 @@ pub fn pick(
 }
 
 impl Picked {
-    /// Where it is in a frame [m]; `None` where this frame has no such thing.
-    #[must_use]
+    /// Position in a frame [m]; `None` if the frame has no such thing.
     pub fn place(self, model: &Model, frame: &Frame) -> Option<DVec3> {
         match self {
             Self::Rope { line, at_m } => {
@@ -149,7 +147,7 @@ impl Picked {
     }
 }
 
-/// The rope nearest to the pointer on screen, of those within reach.
+/// The rope nearest to the pointer on screen, within reach.
 fn rope_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<Thin> {
     let mut best: Option<Thin> = None;
     for (line, segments) in model.line_segments.iter().enumerate() {
@@ -159,7 +157,7 @@ fn rope_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<Thin> {
             let ends = [*frame.nodes.get(first + order)?, *frame.nodes.get(first + order + 1)?];
             let whole = !frame.cut.get(segment).copied().unwrap_or(false);
             if let Some((beside, share)) = sight.beside(ends).filter(|_| whole)
-                && beside <= NEAR
+                && beside <= NEAR_PT
                 && best.is_none_or(|best| beside < best.beside)
             {
                 let away_m = sight.away_m(ends[0].lerp(ends[1], share));
@@ -172,8 +170,7 @@ fn rope_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<Thin> {
     best
 }
 
-/// Where a length of rope from a line's first end lies: its segment and the share of it; `None` where there is no such line.
-#[must_use]
+/// Segment, and share of it, at an unstretched length from the first end of a line; `None` if there is no such line.
 pub fn on_line(model: &Model, frame: &Frame, line: usize, at_m: f64) -> Option<(usize, f64)> {
     let segments = model.line_segments.get(line)?.clone();
     let (mut before_m, last) = (0.0, segments.end.checked_sub(1)?);
@@ -187,8 +184,7 @@ pub fn on_line(model: &Model, frame: &Frame, line: usize, at_m: f64) -> Option<(
     None
 }
 
-/// Unstretched rope from a line's first end to a share of one of its segments [m].
-#[must_use]
+/// Unstretched length from the first end of a line to a share of one of its segments [m].
 pub fn along_m(
     model: &Model,
     frame: &Frame,
@@ -202,7 +198,6 @@ pub fn along_m(
 }
 
 /// Both ends of a segment of a line [m].
-#[must_use]
 pub fn ends(model: &Model, frame: &Frame, line: usize, segment: usize) -> Option<[DVec3; 2]> {
     let first = model.line_nodes.get(line)?.start
         + segment.checked_sub(model.line_segments.get(line)?.start)?;
@@ -210,7 +205,6 @@ pub fn ends(model: &Model, frame: &Frame, line: usize, segment: usize) -> Option
 }
 
 /// Unstretched length of a line [m].
-#[must_use]
 pub fn length_m(model: &Model, frame: &Frame, line: usize) -> f64 {
     model
         .line_segments
@@ -220,7 +214,8 @@ pub fn length_m(model: &Model, frame: &Frame, line: usize) -> f64 {
 }
 
 impl Sight<'_> {
-    /// How far beside a straight stretch the pointer is on screen, and the share of it that is nearest [points]; `None` behind the eye.
+    /// Distance of the pointer to a straight line between two places on screen [points], and the share of the line at its nearest point;
+    /// `None` behind the eye.
     fn beside(&self, ends: [DVec3; 2]) -> Option<(f64, f64)> {
         let [a, b] = ends.map(|end| self.camera.project(end, self.size));
         let (a, b): (DVec2, DVec2) = (a?, b?);
@@ -230,12 +225,12 @@ impl Sight<'_> {
     }
 }
 
-/// How far beside an arrow or a mark the pointer may be [points].
+/// Greatest distance of the pointer to an arrow or mark [points].
 const REACH: f64 = 5.0;
-/// How far along a line the place of a contact may wander and still be the same [m].
+/// Distance along a line within which a contact is still the same one [m].
 const SAME_M: f64 = 0.5;
 
-/// The mark or arrow nearest to the pointer on screen, of those that are shown and within reach.
+/// The mark or arrow nearest to the pointer on screen, of those shown and within reach.
 fn press_under(model: &Model, frame: &Frame, sight: &Sight<'_>, show: &Show) -> Option<Thin> {
     let greatest_n = greatest_n(frame);
     let hits = on_skin(frame).filter_map(|force: SkinForce| {
@@ -265,14 +260,12 @@ fn picked(model: &Model, frame: &Frame, of: Presser) -> Option<Picked> {
     }
 }
 
-/// Unstretched rope from its line's first end to a contact [m].
-#[must_use]
+/// Unstretched length from the first end of its line to a contact [m].
 pub fn contact_m(model: &Model, frame: &Frame, contact: &ContactPoint) -> Option<f64> {
     along_m(model, frame, contact.line, contact.segment, contact.fraction)
 }
 
-/// The place nearest to a length of a line at which it presses on skin; `None` where it does not press there.
-#[must_use]
+/// The contact of a line with skin nearest to a length along it; `None` if there is none near.
 pub fn rope_on_skin<'a>(
     model: &Model,
     frame: &'a Frame,
@@ -285,8 +278,7 @@ pub fn rope_on_skin<'a>(
     nearest.filter(|(away_m, _)| *away_m <= SAME_M).map(|(_, contact)| contact)
 }
 
-/// The place at which a body presses on a triangle of skin; on another, the place at which it presses hardest.
-#[must_use]
+/// The contact of a body with a triangle of skin, or else its contact with the largest force.
 pub fn body_on_skin(frame: &Frame, body: usize, triangle: usize) -> Option<&BodyContact> {
     let mine = frame.body_contacts.iter().filter(|it| it.body == body && it.normal_force_n > 0.0);
     mine.max_by(|one, other| {
@@ -296,21 +288,21 @@ pub fn body_on_skin(frame: &Frame, body: usize, triangle: usize) -> Option<&Body
     })
 }
 
-/// Skin lies no farther than this from the whale's middle, as a share of its length.
+/// Greatest distance of skin from the middle of the whale, as a share of its length.
 const WHALE_REACH: f64 = 0.8;
 
-/// The nearest body that the ray meets. One that is small on screen is taken as if it were larger, so that it can be hit.
+/// The nearest body on the ray. A body that is small on screen is enlarged, so that it can be picked.
 fn body_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<(f64, Picked)> {
     let pairs = model.spec.bodies.iter().zip(&frame.bodies).enumerate();
     let hits = pairs.filter_map(|(index, (body, at))| {
-        let least_m = 0.5 * NEAR * sight.metres_a_point(sight.away_m(at.0));
+        let least_m = 0.5 * NEAR_PT * sight.metres_a_point(sight.away_m(at.0));
         let away_m = body.met_by_ray(*at, (sight.eye, sight.along), least_m)?;
         Some((away_m, Picked::Body(index)))
     });
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The nearest triangle of skin that the ray meets (Möller and Trumbore 1997).
+/// The nearest triangle of skin on the ray (Möller and Trumbore 1997).
 fn skin_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<(f64, Picked)> {
     let (whale, at) = (model.spec.whale.as_ref()?, frame.whale.as_ref()?);
     let skin = &whale.skin;
@@ -322,14 +314,14 @@ fn skin_under(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<(f64, P
     pose(skin, at.position, at.orientation, &at.posture, &mut bones);
     skin_all(skin, &bones, &mut places);
     let hits = skin.triangles.iter().enumerate().filter_map(|(triangle, corners)| {
-        let (away_m, barycentric) = meets(sight, corners.map(|corner| places[corner as usize]))?;
+        let (away_m, barycentric) = hit(sight, corners.map(|corner| places[corner as usize]))?;
         Some((away_m, Picked::Skin { triangle, barycentric }))
     });
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// How far away a ray meets a triangle [m], and the shares of its corners there.
-fn meets(sight: &Sight<'_>, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
+/// Distance at which a ray hits a triangle [m], and the barycentric coordinates.
+fn hit(sight: &Sight<'_>, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
     let (ab, ac, from) = (b - a, c - a, sight.eye - a);
     let across = sight.along.cross(ac);
     let det = ab.dot(across);
@@ -337,8 +329,8 @@ fn meets(sight: &Sight<'_>, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
         return None;
     }
     let of_b = from.dot(across) / det;
-    let turned = from.cross(ab);
-    let (of_c, away_m) = (sight.along.dot(turned) / det, ac.dot(turned) / det);
+    let cross = from.cross(ab);
+    let (of_c, away_m) = (sight.along.dot(cross) / det, ac.dot(cross) / det);
     let inside = of_b >= 0.0 && of_c >= 0.0 && of_b + of_c <= 1.0 && away_m > 0.0;
     inside.then_some((away_m, [1.0 - of_b - of_c, of_b, of_c]))
 }

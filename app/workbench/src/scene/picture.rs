@@ -1,4 +1,4 @@
-//! Pictures of a frame as PNG, drawn by the window's own code without a display.
+//! Pictures of a frame as PNG, drawn without a display by the same code as the window.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -14,19 +14,19 @@ use super::draw::{Drawer, Water};
 use super::offscreen::Offscreen;
 use super::overlay::{self, Overlay};
 
-/// A picture wanted from a frame.
+/// Content and file of a picture.
 pub struct RenderRequest<'a> {
     /// The gear, sea and whale.
     pub model: &'a Model,
-    /// The moment shown.
+    /// The frame shown.
     pub frame: &'a Frame,
     /// Width and height [px].
     pub size: [u32; 2],
     /// Name of a [`View`].
     pub view: &'a str,
-    /// Tension at the top of the colour scale [N]; the frame's own peak where `None`.
+    /// Tension at the top of the colour scale [N]; `None` uses the peak of the frame.
     pub scale_n: Option<f64>,
-    /// Places that fill the picture [m]; all of gear and whale where empty.
+    /// Places that fill the picture [m]; if empty, gear and whale.
     pub fit: &'a [DVec3],
     /// Line of text at the top left, such as the scenario's name.
     pub caption: &'a str,
@@ -42,16 +42,13 @@ const LARGEST: u32 = 8192;
 /// Writes a PNG of a frame; needs no display.
 ///
 /// # Errors
-/// With the reason: an unknown view, a size out of range, no OpenGL to draw with, a file that cannot be written.
+/// For an unknown view, a size out of range, missing OpenGL, or a file that cannot be written.
 pub fn render_png(request: &RenderRequest<'_>) -> Result<(), String> {
     let pixels = render(request)?;
     write_png(request.out, request.size, &pixels)
 }
 
-/// The picture's pixels, row by row from the top: red, green, blue, opacity.
-///
-/// # Errors
-/// As [`render_png`], but for the file.
+/// Returns the pixels, row by row from the top: red, green, blue, opacity.
 pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
     let view = View::named(request.view).ok_or_else(|| {
         format!("there is no view `{}`; expected one of {}", request.view, View::names())
@@ -65,9 +62,9 @@ pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
     Renderer::new(request.size)?.picture(request, view)
 }
 
-/// Draws pictures of one size, one after the other, without a display.
+/// Draws pictures of one size without a display.
 pub struct Renderer {
-    /// Its context is current as long as it lives.
+    /// Its OpenGL context is current while it exists.
     _surface: Offscreen,
     size: [u32; 2],
     drawer: Drawer,
@@ -77,10 +74,7 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// OpenGL for pictures of a size [px]; current on this thread.
-    ///
-    /// # Errors
-    /// Without OpenGL, with the reason.
+    /// Creates an OpenGL context for pictures of a size [px], current on this thread.
     pub fn new(size: [u32; 2]) -> Result<Self, String> {
         let surface = Offscreen::new(size)?;
         let failed = |error: &dyn std::fmt::Display| error.to_string();
@@ -96,10 +90,7 @@ impl Renderer {
         })
     }
 
-    /// A picture from a named view, row by row from the top: red, green, blue, opacity. The size of the request is that of this.
-    ///
-    /// # Errors
-    /// A view that is unknown.
+    /// Draws a picture from a named view, row by row from the top: red, green, blue, opacity. The request has the size of the renderer.
     pub fn picture(
         &mut self,
         request: &RenderRequest<'_>,
@@ -115,7 +106,7 @@ impl Renderer {
         Ok(self.seen_by(request, &show, &camera, Water::DARK))
     }
 
-    /// A picture as a camera sees it.
+    /// Draws a picture with overlay as seen by a camera.
     pub fn seen_by(
         &mut self,
         request: &RenderRequest<'_>,
@@ -132,7 +123,7 @@ impl Renderer {
             metres_a_point: camera.metres_a_point(f64::from(height)),
             units: request.units,
         };
-        self.write_over(|painter, rect| {
+        self.paint_over(|painter, rect| {
             if show.names {
                 overlay::paint_names(painter, rect, camera, request.model, request.frame);
             }
@@ -141,7 +132,7 @@ impl Renderer {
         RenderTarget::screen(&self.context, width, height).read_color()
     }
 
-    /// A picture without any letters, for a list of small ones.
+    /// Draws a picture without text, for thumbnails.
     pub fn bare(
         &mut self,
         request: &RenderRequest<'_>,
@@ -170,8 +161,8 @@ impl Renderer {
         scene
     }
 
-    /// Paints onto the surface with egui.
-    fn write_over(&mut self, paint: impl Fn(&egui::Painter, egui::Rect)) {
+    /// Paints over the surface with egui.
+    fn paint_over(&mut self, paint: impl Fn(&egui::Painter, egui::Rect)) {
         let [width, height] = self.size;
         let rect =
             egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width as f32, height as f32));
@@ -195,9 +186,6 @@ impl Drop for Renderer {
 }
 
 /// Writes pixels as a PNG file.
-///
-/// # Errors
-/// A file that cannot be written.
 pub fn write_png(out: &Path, size: [u32; 2], pixels: &[[u8; 4]]) -> Result<(), String> {
     let explain =
         |reason: String| format!("{}: the picture cannot be written: {reason}", out.display());

@@ -1,4 +1,4 @@
-//! A small trap rig and a block of a whale, made by hand for tests.
+//! A small rig and a whale of eight triangles, for tests.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use endline_sim::{DQuat, DVec3, Frame, Model, State};
 /// Depth of the sample's water [m].
 pub const DEPTH_M: f64 = 30.0;
 
-/// A trap on the seabed, one endline in a gentle bow, a buoy at the surface, a whale beside it.
+/// A trap on the seabed, one endline in a gentle curve, a buoy at the surface, a whale beside it.
 pub fn model() -> Model {
     let bodies = vec![body("trap", BodyRole::Trap), body("buoy", BodyRole::Buoy)];
     let joint = |id: &str, body| Joint {
@@ -63,7 +63,7 @@ pub fn model() -> Model {
     Model::new(spec).unwrap()
 }
 
-/// The sample at rest, its rope's tension rising evenly from 0 at the trap to 600 N at the buoy, one contact.
+/// The sample at rest, with a tension that rises linearly from 0 at the trap to 600 N at the buoy, and one contact.
 pub fn frame(model: &Model) -> Frame {
     let mut state = State::start(model);
     state.rope.tension = (0..60).map(|segment| 600.0 * f64::from(segment) / 59.0).collect();
@@ -87,7 +87,7 @@ pub fn frame(model: &Model) -> Frame {
     Frame::of(&state, &[touch], &[])
 }
 
-/// A body that presses on a triangle of the whale's skin at a place, without friction.
+/// A frictionless contact of a body with a triangle of the whale's skin.
 pub fn body_contact(
     body: usize,
     triangle: usize,
@@ -108,7 +108,7 @@ pub fn body_contact(
     }
 }
 
-/// The bow of the sample's endline, from trap (0) to buoy (1) [m].
+/// The curve of the endline, from trap (0) to buoy (1) [m].
 fn place_on_rope(share: f64) -> DVec3 {
     DVec3::new(
         12.0 * share,
@@ -245,7 +245,7 @@ fn nothing(id: &'static str) -> Descriptor {
     }
 }
 
-/// Friction that never pulls.
+/// A friction law without friction.
 struct Smooth(Descriptor);
 
 impl FrictionModel for Smooth {

@@ -1,4 +1,4 @@
-//! The outlines of a body's parts as they are seen. Each part is convex, so its outline is the convex hull of places on its surface.
+//! Outlines of the parts of a body on screen. Each part is convex, so its outline is the convex hull of points on its surface.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,11 +7,11 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::camera::Camera;
 
-/// Circles of a round end, and places on each.
+/// Circles of latitude of a sphere, and points on each.
 const CIRCLES: u32 = 12;
 const ROUND: u32 = 24;
 
-/// Outline of each part of a body at a place in an orientation, in a picture of `size` [points]; none of a part that is behind the eye.
+/// Outline of each part of a body with a position and orientation, in a picture of `size` [points]. Parts behind the eye have none.
 pub fn silhouette<'a>(
     body: &'a Body,
     (place, turn): (DVec3, DQuat),
@@ -27,7 +27,7 @@ pub fn silhouette<'a>(
     })
 }
 
-/// Places on a shape between which lies all of its surface that an outline shows.
+/// Points on a shape whose convex hull is the shape, up to the resolution of round surfaces.
 fn surface(shape: &Shape) -> Vec<DVec3> {
     let round = |radius_m: f64, straight_m: f64| {
         let on = move |circle: u32, step: u32| {
@@ -62,7 +62,7 @@ fn surface(shape: &Shape) -> Vec<DVec3> {
     }
 }
 
-/// Convex hull of places, one way round (Andrew 1979, doi:10.1016/0020-0190(79)90072-3).
+/// Convex hull of points, in order (Andrew 1979, doi:10.1016/0020-0190(79)90072-3).
 fn hull(mut places: Vec<DVec2>) -> Vec<DVec2> {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut hull = half(places.iter().copied());
@@ -71,7 +71,7 @@ fn hull(mut places: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
-/// One side of the hull from end to end, without the last place.
+/// One side of the hull from end to end, without the last point.
 fn half(places: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut side: Vec<DVec2> = Vec::new();
     for place in places {
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hull_keeps_the_corners_alone() {
+    fn a_hull_consists_of_the_corners_only() {
         let square = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (2.0, 2.0), (0.0, 2.0), (1.0, 0.0)];
         let hull = hull(square.map(|(x, y)| DVec2::new(x, y)).to_vec());
         assert_eq!(hull.len(), 4, "{hull:?}");

@@ -1,4 +1,4 @@
-//! The scene against its model, the drawn picture against the scene, and what is picked where it is drawn.
+//! Compares the scene with its model, the drawn picture with the scene, and picks with the drawn picture.
 
 use endline_sim::{DVec3, Frame, Model};
 use glam::DVec2;
@@ -43,7 +43,7 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
 }
 
 #[test]
-fn obstacles_stand_where_they_are_and_as_large() {
+fn obstacles_have_their_position_and_size() {
     use endline_sim::geometry::shape::SolidShape;
     use endline_sim::model::{Obstacle, ROPE_ON_HARD_N_M2};
     let mut spec = sample::model().spec;
@@ -52,7 +52,7 @@ fn obstacles_stand_where_they_are_and_as_large() {
         (drum, DVec3::new(2.0, 0.5, 0.5)),
         (SolidShape::Box(DVec3::new(3.0, 2.0, 1.0)), DVec3::new(1.0, 2.0, 3.0)),
     ] {
-        // Turned so that z leads east.
+        // Rotated so that the z axis points east.
         let orientation = endline_sim::DQuat::from_rotation_arc(DVec3::Z, DVec3::X);
         let position_m = DVec3::new(4.0, -3.0, -20.0);
         spec.obstacles = vec![Obstacle {
@@ -77,7 +77,7 @@ fn obstacles_stand_where_they_are_and_as_large() {
 }
 
 #[test]
-fn meshes_are_whole_every_index_has_a_vertex_and_every_number_is_finite() {
+fn every_index_of_a_mesh_has_a_vertex_and_every_number_is_finite() {
     for part in scene().parts {
         let mesh = &part.mesh;
         let vertices = mesh.vertices();
@@ -143,7 +143,7 @@ fn a_cut_segment_is_a_gap() {
 }
 
 #[test]
-fn arrows_are_as_long_as_the_current_is_fast_at_their_height() {
+fn arrows_have_the_length_of_the_current_at_their_height() {
     let scene = scene();
     let arrows = &scene.part("current").unwrap().mesh;
     let reach = |low: f64, high: f64| {
@@ -159,7 +159,7 @@ fn arrows_are_as_long_as_the_current_is_fast_at_their_height() {
     assert!((lowest / (0.6 * height * 6.0) - 1.0).abs() < 0.05, "lowest arrow spans {lowest} m");
 }
 
-/// Picture of the sample, its size and the camera that took it.
+/// A picture of the sample, its size and its camera.
 fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
     let model = sample::model();
     let frame = sample::frame(&model);
@@ -185,13 +185,13 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
     )
 }
 
-/// The pixel of a world place.
+/// The pixel at a place in the world.
 fn pixel(pixels: &[[u8; 4]], size: DVec2, camera: &Camera, place: DVec3) -> [u8; 4] {
     let at = camera.project(place, size).unwrap();
     pixels[at.y as usize * size.x as usize + at.x as usize]
 }
 
-/// How yellow a colour is: red and green against blue.
+/// Mean of red and green minus blue.
 fn yellow(colour: Colour) -> f32 {
     (colour[0] + colour[1]) / 2.0 - colour[2]
 }
@@ -227,7 +227,7 @@ fn a_picture_is_the_same_twice() {
 }
 
 #[test]
-fn a_wrong_view_or_size_says_what_is_allowed() {
+fn an_unknown_view_or_size_is_refused_with_what_is_allowed() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let out = std::path::PathBuf::new();
@@ -251,7 +251,7 @@ fn a_wrong_view_or_size_says_what_is_allowed() {
 }
 
 #[test]
-fn a_png_has_the_size_asked_for_and_an_unwritable_path_is_named() {
+fn a_png_has_the_requested_size_and_an_unwritable_path_is_named() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let out = std::env::temp_dir().join(format!("endline-picture-{}.png", std::process::id()));
@@ -282,7 +282,7 @@ fn the_arrow_of_the_greatest_force_ends_at_its_contact_and_points_against_the_no
     let scene = Scene::of(&model, &frame, &Show { forces: true, ..Show::default() });
     let mesh = &scene.part("forces").unwrap().mesh;
     let touch = &frame.contacts[0];
-    // The sample's normal points east and nothing slips: the arrow comes from 1.5 m east.
+    // The normal points east and there is no friction: the arrow starts 1.5 m east of the contact.
     let reach = mesh
         .place
         .iter()
@@ -294,7 +294,7 @@ fn the_arrow_of_the_greatest_force_ends_at_its_contact_and_points_against_the_no
 }
 
 const SIZE: DVec2 = DVec2::new(900.0, 700.0);
-/// The whale is not shown.
+/// Shows everything but the whale.
 const HIDDEN: Show = Show {
     scale_n: None,
     surface: true,
@@ -307,7 +307,7 @@ const HIDDEN: Show = Show {
 };
 
 #[test]
-fn what_is_clicked_where_it_is_drawn_is_what_is_picked() {
+fn a_click_on_a_drawn_thing_picks_it() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let camera =
@@ -336,7 +336,7 @@ fn what_is_clicked_where_it_is_drawn_is_what_is_picked() {
 }
 
 #[test]
-fn the_near_side_of_the_skin_is_picked_and_its_place_lies_on_the_ray() {
+fn the_near_side_of_the_skin_is_picked_at_a_place_on_the_ray() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let at = frame.whale.as_ref().unwrap();
@@ -356,12 +356,12 @@ fn the_near_side_of_the_skin_is_picked_and_its_place_lies_on_the_ray() {
     assert_eq!(
         pick(&model, &frame, &camera, middle, SIZE, &HIDDEN),
         None,
-        "a whale that is not shown is not read"
+        "a hidden whale is not picked"
     );
 }
 
 #[test]
-fn lengths_along_a_line_are_found_again() {
+fn lengths_along_a_line_are_found_in_its_segments() {
     let model = sample::model();
     let frame = sample::frame(&model);
     assert!((length_m(&model, &frame, 0) - 36.0).abs() < 1e-9);
@@ -370,8 +370,7 @@ fn lengths_along_a_line_are_found_again() {
     assert_eq!(on_line(&model, &frame, 7, 1.0), None);
 }
 
-/// The sample with its buoy a metre before the side of the whale, and a camera that looks along that line, so that the one hides
-/// the other.
+/// The sample with its buoy one metre in front of the side of the whale, and a camera for which the buoy hides the whale.
 fn buoy_before_the_whale() -> (Model, Frame, Camera) {
     let model = sample::model();
     let mut frame = sample::frame(&model);
@@ -383,7 +382,7 @@ fn buoy_before_the_whale() -> (Model, Frame, Camera) {
 }
 
 #[test]
-fn a_body_before_the_whale_is_picked_and_beside_its_rounded_shape_the_skin_behind() {
+fn a_body_in_front_of_the_whale_is_picked_and_beside_its_round_shape_the_skin_behind() {
     let (model, frame, camera) = buoy_before_the_whale();
     let pick = |place: DVec3| {
         let at = camera.project(place, SIZE).unwrap();
@@ -391,7 +390,7 @@ fn a_body_before_the_whale_is_picked_and_beside_its_rounded_shape_the_skin_behin
     };
     let (middle, (right, up, _)) = (frame.bodies[1].0, camera.axes());
     assert_eq!(pick(middle), Some(Picked::Body(1)));
-    // A capsule 0.36 m across that stands upright: a corner of the box round it is not on it.
+    // A vertical capsule 0.36 m in diameter: the corners of its bounding box are not on it.
     assert_eq!(pick(middle + right * 0.15 + up * 0.1), Some(Picked::Body(1)));
     let corner = middle + right * 0.17 + up * 0.39;
     assert!(matches!(pick(corner), Some(Picked::Skin { .. })), "{:?}", pick(corner));
@@ -403,13 +402,13 @@ fn a_body_before_the_whale_is_picked_and_beside_its_rounded_shape_the_skin_behin
 }
 
 #[test]
-fn an_arrow_is_picked_where_it_is_shown_and_tells_what_presses() {
+fn a_shown_arrow_is_picked_and_names_the_body_that_presses() {
     let (model, mut frame, camera) = buoy_before_the_whale();
     let (right, up, _) = camera.axes();
     let place = frame.bodies[1].0 + right * 1.0;
     frame.body_contacts = vec![sample::body_contact(1, 3, place, up, 500.0)];
     let show = Show { forces: true, ..Show::default() };
-    // The arrow of the greatest force is 1.5 m long and ends at the place, skin being pushed downward.
+    // The arrow of the greatest force is 1.5 m long and ends at the contact, which pushes the skin downward.
     let at = camera.project(place + up * 0.8, SIZE).unwrap();
     let wanted = Picked::BodyOnSkin { body: 1, triangle: 3 };
     assert_eq!(pick(&model, &frame, &camera, at, SIZE, &show), Some(wanted));
@@ -419,11 +418,11 @@ fn an_arrow_is_picked_where_it_is_shown_and_tells_what_presses() {
     assert_eq!(pick(&model, &frame, &camera, mark, SIZE, &Show::default()), Some(wanted));
     assert_eq!(wanted.place(&model, &frame), Some(place));
     frame.body_contacts.clear();
-    assert_eq!(wanted.place(&model, &frame), None, "it presses no more");
+    assert_eq!(wanted.place(&model, &frame), None, "the contact has ended");
 }
 
 #[test]
-fn the_place_of_a_contact_of_rope_is_found_again_along_its_line() {
+fn a_contact_of_rope_is_found_by_its_length_along_the_line() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let touch = &frame.contacts[0];

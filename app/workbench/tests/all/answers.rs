@@ -1,6 +1,4 @@
-//! Input is answered in the frame that takes it, or in the next: counted in frames, not in time.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Input has its effect on screen in the frame that receives it or in the next, counted in frames.
 
 use endline_session::command::RunAction;
 use endline_workbench::gui::command::action::FlightAction;
@@ -9,19 +7,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_session::live::engine::{self, Launch};
 use endline_session::task::Waker;
-use endline_workbench::gui::app::App;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, linked, opened_with, wait, workbench};
+use crate::common::{Folder, Reach as _, Window, linked, opened_with, wait, workbench};
 
-type Window = Harness<'static, App>;
-
-/// Frames drawn from one event on until something is shown; the frame that takes the event is the first.
+/// Number of frames from an event until its effect is shown; the frame that receives the event is the first.
 fn frames(window: &mut Window, event: Event, shown: impl Fn(&Window) -> bool) -> u32 {
     window.event(event);
     let mut frames = 0;
@@ -48,7 +42,7 @@ fn button(pos: Pos2, pressed: bool) -> Event {
     }
 }
 
-/// Brings the mouse to a place and presses it there.
+/// Moves the mouse to a place and presses it.
 fn press(window: &mut Window, at: Pos2) {
     for event in [Event::PointerMoved(at), button(at, true)] {
         window.event(event);
@@ -57,12 +51,12 @@ fn press(window: &mut Window, at: Pos2) {
 }
 
 #[test]
-fn keys_letters_clicks_and_drags_show_within_two_frames() {
+fn keys_letters_clicks_and_drags_take_effect_within_two_frames() {
     let folder = Folder::new("answers");
-    let (mut window, told) = workbench(&folder, Pilot::default());
+    let (mut window, received) = workbench(&folder, Pilot::default());
 
     let commands = |window: &Window| window.ctx.egui_wants_keyboard_input();
-    assert!(!commands(&window), "nothing is typed yet");
+    assert!(!commands(&window), "no text field has the focus");
     assert!(
         frames(&mut window, key(Key::P, Modifiers::COMMAND), commands) <= 2,
         "the list of commands"
@@ -84,41 +78,45 @@ fn keys_letters_clicks_and_drags_show_within_two_frames() {
     let pane = window.get_by_label("Pane 1").rect().center();
     let before = window.state().panels.view.eyes[0].camera.clone();
     press(&mut window, pane);
-    let turned = frames(&mut window, Event::PointerMoved(pane + vec2(60.0, 0.0)), |window| {
+    let orbited = frames(&mut window, Event::PointerMoved(pane + vec2(60.0, 0.0)), |window| {
         window.state().panels.view.eyes[0].camera != before
     });
-    assert!(turned <= 2, "the view turned by the mouse: {turned}");
+    assert!(orbited <= 2, "the view orbits with the mouse: {orbited}");
     window.event(button(pane + vec2(60.0, 0.0), false));
     window.step();
 
     let run = window.get_by_label("▶ Run").rect().center();
     press(&mut window, run);
     let started = frames(&mut window, button(run, false), |window| {
-        window.query_by_label("⏸ Pause").is_some() && !told.borrow().is_empty()
+        window.query_by_label("⏸ Pause").is_some() && !received.borrow().is_empty()
     });
-    assert!(started <= 2, "a button, its order and what it changes: {started}");
-    assert_eq!(*told.borrow(), ["start"]);
+    assert!(started <= 2, "a button, its command and its effect: {started}");
+    assert_eq!(*received.borrow(), ["start"]);
 }
 
 #[test]
-fn what_steers_reaches_the_run_in_the_frame_of_its_key() {
+fn a_steering_key_reaches_the_run_within_two_frames() {
     let folder = Folder::new("answers-flying");
-    let (mut window, told) = workbench(&folder, Pilot::default());
+    let (mut window, received) = workbench(&folder, Pilot::default());
     window.state_mut().shared.give(FlightAction::Toggle);
     window.run_steps(3);
-    // Speed, pitch, roll, yaw, as the run was told them last.
+    // The last controls: speed, pitch, roll, yaw.
     let yaw = || {
-        told.borrow().last().and_then(|words| words.split(' ').nth(4)?.parse::<f64>().ok()).unwrap()
+        received
+            .borrow()
+            .last()
+            .and_then(|words| words.split(' ').nth(4)?.parse::<f64>().ok())
+            .unwrap()
     };
-    assert!(yaw().abs() < 1e-12, "it swims straight on: {:?}", told.borrow().last());
+    assert!(yaw().abs() < 1e-12, "the whale swims straight: {:?}", received.borrow().last());
     let steered = frames(&mut window, key(Key::A, Modifiers::NONE), |_| yaw().abs() > 0.0);
-    assert!(steered <= 2, "{steered}: {:?}", told.borrow());
+    assert!(steered <= 2, "{steered}: {:?}", received.borrow());
 }
 
 #[test]
-fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press() {
+fn a_press_on_the_transport_bar_shows_its_moment_in_the_next_frame() {
     let folder = Folder::new("answers-seek");
-    let mut documents = folder.book_with("hello-endline");
+    let mut documents = folder.documents_of("hello-endline");
     for (field, value) in [("duration", "1 s"), ("rope_nodes", "40")] {
         documents.set("scenario", field, value).unwrap();
     }
@@ -134,8 +132,8 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
     });
     let mut window = opened_with(documents, linked(), launch, Pilot::default());
     wait(&mut window, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    window.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
-    window.state_mut().shared.perform(RunAction::Start);
+    window.perform(RunAction::Speed(f64::INFINITY));
+    window.perform(RunAction::Start);
     wait(&mut window, |app| app.shared.workbench.status() == Some(&Status::Finished));
 
     let bar = window.get_by_label("Time").rect();
@@ -145,16 +143,16 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
     woken.store(false, Ordering::Release);
     window.event(button(at, true));
     window.step();
-    // The run's thread answers in its own time; the window draws again when it has.
+    // The thread of the run responds after some time and then wakes the window.
     let patience = Instant::now() + Duration::from_secs(20);
     while !woken.load(Ordering::Acquire) && Instant::now() < patience {
         std::thread::sleep(Duration::from_millis(1));
     }
     window.step();
-    let view = window.state().shared.workbench.view().cloned().unwrap();
+    let view = window.view();
     assert!(view.sought && (view.frame.time_s - 0.25).abs() < 0.02, "{} s", view.frame.time_s);
     assert!(
         window.query_all_by_label_contains(&format!("{:.2} s", view.frame.time_s)).next().is_some(),
-        "and the bar says so"
+        "the bar shows the time"
     );
 }

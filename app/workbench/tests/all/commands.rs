@@ -1,9 +1,7 @@
-//! Every declared command has an effect that can be observed, or says why it has none.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Every declared command has an observable effect, or a reason why it has none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use egui_kittest::Harness;
 use endline_session::command::{EditAction, Make, RunAction};
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
@@ -13,12 +11,13 @@ use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::help::markdown;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, Told, give, linked, opened_with, wait, workbench};
+use crate::common::{
+    Folder, Reach as _, Received, Window, add_study, give, linked, opened_with, wait, workbench,
+};
 use crate::search::add_observation;
-use crate::study::add_study;
 
-/// All that a command may change, as text.
-fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
+/// Everything that a command may change, as text.
+fn fingerprint(harness: &Window, received: &Received) -> String {
     let app = harness.state();
     let (shared, panels) = (&app.shared, &app.panels);
     let (workbench, documents) = (&shared.workbench, &shared.workbench.project.documents);
@@ -40,46 +39,47 @@ fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
     let settings = serde_json::to_string(&(&shared.preferences, &workbench.preferences)).unwrap();
     let window = (harness.ctx.zoom_factor(), app.palette.is_open(), &app.questions.opening);
     format!(
-        "{told:?} {view:?} {jobs:?} {texts:?} {work:?} {eyes:?} {picks:?} {flight:?} {chosen:?} \
+        "{received:?} {view:?} {jobs:?} {texts:?} {work:?} {eyes:?} {picks:?} {flight:?} {chosen:?} \
          {:?} {} {dock} {settings} {window:?}",
         workbench.notice,
         workbench.comparison().is_some()
     )
 }
 
-/// Gives every command that can be given by name; notes which changed something and which gave a reason.
+/// Gives every command that needs no file; records which had an effect and which gave a reason.
 fn every_command(
-    harness: &mut Harness<'static, App>,
-    told: &Told,
+    harness: &mut Window,
+    received: &Received,
     effects: &mut BTreeMap<&'static str, BTreeSet<&'static str>>,
 ) {
     for info in declared() {
         let offers = info.offers(&harness.state().shared);
-        // Where there is nothing to choose from, the declaration says so.
+        // A command without choices has a reason.
         if let (true, Err(reason)) = (offers.is_empty(), info.enabled(&harness.state().shared)) {
-            assert!(!reason.is_empty(), "{} says why there is nothing to choose", info.id());
+            assert!(!reason.is_empty(), "{} has no reason for its lack of choices", info.id());
             effects.entry(info.id()).or_default().insert("reason");
         }
         for offer in offers {
-            // A file dialog needs a display; the window must stay.
+            // A file dialog needs a display; quitting would end the test.
             let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
             if asks || info.id() == "window.quit" {
                 continue;
             }
-            harness.state_mut().shared.workbench.notice = None;
+            harness.workbench_mut().notice = None;
             harness.run_steps(1);
             let enabled = info.enabled(&harness.state().shared);
-            let before = fingerprint(harness, told);
-            give(harness, offer.command.clone());
-            let notice = harness.state().shared.workbench.notice.clone();
+            let before = fingerprint(harness, received);
+            harness.state_mut().shared.give(offer.command.clone());
+            harness.run_steps(1);
+            let notice = harness.workbench().notice.clone();
             let effect = effects.entry(info.id()).or_default();
             match enabled {
-                Ok(()) if fingerprint(harness, told) != before => {
+                Ok(()) if fingerprint(harness, received) != before => {
                     effect.insert("effect");
                 }
                 Ok(()) => {}
                 Err(reason) => {
-                    assert!(!reason.is_empty(), "{} says why it does nothing", offer.name);
+                    assert!(!reason.is_empty(), "{} has no reason why it is disabled", offer.name);
                     assert_eq!(notice.map(|notice| notice.text), Some(reason), "{}", offer.name);
                     effect.insert("reason");
                 }
@@ -94,20 +94,20 @@ fn every_declared_command_has_an_effect_or_a_reason() {
     // Commands that open a study or an observation need one.
     add_study(&folder);
     add_observation(&folder);
-    let (mut harness, told) = workbench(&folder, Pilot::default());
-    harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
-    harness.state_mut().shared.workbench.searches.folder = Some(folder.0.join("results"));
+    let (mut harness, received) = workbench(&folder, Pilot::default());
+    harness.workbench_mut().studies.folder = Some(folder.0.join("results"));
+    harness.workbench_mut().searches.folder = Some(folder.0.join("results"));
     let mut effects = BTreeMap::new();
-    every_command(&mut harness, &told, &mut effects);
-    // Once more while the whale is flown, with an entry chosen and an edit to be taken back.
+    every_command(&mut harness, &received, &mut effects);
+    // Again while the whale is steered, with a selected entry and an edit to undo.
     let path = folder.0.join("scenarios/hello-endline.toml");
-    harness.state_mut().shared.perform(EditAction::Save);
-    harness.state_mut().shared.perform(EditAction::OpenScenario(path));
+    harness.perform(EditAction::Save);
+    harness.perform(EditAction::OpenScenario(path));
     wait(&mut harness, |app| !app.shared.workbench.making());
     give(&mut harness, PanelAction::Entry("ropes/sink-3-8.toml".to_owned()));
-    harness.state_mut().shared.workbench.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
+    harness.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
     harness.state_mut().shared.flying = true;
-    every_command(&mut harness, &told, &mut effects);
+    every_command(&mut harness, &received, &mut effects);
 
     for info in declared() {
         let [named, needs_file] = [
@@ -124,47 +124,47 @@ fn every_declared_command_has_an_effect_or_a_reason() {
 }
 
 #[test]
-fn commands_of_a_run_that_was_flown_have_their_effect() {
+fn commands_of_a_finished_run_have_their_effect() {
     let folder = Folder::new("commands-flown");
-    let documents = folder.book_with("reference-a-pendulum");
+    let documents = folder.documents_of("reference-a-pendulum");
     let launch = endline_session::live::engine::live();
     let mut harness = opened_with(documents, linked(), launch, Pilot::default());
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
-    harness.state_mut().shared.perform(RunAction::Start);
+    harness.perform(RunAction::Speed(f64::INFINITY));
+    harness.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.newest_s > 0.3));
-    // A short run may be over before it can be paused.
-    harness.state_mut().shared.perform(RunAction::Pause);
+    // A short run may end before it is paused.
+    harness.perform(RunAction::Pause);
     wait(&mut harness, |app| {
         matches!(app.shared.workbench.status(), Some(Status::Paused | Status::Finished))
     });
     let command = |id: &str| declared().find(|info| info.id() == id).unwrap();
-    let given = |harness: &mut Harness<'static, App>, id: &str| {
+    let give_enabled = |harness: &mut Window, id: &str| {
         let command = command(id);
         assert_eq!(command.enabled(&harness.state().shared), Ok(()), "{id}");
         give(harness, command.plain().unwrap());
     };
     let shown_s = |app: &App| app.shared.workbench.view().unwrap().frame.time_s;
-    given(&mut harness, "time.first");
+    give_enabled(&mut harness, "time.first");
     wait(&mut harness, |app| shown_s(app) < 1e-9);
-    given(&mut harness, "time.forward");
+    give_enabled(&mut harness, "time.forward");
     wait(&mut harness, |app| shown_s(app) > 0.0);
-    given(&mut harness, "time.newest");
+    give_enabled(&mut harness, "time.newest");
     wait(&mut harness, |app| shown_s(app) > 0.3);
     assert!(command("time.newest").enabled(&harness.state().shared).is_err());
-    given(&mut harness, "time.back");
+    give_enabled(&mut harness, "time.back");
     wait(&mut harness, |app| app.shared.workbench.view().unwrap().sought);
-    given(&mut harness, "run.branch");
+    give_enabled(&mut harness, "run.branch");
     wait(&mut harness, |app| !app.shared.workbench.view().unwrap().sought);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    given(&mut harness, "run.hold");
+    give_enabled(&mut harness, "run.hold");
     wait(&mut harness, |app| app.shared.workbench.comparison().is_some());
-    given(&mut harness, "run.end-comparison");
-    assert!(harness.state().shared.workbench.comparison().is_none());
+    give_enabled(&mut harness, "run.end-comparison");
+    assert!(harness.workbench().comparison().is_none());
 }
 
 #[test]
-fn identities_and_names_are_unique() {
+fn ids_and_names_of_commands_are_unique() {
     let folder = Folder::new("names");
     let (harness, _) = workbench(&folder, Pilot::default());
     let mut ids = BTreeSet::new();
@@ -172,7 +172,7 @@ fn identities_and_names_are_unique() {
     for info in declared() {
         assert!(ids.insert(info.id()), "{} is declared twice", info.id());
         for offer in info.offers(&harness.state().shared) {
-            assert!(names.insert(offer.name.clone()), "two commands are called {}", offer.name);
+            assert!(names.insert(offer.name.clone()), "two commands have the name {}", offer.name);
             let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
             assert!(
                 asks || offer.command.id() == info.id(),
@@ -186,7 +186,7 @@ fn identities_and_names_are_unique() {
 }
 
 #[test]
-fn the_document_lists_the_commands_and_keys_as_they_are_declared() {
+fn the_document_lists_all_commands_and_keys() {
     const START: &str = "<!-- commands -->\n";
     const END: &str = "<!-- end of commands -->";
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/workbench.md");

@@ -1,38 +1,25 @@
-//! Each figure that is declared for a panel stands there, with its label and its value.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Every figure that is declared for a panel is on screen, with its label and value.
 
 use endline_session::command::{RunAction, TimeAction};
 use endline_session::edit::Documents;
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::figures::compare::groups;
 use endline_session::figures::{
     Figure, LINE, LINK, PART, View, WHALE, lines, parts, shares, shown,
 };
 use endline_session::live::{Engine, Launch, LiveView, RunCommand, Status};
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, flown, give, only, opened, wait};
+use crate::common::{Folder, Reach as _, Window, flown, give, only, opened, wait};
 
-fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
-    harness.state().shared.workbench.view().cloned().unwrap()
-}
-
-/// How many figures of these sources stand on screen; each that the view shows must, but for those that say nothing of any, which must not.
-fn stands<S>(
-    harness: &Harness<'static, App>,
-    figures: &[Figure<S>],
-    sources: &[S],
-    view: View,
-) -> usize {
-    let units = harness.state().shared.workbench.preferences.units;
+/// Checks that the figures of a view are on screen, and that figures without a value are not; returns their number.
+fn count_figures<S>(harness: &Window, figures: &[Figure<S>], sources: &[S], view: View) -> usize {
+    let units = harness.workbench().preferences.units;
     let check = |figure: &Figure<S>, source: &S| {
         let value = figure.quantity.text(&(figure.read)(source), units);
         for text in [capital(figure.label), value] {
@@ -42,50 +29,50 @@ fn stands<S>(
     };
     let mut count = 0;
     for figure in shown(figures, view) {
-        let told: Vec<&S> = sources.iter().filter(|source| figure.is_told(source)).collect();
-        told.iter().for_each(|source| check(figure, source));
-        count += told.len();
+        let present: Vec<&S> = sources.iter().filter(|source| figure.is_told(source)).collect();
+        present.iter().for_each(|source| check(figure, source));
+        count += present.len();
         let label = capital(figure.label);
-        assert!(!told.is_empty() || harness.query_by_label(&label).is_none(), "{}", figure.key);
+        assert!(!present.is_empty() || harness.query_by_label(&label).is_none(), "{}", figure.key);
     }
     count
 }
 
 #[test]
-fn summary_and_entanglement_have_every_figure_that_is_declared_for_them() {
+fn summary_and_entanglement_show_every_figure_that_is_declared_for_them() {
     let folder = Folder::new("figures");
     let mut harness = flown(&folder);
-    let shown = view(&harness);
+    let shown = harness.view();
     let summary = shown.summary.as_ref().unwrap();
     let whale = summary.whale.as_ref().unwrap();
     let parts = parts(whale, &shown.frame.contacts);
 
     only(&mut harness, PanelId::SUMMARY);
     let lines = lines(summary, &[]);
-    let count = stands(&harness, WHALE, from_ref(whale), View::Summary)
-        + stands(&harness, PART, &parts, View::Summary)
-        + stands(&harness, LINE, &lines, View::Summary)
-        + stands(&harness, LINK, &summary.links, View::Summary);
+    let count = count_figures(&harness, WHALE, from_ref(whale), View::Summary)
+        + count_figures(&harness, PART, &parts, View::Summary)
+        + count_figures(&harness, LINE, &lines, View::Summary)
+        + count_figures(&harness, LINK, &summary.links, View::Summary);
     assert!(count > 40, "{count} figures");
 
     only(&mut harness, PanelId::ENTANGLEMENT);
-    let count = stands(&harness, WHALE, from_ref(whale), View::Entanglement)
-        + stands(&harness, PART, &parts, View::Entanglement);
+    let count = count_figures(&harness, WHALE, from_ref(whale), View::Entanglement)
+        + count_figures(&harness, PART, &parts, View::Entanglement);
     assert!(count > 50, "{count} figures");
 }
 
 #[test]
-fn the_run_panel_tells_what_the_computing_time_goes_to() {
+fn the_run_panel_shows_the_largest_share_of_computing_time() {
     let folder = Folder::new("figures-cost");
     let mut harness = flown(&folder);
     only(&mut harness, PanelId::RUN);
-    let shown = view(&harness);
+    let shown = harness.view();
     let (greatest, share) = shares(&shown.cost)[0];
-    let told = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
-    harness.get_by_label_contains(&told);
+    let text = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
+    harness.get_by_label_contains(&text);
 }
 
-/// An engine that shows one view, whatever it is told.
+/// An engine that always shows the same view.
 struct Still(Arc<LiveView>);
 
 impl Engine for Still {
@@ -99,7 +86,7 @@ impl Engine for Still {
 }
 
 #[test]
-fn the_run_panel_tells_why_a_run_is_not_valid_and_that_resolution_was_not_kept() {
+fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     let folder = Folder::new("figures-valid");
     let launch: Launch = Box::new(|prepared, _host, _waker| {
         let mut view = LiveView { status: Status::Finished, ..LiveView::before(&prepared) };
@@ -116,17 +103,17 @@ fn the_run_panel_tells_why_a_run_is_not_valid_and_that_resolution_was_not_kept()
 }
 
 #[test]
-fn the_comparison_has_every_figure_that_is_declared_for_it() {
+fn the_comparison_shows_every_figure_that_is_declared_for_it() {
     let folder = Folder::new("figures-compared");
     let mut harness = flown(&folder);
     harness.state_mut().shared.give(RunAction::Hold);
     harness.run_steps(2);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().shared.perform(RunAction::Start);
+    harness.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     only(&mut harness, PanelId::COMPARE);
-    let (a, b) = (view(&harness), harness.state().shared.workbench.compared_view().unwrap());
-    let all = groups(&a, &b, harness.state().shared.workbench.preferences.units);
+    let (a, b) = (harness.view(), harness.workbench().compared_view().unwrap());
+    let all = groups(&a, &b, harness.workbench().preferences.units);
     let whale = &all.iter().find(|(head, _)| *head == "Whale").unwrap().1;
     assert_eq!(whale.len(), shown(WHALE, View::Compare).count());
     let lines = &all.iter().find(|(head, _)| *head == "Lines").unwrap().1;
@@ -139,40 +126,40 @@ fn the_comparison_has_every_figure_that_is_declared_for_it() {
 }
 
 #[test]
-fn the_map_of_the_skin_has_a_scale_of_its_own_and_says_which_moment_it_shows() {
+fn the_map_of_the_skin_has_its_own_scale_and_names_its_moment() {
     let folder = Folder::new("figures-map");
     let mut harness = flown(&folder);
     only(&mut harness, PanelId::ENTANGLEMENT);
     harness.get_by_label("At 2.00 s");
-    // The top stands where a run with a hundredth of a turn does not move it.
+    // The top of the scale is at least one turn, so that small wraps do not move it.
     harness.get_by_label("1.00 turns");
     give(&mut harness, TimeAction::Seek(1.0));
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.sought));
     harness.run_steps(2);
-    let shown = format!("At {:.2} s", view(&harness).frame.time_s);
+    let shown = format!("At {:.2} s", harness.view().frame.time_s);
     assert_ne!(shown, "At 2.00 s");
     harness.get_by_label(&shown);
     harness.get_by_label("Most until 2.00 s");
 }
 
 #[test]
-fn a_whale_that_no_gear_holds_is_told_with_its_tensions_and_let_feel_it_by_a_click() {
+fn a_kinematic_whale_is_reported_with_its_tensions_and_made_kinetic_by_a_click() {
     let folder = Folder::new("figures-steered");
     let mut harness = flown(&folder);
-    let warning = "This whale does not feel the gear";
-    let feels = |harness: &Harness<'static, App>| {
-        let documents = &harness.state().shared.workbench.project.documents;
+    let warning = "The gear does not act on this whale";
+    let dynamics = |harness: &Window| {
+        let documents = harness.documents();
         documents.field(Documents::SCENARIO, "whale.dynamics")
     };
     for panel in [PanelId::SUMMARY, PanelId::TENSION] {
         only(&mut harness, panel);
         harness.get_by_label_contains(warning);
     }
-    assert_eq!(feels(&harness), None);
-    harness.get_by_label("Let it feel gear").click();
+    assert_eq!(dynamics(&harness), None);
+    harness.get_by_label("Let gear act on it").click();
     harness.run_steps(3);
-    assert_eq!(feels(&harness).as_deref(), Some("kinetic"));
-    harness.state_mut().shared.perform(RunAction::Start);
+    assert_eq!(dynamics(&harness).as_deref(), Some("kinetic"));
+    harness.perform(RunAction::Start);
     wait(&mut harness, |app| {
         app.shared.workbench.view().is_some_and(|view| {
             view.model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some())
@@ -180,5 +167,5 @@ fn a_whale_that_no_gear_holds_is_told_with_its_tensions_and_let_feel_it_by_a_cli
         })
     });
     harness.run_steps(2);
-    assert!(harness.query_by_label_contains(warning).is_none(), "this run's whale is held");
+    assert!(harness.query_by_label_contains(warning).is_none(), "the whale of this run is kinetic");
 }

@@ -1,77 +1,75 @@
-//! The library's tables in and out, and gear settled while it is edited, clicked through without a display.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Library tables exported, imported, edited and compared; assemblies edited with their statics.
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
 use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::{import, to_csv};
-use endline_session::live::engine;
 use endline_session::statics::TrialGear;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::fields::{edit_id, go_to};
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, give, linked, on_disk, opened_with, wait, workbench};
+use crate::common::{Folder, Reach as _, Window, give, on_disk, only, real, wait, workbench};
 
 fn paths(documents: &Documents) -> Vec<String> {
     documents.files("ropes").map(str::to_owned).collect()
 }
 
 #[test]
-fn a_table_written_and_taken_in_again_changes_nothing() {
+fn an_exported_table_imported_again_changes_nothing() {
     let folder = Folder::new("csv-same");
     let mut documents = folder.documents();
     let csv = to_csv(&documents, Kind::Rope, &paths(&documents));
     assert!(csv.lines().count() >= 20 && csv.contains("\"2,700 lbf\""), "{csv}");
-    let taken = import(&mut documents, Kind::Rope, &csv).unwrap();
-    assert_eq!((taken.changed, taken.added, taken.left_out.len()), (0, 0, 0), "{taken:?}");
+    let imported = import(&mut documents, Kind::Rope, &csv).unwrap();
+    assert_eq!(
+        (imported.changed, imported.added, imported.left_out.len()),
+        (0, 0, 0),
+        "{imported:?}"
+    );
     assert!(documents.unsaved().is_empty());
 }
 
 #[test]
-fn a_table_changes_adds_and_says_what_it_left_out_and_one_undo_takes_it_back() {
+fn an_import_changes_adds_and_reports_what_it_omits_and_is_one_undo() {
     let folder = Folder::new("csv-in");
     let mut documents = folder.documents();
     let before = to_csv(&documents, Kind::Rope, &paths(&documents));
     let table = "id,Name,Diameter,Strength,Colour\nsink-3-8,,,\"2,650 lbf\",red\nmill-7,Mill 7,3/8 in,\"1,700 lbf\",\n,,1 in,,\n";
-    let taken = import(&mut documents, Kind::Rope, table).unwrap();
-    assert_eq!((taken.changed, taken.added), (1, 1));
+    let imported = import(&mut documents, Kind::Rope, table).unwrap();
+    assert_eq!((imported.changed, imported.added), (1, 1));
     assert!(
-        taken.left_out[0].contains("Colour") && taken.left_out[1].contains("row 4"),
-        "{taken:?}"
+        imported.left_out[0].contains("Colour") && imported.left_out[1].contains("row 4"),
+        "{imported:?}"
     );
     assert_eq!(documents.field("ropes/sink-3-8.toml", "strength").as_deref(), Some("2,650 lbf"));
     assert_eq!(documents.field("ropes/mill-7.toml", "diameter").as_deref(), Some("3/8 in"));
     assert!(
         documents.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"),
-        "comments stay"
+        "comments are kept"
     );
     let missing = documents
         .problems()
         .iter()
         .filter(|problem| problem.file == "ropes/mill-7.toml" && problem.is_error())
         .count();
-    assert!(missing > 3, "figures the table lacks are told: {missing}");
+    assert!(missing > 3, "missing figures are not reported: {missing}");
     assert!(documents.undo());
     assert_eq!(to_csv(&documents, Kind::Rope, &paths(&documents)), before);
     assert!(
         import(&mut documents, Kind::Rope, "one,two\n1,2\n").is_err(),
-        "a table without a head is refused"
+        "a table without a header is refused"
     );
 }
 
 #[test]
-fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
+fn cells_pasted_from_a_spreadsheet_fill_cells_from_the_focus_on() {
     let folder = Folder::new("paste");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
-        harness.state().shared.workbench.project.documents.field(path, key).unwrap()
-    };
+    let file =
+        |harness: &Window, path: &str, key: &str| harness.documents().field(path, key).unwrap();
     harness.state_mut().panels.library.search = "polypropylene 5/16".into();
     harness.run_steps(2);
     harness.get_all_by_value("5/16 in").next().unwrap().click();
@@ -80,12 +78,12 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     harness.run_steps(3);
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "8 mm");
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "mass"), "0.03 kg/m");
-    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.perform(EditAction::Undo);
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "5/16 in");
 }
 
 #[test]
-fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
+fn a_copy_is_compared_with_its_original_and_uses_are_listed() {
     let folder = Folder::new("compare");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.state_mut().panels.library.chosen = Some("ropes/sink-3-8.toml".into());
@@ -96,24 +94,22 @@ fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
     let copy = harness.state().panels.library.chosen.clone().unwrap();
     assert_eq!(copy, "ropes/sink-3-8-2.toml");
     assert!(harness.query_by_label("no difference").is_some());
-    harness.state_mut().shared.workbench.set(&copy, "strength", "1,350 lbf");
+    harness.set(&copy, "strength", "1,350 lbf");
     harness.run_steps(3);
     assert!(harness.query_by_label("-50.0 %").is_some());
     assert!(harness.query_by_label("no assembly and no scenario").is_some());
 }
 
-/// The workbench with the assembly panel in front, plugins linked.
-fn assembly(folder: &Folder) -> Harness<'static, App> {
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::ASSEMBLY.id().to_owned()]);
-    harness.run_steps(2);
+/// The workbench with the assembly panel only, after its statics have converged.
+fn assembly(folder: &Folder) -> Window {
+    let mut harness = real(folder, "hello-endline");
+    only(&mut harness, PanelId::ASSEMBLY);
     wait(&mut harness, |app| app.panels.assembly.settled());
     harness
 }
 
 /// Greatest tension of the gear shown at slack and at running tide [N].
-fn tensions(harness: &Harness<'static, App>) -> [f64; 2] {
+fn tensions(harness: &Window) -> [f64; 2] {
     harness.state().panels.assembly.answers().map(|answer| {
         let rest = answer.unwrap().as_ref().unwrap();
         assert!(rest.shape.converged, "{}", rest.shape.outcome);
@@ -122,42 +118,32 @@ fn tensions(harness: &Harness<'static, App>) -> [f64; 2] {
 }
 
 #[test]
-fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
+fn the_statics_at_slack_and_running_tide_follow_the_scope() {
     let folder = Folder::new("statics");
     let mut harness = assembly(&folder);
     let [slack, running] = tensions(&harness);
     assert!(running > 2.0 * slack, "the tide pulls: {slack} N, {running} N");
-    let length = |harness: &Harness<'static, App>| {
+    let length = |harness: &Window| {
         let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
         rest.shape.lines.iter().map(|line| line.length_m).sum::<f64>()
     };
     assert!((length(&harness) - 1.3 * 25.0).abs() < 0.1, "{}", length(&harness));
     for scope in ["1.5", "1.8", "2"] {
         harness
-            .state_mut()
-            .shared
-            .workbench
-            .project
-            .documents
+            .documents_mut()
             .set_held("assemblies/single.toml", "attributes.scope", scope)
             .unwrap();
     }
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     assert!((length(&harness) - 2.0 * 25.0).abs() < 0.1, "{}", length(&harness));
-    harness.state_mut().shared.perform(EditAction::Undo);
-    let scope = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .documents
-        .field("assemblies/single.toml", "attributes.scope");
-    assert_eq!(scope.as_deref(), Some("1.3"), "the whole way of the slider is one edit");
+    harness.perform(EditAction::Undo);
+    let scope = harness.documents().field("assemblies/single.toml", "attributes.scope");
+    assert_eq!(scope.as_deref(), Some("1.3"), "a drag of the slider is one edit");
 }
 
 #[test]
-fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() {
+fn weak_inserts_every_sixty_feet_are_saved_without_changing_anything_else() {
     let folder = Folder::new("inserts");
     let mut harness = assembly(&folder);
     harness.get_all_by_label("Put in").last().unwrap().click();
@@ -174,59 +160,59 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
     assert_eq!(
         inserts.len(),
         1,
-        "21.7 m of rope, 16 m of it in the top three quarters, has room for one: {inserts:?}"
+        "one insert fits into the top three quarters, 16 m of 21.7 m: {inserts:?}"
     );
     let before = on_disk(&folder, "scenarios/hello-endline.toml");
-    harness.state_mut().shared.perform(EditAction::Save);
+    harness.perform(EditAction::Save);
     let after = on_disk(&folder, "scenarios/hello-endline.toml");
     assert!(after.contains("every = \"60 ft\"") && after.contains("within = 0.75"), "{after}");
-    assert!(after.contains("# The tide runs to the east"), "comments stay: {after}");
-    harness.state_mut().shared.perform(EditAction::Undo);
-    harness.state_mut().shared.perform(EditAction::Save);
+    assert!(after.contains("# The tide runs to the east"), "comments are kept: {after}");
+    harness.perform(EditAction::Undo);
+    harness.perform(EditAction::Save);
     assert_eq!(on_disk(&folder, "scenarios/hello-endline.toml"), before);
 }
 
 #[test]
-fn inserts_are_counted_along_the_whole_endline_and_a_bad_share_leaves_form_and_drawing() {
+fn inserts_are_spaced_along_the_whole_endline_and_a_wrong_share_keeps_form_and_drawing() {
     let folder = Folder::new("whole-endline");
     let mut harness = assembly(&folder);
     harness.get_by_label("Put in every 60 ft").click();
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
-    let inserts = |harness: &Harness<'static, App>| {
+    let inserts = |harness: &Window| {
         let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
         rest.shape.lines.iter().filter(|line| line.id.contains(".insert-")).count()
     };
-    // 32.5 m of rope in two lines, 24.4 m of it in the top three quarters: at 12 ft and 72 ft.
+    // The top three quarters are 24.4 m of 32.5 m of rope in two lines: inserts at 12 ft and 72 ft.
     assert_eq!(inserts(&harness), 2);
 
     let (file, within) = ("assemblies/single.toml", "lines.endline-top.inserts.within");
-    let set = |harness: &mut Harness<'static, App>, text: &str| {
-        harness.state_mut().shared.workbench.set(file, within, text);
+    let set = |harness: &mut Window, text: &str| {
+        harness.set(file, within, text);
         harness.run_steps(2);
         wait(harness, |app| app.panels.assembly.settled());
         harness.run_steps(2);
     };
     set(&mut harness, "75 %");
-    assert_eq!(inserts(&harness), 2, "percent is as good as a share");
+    assert_eq!(inserts(&harness), 2, "a percentage is a share");
     set(&mut harness, "75 furlong");
     let answer = harness.state().panels.assembly.answers()[0].unwrap().clone();
-    assert!(answer.is_err(), "furlongs are no share");
-    assert!(harness.query_all_by_label("Within top").next().is_some(), "the form stays");
+    assert!(answer.is_err(), "a length is not a share");
+    assert!(harness.query_all_by_label("Within top").next().is_some(), "the form is kept");
     assert!(
         harness.query_all_by_label_contains("as it was last").next().is_some(),
-        "what is drawn is told to be of before"
+        "the drawing is not marked as outdated"
     );
 }
 
 #[test]
-fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
+fn a_line_is_split_with_a_splice_and_the_statics_converge() {
     let folder = Folder::new("split");
     let mut harness = assembly(&folder);
     give(&mut harness, PanelAction::Assembly("massachusetts-single".to_owned()));
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
-    let lines = |harness: &Harness<'static, App>| {
+    let lines = |harness: &Window| {
         let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
         assert!(rest.shape.converged, "{}", rest.shape.outcome);
         rest.shape.lines.len()
@@ -236,15 +222,8 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     assert_eq!(lines(&harness), before + 1);
-    let field = |harness: &Harness<'static, App>, field: &str| {
-        harness
-            .state()
-            .shared
-            .workbench
-            .project
-            .documents
-            .field("assemblies/massachusetts-single.toml", field)
-            .unwrap()
+    let field = |harness: &Window, field: &str| {
+        harness.documents().field("assemblies/massachusetts-single.toml", field).unwrap()
     };
     assert_eq!(
         (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
@@ -252,23 +231,23 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     );
 }
 
-fn gear_shown(harness: &Harness<'static, App>) -> Option<TrialGear> {
+fn gear_shown(harness: &Window) -> Option<TrialGear> {
     let app = harness.state();
     app.panels.assembly.shown(&app.shared)
 }
 
 #[test]
-fn a_scenario_of_parts_of_its_own_shows_them_and_takes_inserts() {
+fn a_scenario_with_its_own_parts_shows_them_and_accepts_inserts() {
     let folder = Folder::new("own-parts");
     let mut harness = assembly(&folder);
     give(&mut harness, PanelAction::Assembly("massachusetts-single".to_owned()));
-    // Whatever was chosen before, a scenario that is opened shows its own gear.
+    // An opened scenario shows its own gear, whatever was selected before.
     let held = folder.0.join("scenarios/study-endline-held.toml");
-    harness.state_mut().shared.perform(EditAction::OpenScenario(held));
+    harness.perform(EditAction::OpenScenario(held));
     harness.run_steps(2);
     assert_eq!(gear_shown(&harness), Some(TrialGear::Own));
     wait(&mut harness, |app| app.panels.assembly.settled());
-    let lines = |harness: &Harness<'static, App>| -> Vec<String> {
+    let lines = |harness: &Window| -> Vec<String> {
         let rest = harness.state().panels.assembly.answers()[1].unwrap().as_ref().unwrap().clone();
         assert!(rest.shape.converged && rest.model.spec.whale.is_none(), "{}", rest.shape.outcome);
         rest.shape.lines.iter().map(|line| line.id.clone()).collect()
@@ -277,23 +256,26 @@ fn a_scenario_of_parts_of_its_own_shows_them_and_takes_inserts() {
     let [slack, running] = tensions(&harness);
     assert!(running > slack, "the tide pulls: {slack} N, {running} N");
     harness.run_steps(1);
-    assert!(harness.query_all_by_label("600 lbf").next().is_some(), "the link's rating is told");
+    assert!(
+        harness.query_all_by_label("600 lbf").next().is_some(),
+        "the rating of the link is on screen"
+    );
 
     harness.get_by_label("Put in every 60 ft").click();
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     let pieces = lines(&harness);
     let inserts = pieces.iter().filter(|id| id.contains(".insert-")).count();
-    // 32.5 m of endline: 12 ft and 72 ft from the buoy lie in its top three quarters.
+    // The top three quarters of 32.5 m of endline contain 12 ft and 72 ft from the buoy.
     assert_eq!(inserts, 2, "{pieces:?}");
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert!(documents.has(Documents::SCENARIO, "line.1.inserts"));
     assert!(documents.problems().is_empty(), "{:?}", documents.problems());
-    assert_eq!(documents.unsaved(), [Documents::SCENARIO], "no assembly of the library is edited");
+    assert_eq!(documents.unsaved(), [Documents::SCENARIO], "only the scenario is edited");
 }
 
 #[test]
-fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
+fn two_assemblies_are_compared_and_a_gear_type_starts_a_new_one() {
     let folder = Folder::new("two-gears");
     let mut harness = assembly(&folder);
     harness.state_mut().panels.assembly.other = Some("single-high-flyer".into());
@@ -302,7 +284,7 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     harness.run_steps(2);
     assert!(
         harness.query_all_by_label("surface-line").next().is_some(),
-        "the other gear's lines stand in the table"
+        "the table has the lines of the other gear"
     );
     harness.get_by_label("New ⏷").click();
     harness.run_steps(3);
@@ -334,10 +316,10 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
 }
 
 #[test]
-fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
+fn an_impossible_fraction_is_reported_at_its_place_with_the_nearest_size() {
     let folder = Folder::new("fraction");
     let mut documents = folder.documents();
-    // The 2012 report's impossible size.
+    // A size in the report of 2012 that does not exist.
     documents.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
     let problem = documents.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
     assert!(
@@ -357,36 +339,26 @@ fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
 }
 
 #[test]
-fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
+fn the_table_of_whales_shows_source_and_confidence_of_every_figure() {
     let folder = Folder::new("whales");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
-    harness.run_steps(2);
+    only(&mut harness, PanelId::LIBRARY);
     harness.get_by_label("Whales").click();
     harness.run_steps(2);
-    let whale = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .documents
-        .files("whales")
-        .next()
-        .unwrap()
-        .to_owned();
+    let whale = harness.documents().files("whales").next().unwrap().to_owned();
     harness.state_mut().panels.library.chosen = Some(whale.clone());
     harness.run_steps(3);
-    let library = harness.state().shared.workbench.project.documents.library().clone();
+    let library = harness.documents().library().clone();
     let entry = library
         .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
         .unwrap();
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     let own = |key: &str| documents.field(&whale, &format!("{key}.source"));
     let sourced = entry.figures.iter().filter(|(field, _)| own(field.key).is_some()).take(3);
     let mut seen = 0;
     for (_, figure) in sourced {
-        for told in [figure.source.as_str(), figure.confidence.word()] {
-            assert!(harness.query_all_by_value(told).next().is_some(), "{told}");
+        for text in [figure.source.as_str(), figure.confidence.word()] {
+            assert!(harness.query_all_by_value(text).next().is_some(), "{text}");
         }
         seen += 1;
     }
@@ -394,66 +366,54 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
 }
 
 #[test]
-fn gear_is_chosen_by_its_picture() {
+fn gear_is_selected_by_its_picture() {
     let folder = Folder::new("pictures");
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::ASSEMBLY.id().to_owned()]);
-    harness.run_steps(2);
+    let mut harness = real(&folder, "hello-endline");
+    only(&mut harness, PanelId::ASSEMBLY);
     harness.get_by_label("Pictures").click();
     harness.run_steps(3);
-    let name = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .documents
-        .field("assemblies/single.toml", "name")
-        .unwrap();
+    let name = harness.documents().field("assemblies/single.toml", "name").unwrap();
     harness.get_all_by_label(&name).last().unwrap().click();
     harness.run_steps(3);
     assert_eq!(gear_shown(&harness), Some(TrialGear::Assembly("single".to_owned())));
-    assert!(!harness.state().panels.assembly.selecting, "the picture is taken and the gear shown");
+    assert!(!harness.state().panels.assembly.selecting, "the selection by picture is closed");
 }
 
-/// The field of the library's files that has the focus.
-fn focused(harness: &Harness<'static, App>, kind: Kind, key: &str) -> Option<String> {
+/// File of the library whose field has the focus.
+fn focused(harness: &Window, kind: Kind, key: &str) -> Option<String> {
     let focused = harness.ctx.memory(|memory| memory.focused())?;
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     documents.files(kind.folder()).find(|path| edit_id(path, key) == focused).map(str::to_owned)
 }
 
 #[test]
-fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_of_its_cell() {
+fn keys_move_between_cells_as_in_a_spreadsheet_and_a_plain_number_gets_the_unit_of_its_cell() {
     let folder = Folder::new("table-keys");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
-    harness.run_steps(3);
+    only(&mut harness, PanelId::LIBRARY);
     let first = "ropes/sink-3-8.toml";
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     go_to(&harness.ctx, documents, first, "strength");
     harness.run_steps(2);
-    // What stood there is selected, so that typing replaces it.
+    // The content is selected, so that typing replaces it.
     harness.event(egui::Event::Text("2345".to_owned()));
     harness.run_steps(1);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.field(first, "strength").as_deref(), Some("2345 lbf"));
-    let below = focused(&harness, Kind::Rope, "strength").expect("a cell below has the focus");
+    let below = focused(&harness, Kind::Rope, "strength").expect("no cell has the focus");
     assert_ne!(below, first);
     harness.key_press(egui::Key::ArrowUp);
     harness.run_steps(3);
     assert_eq!(focused(&harness, Kind::Rope, "strength").as_deref(), Some(first));
     harness.key_press(egui::Key::Tab);
     harness.run_steps(3);
-    assert_eq!(focused(&harness, Kind::Rope, "strength"), None, "Tab leaves for the next cell");
+    assert_eq!(focused(&harness, Kind::Rope, "strength"), None, "Tab moves to the next cell");
 
-    // Ctrl+Z takes the edit back from a cell that was only reached; in one that is typed in, it is the text's own.
-    let strength = |harness: &Harness<'static, App>| {
-        harness.state().shared.workbench.project.documents.field(first, "strength")
-    };
-    let undo = |harness: &mut Harness<'static, App>| {
+    // Ctrl+Z undoes the last edit in a cell without typed text; in a cell with typed text it undoes typing.
+    let strength = |harness: &Window| harness.documents().field(first, "strength");
+    let undo = |harness: &mut Window| {
         harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
         harness.run_steps(2);
     };
@@ -463,16 +423,16 @@ fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_
     assert_eq!(strength(&harness).as_deref(), Some("2345 lbf"));
     harness.key_press(egui::Key::Escape);
     harness.run_steps(2);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     go_to(&harness.ctx, documents, first, "diameter");
     harness.run_steps(2);
     undo(&mut harness);
     assert_eq!(strength(&harness).as_deref(), Some("2,700 lbf"));
 
-    // Presses that fall into one slow frame are as many undos.
-    let before = harness.state().shared.workbench.project.documents.texts().clone();
+    // Three presses in one slow frame are three undos.
+    let before = harness.documents().texts().clone();
     for number in 1..=3 {
-        harness.state_mut().shared.workbench.set(first, "strength", &format!("{number}000 lbf"));
+        harness.set(first, "strength", &format!("{number}000 lbf"));
     }
     let press = egui::Event::Key {
         key: egui::Key::Z,
@@ -484,15 +444,14 @@ fn keys_go_from_cell_to_cell_as_in_a_spreadsheet_and_a_bare_number_has_the_unit_
     harness.input_mut().events.extend(std::iter::repeat_n(press, 3));
     harness.step();
     harness.run_steps(2);
-    assert_eq!(harness.state().shared.workbench.project.documents.texts(), &before);
+    assert_eq!(harness.documents().texts(), &before);
 }
 
 #[test]
-fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_brings_it_back() {
+fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_restores_it() {
     let folder = Folder::new("delete-entry");
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    let remove = |harness: &mut Harness<'static, App>, path: &str| {
+    let mut harness = real(&folder, "hello-endline");
+    let remove = |harness: &mut Window, path: &str| {
         harness.state_mut().dock =
             egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
         harness.state_mut().shared.give(PanelAction::Entry(path.to_owned()));
@@ -500,39 +459,38 @@ fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_brings_it_back() {
         harness.get_by_label("Delete").click();
         harness.run_steps(3);
     };
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     let (used, unused): (Vec<_>, Vec<_>) =
         documents.files("ropes").map(str::to_owned).partition(|path| documents.in_use(path));
     let count = used.len() + unused.len();
     remove(&mut harness, &used[0]);
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert!(notice.text.contains("in use by the open scenario"), "{}", notice.text);
     remove(&mut harness, &unused[0]);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.files("ropes").count(), count - 1);
-    assert!(folder.0.join(&unused[0]).exists(), "its file goes with the save");
-    harness.state_mut().shared.perform(EditAction::Save);
+    assert!(folder.0.join(&unused[0]).exists(), "its file is deleted at the next save");
+    harness.perform(EditAction::Save);
     harness.run_steps(2);
     assert!(!folder.0.join(&unused[0]).exists());
-    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.perform(EditAction::Undo);
     harness.run_steps(2);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.files("ropes").count(), count);
 }
 
 #[test]
-fn a_right_click_on_a_row_offers_what_can_be_done_with_it() {
+fn a_right_click_on_a_row_offers_its_actions() {
     let folder = Folder::new("row-menu");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
-    harness.run_steps(3);
+    only(&mut harness, PanelId::LIBRARY);
     let path = "ropes/sink-3-8.toml";
-    let name = harness.state().shared.workbench.project.documents.field(path, "name").unwrap();
+    let name = harness.documents().field(path, "name").unwrap();
     harness.get_by_label(&name).click_secondary();
     harness.run_steps(4);
     harness.get_by_label("Copy id");
     harness.get_all_by_label("Duplicate").last().unwrap().click();
     harness.run_steps(3);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.field("ropes/sink-3-8-2.toml", "name"), Some(format!("{name} (copy)")));
 }

@@ -1,26 +1,26 @@
-//! What holds all over the window: every command, layouts, edits kept over a crash, runs kept, the pad's mapping.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Parts of the whole window: menus, layouts, start page, recovery after a crash, recordings, plots, pad, glyphs.
 
 use endline_session::command::{EditAction, RunAction, TimeAction};
 use endline_workbench::gui::command::action::PanelAction;
+use std::collections::BTreeSet;
+use std::fs;
 use std::sync::Arc;
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::recovery::{Autosave, EVERY_S};
 use endline_session::export::chart::{Chart, Kind};
 use endline_session::live::{Channel, Status};
+use endline_session::recording::kept::Kept;
 use endline_session::units::Units;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout::{self, Layout};
 use endline_workbench::gui::panel::PanelId;
+use endline_workbench::gui::pictures;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
 
-use crate::common::{Folder, flown, give, wait, workbench};
+use crate::common::{Folder, Reach as _, Window, flown, give, only, real, retype, wait, workbench};
 
 #[test]
-fn the_window_menu_ticks_open_panels_and_takes_them_away() {
+fn the_window_menu_ticks_open_panels_and_closes_them() {
     let folder = Folder::new("ticks");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     assert!(layout::is_open(&harness.state().dock, PanelId::TENSION));
@@ -32,56 +32,51 @@ fn the_window_menu_ticks_open_panels_and_takes_them_away() {
 }
 
 #[test]
-fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
+fn edits_of_a_killed_program_are_recovered_and_undone_in_one_step() {
     let folder = Folder::new("killed");
     let data = folder.0.join("data");
-    std::fs::create_dir_all(&data).unwrap();
+    fs::create_dir_all(&data).unwrap();
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().shared.workbench.project.autosave = Autosave::in_folder(data.clone());
-    harness.state_mut().shared.workbench.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
-    harness.state_mut().shared.workbench.set("ropes/nylon-1-2.toml", "strength", "25 kN");
+    harness.workbench_mut().project.autosave = Autosave::in_folder(data.clone());
+    harness.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
+    harness.set("ropes/nylon-1-2.toml", "strength", "25 kN");
     let kept = data.join(format!("recovery-{}.json", std::process::id()));
-    // The harness's own clock goes on a quarter of a second a step.
+    // The clock of the harness advances by a quarter of a second each step.
     for _ in 0..(8.0 * EVERY_S) as usize {
         harness.step();
     }
     wait(&mut harness, |_| kept.exists());
     drop(harness);
-    // No program has this number, as if this one ran no more.
-    std::fs::rename(kept, data.join("recovery-4294967295.json")).unwrap();
+    // No process has this id, as if this one had ended.
+    fs::rename(kept, data.join("recovery-4294967295.json")).unwrap();
 
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().shared.workbench.project.autosave = Autosave::in_folder(data.clone());
+    harness.workbench_mut().project.autosave = Autosave::in_folder(data.clone());
     harness.state_mut().questions.left_behind = Autosave::in_folder(data.clone()).left_behind();
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
     harness.get_by_label("Recover").click();
     harness.run_steps(3);
-    let strength = |harness: &Harness<'static, App>, path: &str| {
-        harness.state().shared.workbench.project.documents.field(path, "strength").unwrap()
-    };
+    let strength =
+        |harness: &Window, path: &str| harness.documents().field(path, "strength").unwrap();
     assert_eq!(strength(&harness, "ropes/sink-3-8.toml"), "2,600 lbf");
     assert_eq!(strength(&harness, "ropes/nylon-1-2.toml"), "25 kN");
     assert!(
         harness.query_by_label("Recover").is_none()
             && !data.join("recovery-4294967295.json").exists()
     );
-    harness.state_mut().shared.perform(EditAction::Undo);
-    assert!(
-        harness.state().shared.workbench.project.documents.unsaved().is_empty(),
-        "one undo takes all of it back"
-    );
+    harness.perform(EditAction::Undo);
+    assert!(harness.documents().unsaved().is_empty(), "one undo reverts all recovered edits");
 }
 
 #[test]
-fn a_button_is_given_to_something_else_by_pressing_it() {
+fn a_button_is_reassigned_by_pressing_it() {
     let folder = Folder::new("mapping");
     let pad = |events: Vec<PadEvent>| {
         Pilot::new(Some(Box::new(ScriptedPad { script: vec![vec![], events].into() })))
     };
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::PAD.id().to_owned()]);
-    harness.run_steps(2);
+    only(&mut harness, PanelId::PAD);
     harness.get_by_label("right shoulder").click();
     harness.run_steps(2);
     harness.get_by_label("press it …");
@@ -101,40 +96,36 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
 }
 
 #[test]
-fn a_run_is_kept_by_itself_opened_again_to_the_bit_and_branched() {
+fn a_run_is_recorded_automatically_replayed_to_the_bit_and_branched() {
     let folder = Folder::new("kept-run");
     let mut harness = flown(&folder);
-    let end = harness.state().shared.workbench.view().cloned().unwrap();
+    let end = harness.view();
     let kept = folder.0.join("recordings/hello-endline 0001.endline");
     wait(&mut harness, |_| kept.exists());
 
-    harness.state_mut().shared.perform(RunAction::OpenRecording(kept));
+    harness.perform(RunAction::OpenRecording(kept));
     wait(&mut harness, |app| {
         let view = app.shared.workbench.view().unwrap();
         !Arc::ptr_eq(&view.model, &end.model)
             && view.frame.step == end.frame.step
             && view.status != Status::Running
     });
-    assert_eq!(
-        harness.state().shared.workbench.view().unwrap().state_hash,
-        end.state_hash,
-        "the recording runs to the same bits"
-    );
+    assert_eq!(harness.view().state_hash, end.state_hash, "the recording replays to the same bits");
 
-    harness.state_mut().shared.perform(TimeAction::Seek(1.0));
+    harness.perform(TimeAction::Seek(1.0));
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.sought));
-    let step = harness.state().shared.workbench.view().unwrap().frame.step;
-    harness.state_mut().shared.perform(RunAction::Branch);
+    let step = harness.view().frame.step;
+    harness.perform(RunAction::Branch);
     wait(&mut harness, |app| {
         let view = app.shared.workbench.view().unwrap();
         view.status == Status::Paused && !view.sought && view.frame.step == step
     });
-    let again = harness.state().shared.workbench.view().cloned().unwrap();
-    assert!((again.newest_s - again.frame.time_s).abs() < 1e-9, "what came after is gone");
+    let again = harness.view();
+    assert!((again.newest_s - again.frame.time_s).abs() < 1e-9, "later moments are discarded");
 }
 
 #[test]
-fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
+fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_can_draw_it() {
     let folder = Folder::new("plots");
     let mut harness = flown(&folder);
     for layout in Layout::ALL {
@@ -142,10 +133,9 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         harness.run_steps(3);
     }
     for panel in PanelId::ALL {
-        harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
-        harness.run_steps(2);
+        only(&mut harness, panel);
     }
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let summary = view.summary.as_ref().unwrap();
     let tension = Chart::of(Kind::Tension, &view, Units::Si);
     for (curve, line) in tension.curves.iter().zip(&summary.lines) {
@@ -172,7 +162,10 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         );
     }
     let depth = Chart::of(Kind::Depth, &view, Units::Si);
-    assert!((depth.curves[0].points[0][1] + 12.0).abs() < 0.05, "the whale begins at 12 m");
+    assert!(
+        (depth.curves[0].points[0][1] + 12.0).abs() < 0.05,
+        "the whale starts at a depth of 12 m"
+    );
     let along = Chart::of(Kind::Along, &view, Units::Si);
     let rope_m: f64 = view.frame.segment_length_m.iter().sum();
     assert!(
@@ -182,15 +175,15 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
     );
     let svg = folder.0.join("plots.svg");
     give(&mut harness, PanelAction::ExportPlots(svg.clone()));
-    assert!(std::fs::read_to_string(svg).unwrap().contains("Tension of each line"));
+    assert!(fs::read_to_string(svg).unwrap().contains("Tension of each line"));
     let csv = folder.0.join("plots.csv");
     give(&mut harness, PanelAction::ExportPlots(csv.clone()));
-    assert!(std::fs::read_to_string(csv).unwrap().lines().count() > 100);
+    assert!(fs::read_to_string(csv).unwrap().lines().count() > 100);
 }
 
-/// Sources of the window: every file under `app/workbench/src/gui` and the session's texts for it.
+/// Collects the Rust files under a folder.
 fn sources(folder: &std::path::Path, found: &mut Vec<std::path::PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
+    for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
             sources(&path, found);
@@ -201,7 +194,7 @@ fn sources(folder: &std::path::Path, found: &mut Vec<std::path::PathBuf>) {
 }
 
 #[test]
-fn every_letter_of_a_text_on_screen_can_be_drawn() {
+fn the_fonts_have_every_letter_of_the_sources() {
     let folder = Folder::new("glyphs");
     let (harness, _) = workbench(&folder, Pilot::default());
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -210,7 +203,7 @@ fn every_letter_of_a_text_on_screen_can_be_drawn() {
         sources(&root.join(part), &mut files);
     }
     assert!(files.len() > 200, "{}", files.len());
-    // What no font has is drawn by one picture, the same for all.
+    // All letters that no font has are drawn by the same glyph.
     const UNKNOWN: char = '\u{10fffd}';
     let drawn = |letter: char| {
         let (font, ink) = (egui::FontId::proportional(13.0), egui::Color32::WHITE);
@@ -219,9 +212,9 @@ fn every_letter_of_a_text_on_screen_can_be_drawn() {
         let picture = galley.rows[0].glyphs[0].uv_rect;
         (picture.min, picture.max)
     };
-    let mut missing = std::collections::BTreeSet::new();
+    let mut missing = BTreeSet::new();
     for file in files {
-        let text = std::fs::read_to_string(&file).unwrap();
+        let text = fs::read_to_string(&file).unwrap();
         let code = text.lines().map(str::trim).filter(|line| !line.starts_with("//"));
         for letter in code.flat_map(str::chars).filter(|letter| !letter.is_ascii()) {
             if drawn(letter) == drawn(UNKNOWN) {
@@ -229,5 +222,61 @@ fn every_letter_of_a_text_on_screen_can_be_drawn() {
             }
         }
     }
-    assert!(missing.is_empty(), "drawn as empty boxes: {missing:?}");
+    assert!(missing.is_empty(), "missing in the fonts: {missing:?}");
+}
+
+#[test]
+fn a_button_of_the_start_page_opens_the_gear_it_names() {
+    let folder = Folder::new("doors");
+    let mut harness = real(&folder, "hello-endline");
+    only(&mut harness, PanelId::START);
+    for title in ["Design gear", "Compare for a rule", "Fly, or explain a case"] {
+        harness.get_by_label(title);
+    }
+    // Gear is listed; checks of the physics are folded.
+    harness.get_by_label("Ten-trap trawl, nearshore");
+    assert!(harness.query_by_label("A line under tow").is_none());
+
+    harness.get_by_label("Trawl of ten").click();
+    wait(&mut harness, |app| {
+        app.shared.workbench.project.documents.scenario_path().ends_with("trawl-10.toml")
+    });
+}
+
+#[test]
+fn a_recording_shows_its_outcome_and_can_be_renamed_annotated_and_deleted() {
+    let folder = Folder::new("recordings");
+    let mut harness = flown(&folder);
+    give(&mut harness, RunAction::Reset);
+    let kept = folder.0.join("recordings/hello-endline 0001.endline");
+    wait(&mut harness, |_| kept.exists());
+    only(&mut harness, PanelId::RECORDINGS);
+    harness.get_by_label("No contact");
+    // The thumbnail is drawn in the background.
+    wait(&mut harness, |_| pictures::thumbnail(&kept).is_some());
+    let picture = pictures::thumbnail(&kept).unwrap();
+    let colours: BTreeSet<[u8; 4]> = picture.pixels.iter().map(|pixel| pixel.to_array()).collect();
+    assert!(
+        picture.size == [256, 144] && colours.len() > 100,
+        "{:?} {}",
+        picture.size,
+        colours.len()
+    );
+    let known = Kept::beside(&kept).unwrap();
+    assert!((known.simulated_s - 2.0).abs() < 1e-9 && known.of == "hello-endline", "{known:?}");
+
+    retype(&mut harness, "hello-endline 0001", "first flight");
+    let renamed = kept.with_file_name("first flight.endline");
+    wait(&mut harness, |_| renamed.exists());
+    assert!(!kept.exists() && pictures::thumbnail(&renamed).is_some());
+    harness.run_steps(2);
+    retype(&mut harness, "", "too far to starboard");
+    wait(&mut harness, |_| Kept::beside(&renamed).unwrap().note == "too far to starboard");
+    assert_eq!(Kept::beside(&renamed).unwrap().of, known.of);
+
+    harness.get_by_label("Delete").click();
+    wait(&mut harness, |_| !renamed.exists());
+    assert!(fs::exists(folder.0.join("recordings/deleted/first flight.endline")).unwrap());
+    harness.run_steps(2);
+    harness.get_by_label("No runs yet.");
 }

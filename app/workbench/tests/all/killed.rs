@@ -1,6 +1,5 @@
-//! A program killed with SIGKILL at random moments of an editing script: no file is broken, little is lost, and it is offered back.
+//! A process killed with SIGKILL at random moments of an editing script breaks no file and loses few edits, and the rest is recovered.
 #![cfg(all(feature = "gui", unix))]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -14,21 +13,20 @@ use endline_session::edit::recovery::{Autosave, UnsavedEdits};
 
 use crate::common::Folder;
 
-/// Seconds of the script for each real one: what takes half a minute at work takes three seconds here, which a busy disk needs at times
-/// to write one file for good.
+/// Script time per real time: half a minute takes three seconds, which a busy disk may need to write one file.
 const HASTE: f64 = 10.0;
-/// Edits lost at most [s of the script].
+/// Greatest age of lost edits [s of script time].
 const LOST_S: f64 = 30.0;
-/// Programs killed, so many at a time.
+/// Number of processes killed, and how many run at the same time.
 const KILLS: [usize; 2] = [10, 5];
-/// Tells this test that it is the program to be killed.
+/// Environment variable that makes the test below the process to be killed.
 const ROLE: &str = "ENDLINE_TEST_EDITS";
 
 /// The two files that the script edits, and their field.
 const FILES: [&str; 2] = ["ropes/sink-3-8.toml", "ropes/nylon-1-2.toml"];
 const FIELD: &str = "strength";
 
-/// A library of two ropes and the scenario that uses one: small, so that an edit is quick.
+/// Makes a small library of two ropes and a scenario that uses one, so that an edit is fast.
 fn small_library(folder: &Folder, root: &Path) {
     for file in FILES.into_iter().chain([
         "friction/sink.toml",
@@ -40,11 +38,11 @@ fn small_library(folder: &Folder, root: &Path) {
     }
 }
 
-/// The script: an edit, now and then saved, kept as the window keeps them; each told in a log before it is made.
+/// The script: edits, sometimes saved, with recovery files as in the window. Each edit is logged before it is made.
 fn edit_until_killed(root: &Path) {
     let mut documents =
         Documents::open(root, &root.join("scenarios/reference-a-pendulum.toml")).unwrap();
-    // A folder that is not there yet, as on a new user's first day.
+    // A folder that does not exist yet, as at the first start.
     let mut autosave = Autosave::in_folder(root.join("data"));
     let mut log =
         std::fs::OpenOptions::new().append(true).create(true).open(root.join("log")).unwrap();
@@ -62,7 +60,7 @@ fn edit_until_killed(root: &Path) {
     }
 }
 
-/// The number of the edit that a text holds; none where it holds the figure as shipped.
+/// Number of the edit that a text contains; `None` for the original figure.
 fn edit_in(text: &str) -> Option<usize> {
     let strength = Document::parse(text).unwrap().get(FIELD).unwrap();
     strength
@@ -75,7 +73,7 @@ fn edit_in(text: &str) -> Option<usize> {
 
 fn began(root: &Path) -> Child {
     let program = std::env::current_exe().unwrap();
-    let exact = ["killed::the_script_as_a_program_of_its_own", "--exact", "--nocapture"];
+    let exact = ["killed::role_of_the_script_process", "--exact", "--nocapture"];
     Command::new(program)
         .args(exact)
         .env(ROLE, root)
@@ -85,28 +83,28 @@ fn began(root: &Path) -> Child {
         .unwrap()
 }
 
-/// Kills one program after a while, and looks at what it left; answers what is wrong.
+/// Starts and kills one process, and returns what is wrong with what it left.
 fn kill_one(root: &Path, after: Duration) -> String {
     let before = std::fs::read_to_string(root.join("log")).unwrap_or_default().lines().count();
     let mut child = began(root);
     let patience = Instant::now() + Duration::from_secs(60);
-    // The clock starts with the first edit.
+    // Time starts with the first edit.
     while std::fs::read_to_string(root.join("log")).unwrap_or_default().lines().count() <= before {
-        assert!(Instant::now() < patience, "the script does not begin");
+        assert!(Instant::now() < patience, "the script does not start");
         std::thread::sleep(Duration::from_millis(5));
     }
     std::thread::sleep(after);
     child.kill().unwrap();
     child.wait().unwrap();
-    let wrong = looked_at(root, before);
+    let wrong = check(root, before);
     for (file, _) in Autosave::in_folder(root.join("data")).left_behind() {
         std::fs::remove_file(file).unwrap();
     }
     wrong
 }
 
-/// Files whole, edits kept or saved not long ago, and those kept offered back.
-fn looked_at(root: &Path, first: usize) -> String {
+/// Checks that files are complete and that recent edits are in a file or recovery file.
+fn check(root: &Path, first: usize) -> String {
     let mut wrong = String::new();
     let log = std::fs::read_to_string(root.join("log")).unwrap();
     let times: Vec<f64> =
@@ -122,12 +120,12 @@ fn looked_at(root: &Path, first: usize) -> String {
         let kept = offered.and_then(|kept| kept.texts.get(file)?.as_deref()).and_then(edit_in);
         newest = newest.max(edit_in(&text)).max(kept);
     }
-    // Saved or kept before this program began: nothing of its own was kept yet.
+    // The edit is from before this process, which had not written a recovery file yet.
     let kept_s =
         newest.and_then(|edit| times.get(edit.checked_sub(first)?).copied()).unwrap_or(0.0);
     let lost_s = times.last().copied().unwrap_or(0.0) - kept_s;
     if lost_s > LOST_S {
-        let _ = writeln!(wrong, "edits of {lost_s:.1} s are lost, of {:?} s", times.last());
+        let _ = writeln!(wrong, "edits of {lost_s:.1} s are lost of {:?} s", times.last());
     }
     if Documents::open(root, &root.join("scenarios/reference-a-pendulum.toml")).is_err() {
         let _ = writeln!(wrong, "the library does not open");
@@ -136,20 +134,20 @@ fn looked_at(root: &Path, first: usize) -> String {
 }
 
 #[test]
-fn the_script_as_a_program_of_its_own() {
+fn role_of_the_script_process() {
     if let Some(root) = std::env::var_os(ROLE) {
         edit_until_killed(&PathBuf::from(root));
     }
 }
 
 #[test]
-fn fifty_programs_killed_amid_edits_break_no_file_and_lose_little() {
+fn fifty_processes_killed_while_editing_break_no_file_and_lose_few_edits() {
     let folder = Folder::new("fifty-kills");
     let wrong: Vec<String> = std::thread::scope(|scope| {
         let work = |which: usize| {
             let root = folder.0.join(format!("killed-{which}"));
             small_library(&folder, &root);
-            // Moments spread over the script by the golden ratio, each its own.
+            // Moments spread over the script by the golden ratio.
             let moment = move |kill: usize| ((which * KILLS[1] + kill) as f64 * 0.618_034).fract();
             (0..KILLS[1])
                 .map(|kill| kill_one(&root, Duration::from_secs_f64(0.05 + 6.0 * moment(kill))))
@@ -162,12 +160,12 @@ fn fifty_programs_killed_amid_edits_break_no_file_and_lose_little() {
 }
 
 #[test]
-fn edits_kept_by_a_killed_program_come_back_whole() {
+fn edits_of_a_killed_process_are_recovered_completely() {
     let folder = Folder::new("one-kill");
     let root = folder.0.join("killed");
     small_library(&folder, &root);
     let mut child = began(&root);
-    // Long enough for one keeping, whatever the machine: wait for its file.
+    // Waits for the first recovery file.
     let kept = || {
         std::fs::read_dir(root.join("data"))
             .into_iter()
@@ -177,19 +175,19 @@ fn edits_kept_by_a_killed_program_come_back_whole() {
     };
     let patience = Instant::now() + Duration::from_secs(60);
     while !kept() {
-        assert!(Instant::now() < patience, "nothing is kept");
+        assert!(Instant::now() < patience, "no recovery file");
         std::thread::sleep(Duration::from_millis(10));
     }
     child.kill().unwrap();
     child.wait().unwrap();
     let left = Autosave::in_folder(root.join("data")).left_behind();
-    let (_, offered) = left.first().expect("the edits are offered");
+    let (_, offered) = left.first().expect("no edits to recover");
     let mut documents = Documents::open(&offered.root, &offered.scenario).unwrap();
     documents
         .restore(offered.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
     assert!(
         FILES.iter().any(|file| offered.texts.contains_key(*file) && documents.is_unsaved(file)),
-        "they are unsaved edits again"
+        "they are unsaved edits"
     );
-    assert!(documents.undo() && documents.unsaved().is_empty(), "one undo takes them back");
+    assert!(documents.undo() && documents.unsaved().is_empty(), "one undo reverts them");
 }

@@ -1,5 +1,6 @@
-//! Tests of the window without a screen: what a user does in it, and what comes of it.
+//! Tests of the window without a screen: actions of a user and their effects.
 #![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot continue fails")]
 #![allow(clippy::disallowed_methods, reason = "tests read files that they have written")]
 
 mod answers;
@@ -15,7 +16,6 @@ mod runs;
 mod scenario;
 mod search;
 mod soak;
-mod start;
 mod study;
 mod view;
 mod workbench;

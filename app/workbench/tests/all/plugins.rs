@@ -1,26 +1,21 @@
-//! The panel of plugins: listed, switched off, built anew and loaded again, asked about, put into the scenario.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! The panel of plugins: plugins listed, switched off, reloaded, allowed, used in the scenario.
 
 use endline_session::command::{EditAction, PluginAction};
 use endline_workbench::gui::command::action::PanelAction;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::{Document, Setting};
 use endline_session::edit::Documents;
-use endline_session::live::engine;
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_session::workbench::plugins::Load;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::fields;
 use endline_workbench::gui::panel::PanelId;
-use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, linked, opened_with, wait};
+use crate::common::{Folder, Reach as _, Window, real, wait};
 
-/// A folder of plugins, deleted in the end.
+/// A folder of plugins, deleted at the end of the test.
 struct Place(PathBuf);
 
 impl Place {
@@ -34,33 +29,32 @@ impl Place {
 
 impl Drop for Place {
     fn drop(&mut self) {
-        // A folder left behind is not worth failing a test for.
+        // A folder that cannot be deleted is no reason to fail a test.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// The workbench with the panel in front and a loader of a folder.
-fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App> {
-    let mut harness =
-        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+/// The workbench with the panel in front and a loader for a folder.
+fn opened_on(folder: &Folder, place: &Path, scenario: &str) -> Window {
+    let mut harness = real(folder, scenario);
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path, _: &str| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
-    harness.state_mut().shared.workbench.plugins.load_with(loader, load, Vec::new());
+    harness.workbench_mut().plugins.load_with(loader, load, Vec::new());
     harness.state_mut().shared.give(PanelAction::Show(PanelId::PLUGINS));
     harness.run_steps(3);
     harness
 }
 
-fn reloaded(harness: &mut Harness<'static, App>, times: u64) {
+fn reloaded(harness: &mut Window, times: u64) {
     wait(harness, |app| app.shared.workbench.plugins.reloads == times);
 }
 
 #[test]
-fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
+fn a_plugin_is_listed_reloaded_after_a_change_and_switched_off() {
     let (folder, place) = (Folder::new("plugins"), Place::new("anew"));
     let project =
         write_project(&place.0.join("our-gear"), PluginKind::Gear, Language::Text, None).unwrap();
-    let mut harness = bench(&folder, &place.0, "reference-a-pendulum");
+    let mut harness = opened_on(&folder, &place.0, "reference-a-pendulum");
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 1);
@@ -77,54 +71,43 @@ fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
-    assert!(harness.query_all_by_label("Their gear").next().is_some(), "what was changed is there");
+    assert!(harness.query_all_by_label("Their gear").next().is_some(), "the change is shown");
 
     harness.state_mut().shared.give(PluginAction::Switch { id: project.id.clone(), on: false });
     harness.run_steps(2);
     reloaded(&mut harness, 3);
     assert_eq!(
-        harness
-            .state()
-            .shared
-            .workbench
-            .plugins
-            .every()
-            .iter()
-            .map(|plugin| plugin.on)
-            .collect::<Vec<_>>(),
+        harness.workbench().plugins.every().iter().map(|plugin| plugin.on).collect::<Vec<_>>(),
         [false]
     );
-    assert!(harness.state().shared.workbench.gear_types().is_empty());
+    assert!(harness.workbench().gear_types().is_empty());
 }
 
 #[test]
-fn an_unknown_library_is_asked_about_before_it_is_opened() {
+fn an_unknown_library_is_opened_only_after_a_question() {
     let (folder, place) = (Folder::new("plugins-asked"), Place::new("asked"));
     let file = place.0.join(format!("lib.{}", std::env::consts::DLL_EXTENSION));
     std::fs::write(&file, "no library at all").unwrap();
-    let mut harness = bench(&folder, &place.0, "reference-a-pendulum");
+    let mut harness = opened_on(&folder, &place.0, "reference-a-pendulum");
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 1);
-    assert!(matches!(
-        harness.state().shared.workbench.plugins.problems[0].standing,
-        Standing::Waiting(_)
-    ));
+    assert!(matches!(harness.workbench().plugins.problems[0].standing, Standing::Waiting(_)));
     assert!(
         harness.query_by_label_contains("with your rights: allow it only if").is_some(),
-        "the window asks"
+        "the question is shown"
     );
     harness.get_all_by_label("Allow").last().unwrap().click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
-    let problem = harness.state().shared.workbench.plugins.problems[0].clone();
+    let problem = harness.workbench().plugins.problems[0].clone();
     assert!(
         problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
         "{problem}"
     );
     assert!(harness.query_by_label_contains("with your rights: allow it only if").is_none());
 
-    // Another file, put off: it is not asked about again, and stays left out.
+    // After "Not now" another file is not asked about again, and is not loaded.
     std::fs::write(&file, "other content").unwrap();
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
@@ -132,34 +115,25 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
     harness.get_by_label("Not now").click();
     harness.run_steps(2);
     assert!(harness.query_by_label("Not now").is_none());
-    assert!(matches!(
-        harness.state().shared.workbench.plugins.problems[0].standing,
-        Standing::Waiting(_)
-    ));
+    assert!(matches!(harness.workbench().plugins.problems[0].standing, Standing::Waiting(_)));
 }
 
 #[test]
-fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
+fn a_friction_law_is_used_in_the_scenario_and_its_attributes_have_a_form() {
     let (folder, place) = (Folder::new("plugins-used"), Place::new("used"));
-    let mut harness = bench(&folder, &place.0, "hello-endline");
+    let mut harness = opened_on(&folder, &place.0, "hello-endline");
     let id = "org.endline.friction.coulomb";
     let motion = harness
-        .state()
-        .shared
-        .workbench
+        .workbench()
         .plugins
         .every()
         .into_iter()
         .find(|plugin| plugin.info.id == "org.endline.motion.swim")
         .unwrap()
         .info;
-    assert!(harness.state().shared.workbench.uses_plugin(&motion));
+    assert!(harness.workbench().uses_plugin(&motion));
     harness
-        .state_mut()
-        .shared
-        .workbench
-        .project
-        .documents
+        .documents_mut()
         .set(Documents::SCENARIO, "friction.model", "org.example.friction.other")
         .unwrap();
     let other = |scenario: &mut Document| {
@@ -167,28 +141,21 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
             .put("friction.attributes.slip", &Setting::text("0.1 m"))
             .map_err(|error| error.to_string())
     };
-    harness
-        .state_mut()
-        .shared
-        .workbench
-        .project
-        .documents
-        .alter(Documents::SCENARIO, other)
-        .unwrap();
+    harness.documents_mut().alter(Documents::SCENARIO, other).unwrap();
     harness.state_mut().panels.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();
     harness.run_steps(3);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.field(Documents::SCENARIO, "friction.model").as_deref(), Some(id));
     assert_eq!(
         documents.field(Documents::SCENARIO, "friction.attributes.slip"),
         None,
-        "those of the other law are gone"
+        "attributes of the other law are removed"
     );
     assert!(harness.query_by_label("In this scenario").is_some());
 
-    // A value typed into the form makes the table of attributes that is not there.
+    // A value typed into the form creates the table of attributes.
     let field = fields::edit_id(Documents::SCENARIO, "friction.attributes.coefficient_scale");
     harness.ctx.memory_mut(|memory| memory.request_focus(field));
     harness.run_steps(2);
@@ -196,25 +163,13 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     harness.run_steps(1);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
-    let scale = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .documents
-        .field(Documents::SCENARIO, "friction.attributes.coefficient_scale");
+    let scale =
+        harness.documents().field(Documents::SCENARIO, "friction.attributes.coefficient_scale");
     assert_eq!(scale.as_deref(), Some("1.5"));
-    harness.state_mut().shared.perform(EditAction::Undo);
-    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.perform(EditAction::Undo);
+    harness.perform(EditAction::Undo);
     assert_eq!(
-        harness
-            .state()
-            .shared
-            .workbench
-            .project
-            .documents
-            .field(Documents::SCENARIO, "friction.model")
-            .as_deref(),
+        harness.documents().field(Documents::SCENARIO, "friction.model").as_deref(),
         Some("org.example.friction.other")
     );
 }

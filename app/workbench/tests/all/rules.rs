@@ -1,48 +1,39 @@
-//! The panel Rules: an assembly checked where it is fished, an edit taken and taken back, options compared as a study.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! The panel Rules: an assembly checked, an edit applied and undone, the compliance sheet, options compared in a study.
 
-use std::time::{Duration, Instant};
-
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::command::{EditAction, RuleAction};
 use endline_session::edit::Documents;
-use endline_session::live::engine;
 use endline_session::rules::Verdict;
 use endline_session::workbench::RuleAnswer;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel::PanelId;
-use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, give, linked, on_disk, opened_with, retype};
+use crate::common::{Folder, Reach as _, Window, give, on_disk, real, retype, wait};
 
 const ASSEMBLY: &str = "assemblies/single.toml";
 const TWO: &str = "me.inserts.3-12.two";
 const ONE: &str = "me.inserts.3-12.one";
 
-/// The workbench with the panel Rules alone, the single asked about in Maine's zone B.
-fn checking(folder: &Folder) -> Harness<'static, App> {
+/// The workbench with only the panel Rules, which checks the single in zone B of Maine.
+fn checking(folder: &Folder) -> Window {
     let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     let study = "studies/gear-types.toml";
     std::fs::copy(shipped.join(study), folder.0.join(study)).unwrap();
-    let documents = folder.book_with("hello-endline");
-    let mut harness = opened_with(documents, linked(), engine::live(), Pilot::default());
+    let mut harness = real(folder, "hello-endline");
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RULES.id().to_owned()]);
-    let question = &mut harness.state_mut().shared.workbench.rules.question;
+    let question = &mut harness.workbench_mut().rules.question;
     "single".clone_into(&mut question.assembly);
     "me-b".clone_into(&mut question.area);
     harness.run_steps(3);
     harness
 }
 
-fn answer<'a>(harness: &'a Harness<'static, App>) -> Option<&'a RuleAnswer> {
-    harness.state().shared.workbench.rules.answer.as_ref()
+fn answer<'a>(harness: &'a Window) -> Option<&'a RuleAnswer> {
+    harness.workbench().rules.answer.as_ref()
 }
 
-/// Draws until edits for the question as it stands have been tried.
-fn wait_for_edits(harness: &mut Harness<'static, App>) {
+/// Draws until the edits for the current question have been tried.
+fn wait_for_edits(harness: &mut Window) {
     wait(harness, |app| {
         let (rules, documents) =
             (&app.shared.workbench.rules, &app.shared.workbench.project.documents);
@@ -55,36 +46,24 @@ fn wait_for_edits(harness: &mut Harness<'static, App>) {
     });
 }
 
-fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
-    let patience = Instant::now() + Duration::from_secs(120);
-    while !so(harness.state()) {
-        let workbench = &harness.state().shared.workbench;
-        let (why, notice) = (&workbench.rules.why, &workbench.notice);
-        assert!(Instant::now() < patience, "waited in vain: {why} {notice:?}");
-        std::thread::sleep(Duration::from_millis(20));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
-
-fn verdict(harness: &Harness<'static, App>, rule: &str) -> Verdict {
+fn verdict(harness: &Window, rule: &str) -> Verdict {
     let sheet = &answer(harness).unwrap().sheet;
     sheet.rules.iter().find(|one| one.rule == rule).unwrap().verdict
 }
 
 #[test]
-fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
+fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
     let folder = Folder::new("rules");
     let mut harness = checking(&folder);
     wait_for_edits(&mut harness);
-    let today = harness.state().shared.workbench.rules.question.on.clone();
+    let today = harness.workbench().rules.question.on.clone();
     retype(&mut harness, &today, "June");
     wait(&mut harness, |app| !app.shared.workbench.rules.why.is_empty());
     assert!(harness.query_all_by_label_contains("day `June`").next().is_some());
     retype(&mut harness, "June", "2024-06-01");
     wait_for_edits(&mut harness);
-    assert_eq!(verdict(&harness, TWO), Verdict::CannotBeChecked, "the distance is not known");
-    let question = &mut harness.state_mut().shared.workbench.rules.question;
+    assert_eq!(verdict(&harness, TWO), Verdict::CannotBeChecked, "the distance is unknown");
+    let question = &mut harness.workbench_mut().rules.question;
     "5 nmi".clone_into(&mut question.distance);
     wait_for_edits(&mut harness);
     assert_eq!(verdict(&harness, TWO), Verdict::Fail);
@@ -96,8 +75,8 @@ fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
     let says = &edits[0].says;
     assert!(harness.query_all_by_label_contains(says).next().is_some(), "{says}");
     let before = on_disk(&folder, ASSEMBLY);
-    let text = |harness: &Harness<'static, App>| {
-        let documents = &harness.state().shared.workbench.project.documents;
+    let text = |harness: &Window| {
+        let documents = harness.documents();
         documents.text(ASSEMBLY).unwrap().to_owned()
     };
     harness.get_all_by_label("Take this edit").next().unwrap().click();
@@ -106,8 +85,8 @@ fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
     wait_for_edits(&mut harness);
     assert_eq!(verdict(&harness, TWO), Verdict::Pass);
     give(&mut harness, EditAction::Undo);
-    assert_eq!(text(&harness), before, "one step");
-    // The file was never written.
+    assert_eq!(text(&harness), before, "one undo");
+    // The file is not written before Save.
     assert_eq!(on_disk(&folder, ASSEMBLY), before);
 
     wait_for_edits(&mut harness);
@@ -117,69 +96,73 @@ fn an_edit_that_a_rule_asks_for_is_taken_by_a_button_and_taken_back_by_undo() {
 }
 
 #[test]
-fn a_scenario_that_is_opened_asks_about_its_own_gear() {
+fn an_opened_scenario_is_checked_with_its_own_gear() {
     let folder = Folder::new("rules-scenario");
     let mut harness = checking(&folder);
-    let asked = |harness: &mut Harness<'static, App>, scenario: &str| {
+    let question_after_opening = |harness: &mut Window, scenario: &str| {
         let path = folder.0.join("scenarios").join(scenario).with_extension("toml");
-        harness.state_mut().shared.perform(EditAction::OpenScenario(path));
+        harness.perform(EditAction::OpenScenario(path));
         wait(harness, |app| !app.shared.workbench.rules.busy());
-        harness.state().shared.workbench.rules.question.assembly.clone()
+        harness.workbench().rules.question.assembly.clone()
     };
-    assert_eq!(asked(&mut harness, "trawl-10"), "trawl-10");
-    assert_eq!(asked(&mut harness, "study-endline-held"), "", "made of parts of its own");
-    let why = &harness.state().shared.workbench.rules.why;
+    assert_eq!(question_after_opening(&mut harness, "trawl-10"), "trawl-10");
+    assert_eq!(
+        question_after_opening(&mut harness, "study-endline-held"),
+        "",
+        "it has its own parts, no assembly"
+    );
+    let why = &harness.workbench().rules.why;
     assert!(why.contains("choose an assembly"), "{why}");
-    assert_eq!(asked(&mut harness, "hello-endline"), "single");
+    assert_eq!(question_after_opening(&mut harness, "hello-endline"), "single");
 }
 
 #[test]
-fn the_compliance_sheet_is_written_by_a_button_with_what_stands_in_the_window() {
+fn a_button_writes_the_compliance_sheet_for_the_question_on_screen() {
     let folder = Folder::new("rules-sheet");
     let mut harness = checking(&folder);
-    harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
-    harness.state_mut().shared.workbench.rules.question.on = "2024-06-01".to_owned();
+    harness.workbench_mut().studies.folder = Some(folder.0.join("results"));
+    harness.workbench_mut().rules.question.on = "2024-06-01".to_owned();
     wait_for_edits(&mut harness);
     harness.get_by_label("Compliance sheet").click();
     wait(&mut harness, |app| app.shared.workbench.rules.page().is_some());
-    let page = harness.state().shared.workbench.rules.page().unwrap().to_owned();
+    let page = harness.workbench().rules.page().unwrap().to_owned();
     assert!(page.ends_with("results/sheets/single-me-b-2024-06-01.html"), "{}", page.display());
     let text = std::fs::read_to_string(&page).unwrap();
     let hauled = "at the hauler, with 1 of its traps and anchors off the seabed";
-    for told in ["endline sheet single --area me-b --on 2024-06-01", hauled] {
-        assert!(text.contains(told), "{told}: {text}");
+    for line in ["endline sheet single --area me-b --on 2024-06-01", hauled] {
+        assert!(text.contains(line), "{line}: {text}");
     }
-    let offered = |harness: &Harness<'static, App>| {
+    let offered = |harness: &Window| {
         ["Open it", "Open the outdated sheet"].map(|label| harness.query_by_label(label).is_some())
     };
     assert_eq!(offered(&harness), [true, false]);
     give(&mut harness, RuleAction::TakeAll);
     wait_for_edits(&mut harness);
-    assert_eq!(offered(&harness), [false, true], "the sheet is of the gear before the edits");
+    assert_eq!(offered(&harness), [false, true], "the gear has been edited since");
     give(&mut harness, EditAction::Undo);
     wait_for_edits(&mut harness);
     assert_eq!(offered(&harness), [true, false]);
-    harness.state_mut().shared.workbench.rules.question.distance = "5 nmi".to_owned();
+    harness.workbench_mut().rules.question.distance = "5 nmi".to_owned();
     wait_for_edits(&mut harness);
-    assert_eq!(offered(&harness), [false, true], "the sheet is of another place");
+    assert_eq!(offered(&harness), [false, true], "the distance has changed since");
 }
 
 #[test]
-fn two_rules_that_are_ticked_become_a_study_with_an_option_for_each() {
+fn two_ticked_rules_become_a_study_with_an_option_for_each() {
     let folder = Folder::new("rules-study");
     let mut harness = checking(&folder);
     wait_for_edits(&mut harness);
-    harness.state_mut().shared.workbench.rules.question.distance = "5 nmi".to_owned();
+    harness.workbench_mut().rules.question.distance = "5 nmi".to_owned();
     wait_for_edits(&mut harness);
     harness.get_by_label(&format!("compare {TWO}")).click();
     harness.run_steps(3);
     assert_eq!(harness.state().panels.rules.compared, [TWO]);
-    // The rule of another zone stands below, among those that do not apply.
+    // The rule of another zone is in the list of rules that do not apply.
     harness.state_mut().panels.rules.compared.push(ONE.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Compare 2 options …").click();
     wait(&mut harness, |app| app.shared.workbench.project.documents.study_path().is_some());
-    let workbench = &harness.state().shared.workbench;
+    let workbench = harness.workbench();
     let documents = &workbench.project.documents;
     assert!(workbench.study_is_sound(), "{:?}", documents.problems());
     assert!(documents.study_path().unwrap().ends_with("studies/single-rules.toml"));

@@ -1,41 +1,32 @@
-//! The scenario edited in the window: the whale's start dragged in the view, fields and choices of the panel; wraps told.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! The scenario edited in the window: start of the whale dragged in the view, fields and choices of the panel, questions before edits
+//! are lost; wraps of a whale.
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::Documents;
 use endline_session::live::Status;
-use endline_session::live::engine;
 use endline_session::units::Units;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::inspector::wraps;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::view::pose::Start;
-use endline_workbench::input::Pilot;
 use endline_workbench::scene::View;
 
-use crate::common::{Folder, drag, give, linked, only, opened_with, retype, wait};
+use crate::common::{Folder, Reach as _, Window, drag, give, only, real, retype, wait};
 
-/// A scenario settled, with one panel alone.
-fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, App> {
-    let mut harness =
-        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+/// The workbench with one panel, after the statics of a scenario.
+fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Window {
+    let mut harness = real(folder, scenario);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
-    harness.run_steps(3);
+    only(&mut harness, panel);
     harness
 }
 
 #[test]
-fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
+fn the_start_of_the_whale_is_dragged_in_the_view_and_each_drag_is_one_undo() {
     let folder = Folder::new("pose");
     let mut harness = settled(&folder, "hello-endline", PanelId::VIEW);
-    let start = |harness: &Harness<'static, App>| {
-        Start::of(&harness.state().shared.workbench.project.documents).unwrap()
-    };
+    let start = |harness: &Window| Start::of(harness.documents()).unwrap();
     let before = start(&harness);
     harness.get_by_label("Start pose").click();
     harness.run_steps(3);
@@ -65,38 +56,33 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
 
     let snout = harness.get_by_label("Start heading").rect().center();
     let middle = harness.get_by_label("Start place").rect().center();
-    // North is up in the view from above: a snout dragged to the right of the middle heads east.
+    // North is up in the top view, so a snout to the right of the middle points east.
     drag(&mut harness, snout, middle + egui::vec2((snout - middle).length(), 0.0));
-    let turned = start(&harness);
-    assert!((turned.heading.to_degrees() - 90.0).abs() < 3.0, "{turned:?}");
+    let rotated = start(&harness);
+    assert!((rotated.heading.to_degrees() - 90.0).abs() < 3.0, "{rotated:?}");
     for _ in 0..2 {
-        harness.state_mut().shared.perform(EditAction::Undo);
+        harness.perform(EditAction::Undo);
     }
     assert_eq!(start(&harness), before);
-    assert!(harness.state().shared.workbench.project.documents.unsaved().is_empty());
+    assert!(harness.documents().unsaved().is_empty());
 }
 
 #[test]
-fn fields_choices_and_flags_of_the_panel_reach_the_text() {
+fn fields_choices_and_flags_of_the_panel_change_the_scenario() {
     let folder = Folder::new("scenario-fields");
     let mut harness = settled(&folder, "hello-endline", PanelId::SCENARIO);
     retype(&mut harness, "12 m", "9 m");
-    let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().shared.workbench.project.documents.field(Documents::SCENARIO, field)
-    };
+    let field =
+        |harness: &Window, field: &str| harness.documents().field(Documents::SCENARIO, field);
     assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
     harness.get_by_label("Ropes touch each other").scroll_to_me();
     harness.run_steps(3);
     harness.get_by_label("Ropes touch each other").click();
     harness.run_steps(3);
     assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("false"));
-    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.perform(EditAction::Undo);
     assert_eq!(field(&harness, "rope_on_rope"), None);
-    assert!(
-        !harness.state().shared.workbench.project.documents.any_error(),
-        "{:?}",
-        harness.state().shared.workbench.project.documents.problems()
-    );
+    assert!(!harness.documents().any_error(), "{:?}", harness.documents().problems());
     for head in ["SEA", "TIDE THAT TURNS", "WAVES", "WHALE", "FRICTION OF ROPE ON WHALE", "RUN"] {
         assert!(harness.query_by_label(head).is_some(), "{head} is on screen");
     }
@@ -106,16 +92,16 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
 }
 
 #[test]
-fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
+fn wraps_on_screen_equal_those_of_the_summary() {
     let folder = Folder::new("wraps");
     let mut harness = settled(&folder, "dead-whale-wraps", PanelId::ENTANGLEMENT);
     for step in 1..=3_u64 {
-        harness.state_mut().shared.perform(RunAction::Step);
+        harness.perform(RunAction::Step);
         wait(&mut harness, |app| {
             app.shared.workbench.view().is_some_and(|view| view.frame.step >= step)
         });
     }
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let found = wraps(&view);
     let whale = view.summary.as_ref().unwrap().whale.as_ref().unwrap();
     let wound: Vec<_> = whale.regions.iter().filter(|region| region.wraps >= 0.25).collect();
@@ -129,7 +115,7 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
             region.contact_length_m
         );
         if region.wraps >= 0.5 {
-            assert!(wrap.since_s.is_some(), "an event has told of it: {wrap:?}");
+            assert!(wrap.since_s.is_some(), "its start is missing: {wrap:?}");
         }
     }
     assert!(found.windows(2).all(|pair| pair[0].turns >= pair[1].turns), "most turns first");
@@ -137,14 +123,14 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
 }
 
 #[test]
-fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
+fn save_as_does_not_change_the_first_file() {
     let folder = Folder::new("save-as");
     let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
-    let first = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
+    let first = harness.documents().scenario_path().to_owned();
     let before = std::fs::read_to_string(&first).unwrap();
-    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
+    harness.set(Documents::SCENARIO, "duration", "7 s");
     let other = folder.0.join("scenarios/my-pendulum.toml");
-    harness.state_mut().shared.perform(EditAction::SaveScenarioAs(other.clone()));
+    harness.perform(EditAction::SaveScenarioAs(other.clone()));
     assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
     assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
     let shared = &harness.state().shared;
@@ -156,21 +142,12 @@ fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
 }
 
 #[test]
-fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
+fn weak_links_and_friction_are_edited_without_loss_of_comments_and_undone() {
     let folder = Folder::new("links-friction");
     let mut harness = settled(&folder, "hello-weak-link", PanelId::SCENARIO);
-    let before = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .documents
-        .text(Documents::SCENARIO)
-        .unwrap()
-        .to_owned();
-    let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().shared.workbench.project.documents.field(Documents::SCENARIO, field)
-    };
+    let before = harness.documents().text(Documents::SCENARIO).unwrap().to_owned();
+    let field =
+        |harness: &Window, field: &str| harness.documents().field(Documents::SCENARIO, field);
     click(&mut harness, "Add a weak link ⏷");
     click(&mut harness, "at the foot of endline");
     assert_eq!(
@@ -178,26 +155,15 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
         ["endline", "from", "600 lbf"]
     );
     retype(&mut harness, "600 lbf", "1,700 furlong");
-    assert!(
-        harness.query_by_label_contains("furlong").is_some(),
-        "what is wrong stands beside the field"
-    );
+    assert!(harness.query_by_label_contains("furlong").is_some(), "the reason is beside the field");
     retype(&mut harness, "1,700 furlong", "1,700 lbf");
-    assert!(
-        !harness.state().shared.workbench.project.documents.any_error(),
-        "{:?}",
-        harness.state().shared.workbench.project.documents.problems()
-    );
+    assert!(!harness.documents().any_error(), "{:?}", harness.documents().problems());
     click(&mut harness, "Another law for … ⏷");
     click(&mut harness, "baleen");
     assert_eq!(field(&harness, "friction.on.0.surfaces.0").as_deref(), Some("baleen"));
 
     harness
-        .state_mut()
-        .shared
-        .workbench
-        .project
-        .documents
+        .documents_mut()
         .alter(Documents::SCENARIO, |text| {
             let value = endline_gear::Setting::plain("1.25");
             text.put("friction.attributes.coefficient_scale", &value)
@@ -206,79 +172,65 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
         .unwrap();
     harness.run_steps(3);
     retype(&mut harness, "1.25", "-3");
-    harness.state_mut().shared.perform(RunAction::Apply);
+    harness.perform(RunAction::Apply);
     wait(&mut harness, |app| {
         !app.shared.workbench.making() && !app.shared.workbench.project.model_problems().is_empty()
     });
     let wrong = harness
-        .state()
-        .shared
-        .workbench
+        .workbench()
         .project
         .problem_at(Documents::SCENARIO, "friction.attributes.coefficient_scale")
         .unwrap();
     assert!(wrong.line > 0, "{wrong}");
     retype(&mut harness, "-3", "1.5");
-    harness.state_mut().shared.perform(RunAction::Apply);
+    harness.perform(RunAction::Apply);
     wait(&mut harness, |app| {
         let made = app.shared.workbench.view().map_or(0, |view| view.model.spec.links.len());
         !app.shared.workbench.making() && !app.shared.workbench.stale() && made > 1
     });
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
     assert!((ratings[1] - 1700.0 * endline_session::units::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
-    let text =
-        harness.state().shared.workbench.project.documents.text(Documents::SCENARIO).unwrap();
+    let text = harness.documents().text(Documents::SCENARIO).unwrap();
     assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
-    while harness.state().shared.workbench.project.documents.can_undo_redo().0 {
-        harness.state_mut().shared.perform(EditAction::Undo);
+    while harness.documents().can_undo_redo().0 {
+        harness.perform(EditAction::Undo);
     }
-    assert_eq!(
-        harness.state().shared.workbench.project.documents.text(Documents::SCENARIO),
-        Some(before.as_str())
-    );
+    assert_eq!(harness.documents().text(Documents::SCENARIO), Some(before.as_str()));
 }
 
 #[test]
-fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
+fn unsaved_edits_are_asked_about_before_another_scenario_is_opened() {
     let folder = Folder::new("opened-over");
     let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
-    let first = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
+    let first = harness.documents().scenario_path().to_owned();
     let other = folder.0.join("scenarios/hello-endline.toml");
-    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
+    harness.set(Documents::SCENARIO, "duration", "7 s");
     for (answer, opened, on_disk) in [("Stay", &first, false), ("Save and open", &other, true)] {
         harness.state_mut().shared.give(EditAction::OpenScenario(other.clone()));
         harness.run_steps(3);
-        assert_eq!(
-            harness.state().shared.workbench.project.documents.scenario_path(),
-            first,
-            "it asks first"
-        );
+        assert_eq!(harness.documents().scenario_path(), first, "it asks first");
         click(&mut harness, answer);
-        assert_eq!(
-            harness.state().shared.workbench.project.documents.scenario_path(),
-            opened,
-            "{answer}"
-        );
+        assert_eq!(harness.documents().scenario_path(), opened, "{answer}");
         assert_eq!(std::fs::read_to_string(&first).unwrap().contains("7 s"), on_disk, "{answer}");
     }
-    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "9 s");
+    harness.set(Documents::SCENARIO, "duration", "9 s");
     harness.state_mut().shared.give(EditAction::OpenScenario(first.clone()));
     harness.run_steps(3);
     click(&mut harness, "Open without saving");
-    assert_eq!(harness.state().shared.workbench.project.documents.scenario_path(), first);
+    assert_eq!(harness.documents().scenario_path(), first);
     assert!(!std::fs::read_to_string(&other).unwrap().contains("9 s"));
-    // With nothing to lose it does not ask.
+    // Without unsaved edits there is no question.
     harness.state_mut().shared.give(EditAction::OpenScenario(other.clone()));
     harness.run_steps(3);
-    assert_eq!(harness.state().shared.workbench.project.documents.scenario_path(), other);
+    assert_eq!(harness.documents().scenario_path(), other);
 }
 
 #[test]
-fn a_file_changed_by_someone_else_is_asked_about_before_it_is_written_over() {
+fn a_file_changed_on_disk_is_asked_about_before_it_is_overwritten() {
     let folder = Folder::new("changed-on-disk");
     let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
-    let file = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
+    let file = harness.documents().scenario_path().to_owned();
     let on_disk = || std::fs::read_to_string(&file).unwrap();
     let first = on_disk();
     for (answer, mine, theirs, kept) in [
@@ -286,7 +238,7 @@ fn a_file_changed_by_someone_else_is_asked_about_before_it_is_written_over() {
         ("Keep both", "8 s", "# Another note.\n", false),
         ("Keep mine", "9 s", "# A third note.\n", true),
     ] {
-        harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", mine);
+        harness.set(Documents::SCENARIO, "duration", mine);
         std::fs::write(&file, first.clone() + theirs).unwrap();
         harness.state_mut().shared.give(EditAction::Save);
         harness.run_steps(3);
@@ -300,8 +252,8 @@ fn a_file_changed_by_someone_else_is_asked_about_before_it_is_written_over() {
     assert!(std::fs::read_to_string(beside).unwrap().contains("8 s"));
 }
 
-/// Clicks what has a label, scrolled to.
-fn click(harness: &mut Harness<'static, App>, label: &str) {
+/// Scrolls to a label and clicks it.
+fn click(harness: &mut Window, label: &str) {
     harness.get_by_label(label).scroll_to_me();
     harness.run_steps(3);
     harness.get_by_label(label).click();
@@ -309,15 +261,14 @@ fn click(harness: &mut Harness<'static, App>, label: &str) {
 }
 
 #[test]
-fn a_field_tells_its_value_in_the_units_shown_and_keeps_its_own() {
+fn a_field_shows_its_value_in_the_selected_units_and_keeps_its_own() {
     let folder = Folder::new("field-units");
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    harness.state_mut().shared.workbench.preferences.units = Units::Noaa;
+    let mut harness = real(&folder, "hello-endline");
+    harness.workbench_mut().preferences.units = Units::Noaa;
     only(&mut harness, PanelId::SCENARIO);
     harness.get_all_by_value("0.25 m/s").next().unwrap().hover();
     harness.run_steps(60);
     harness.get_by_label_contains("0.25 m/s is 0.49 kn");
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert_eq!(documents.field(Documents::SCENARIO, "current.speed").as_deref(), Some("0.25 m/s"));
 }

@@ -1,10 +1,5 @@
-//! The Search layout: an observation told on the body map, searched, left off and gone on with; its stories run and kept.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! The layout Search: an observation entered on the body map and searched; the search cancelled and continued; stories replayed and kept.
 
-use std::time::{Duration, Instant};
-
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Site;
 use endline_session::campaign::State;
@@ -13,14 +8,14 @@ use endline_session::edit::Documents;
 use endline_session::live::{Status, engine};
 use endline_session::search::SearchJob;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::command::action::{PanelAction, WindowCommand};
+use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
-use crate::common::{self, Folder, linked, opened_with, retype};
+use crate::common::{Folder, Reach as _, Window, give, linked, on_disk, opened_with, retype, wait};
 
-/// Encounters over in seconds, with rope no finer than a touch needs.
+/// Encounters of a few seconds with coarse rope.
 const STUDY: &str = r#"format = 1
 kind = "study"
 name = "Quick"
@@ -54,9 +49,9 @@ present = 0.9
 wraps = [1, 2.5]
 "#;
 
-/// Puts the quick case into the library.
+/// Adds the quick case to the library.
 pub fn add_observation(folder: &Folder) {
-    let scenario = common::on_disk(folder, "scenarios/hello-endline.toml")
+    let scenario = on_disk(folder, "scenarios/hello-endline.toml")
         .replace("duration = \"60 s\"", "duration = \"6 s\"")
         .replace("rope_nodes = 1000", "rope_nodes = 80")
         .replace("near = \"5 cm\"", "near = \"40 cm\"")
@@ -69,12 +64,12 @@ pub fn add_observation(folder: &Folder) {
     }
 }
 
-/// The workbench with a quick case in its library, in the layout Search.
-fn searching(folder: &Folder) -> Harness<'static, App> {
+/// The workbench in the layout Search with the quick case open.
+fn searching(folder: &Folder) -> Window {
     add_observation(folder);
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
-    let searches = &mut harness.state_mut().shared.workbench.searches;
-    // Other tests run beside this one.
+    let searches = &mut harness.workbench_mut().searches;
+    // Other tests run at the same time, so the work keeps normal priority.
     (searches.folder, searches.normal_priority) = (Some(folder.0.join("searches")), true);
     (searches.trials, searches.threads, searches.neighbours) = (32, 2, 0);
     give(&mut harness, PanelAction::Arrange(Layout::Search));
@@ -82,34 +77,16 @@ fn searching(folder: &Folder) -> Harness<'static, App> {
     harness
 }
 
-fn give(harness: &mut Harness<'static, App>, command: impl Into<WindowCommand>) {
-    harness.state_mut().shared.give(command);
-    harness.run_steps(3);
-}
-
-/// Draws until something is so; encounters are run meanwhile.
-fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
-    let patience = Instant::now() + Duration::from_secs(120);
-    while !so(harness.state()) {
-        let workbench = &harness.state().shared.workbench;
-        let told = workbench.searches.job.as_ref().map(|job| (job.state(), job.progress()));
-        assert!(Instant::now() < patience, "waited in vain: {told:?}, {:?}", workbench.notice);
-        std::thread::sleep(Duration::from_millis(20));
-        harness.step();
-    }
-    harness.run_steps(2);
-}
-
 fn state(app: &App) -> Option<State> {
     app.shared.workbench.searches.job.as_ref().map(SearchJob::state)
 }
 
-/// Clicks at a share of the greatest picture of the whale from above: x from tail to snout, y from left to right.
-fn click_on_whale(harness: &mut Harness<'static, App>, x: f32, y: f32) {
+/// Clicks on the largest map of the whale from above: x from tail to snout, y from left to right, as shares.
+fn click_on_whale(harness: &mut Window, x: f32, y: f32) {
     let pictures = harness.get_all_by_label("from above, left is up");
     let rects = pictures.map(|picture| picture.rect());
     let rect = rects.max_by(|one, other| one.width().total_cmp(&other.width())).unwrap();
-    // Its name stands above.
+    // The name is above the map.
     let below = rect.with_min_y(rect.top() + 16.0);
     let at = below.lerp_inside(egui::vec2(x, y));
     harness.event(egui::Event::PointerMoved(at));
@@ -121,17 +98,17 @@ fn click_on_whale(harness: &mut Harness<'static, App>, x: f32, y: f32) {
     harness.run_steps(2);
 }
 
-fn field(harness: &Harness<'static, App>, field: &str) -> Option<String> {
-    let documents = &harness.state().shared.workbench.project.documents;
+fn field(harness: &Window, field: &str) -> Option<String> {
+    let documents = harness.documents();
     documents.field(Documents::OBSERVATION, field)
 }
 
 #[test]
-fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
+fn an_observation_is_entered_on_the_body_map_and_its_stories_are_replayed_to_the_bit() {
     let folder = Folder::new("search");
     let mut harness = searching(&folder);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    assert_eq!(harness.state().panels.search.chosen, Site::Peduncle, "where rope was seen");
+    assert_eq!(harness.state().panels.search.chosen, Site::Peduncle, "the part with rope");
     retype(&mut harness, "2.5", "3");
     assert_eq!(field(&harness, "site.0.wraps.1").as_deref(), Some("3"));
     click_on_whale(&mut harness, 0.5, 0.5);
@@ -141,16 +118,16 @@ fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
     assert_eq!(field(&harness, "site.1.part").as_deref(), Some("body"));
     assert_eq!(field(&harness, "site.1.present").as_deref(), Some("0.05"));
     give(&mut harness, EditAction::Undo);
-    assert_eq!(field(&harness, "site.1.part"), None, "one edit, taken back");
-    assert!(harness.state().shared.workbench.stories_are_of_another());
+    assert_eq!(field(&harness, "site.1.part"), None, "one edit, undone");
+    assert!(harness.workbench().stories_are_of_another());
 
-    let before = common::on_disk(&folder, "observations/quick.toml");
+    let before = on_disk(&folder, "observations/quick.toml");
     give(&mut harness, SearchAction::Run);
-    let documents = &harness.state().shared.workbench.project.documents;
+    let documents = harness.documents();
     assert!(documents.is_unsaved(Documents::OBSERVATION));
-    assert_eq!(common::on_disk(&folder, "observations/quick.toml"), before, "nothing is saved");
+    assert_eq!(on_disk(&folder, "observations/quick.toml"), before, "nothing is saved");
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let found = harness.state().shared.workbench.searches.job.as_ref().unwrap().found();
+    let found = harness.workbench().searches.job.as_ref().unwrap().found();
     let stories = found.stories.unwrap();
     assert!(!stories.stories.is_empty() && stories.trials == 32, "{stories:?}");
     let says = stories.answer();
@@ -161,25 +138,25 @@ fn an_observation_is_told_on_the_body_map_and_its_stories_are_run_to_the_bit() {
     let story = stories.stories.len() - 1;
     give(&mut harness, SearchAction::Replay(story));
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     assert_eq!(view.state_hash, stories.stories[story].state_hash);
     give(&mut harness, SearchAction::Keep(story));
     let kept = folder.0.join("scenarios/quick-story-1.toml");
     wait(&mut harness, |_| kept.exists());
     give(&mut harness, EditAction::OpenScenario(kept));
     wait(&mut harness, |app| !app.shared.workbench.making());
-    let workbench = &harness.state().shared.workbench;
+    let workbench = harness.workbench();
     assert!(!workbench.project.documents.any_error());
     let name = workbench.project.documents.field(Documents::SCENARIO, "name").unwrap();
     assert!(name.starts_with("A quick case: first the"), "{name}");
 }
 
 #[test]
-fn a_search_is_cancelled_gone_on_with_and_found_again_when_its_observation_is_opened() {
+fn a_search_is_cancelled_and_continued_and_found_again_with_its_observation() {
     let folder = Folder::new("search-on");
     let mut harness = searching(&folder);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    harness.state_mut().shared.workbench.searches.trials = 256;
+    harness.workbench_mut().searches.trials = 256;
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| {
         app.shared.workbench.searches.job.as_ref().unwrap().progress().encounters.done > 2
@@ -188,23 +165,22 @@ fn a_search_is_cancelled_gone_on_with_and_found_again_when_its_observation_is_op
     assert_eq!(state(harness.state()), Some(State::Paused));
     give(&mut harness, SearchAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    harness.state_mut().shared.workbench.searches.trials = 64;
+    harness.workbench_mut().searches.trials = 64;
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let stories = |harness: &Harness<'static, App>| {
-        harness.state().shared.workbench.searches.job.as_ref().unwrap().found().stories
-    };
+    let stories =
+        |harness: &Window| harness.workbench().searches.job.as_ref().unwrap().found().stories;
     let found = stories(&harness);
     give(&mut harness, SearchAction::New);
-    assert!(stories_are_gone(&harness), "an observation of which nothing is told has no stories");
+    assert!(stories_are_gone(&harness), "a new observation has no stories");
     assert!(harness.state().shared.selection.open.contains(&PanelId::SEARCH));
-    let file = harness.state().shared.workbench.project.documents.observation_path().unwrap();
+    let file = harness.documents().observation_path().unwrap();
     assert!(file.ends_with("observations/observation.toml"), "{}", file.display());
     give(&mut harness, SearchAction::Open(folder.0.join("observations/quick.toml")));
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     assert_eq!(stories(&harness), found);
 }
 
-fn stories_are_gone(harness: &Harness<'static, App>) -> bool {
-    harness.state().shared.workbench.searches.job.is_none()
+fn stories_are_gone(harness: &Window) -> bool {
+    harness.workbench().searches.job.is_none()
 }

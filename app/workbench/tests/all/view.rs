@@ -1,45 +1,37 @@
-//! The 3-D view clicked in: ropes, bodies and skin are read, places measured, several views shown at once.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! The 3-D view: things picked and read, distances measured, panes, pictures, films, full screen.
 
 use std::sync::Arc;
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_sdk::{BodyPart, Region};
 use endline_session::command::TimeAction;
-use endline_session::live::engine;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_sim::Frame;
 use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::metrics::{Event, EventKind};
 use endline_sim::model::BodyRole;
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::command::action::WindowCommand;
 use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::offers;
 use endline_workbench::gui::panel::PanelId;
-use endline_workbench::input::Pilot;
 use endline_workbench::scene::Eye;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
 
-use crate::common::{Folder, flown, give, linked, opened_with, wait};
+use crate::common::{Folder, Reach as _, Window, flown, give, only, real, wait};
 
-/// The single's endline at rest beside its whale, with the 3-D view alone.
-fn settled(folder: &Folder) -> Harness<'static, App> {
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+/// The workbench with only the 3-D view, after the statics of hello-endline.
+fn settled(folder: &Folder) -> Window {
+    let mut harness = real(folder, "hello-endline");
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
-    harness.run_steps(3);
+    only(&mut harness, PanelId::VIEW);
     harness
 }
 
-/// Clicks where a place is drawn in a pane.
-fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
+/// Clicks at the position of a place in a pane.
+fn click(harness: &mut Window, pane: usize, place: DVec3) {
     let rect = harness.get_by_label(&format!("Pane {}", pane + 1)).rect();
     let camera = harness.state().panels.view.eyes[pane].camera.clone();
     let at = camera
@@ -55,22 +47,22 @@ fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
     harness.run_steps(2);
 }
 
-/// Where something picked is now.
-fn place(harness: &Harness<'static, App>, picked: Picked) -> DVec3 {
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+/// Position of a picked thing.
+fn place(harness: &Window, picked: Picked) -> DVec3 {
+    let view = harness.view();
     picked.place(&view.model, &view.frame).unwrap()
 }
 
 #[test]
-fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
+fn a_click_on_a_rope_shows_its_tension_and_place_until_it_is_closed() {
     let folder = Folder::new("read-rope");
     let mut harness = settled(&folder);
     let wanted = Picked::Rope { line: 0, at_m: 9.0 };
     let there = place(&harness, wanted);
     click(&mut harness, 0, there);
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let Some(Picked::Rope { line, at_m }) = harness.state().panels.view.picks.read else {
-        panic!("the rope is read")
+        panic!("no rope is picked")
     };
     assert!(line == 0 && (at_m - 9.0).abs() < 1.0, "line {line} at {at_m} m");
     let reading = read(&view, Picked::Rope { line, at_m }, Units::Si).unwrap();
@@ -88,10 +80,10 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
 }
 
 #[test]
-fn bodies_and_skin_are_read_where_they_are_clicked() {
+fn a_click_on_a_body_or_on_skin_shows_its_reading() {
     let folder = Folder::new("read-body");
     let mut harness = settled(&folder);
-    let bodies = harness.state().shared.workbench.view().unwrap().model.spec.bodies.len();
+    let bodies = harness.view().model.spec.bodies.len();
     for index in 0..bodies {
         let there = place(&harness, Picked::Body(index));
         click(&mut harness, 0, there);
@@ -99,8 +91,7 @@ fn bodies_and_skin_are_read_where_they_are_clicked() {
     }
     give(&mut harness, ViewAction::Look(View::WhaleSide));
     harness.run_steps(3);
-    let middle =
-        harness.state().shared.workbench.view().unwrap().frame.whale.as_ref().unwrap().position;
+    let middle = harness.view().frame.whale.as_ref().unwrap().position;
     click(&mut harness, 0, middle);
     assert!(
         matches!(harness.state().panels.view.picks.read, Some(Picked::Skin { .. })),
@@ -122,13 +113,13 @@ fn the_ruler_measures_straight_and_along_the_rope() {
         let there = place(&harness, end);
         click(&mut harness, 0, there);
     }
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let picked = harness.state().panels.view.picks.ends.clone();
     assert_eq!(picked.len(), 2, "two clicks, two ends");
     let along = along_m(&view, picked[0], picked[1]).unwrap();
     let straight = (place(&harness, picked[0]) - place(&harness, picked[1])).length();
     assert!((along - 6.0).abs() < 1.0, "{along} m of rope between 2 m and 8 m");
-    // Stretch is far below a thousandth here.
+    // The stretch is far below 0.1 %.
     assert!(straight <= along * 1.001 && straight > 3.0, "{straight} m straight, {along} m along");
     assert!(
         measured(&view, &picked, Units::Si)
@@ -140,12 +131,12 @@ fn the_ruler_measures_straight_and_along_the_rope() {
     let rope_m: f64 = view.frame.segment_length_m.iter().sum();
     assert!(
         (through - rope_m).abs() < 1e-9,
-        "from trap to buoy all of the endline: {through} m of {rope_m} m"
+        "the path from trap to buoy is the whole endline: {through} m of {rope_m} m"
     );
 }
 
 #[test]
-fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
+fn four_panes_have_different_views_and_only_the_active_one_changes() {
     let folder = Folder::new("four");
     let mut harness = settled(&folder);
     give(&mut harness, ViewAction::Split(4));
@@ -160,7 +151,7 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
             "panes do not overlap: {rects:?}"
         );
     }
-    // Side looks north, top looks down, front looks west: the axes of sight stand square on one another.
+    // Side, top and front look north, down and west: perpendicular lines of sight.
     let ahead: Vec<DVec3> =
         harness.state().panels.view.eyes.iter().map(|eye| eye.camera.axes().2).collect();
     for (one, other) in [(1, 2), (1, 3), (2, 3)] {
@@ -172,7 +163,7 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
     assert_eq!(
         harness.state().panels.view.picks.read,
         Some(Picked::Body(0)),
-        "read from above too"
+        "the body is picked from above too"
     );
     give(&mut harness, ViewAction::Look(View::FirstPerson));
     harness.run_steps(2);
@@ -186,7 +177,7 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
 }
 
 #[test]
-fn the_palette_names_every_line_and_body_to_be_read() {
+fn the_palette_offers_a_reading_of_every_line_and_body() {
     let folder = Folder::new("readable");
     let harness = settled(&folder);
     let shared = &harness.state().shared;
@@ -215,8 +206,8 @@ fn the_palette_names_every_line_and_body_to_be_read() {
     }
 }
 
-/// The pointer rests where a place is drawn.
-fn rest(harness: &mut Harness<'static, App>, place: DVec3) {
+/// Moves the pointer to the position of a place.
+fn rest(harness: &mut Window, place: DVec3) {
     let rect = harness.get_by_label("Pane 1").rect();
     let camera = harness.state().panels.view.eyes[0].camera.clone();
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
@@ -226,25 +217,25 @@ fn rest(harness: &mut Harness<'static, App>, place: DVec3) {
 }
 
 #[test]
-fn what_the_pointer_rests_on_is_told_beside_it_and_in_open_water_nothing_is() {
+fn a_reading_is_shown_beside_the_pointer_and_not_in_open_water() {
     let folder = Folder::new("rest");
     let mut harness = settled(&folder);
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let buoy = view.model.spec.bodies.iter().position(|body| body.role == BodyRole::Buoy).unwrap();
     let id = view.model.spec.bodies[buoy].id.clone();
     let there = place(&harness, Picked::Body(buoy));
     rest(&mut harness, there);
     assert_eq!(harness.state().panels.view.picks.hovered, Some((0, Picked::Body(buoy))));
-    assert_eq!(harness.state().panels.view.picks.read, None, "nothing is chosen by it");
+    assert_eq!(harness.state().panels.view.picks.read, None, "hovering does not pick");
     assert!(harness.query_by_label(&id).is_some(), "its name is on screen");
     assert!(harness.query_by_label("On the whale").is_some());
     assert!(harness.query_by_label("not now").is_some());
     rest(&mut harness, there + DVec3::new(0.0, 0.0, 3.0));
     assert_eq!(harness.state().panels.view.picks.hovered, None);
-    assert!(harness.query_by_label(&id).is_none(), "it vanishes");
+    assert!(harness.query_by_label(&id).is_none(), "the reading disappears");
 }
 
-/// A run's view at 9 s with its buoy on the whale: 300 N on the left flipper and 100 N on the body, since 2 s, caught since 7 s.
+/// A view at 9 s with the buoy on the whale: 300 N on the left flipper and 100 N on the body, since 2 s, caught since 7 s.
 fn with_buoy_on_whale(view: &LiveView, buoy: usize) -> LiveView {
     let contact = |triangle: usize, region: Region, push_n: f64| BodyContact {
         body: buoy,
@@ -276,10 +267,10 @@ fn with_buoy_on_whale(view: &LiveView, buoy: usize) -> LiveView {
 }
 
 #[test]
-fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
+fn the_reading_of_a_buoy_on_the_whale_has_place_start_and_force() {
     let folder = Folder::new("on-whale");
     let harness = settled(&folder);
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let buoy = view.model.spec.bodies.iter().position(|body| body.role == BodyRole::Buoy).unwrap();
     let view = with_buoy_on_whale(&view, buoy);
     let has = |picked: Picked, row: &'static str, value: &str| {
@@ -297,7 +288,7 @@ fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
     has(place, "Patch", "left flipper tip");
     has(place, "Push here", "300 N");
     has(place, "Friction here", "60.0 N");
-    has(place, "Push in all places", "400 N");
+    has(place, "Push at all places", "400 N");
     let at = |frame: Frame| LiveView { frame: Arc::new(frame), sought: true, ..view.clone() };
     let early = at(Frame { time_s: 5.0, ..(*view.frame).clone() });
     let reading = read(&early, body, Units::Si).unwrap();
@@ -305,21 +296,21 @@ fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
     assert!(reading.rows.contains(&("Greatest of the run", "800 N, left flipper".to_owned())));
     let free = at(Frame { body_contacts: Vec::new(), ..(*view.frame).clone() });
     let reading = read(&free, place, Units::Si).unwrap();
-    assert_eq!(reading.rows, [("On the whale", "not now".to_owned())], "the card stays");
+    assert_eq!(reading.rows, [("On the whale", "not now".to_owned())], "the card remains");
     let names = |view: &LiveView| -> Vec<&str> {
         let reading = read(view, body, Units::Si).unwrap();
         reading.rows.into_iter().map(|(name, _)| name).collect()
     };
-    assert_eq!(names(&free), names(&early), "rows stay in place while it is off the skin");
+    assert_eq!(names(&free), names(&early), "the rows remain while the buoy is off the skin");
 }
 
 #[test]
-fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
+fn a_saved_picture_shows_the_rope_at_the_position_of_the_pane() {
     let folder = Folder::new("view-picture");
     let mut harness = settled(&folder);
     let file = folder.0.join("view.png");
     give(&mut harness, ViewAction::SavePicture(file.clone()));
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert!(notice.text.starts_with("saved "), "{}", notice.text);
     let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(file).unwrap()));
     let mut reader = decoder.read_info().unwrap();
@@ -327,7 +318,7 @@ fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
     let info = reader.next_frame(&mut bytes).unwrap();
     let size = DVec2::new(1920.0, 1080.0);
     assert_eq!((info.width, info.height), (1920, 1080));
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     let camera = harness.state().panels.view.eyes[0].camera.clone();
     let middle = view.frame.nodes[view.frame.nodes.len() / 2];
     let at = camera.project(middle, size).unwrap();
@@ -343,19 +334,19 @@ fn a_picture_of_the_view_shows_rope_where_the_eye_of_the_pane_sees_it() {
 }
 
 #[test]
-fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() {
+fn a_film_is_made_in_the_background_from_stored_frames_and_can_be_cancelled() {
     let folder = Folder::new("view-film");
     let mut harness = flown(&folder);
     alone(&mut harness);
     set_keys(&mut harness);
     let file = folder.0.join("run.gif");
     give(&mut harness, ViewAction::SaveFilm(file.clone()));
-    assert!(harness.state().shared.film.is_some(), "the window goes on meanwhile");
-    let steps = harness.state().shared.workbench.view().unwrap().frame.step;
+    assert!(harness.state().shared.film.is_some(), "the film is made in the background");
+    let steps = harness.view().frame.step;
     wait(&mut harness, |app| app.shared.film.is_none());
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert_eq!(notice.text, format!("saved {}", file.display()));
-    assert_eq!(harness.state().shared.workbench.view().unwrap().frame.step, steps);
+    assert_eq!(harness.view().frame.step, steps);
 
     let mut decoder = gif::DecodeOptions::new();
     decoder.set_color_output(gif::ColorOutput::RGBA);
@@ -364,8 +355,8 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
     while let Some(picture) = decoder.read_next_frame().unwrap() {
         pictures.push(picture.buffer.to_vec());
     }
-    // Two seconds at twenty a second, up to the last moment kept; and the camera has passed from the side to above, by more
-    // from first to last than from any to the next.
+    // Two seconds at 20 pictures per second. The camera moves from side to top, so the first and last pictures differ more than any
+    // two neighbours.
     assert_eq!((decoder.width(), decoder.height()), (1280, 720));
     assert!((40..=41).contains(&pictures.len()), "{}", pictures.len());
     let differ = |one: &[u8], other: &[u8]| -> f64 {
@@ -380,25 +371,24 @@ fn a_film_of_the_run_is_made_beside_it_from_what_is_kept_and_can_be_cancelled() 
     give(&mut harness, ViewAction::SaveFilm(cut.clone()));
     give(&mut harness, ViewAction::CancelFilm);
     wait(&mut harness, |app| app.shared.film.is_none());
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert!(notice.text.contains(" of "), "{}", notice.text);
 
     give(&mut harness, ViewAction::SaveFilm(folder.0.join("no-such-folder/run.gif")));
     assert!(harness.state().shared.film.is_none());
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert!(notice.text.contains("no-such-folder"), "{}", notice.text);
 }
 
-/// The 3-D view and no other panel.
-fn alone(harness: &mut Harness<'static, App>) {
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
-    harness.run_steps(3);
+/// Shows only the 3-D view.
+fn alone(harness: &mut Window) {
+    only(harness, PanelId::VIEW);
 }
 
-/// A key of the camera from the side at the beginning, and one from above at 2 s.
-fn set_keys(harness: &mut Harness<'static, App>) {
+/// Sets a camera key at the side view at 0 s, and one at the top view at 2 s.
+fn set_keys(harness: &mut Window) {
     for (time_s, from) in [(0.0, View::Side), (2.0, View::Top)] {
-        harness.state_mut().shared.perform(TimeAction::Seek(time_s));
+        harness.perform(TimeAction::Seek(time_s));
         wait(harness, |app| {
             let view = app.shared.workbench.view().unwrap();
             (view.frame.time_s - time_s).abs() < 0.1
@@ -411,12 +401,12 @@ fn set_keys(harness: &mut Harness<'static, App>) {
 }
 
 #[test]
-fn the_camera_of_a_film_passes_from_key_to_key() {
+fn the_camera_of_a_film_moves_from_key_to_key() {
     let folder = Folder::new("view-keys");
     let mut harness = flown(&folder);
     alone(&mut harness);
     give(&mut harness, ViewAction::ClearKeys);
-    let notice = harness.state().shared.workbench.notice.clone().unwrap();
+    let notice = harness.notice();
     assert_eq!(notice.text, "the camera has no keys");
     set_keys(&mut harness);
     harness.get_by_label("2 camera keys ⏷");
@@ -426,7 +416,7 @@ fn the_camera_of_a_film_passes_from_key_to_key() {
         let placed = |eye: &Eye| eye.at_moment(&view.model, &view.frame, 16.0 / 9.0);
         app.panels.view.path.camera(time_s, placed).unwrap()
     };
-    // From the south to straight above, half way in between.
+    // From the south to vertical; in between at half time.
     let up = |time_s: f64| {
         let camera = seen(time_s);
         (camera.eye() - camera.target).normalize().z
@@ -445,7 +435,7 @@ fn the_camera_of_a_film_passes_from_key_to_key() {
 }
 
 #[test]
-fn the_view_is_presented_alone_and_esc_brings_the_panels_back_at_their_size() {
+fn full_screen_shows_only_the_view_and_escape_restores_panels_and_scale() {
     let folder = Folder::new("view-presented");
     let mut harness = settled(&folder);
     harness.get_by_label("Ruler");
@@ -456,7 +446,7 @@ fn the_view_is_presented_alone_and_esc_brings_the_panels_back_at_their_size() {
         harness.query_by_label("Ruler").is_none() && harness.query_by_label("Window").is_none()
     );
     assert!(harness.ctx.zoom_factor() > 1.4 * size);
-    // What is kept of the window for the next time is its usual size.
+    // The stored preference remains the normal scale.
     assert!((harness.state().shared.preferences.scale.0 - size).abs() < 1e-6);
     harness.get_by_label("▶ Play");
     harness.key_press(egui::Key::Escape);

@@ -1,33 +1,31 @@
-//! The workbench clicked through as a user does, without a display: edits, errors, save, run, panels.
-#![cfg(feature = "gui")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+//! Basic use of the workbench: edits, errors, saving, runs, panels, pad, palette.
 
 use endline_session::command::{EditAction, RunAction};
 use endline_session::workbench::Notice;
 use endline_workbench::gui::command::action::{FlightAction, PanelAction};
 use std::sync::Arc;
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
 use endline_session::live::engine;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_session::{Overrides, Run, RunOptions, prepare};
-use endline_workbench::gui::app::App;
 use endline_workbench::gui::layout;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::panels::view::hud::{readings, waiting};
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
 
-use crate::common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
+use crate::common::{
+    Folder, Reach as _, Window, linked, on_disk, only, opened, real, retype, wait, workbench,
+};
 
 #[test]
-fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
+fn a_wrong_unit_is_reported_with_place_and_reason_and_undo_removes_the_error() {
     let folder = Folder::new("bad-unit");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     retype(&mut harness, "2,700 lbf", "2,700 furlong");
-    let problems = harness.state().shared.workbench.project.documents.problems().to_vec();
+    let problems = harness.documents().problems().to_vec();
     assert_eq!(problems.len(), 1, "{problems:?}");
     assert!(
         problems[0].file.starts_with("ropes/")
@@ -43,12 +41,12 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     assert!(harness.query_all_by_label(&place).next().is_some(), "its place is on screen: {place}");
     harness.get_by_label("Undo").click();
     harness.run_steps(3);
-    assert!(harness.state().shared.workbench.project.documents.problems().is_empty());
-    assert_eq!(harness.state().shared.workbench.project.documents.unsaved().len(), 0);
+    assert!(harness.documents().problems().is_empty());
+    assert_eq!(harness.documents().unsaved().len(), 0);
 }
 
 #[test]
-fn an_edit_is_saved_with_comments_and_everything_else_as_it_was() {
+fn an_edit_is_saved_without_changing_comments_or_anything_else() {
     let folder = Folder::new("save");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     let before = on_disk(&folder, "ropes/nylon-1-2.toml");
@@ -61,34 +59,37 @@ fn an_edit_is_saved_with_comments_and_everything_else_as_it_was() {
         endline_gear::UNSOURCED
     );
     let after = before.replace("strength = \"5,750 lbf\"", &typed);
-    assert_eq!(on_disk(&folder, "ropes/nylon-1-2.toml"), after, "the old figure's source is gone");
-    assert_eq!(harness.state().shared.workbench.notice, Some(Notice::done("saved 1 file")));
+    assert_eq!(
+        on_disk(&folder, "ropes/nylon-1-2.toml"),
+        after,
+        "the source of the old figure is removed"
+    );
+    assert_eq!(harness.workbench().notice, Some(Notice::done("saved 1 file")));
 }
 
 #[test]
 fn run_pause_step_reset_and_speed_reach_the_engine() {
     let folder = Folder::new("run");
-    let (mut harness, told) = workbench(&folder, Pilot::default());
+    let (mut harness, received) = workbench(&folder, Pilot::default());
     for label in ["▶ Run", "⏸ Pause", "Step", "⏮ Reset", "5×"] {
         harness.get_by_label(label).click();
         harness.run_steps(3);
     }
-    assert_eq!(*told.borrow(), ["start", "pause", "step", "reset", "speed 5"]);
+    assert_eq!(*received.borrow(), ["start", "pause", "step", "reset", "speed 5"]);
 }
 
 #[test]
-fn running_after_an_edit_first_takes_the_edited_gear_over() {
+fn a_run_after_an_edit_first_applies_the_edit() {
     let folder = Folder::new("stale");
-    let (mut harness, told) = workbench(&folder, Pilot::default());
-    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
+    let (mut harness, received) = workbench(&folder, Pilot::default());
+    harness.set(Documents::SCENARIO, "duration", "7 s");
     harness.run_steps(2);
-    assert!(harness.state().shared.workbench.stale());
+    assert!(harness.workbench().stale());
     harness.get_by_label("▶ Run").click();
     harness.run_steps(2);
     wait(&mut harness, |app| !app.shared.workbench.stale());
-    assert_eq!(*told.borrow(), ["load", "start"]);
-    let duration_s =
-        harness.state().shared.workbench.view().unwrap().model.spec.settings.duration_s;
+    assert_eq!(*received.borrow(), ["load", "start"]);
+    let duration_s = harness.view().model.spec.settings.duration_s;
     assert!((duration_s - 7.0).abs() < 1e-12);
 }
 
@@ -97,8 +98,7 @@ fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
     let folder = Folder::new("panels");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     for panel in PanelId::ALL {
-        harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RUN.id().to_owned()]);
-        harness.run_steps(2);
+        only(&mut harness, PanelId::RUN);
         harness.get_by_label("Window").click();
         harness.run_steps(3);
         harness.get_all_by_label_contains(panel.title()).last().unwrap().click();
@@ -114,20 +114,20 @@ fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
 }
 
 #[test]
-fn the_unit_switch_changes_what_the_plot_is_labelled_in() {
+fn the_unit_switch_changes_the_units_on_screen() {
     let folder = Folder::new("units");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.get_by_label("SI").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().shared.workbench.preferences.units.force().symbol(), "N");
-    assert_eq!(harness.state().shared.workbench.preferences.units.length_symbol(), "m");
+    assert_eq!(harness.workbench().preferences.units.force().symbol(), "N");
+    assert_eq!(harness.workbench().preferences.units.length_symbol(), "m");
     harness.get_by_label("NOAA").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().shared.workbench.preferences.units.speed(1.0), "1.94 kn");
+    assert_eq!(harness.workbench().preferences.units.speed(1.0), "1.94 kn");
 }
 
 #[test]
-fn the_pad_steers_only_while_flying() {
+fn the_pad_steers_only_in_flight() {
     let folder = Folder::new("pad");
     let script = vec![vec![
         PadEvent::Connected("test pad".into()),
@@ -135,59 +135,58 @@ fn the_pad_steers_only_while_flying() {
         PadEvent::Moved(PadAxis::RightX, 1.0),
     ]];
     let pilot = Pilot::new(Some(Box::new(ScriptedPad { script: script.into() })));
-    let (mut harness, told) = workbench(&folder, pilot);
+    let (mut harness, received) = workbench(&folder, pilot);
     harness.run_steps(3);
-    assert!(told.borrow().is_empty(), "hands off: {:?}", told.borrow());
+    assert!(received.borrow().is_empty(), "the pad does not steer: {:?}", received.borrow());
     harness.get_by_label("Fly the whale").click();
     harness.run_steps(3);
     assert!(
-        told.borrow().last().unwrap().starts_with("controls 1.00 0.00 0.00 -1.00"),
+        received.borrow().last().unwrap().starts_with("controls 1.00 0.00 0.00 -1.00"),
         "{:?}",
-        told.borrow()
+        received.borrow()
     );
     harness.key_press(egui::Key::Escape);
     harness.run_steps(3);
-    assert_eq!(told.borrow().last().unwrap(), "autopilot");
+    assert_eq!(received.borrow().last().unwrap(), "autopilot");
 }
 
 #[test]
-fn a_hand_steers_in_real_time_whatever_the_speed_was_and_is_told_that_time_stands_still() {
+fn flight_sets_real_time_and_shows_that_the_run_is_paused() {
     let folder = Folder::new("fly-speed");
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let mut harness = real(&folder, "hello-endline");
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    harness.perform(RunAction::Speed(f64::INFINITY));
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.speed > 100.0));
     harness.state_mut().shared.give(FlightAction::Toggle);
     wait(&mut harness, |app| {
         app.shared.workbench.view().is_some_and(|view| (view.speed - 1.0).abs() < 1e-9)
     });
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     assert!(waiting(&view).contains("Space"), "{:?}", view.status);
-    let told: Vec<String> = readings(&view, Units::Si).into_iter().map(|(name, _)| name).collect();
-    assert!(["ROLL", "PITCH", "THROTTLE"].iter().all(|name| told.contains(&(*name).to_owned())));
-    // Taken over before the first step, the whale keeps the speed that the program asks for.
-    let whole = |view: &LiveView| (view.controls.speed - 1.0).abs() < 1e-12;
-    assert!(whole(&view), "{:?}", view.controls);
-    harness.state_mut().shared.perform(RunAction::Step);
+    let names: Vec<String> = readings(&view, Units::Si).into_iter().map(|(name, _)| name).collect();
+    assert!(["ROLL", "PITCH", "THROTTLE"].iter().all(|name| names.contains(&(*name).to_owned())));
+    // In flight before the first step, the whale keeps the speed of the program.
+    let has_program_speed = |view: &LiveView| (view.controls.speed - 1.0).abs() < 1e-12;
+    assert!(has_program_speed(&view), "{:?}", view.controls);
+    harness.perform(RunAction::Step);
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.frame.step > 0));
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
-    assert!(view.piloted && whole(&view), "{:?}", view.controls);
+    let view = harness.view();
+    assert!(view.piloted && has_program_speed(&view), "{:?}", view.controls);
 }
 
 #[test]
-fn start_on_the_pad_restarts_the_run_while_flying() {
+fn start_on_the_pad_restarts_the_run_in_flight() {
     let folder = Folder::new("pad-start");
     let pilot = Pilot::new(Some(Box::new(LateStart(0))));
-    let (mut harness, told) = workbench(&folder, pilot);
+    let (mut harness, received) = workbench(&folder, pilot);
     harness.state_mut().shared.give(FlightAction::Toggle);
     harness.run_steps(30);
-    let told = told.borrow();
-    let reset = told.iter().position(|words| words == "reset").expect("reset");
-    assert_eq!(told[reset + 1], "start");
+    let received = received.borrow();
+    let reset = received.iter().position(|words| words == "reset").expect("reset");
+    assert_eq!(received[reset + 1], "start");
 }
 
-/// A pad whose Start is pressed a while after the workbench has opened.
+/// A pad on which Start is pressed every tenth poll.
 struct LateStart(u32);
 
 impl endline_workbench::input::PadSource for LateStart {
@@ -199,7 +198,7 @@ impl endline_workbench::input::PadSource for LateStart {
     }
 }
 
-/// The state after 14 s of `hello-endline` flown by a pad that is read at each step.
+/// State hash after 14 s of `hello-endline`, steered by a pad that is read at each step.
 fn flight(script: &[Vec<PadEvent>]) -> String {
     let scenario = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../gear-library/scenarios/hello-endline.toml");
@@ -218,7 +217,7 @@ fn flight(script: &[Vec<PadEvent>]) -> String {
 }
 
 #[test]
-fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
+fn the_same_pad_script_gives_the_same_state() {
     let mut script = vec![vec![]; 800];
     script[0] = vec![PadEvent::Connected("pad".into()), PadEvent::Moved(PadAxis::LeftTrigger, 0.9)];
     script[300] =
@@ -227,45 +226,39 @@ fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
     let flown = flight(&script);
     assert_eq!(flown, flight(&script));
     script[300].pop();
-    assert_ne!(flown, flight(&script), "what the stick does is part of the flight");
+    assert_ne!(flown, flight(&script), "the stick changes the state");
 }
 
 #[test]
-fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
+fn a_real_run_advances_on_its_own_thread() {
     let folder = Folder::new("real");
     let mut harness = opened(folder.documents(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    harness.perform(RunAction::Speed(f64::INFINITY));
     harness.get_by_label("▶ Run").click();
     harness.run_steps(2);
     wait(&mut harness, |app| {
         app.shared.workbench.view().is_some_and(|view| view.frame.time_s > 0.2)
     });
-    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let view = harness.view();
     assert!(view.audit.solver_steps > 0 && view.audit.non_finite == 0);
     assert_eq!(view.state_hash.len(), 16, "{}", view.state_hash);
 }
 
 #[test]
-fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
+fn an_edited_rope_changes_the_statics_after_apply() {
     let folder = Folder::new("answer");
-    let mut harness =
-        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    let settled_n = |harness: &Harness<'static, App>| {
-        let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let mut harness = real(&folder, "hello-endline");
+    let settled_n = |harness: &Window| {
+        let view = harness.view();
         view.frame.tension_n.iter().copied().fold(0.0, f64::max)
     };
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    let (before_n, earlier) =
-        (settled_n(&harness), harness.state().shared.workbench.view().cloned().unwrap());
+    let (before_n, earlier) = (settled_n(&harness), harness.view());
     let rope = "ropes/sink-3-8.toml";
-    assert!(
-        harness.state().shared.workbench.project.documents.in_use(rope),
-        "the single's endline is made of it"
-    );
-    let diameter =
-        harness.state().shared.workbench.project.documents.field(rope, "diameter").unwrap();
-    harness.state_mut().shared.workbench.set(rope, "diameter", "7/16 in");
+    assert!(harness.documents().in_use(rope), "the endline of the single uses it");
+    let diameter = harness.documents().field(rope, "diameter").unwrap();
+    harness.set(rope, "diameter", "7/16 in");
     harness.run_steps(2);
     harness.get_all_by_label("Apply").next().unwrap().click();
     harness.run_steps(2);
@@ -282,7 +275,7 @@ fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
 }
 
 #[test]
-fn a_duplicated_rope_is_a_file_of_its_own_once_saved() {
+fn a_duplicated_rope_is_a_separate_file_after_saving() {
     let folder = Folder::new("duplicate");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.get_by_label("Nylon 1/2 in, 3-strand").click();
@@ -300,37 +293,28 @@ fn a_duplicated_rope_is_a_file_of_its_own_once_saved() {
 }
 
 #[test]
-fn a_model_that_cannot_be_made_says_why_in_problems() {
+fn the_reason_why_a_model_cannot_be_assembled_is_a_problem() {
     let folder = Folder::new("unmade");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness
-        .state_mut()
-        .shared
-        .perform(EditAction::OpenScenario(folder.0.join("scenarios/hello-endline.toml")));
+    harness.perform(EditAction::OpenScenario(folder.0.join("scenarios/hello-endline.toml")));
     wait(&mut harness, |app| !app.shared.workbench.making());
-    let problems: Vec<String> = harness
-        .state()
-        .shared
-        .workbench
-        .project
-        .problems()
-        .map(|problem| problem.message.clone())
-        .collect();
+    let problems: Vec<String> =
+        harness.workbench().project.problems().map(|problem| problem.message.clone()).collect();
     assert!(
         problems.iter().any(|message| message.contains("org.endline.")),
-        "no plugin is there, and that is told: {problems:?}"
+        "the missing plugin is not reported: {problems:?}"
     );
 }
 
 #[test]
-fn the_command_palette_gives_an_order_by_its_name() {
+fn the_command_palette_gives_a_command_by_its_name() {
     let folder = Folder::new("palette");
-    let (mut harness, told) = workbench(&folder, Pilot::default());
+    let (mut harness, received) = workbench(&folder, Pilot::default());
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::P);
     harness.run_steps(3);
     harness.event(egui::Event::Text("speed 0.25".to_owned()));
     harness.run_steps(2);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
-    assert_eq!(*told.borrow(), ["speed 0.25"]);
+    assert_eq!(*received.borrow(), ["speed 0.25"]);
 }

@@ -253,7 +253,7 @@ impl App {
     fn read(&mut self, document: Document) -> Result<(), String> {
         let folder = self.shared.pages.as_ref();
         let folder = folder.ok_or("the system names no home, where documents could be written")?;
-        let page = page::written(folder, document)?;
+        let page = page::write(folder, document)?;
         open_folder(&page)?;
         self.shared.workbench.notice = Some(Notice::done(format!("opened {}", page.display())));
         Ok(())
@@ -324,7 +324,7 @@ impl App {
                 Event::RunKept(recording) => {
                     let (_, waker) = self.shared.workbench.helpers();
                     if let Some(view) = self.shared.workbench.view().cloned() {
-                        self.shared.kept_picture.begin(view, &recording, waker);
+                        self.shared.thumbnail.begin(view, &recording, waker);
                     }
                 }
                 Event::Duplicated { from, to } => self.panels.library.compare(from, to),

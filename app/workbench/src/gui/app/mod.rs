@@ -16,8 +16,8 @@ use crate::gui::layout::{self, Layout};
 use crate::gui::panel::PanelId;
 use crate::gui::panels::Panels;
 use crate::gui::questions::{self, Dialogs, Questions};
-use crate::gui::shared::Kept;
 use crate::gui::shared::Shared;
+use crate::gui::shared::StoredPreferences;
 use crate::gui::{bars, fields};
 use crate::input::{HeldKeys, PilotAction};
 use crate::scene::Canvas;
@@ -52,8 +52,8 @@ impl App {
     pub fn new(creation: &CreationContext<'_>, mut shared: Shared) -> Self {
         let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
         if let Some(text) = stored(PREFERENCES_KEY) {
-            let kept: Kept = serde_json::from_str(&text).unwrap_or_default();
-            (shared.preferences, shared.workbench.preferences) = (kept.window, kept.workbench);
+            let stored: StoredPreferences = serde_json::from_str(&text).unwrap_or_default();
+            (shared.preferences, shared.workbench.preferences) = (stored.window, stored.workbench);
         }
         shared.pilot.invert_pitch = shared.preferences.invert_pitch;
         shared.pilot.mapping = shared.preferences.mapping.clone();
@@ -255,8 +255,11 @@ impl eframe::App for App {
         self.shared.preferences.mapping = self.shared.pilot.mapping.clone();
         save_json(storage, LAYOUT_KEY, &self.dock);
         let Shared { preferences, workbench, .. } = &self.shared;
-        let kept = Kept { window: preferences.clone(), workbench: workbench.preferences.clone() };
-        save_json(storage, PREFERENCES_KEY, &kept);
+        let stored = StoredPreferences {
+            window: preferences.clone(),
+            workbench: workbench.preferences.clone(),
+        };
+        save_json(storage, PREFERENCES_KEY, &stored);
     }
 }
 

@@ -1,4 +1,4 @@
-//! What is told of a trap, buoy, anchor or weight.
+//! Readings of a trap, buoy, anchor or weight.
 
 use endline_session::live::LiveView;
 use endline_session::touching::BodyOnSkin;
@@ -10,7 +10,7 @@ use endline_sim::model::{Body, BodyRole, JointKind, Shape};
 use super::{Reading, levels};
 use crate::gui::widgets::words::spoken;
 
-/// A body: what it is, what it does to the whale, what pulls at it, where it is.
+/// Reads a body: its kind, its contact with the whale, the lines that pull it, its position.
 pub(super) fn read(view: &LiveView, index: usize, units: Units) -> Option<Reading> {
     let (body, (place, _)) = (view.model.spec.bodies.get(index)?, view.frame.bodies.get(index)?);
     let mut rows = vec![("Kind", kind(body))];
@@ -21,13 +21,13 @@ pub(super) fn read(view: &LiveView, index: usize, units: Units) -> Option<Readin
     rows.push(("Size", size(body, units)));
     rows.push(("Mass in air", format!("{:.1} kg", body.mass_kg)));
     let moved = *place - body.position_m;
-    rows.push(("Off its first place", units.length(moved.truncate().length())));
+    rows.push(("Moved since the start", units.length(moved.truncate().length())));
     let peak = view.summary.as_ref().and_then(|summary| summary.bodies.get(index));
     rows.extend(peak.map(|peak| ("Greatest speed", units.speed(peak.peak_speed_m_s))));
     Some(Reading { title: body.id.clone(), rows })
 }
 
-/// Role, and item of the library where it is one.
+/// Role, and library item if it has one.
 fn kind(body: &Body) -> String {
     let role = role(body.role);
     if body.item.is_empty() { role.to_owned() } else { format!("{role}, {}", body.item) }
@@ -42,7 +42,7 @@ fn role(role: BodyRole) -> &'static str {
     }
 }
 
-/// Size of a body in words: of its one part, or of the float of a buoy with the length over all that is fixed to it.
+/// Size of a body in words: of its only part, or of the float of a buoy with the overall length.
 fn size(body: &Body, units: Units) -> String {
     let first = body.parts.first().map_or_else(String::new, |part| size_of(&part.shape, units));
     if body.parts.len() < 2 {
@@ -74,7 +74,7 @@ fn size_of(shape: &Shape, units: Units) -> String {
     }
 }
 
-/// What it does to the whale; nothing in a run without a whale that bodies touch.
+/// Contact of a body with the whale; empty in a run without contact of bodies and whale.
 fn on_whale(
     view: &LiveView,
     index: usize,
@@ -91,9 +91,9 @@ fn on_whale(
     if so_far.is_none() && now.part().is_none() {
         return rows;
     }
-    // A buoy that bounces keeps its rows while it is off the skin, so that the others stay in their places.
+    // A buoy that bounces keeps its rows while it is off the skin, so that the list does not jump.
     rows.push(("Push now", push(&now, units)));
-    // The summary stands for the whole run, whichever moment is shown.
+    // The summary covers the whole run, whichever moment is shown.
     let name = if view.sought { "Greatest of the run" } else { "Greatest push" };
     rows.extend(so_far.map(|it| (name, greatest(it, units))));
     rows.push(("Caught", caught(&now, so_far, view.frame.time_s)));
@@ -105,7 +105,7 @@ fn push(now: &BodyOnSkin, units: Units) -> String {
     format!("{}, friction {}", force.text(now.push_n), force.text(now.friction_n))
 }
 
-/// Parts of the whale that it presses on, the hardest first, and since when.
+/// Parts of the whale that the body presses on, largest force first, and since when.
 fn where_since(now: &BodyOnSkin) -> String {
     if now.part().is_none() {
         return "not now".to_owned();
@@ -115,13 +115,13 @@ fn where_since(now: &BodyOnSkin) -> String {
     now.since_s.map_or_else(|| parts.clone(), |since_s| format!("{parts}, since {since_s:.2} s"))
 }
 
-/// The greatest push and where.
+/// The greatest push and its place.
 fn greatest(on_whale: &BodyOnWhale, units: Units) -> String {
     let part = on_whale.peak_whale_part.map_or(String::new(), |part| spoken(part.name()));
     format!("{}, {part}", units.force().text(on_whale.peak_whale_push_n))
 }
 
-/// Whether it counts as caught, or how long it still has to stay.
+/// Whether the body is caught, or how long it has been in contact of the time required.
 fn caught(now: &BodyOnSkin, so_far: Option<&BodyOnWhale>, time_s: f64) -> String {
     match (now.caught_s, now.since_s) {
         (Some(caught_s), _) => format!("yes, since {caught_s:.2} s"),
@@ -129,13 +129,13 @@ fn caught(now: &BodyOnSkin, so_far: Option<&BodyOnWhale>, time_s: f64) -> String
             format!("not yet: {:.1} s of {CAUGHT_S:.0} s", (time_s - since_s).max(0.0))
         }
         (None, None) if so_far.is_some_and(|it| it.was_caught) => {
-            "not now; in this run it was".to_owned()
+            "not now, but earlier in this run".to_owned()
         }
         (None, None) => "not now".to_owned(),
     }
 }
 
-/// Other bodies that it touches.
+/// Ids of other bodies that the body touches.
 fn touches(view: &LiveView, index: usize) -> Option<(&'static str, String)> {
     let others = bodies_touching(&view.model, &view.frame.bodies, index);
     let ids = others.into_iter().map(|other| view.model.spec.bodies[other].id.as_str());
@@ -143,7 +143,7 @@ fn touches(view: &LiveView, index: usize) -> Option<(&'static str, String)> {
     (!ids.is_empty()).then_some(("Touches", ids))
 }
 
-/// Tension of the lines that end at a body, where they do.
+/// Tension of each line at its end on the body.
 fn pulls(view: &LiveView, index: usize, units: Units) -> Vec<(&'static str, String)> {
     let at = |joint: usize| matches!(view.model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index);
     let mut rows = Vec::new();

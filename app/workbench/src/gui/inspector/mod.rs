@@ -1,4 +1,4 @@
-//! Readings of things picked in the 3-D view, of the ruler between two of them, and of rope about the whale.
+//! Readings of what is picked in the 3-D view, of the ruler between two picks, and of rope wrapped round the whale.
 
 mod body;
 
@@ -14,28 +14,26 @@ use crate::gui::widgets::words::{capital, spoken};
 use crate::scene::Picked;
 use crate::scene::pick::{body_on_skin, contact_m, ends, length_m, on_line, rope_on_skin};
 
-/// The name of a thing and its properties.
+/// Title and properties of a picked thing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What it is.
+    /// Title.
     pub title: String,
-    /// Names and values, what matters most first.
+    /// Names and values, most important first.
     pub rows: Vec<(&'static str, String)>,
 }
 
 impl Reading {
-    /// With its first rows alone, for what the pointer rests on.
-    #[must_use]
+    /// Keeps only the first rows, for a hover text.
     pub fn glance(mut self, picked: Picked) -> Self {
-        // The whale fills much of a picture, so that less is told of it.
+        // The whale fills much of the picture, so its hover text is shorter.
         let rows = if matches!(picked, Picked::Skin { .. }) { 3 } else { 5 };
         self.rows.truncate(rows);
         self
     }
 }
 
-/// What a picked thing reads at the moment shown; `None` where this run has no such thing.
-#[must_use]
+/// Reads a picked thing at the moment shown; `None` if this run has no such thing.
 pub fn read(view: &LiveView, picked: Picked, units: Units) -> Option<Reading> {
     match picked {
         Picked::Rope { line, at_m } => read_rope(view, line, at_m, units),
@@ -46,7 +44,7 @@ pub fn read(view: &LiveView, picked: Picked, units: Units) -> Option<Reading> {
     }
 }
 
-/// Depth, and height above the seabed where there is one.
+/// Depth, and height above the seabed if there is one.
 fn levels(view: &LiveView, place: DVec3, units: Units) -> Vec<(&'static str, String)> {
     let above = view.model.spec.seabed.as_ref().map(|seabed| place.z - seabed.height_at(place));
     let depth = if place.z > 0.0 {
@@ -59,7 +57,7 @@ fn levels(view: &LiveView, place: DVec3, units: Units) -> Vec<(&'static str, Str
     rows
 }
 
-/// A place on a line.
+/// Reads a place on a line.
 fn read_rope(view: &LiveView, line: usize, at_m: f64, units: Units) -> Option<Reading> {
     let (model, frame) = (&view.model, &view.frame);
     let spec = model.spec.lines.get(line)?;
@@ -69,13 +67,13 @@ fn read_rope(view: &LiveView, line: usize, at_m: f64, units: Units) -> Option<Re
     let (place, tension_n) = (a.lerp(b, share), *frame.tension_n.get(segment)?);
     let mut rows = vec![
         ("Rope", format!("{}, {}", rope.id, units.diameter(rope.diameter_m))),
-        ("Along it", along_it(view, line, at_m, units)),
+        ("Position", along_it(view, line, at_m, units)),
         ("Tension here", units.force().text(tension_n)),
     ];
     rows.extend(strength(view, segment, tension_n, units));
     rows.push(("On the whale", touching(view, line, segment, units)));
     let stretch = (b - a).length() / frame.segment_length_m.get(segment)?.max(1e-12) - 1.0;
-    // What is slack is not stretched: its nodes come nearer to one another.
+    // The nodes of slack rope move closer together, which gives a negative stretch.
     rows.push((
         "Stretch",
         if stretch < 0.0 { "slack".to_owned() } else { format!("{:.2} %", 100.0 * stretch) },
@@ -113,7 +111,7 @@ fn strength(
     ))
 }
 
-/// How far along its line a place is, of how much, and from which end.
+/// Position of a place along its line, with the length of the line and the end it is measured from.
 fn along_it(view: &LiveView, line: usize, at_m: f64, units: Units) -> String {
     let spec = &view.model.spec;
     let of_m = length_m(&view.model, &view.frame, line);
@@ -121,7 +119,7 @@ fn along_it(view: &LiveView, line: usize, at_m: f64, units: Units) -> String {
     format!("{} of {}, from {from}", units.length(at_m), units.length(of_m))
 }
 
-/// Which part the rope presses on at a segment or its neighbours, and how hard.
+/// Region that the rope presses on at a segment or its neighbours, and the force.
 fn touching(view: &LiveView, line: usize, segment: usize, units: Units) -> String {
     let here = view
         .frame
@@ -143,8 +141,7 @@ fn touching(view: &LiveView, line: usize, segment: usize, units: Units) -> Strin
     )
 }
 
-/// Unstretched rope from a line's first end to its segment of the greatest tension [m].
-#[must_use]
+/// Unstretched length from the first end of a line to its segment with the greatest tension [m].
 pub fn worst_m(model: &Model, frame: &Frame, line: usize) -> f64 {
     let (mut before_m, mut worst) = (0.0, (f64::NEG_INFINITY, 0.0));
     for segment in model.line_segments.get(line).cloned().unwrap_or_default() {
@@ -161,25 +158,25 @@ pub fn worst_m(model: &Model, frame: &Frame, line: usize) -> f64 {
     worst.1
 }
 
-/// Where a line presses.
+/// Reads a place where a line presses on skin.
 fn read_rope_on_skin(view: &LiveView, line: usize, at_m: f64, units: Units) -> Option<Reading> {
     let (model, frame) = (&view.model, &view.frame);
     let id = &model.spec.lines.get(line)?.id;
     let Some(contact) = rope_on_skin(model, frame, line, at_m) else {
-        let rows = vec![("Along it", along_it(view, line, at_m, units)), no_more()];
+        let rows = vec![("Position", along_it(view, line, at_m, units)), no_more()];
         return Some(Reading { title: format!("{id} on skin"), rows });
     };
     let mut rows = contact_rows(contact.region, contact.normal_force_n, contact.friction_n, units);
     let at_m = contact_m(model, frame, contact)?;
-    rows.push(("Along the line", along_it(view, line, at_m, units)));
-    rows.push(("Rope that presses", units.length(contact.length_m)));
+    rows.push(("Position", along_it(view, line, at_m, units)));
+    rows.push(("Length in contact", units.length(contact.length_m)));
     let tension_n = frame.tension_n.get(contact.segment);
     rows.extend(tension_n.map(|tension_n| ("Tension here", units.force().text(*tension_n))));
     rows.extend(levels(view, contact.position, units));
     Some(Reading { title: title(id, contact.region), rows })
 }
 
-/// Where a body presses.
+/// Reads a place where a body presses on skin.
 fn read_body_on_skin(
     view: &LiveView,
     body: usize,
@@ -192,7 +189,7 @@ fn read_body_on_skin(
     };
     let mut rows = contact_rows(contact.region, contact.normal_force_n, contact.friction_n, units);
     let whole = BodyOnSkin::at(&view.frame, &view.events, body, id);
-    rows.push(("Push in all places", units.force().text(whole.push_n)));
+    rows.push(("Push at all places", units.force().text(whole.push_n)));
     rows.extend(whole.since_s.map(|since_s| ("Touches since", format!("{since_s:.2} s"))));
     rows.extend(levels(view, contact.position, units));
     Some(Reading { title: title(id, contact.region), rows })
@@ -206,7 +203,7 @@ fn no_more() -> (&'static str, String) {
     ("On the whale", "not now".to_owned())
 }
 
-/// Patch of skin, push and friction at one place.
+/// Region of skin, push and friction at one place.
 fn contact_rows(
     region: Region,
     push_n: f64,
@@ -220,7 +217,7 @@ fn contact_rows(
     ]
 }
 
-/// A place on skin: its patch, and what presses on its part.
+/// Reads a place on skin: its region, and what presses on its body part.
 fn read_skin(view: &LiveView, picked: Picked, triangle: usize, units: Units) -> Option<Reading> {
     let whale = view.model.spec.whale.as_ref()?;
     let region = *whale.skin.regions.get(triangle)?;
@@ -236,7 +233,7 @@ fn read_skin(view: &LiveView, picked: Picked, triangle: usize, units: Units) -> 
     Some(Reading { title: capital(&spoken(part.name())), rows })
 }
 
-/// Length and force of the rope that presses on a part now.
+/// Length and force of the rope that presses on a body part now.
 fn rope_on(view: &LiveView, part: BodyPart, units: Units) -> String {
     let on = view.frame.contacts.iter().filter(|contact| contact.region.part() == part);
     let (mut force_n, mut length_m) = (0.0, 0.0);
@@ -250,14 +247,14 @@ fn rope_on(view: &LiveView, part: BodyPart, units: Units) -> String {
     format!("{}, {}", units.length(length_m), units.force().text(force_n))
 }
 
-/// Bodies that press on a part now, each with its push.
+/// Bodies that press on a body part now, each with its push.
 fn bodies_on_part(view: &LiveView, part: BodyPart, units: Units) -> String {
     let on = bodies_on(&view.frame, part).into_iter().filter_map(|(body, push_n)| {
         let body = view.model.spec.bodies.get(body)?;
         Some(format!("{} {}", body.id, units.force().text(push_n)))
     });
-    let told = on.collect::<Vec<_>>().join(", ");
-    if told.is_empty() { "none".to_owned() } else { told }
+    let list = on.collect::<Vec<_>>().join(", ");
+    if list.is_empty() { "none".to_owned() } else { list }
 }
 
 fn so_far(part: &RegionSummary, units: Units) -> [(&'static str, String); 3] {
@@ -268,33 +265,33 @@ fn so_far(part: &RegionSummary, units: Units) -> [(&'static str, String); 3] {
     ]
 }
 
-/// The way between two picked places; `None` where there are not two.
-#[must_use]
+/// Reads the distance between two picked places; `None` unless there are two.
 pub fn measured(view: &LiveView, picked: &[Picked], units: Units) -> Option<Reading> {
     let [from, to] = picked else { return None };
     let (a, b) = (from.place(&view.model, &view.frame)?, to.place(&view.model, &view.frame)?);
-    let way = b - a;
+    let between = b - a;
     let mut rows = vec![
-        ("Straight", units.length(way.length())),
+        ("Straight", units.length(between.length())),
         (
-            "Level, upright",
-            format!("{}, {}", units.length(way.truncate().length()), units.length(way.z)),
+            "Horizontal, vertical",
+            format!("{}, {}", units.length(between.truncate().length()), units.length(between.z)),
         ),
-        ("Bearing", format!("{:.0}°", bearing_degrees(way.x, way.y))),
+        ("Bearing", format!("{:.0}°", bearing_degrees(between.x, between.y))),
     ];
     let along = along_m(view, *from, *to);
     rows.push((
         "Along the rope",
-        along.map_or_else(|| "no rope joins them".to_owned(), |along_m| units.length(along_m)),
+        along.map_or_else(|| "no rope connects them".to_owned(), |along_m| units.length(along_m)),
     ));
     Some(Reading { title: "Ruler".to_owned(), rows })
 }
 
-/// Where lines meet: at a joint, or at any of a body's.
+/// A point where lines meet: (true, body) for all joints of a body, (false, joint) for any other joint.
 type Knot = (bool, usize);
 
-/// Unstretched rope on the shortest way between two places through the gear [m]; `None` where no rope joins them.
-#[must_use]
+/// Unstretched length of the shortest path of rope between two places [m]; `None` if no rope connects them.
+///
+/// Bellman-Ford over lines as edges.
 pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
     if let (Some((one, a)), Some((other, b))) = (on_a_line(from), on_a_line(to))
         && one == other
@@ -319,7 +316,7 @@ pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
         }
     };
     let mut known: std::collections::BTreeMap<Knot, f64> = near(from).into_iter().collect();
-    // A way leads through each line once at most.
+    // The shortest path uses each line at most once.
     for _ in 0..spec.lines.len() {
         for (index, line) in spec.lines.iter().enumerate() {
             let length_m = length_m(&view.model, &view.frame, index);
@@ -327,17 +324,17 @@ pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
                 [(knot(line.from), knot(line.to)), (knot(line.to), knot(line.from))]
             {
                 if let Some(so_far_m) = known.get(&here).copied() {
-                    let way_m = known.entry(there).or_insert(f64::INFINITY);
-                    *way_m = way_m.min(so_far_m + length_m);
+                    let length_m_there = known.entry(there).or_insert(f64::INFINITY);
+                    *length_m_there = length_m_there.min(so_far_m + length_m);
                 }
             }
         }
     }
-    let ways = near(to).into_iter().filter_map(|(knot, rest_m)| Some(known.get(&knot)? + rest_m));
-    ways.min_by(f64::total_cmp)
+    let paths = near(to).into_iter().filter_map(|(knot, rest_m)| Some(known.get(&knot)? + rest_m));
+    paths.min_by(f64::total_cmp)
 }
 
-/// The line that a place lies on, and how far along.
+/// Line of a place and position along it [m]; `None` for a place that is not on a line.
 fn on_a_line(picked: Picked) -> Option<(usize, f64)> {
     match picked {
         Picked::Rope { line, at_m } | Picked::RopeOnSkin { line, at_m } => Some((line, at_m)),
@@ -345,26 +342,25 @@ fn on_a_line(picked: Picked) -> Option<(usize, f64)> {
     }
 }
 
-/// Fewer turns than this are rope that bends round a part, not a wrap to list [turns].
-const LEAST: f64 = 0.25;
+/// Least wrap to list; less is rope that bends round a part [turns].
+const LEAST_WRAP: f64 = 0.25;
 
-/// Rope about one part.
+/// Rope wrapped round one body part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrap {
-    /// The part.
+    /// Body part.
     pub part: BodyPart,
-    /// How far it turns about the part [turns].
+    /// Turns round the part [turns].
     pub turns: f64,
-    /// Since when it has turned at least half round without a break [s].
+    /// Time since which it has been at least half a turn without interruption [s].
     pub since_s: Option<f64>,
-    /// Rope in contact [m].
+    /// Length of rope in contact [m].
     pub touching_m: f64,
-    /// Lines that touch the part, by id, the longest contact first, with its length [m].
+    /// Id and contact length [m] of each line that touches the part, longest first.
     pub lines: Vec<(String, f64)>,
 }
 
-/// Every wrap at the moment shown, most turns first.
-#[must_use]
+/// All wraps at the moment shown, most turns first.
 pub fn wraps(view: &LiveView) -> Vec<Wrap> {
     let all = BodyPart::ALL.into_iter().map(|part| Wrap {
         part,
@@ -373,7 +369,7 @@ pub fn wraps(view: &LiveView) -> Vec<Wrap> {
         touching_m: 0.0,
         lines: Vec::new(),
     });
-    let mut found: Vec<Wrap> = all.filter(|wrap| wrap.turns >= LEAST).collect();
+    let mut found: Vec<Wrap> = all.filter(|wrap| wrap.turns >= LEAST_WRAP).collect();
     for wrap in &mut found {
         wrap.lines = lines_on(view, wrap.part);
         wrap.touching_m = wrap.lines.iter().map(|(_, length_m)| length_m).sum();
@@ -382,23 +378,22 @@ pub fn wraps(view: &LiveView) -> Vec<Wrap> {
     found
 }
 
-/// Turns about a part at the moment shown: of the newest as measured, else of the sample before.
-#[must_use]
+/// Turns round a part at the moment shown: the measured value for the newest moment, otherwise that of the last sample before.
 pub fn turns(view: &LiveView, part: BodyPart) -> f64 {
     let now = || {
         let whale = view.summary.as_ref()?.whale.as_ref()?;
         Some(whale.regions.iter().find(|region| region.part == part)?.wraps)
     };
-    let kept = || {
+    let sampled = || {
         let shown_s = view.frame.time_s + 1e-9;
         let samples = view.history.samples(Channel::Wraps(part).index());
         samples.take_while(|(time_s, _)| *time_s <= shown_s).last().map(|(_, turns)| turns)
     };
-    let turns = if view.sought { kept() } else { now() };
+    let turns = if view.sought { sampled() } else { now() };
     turns.unwrap_or(0.0)
 }
 
-/// When the turns about a part last came to a half, of events up to the moment shown.
+/// Time when the turns round a part last reached one half, up to the moment shown.
 fn since_s(view: &LiveView, part: BodyPart) -> Option<f64> {
     let mut since_s = None;
     for event in view

@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
         ui.label(&other.name);
     });
     let (Some(a), Some(b)) = (shared.workbench.view().cloned(), other.view.clone()) else {
-        return widgets::nothing(ui, "Making the model …");
+        return widgets::nothing(ui, "Assembling the model …");
     };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {

@@ -18,7 +18,7 @@ enum Learning {
     Nothing,
     /// Something a button does.
     Button(Pressed),
-    /// Something a stick or trigger steers, as its first or second thing.
+    /// A function of a stick or trigger, first or second.
     Axis(Steered, bool),
 }
 
@@ -72,8 +72,8 @@ impl PadPanel {
                 let moved =
                     PadAxis::ALL.into_iter().find(|axis| shared.pilot.axis(*axis).abs() > FAR);
                 if let Some(axis) = moved {
-                    let turned = shared.pilot.axis(axis) < 0.0;
-                    shared.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
+                    let inverted = shared.pilot.axis(axis) < 0.0;
+                    shared.pilot.mapping.bind_axis(AxisUse { axis, second, steers, inverted });
                     self.learning = Learning::Nothing;
                 }
             }
@@ -99,8 +99,8 @@ impl PadPanel {
                 bar(
                     ui,
                     first.map_or(0.0, |uses| {
-                        shared.pilot.mapping.live(uses.axis, shared.pilot.axis(uses.axis))
-                            * if uses.turned { -1.0 } else { 1.0 }
+                        shared.pilot.mapping.shaped(uses.axis, shared.pilot.axis(uses.axis))
+                            * if uses.inverted { -1.0 } else { 1.0 }
                     }),
                 );
                 for second in [false, true] {
@@ -126,7 +126,7 @@ impl PadPanel {
                     format!(
                         "{}{}",
                         uses.axis.words(),
-                        if uses.turned { ", turned over" } else { "" }
+                        if uses.inverted { ", inverted" } else { "" }
                     )
                 }
                 None => "–".to_owned(),
@@ -140,9 +140,9 @@ impl PadPanel {
                     if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
             }
             if let Some(uses) = uses
-                && ui.small_button("±").on_hover_text("Turn it over").clicked()
+                && ui.small_button("±").on_hover_text("Invert").clicked()
             {
-                uses.turned = !uses.turned;
+                uses.inverted = !uses.inverted;
             }
         });
     }
@@ -183,7 +183,9 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     ui.horizontal_wrapped(|ui| {
         let (text, colour) = match (shared.pilot.hands(), shared.pilot.pad_name()) {
-            (Hands::Holding | Hands::Gliding, _) => ("the pad is gone".to_owned(), palette.warning),
+            (Hands::Holding | Hands::Gliding, _) => {
+                ("the pad is disconnected".to_owned(), palette.warning)
+            }
             (Hands::On, Some(name)) => (name.to_owned(), palette.good),
             (Hands::On, None) => {
                 ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint)
@@ -203,7 +205,7 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
                     Mapping { dead_zone, trigger_dead_zone, curve, rumble, ..preset };
             }
         }
-        ui.checkbox(&mut shared.pilot.invert_pitch, "Push to put the nose down");
+        ui.checkbox(&mut shared.pilot.invert_pitch, "Invert pitch: push for nose down");
     });
 }
 

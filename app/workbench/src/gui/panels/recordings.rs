@@ -92,7 +92,7 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
 
 fn picture(ui: &Ui, rect: Rect, file: &mut Recorded) {
     let shown = file.picture.get_or_insert_with(|| {
-        let image = pictures::of_recording(&file.path)?;
+        let image = pictures::thumbnail(&file.path)?;
         let name = file.path.display().to_string();
         Some(ui.ctx().load_texture(name, image, TextureOptions::LINEAR))
     });

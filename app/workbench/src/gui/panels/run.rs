@@ -69,7 +69,7 @@ fn stale(ui: &mut Ui, shared: &mut Shared) {
     if shared.workbench.making() {
         ui.horizontal(|ui| {
             ui.spinner();
-            ui.label(RichText::new("making the model").color(palette.faint));
+            ui.label(RichText::new("assembling the model").color(palette.faint));
         });
     } else if shared.workbench.project.documents.any_error() {
         let text = "The gear has errors. The run shown is from before them.";
@@ -114,7 +114,7 @@ fn fly(ui: &mut Ui, shared: &mut Shared) {
         let mut flying = shared.flying;
         if ui
             .toggle_value(&mut flying, "Fly the whale")
-            .on_hover_text("Ctrl+F; Esc lets go. Keys and pad: F1")
+            .on_hover_text("Ctrl+F; Esc stops steering. Keys and pad: F1")
             .clicked()
         {
             shared.give(FlightAction::Toggle);

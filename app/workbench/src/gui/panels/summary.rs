@@ -1,4 +1,4 @@
-//! How the run came out: outcome, loads by part of the whale, lines and weak links.
+//! Results of the run: outcome, loads by body part of the whale, lines and weak links.
 
 use egui::{RichText, ScrollArea, Ui};
 use endline_session::command::TimeAction;
@@ -32,10 +32,10 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
         return widgets::nothing(ui, "No run yet.");
     };
     let Some(summary) = &view.summary else {
-        return widgets::nothing(ui, "The gear is being settled.");
+        return widgets::nothing(ui, "The statics of the gear are being solved.");
     };
     let style = Style { view: View::Summary, units: shared.workbench.preferences.units };
-    widgets::steered_whale(ui, shared, &view);
+    widgets::kinematic_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(
@@ -44,7 +44,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Outcome and parts; answers the moment that was clicked [s].
+/// Draws outcome and body parts; returns the moment that was clicked [s].
 fn of_whale(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, style: Style) -> Option<f64> {
     let palette = Theme::palette_of(ui);
     let (text, meaning, colour) = words::outcome(whale.outcome, palette);
@@ -52,7 +52,7 @@ fn of_whale(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, style: Style) ->
         ui.label(RichText::new(text).heading().color(colour)).on_hover_text(meaning);
         if !whale.decided {
             ui.label(RichText::new("so far").color(palette.faint))
-                .on_hover_text("The run is too short for this to stand");
+                .on_hover_text("The run is too short for a final outcome");
         }
     });
     let wanted = list(ui, WHALE, whale, style);
@@ -61,7 +61,7 @@ fn of_whale(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, style: Style) ->
     wanted.or(table(ui, PART, &parts, style, Part::is_untouched))
 }
 
-/// Lines and weak links; answers the moment that was clicked [s].
+/// Draws lines and weak links; returns the moment that was clicked [s].
 fn of_gear(ui: &mut Ui, summary: &Summary, style: Style) -> Option<f64> {
     widgets::caption(ui, "Lines");
     let wanted = table(ui, LINE, &lines(summary, &[]), style, |_| false);

@@ -21,7 +21,7 @@ impl Panel for TensionPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         if let Some(view) = shared.workbench.view().cloned() {
-            widgets::steered_whale(ui, shared, &view);
+            widgets::kinematic_whale(ui, shared, &view);
         }
         let height = ui.available_height() - HEAD;
         self.drawn.show(ui, shared, Kind::Tension, "", height);

@@ -1,5 +1,4 @@
-//! Figures of a run as rows and as tables: which of them, and how they are written, is declared in
-//! [`endline_session::figures`].
+//! Figures of a run as rows and tables. [`endline_session::figures`] declares them and their formats.
 
 use egui::{Grid, RichText, Ui};
 use endline_session::figures::{Figure, Quantity, Value, View, shown};
@@ -8,22 +7,22 @@ use endline_session::units::Units;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::capital;
 
-/// Which figures are drawn, and in which units.
+/// Selection and units of figures.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// The view whose figures are drawn.
+    /// View that selects the figures.
     pub view: View,
-    /// The units of the values.
+    /// Units of the values.
     pub units: Units,
 }
 
-/// What tells a list or table from the others of its panel.
+/// Id of a list or table, unique in its panel.
 fn id<S>(kind: &str, figures: &[Figure<S>], style: Style) -> String {
     let first = figures.first().map_or("", |figure| figure.label);
     format!("{kind} {first} {:?}", style.view)
 }
 
-/// Draws the figures of one source, a row for each; answers the moment that was clicked [s].
+/// Draws the figures of one source, one row each; returns the moment that was clicked [s].
 pub fn list<S>(ui: &mut Ui, figures: &[Figure<S>], source: &S, style: Style) -> Option<f64> {
     let faint = Theme::palette_of(ui).faint;
     let mut wanted = None;
@@ -38,8 +37,8 @@ pub fn list<S>(ui: &mut Ui, figures: &[Figure<S>], source: &S, style: Style) -> 
     wanted
 }
 
-/// Draws a table with a row for each source and a column for each figure; answers the moment that was
-/// clicked [s]. Rows of sources that `is_faint` tells are drawn faint.
+/// Draws a table with a row for each source and a column for each figure; returns the moment that was clicked [s]. `is_faint` selects
+/// rows in faint text.
 pub fn table<S>(
     ui: &mut Ui,
     figures: &[Figure<S>],
@@ -67,7 +66,7 @@ pub fn table<S>(
     wanted
 }
 
-/// One value; a moment is a link that shows it.
+/// Draws one value; a moment is a link to it.
 fn cell<S>(
     ui: &mut Ui,
     figure: &Figure<S>,
@@ -89,5 +88,5 @@ fn cell<S>(
         ui.label(text);
         return None;
     };
-    ui.link(text).on_hover_text("See this moment").clicked().then_some(moment)
+    ui.link(text).on_hover_text("Show this moment").clicked().then_some(moment)
 }

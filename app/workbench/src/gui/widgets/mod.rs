@@ -1,4 +1,4 @@
-//! Pieces of the screen that several panels draw.
+//! Widgets that several panels draw.
 
 pub mod figures;
 pub mod plot;
@@ -19,28 +19,28 @@ use crate::gui::command::find;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// A line of small grey text above a group.
+/// Draws a caption in small grey capitals above a group.
 pub fn caption(ui: &mut Ui, text: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.add_space(3.0);
     ui.label(RichText::new(text.to_uppercase()).size(10.5).color(faint).strong());
 }
 
-/// The name of a field, all as wide, so that fields line up.
+/// Draws the label of a field at a fixed width, so that fields align.
 pub fn name(ui: &mut Ui, text: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(84.0, 20.0), Sense::hover());
     let (colour, font) = (Theme::palette_of(ui).faint, FontId::proportional(13.0));
     ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
 }
 
-/// A line that says why a panel is empty.
+/// Draws the reason why a panel is empty.
 pub fn nothing(ui: &mut Ui, text: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.add_space(8.0);
     ui.vertical_centered(|ui| ui.label(RichText::new(text).color(faint)));
 }
 
-/// Draws in a part of the panel and nowhere else.
+/// Draws in a rectangle of the panel, clipped to it.
 pub fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
     ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
@@ -48,7 +48,7 @@ pub fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
     });
 }
 
-/// Draws a piece of a long list. Out of sight it is not laid out: its room is that of the last time it was, at this width.
+/// Draws a piece of a long list. A piece out of sight is not laid out: it takes the size of its last layout at this width.
 pub fn where_seen(ui: &mut Ui, id: Id, draw: impl FnOnce(&mut Ui)) {
     let width = ui.available_width();
     let known =
@@ -64,7 +64,7 @@ pub fn where_seen(ui: &mut Ui, id: Id, draw: impl FnOnce(&mut Ui)) {
     ui.data_mut(|data| data.insert_temp(id, vec2(width, height)));
 }
 
-/// Names and values in two columns, with what each is on hover.
+/// Draws names and values in two columns, with help on hover.
 pub fn explained(ui: &mut Ui, id: &str, rows: &[(&str, String, &str)]) {
     let faint = Theme::palette_of(ui).faint;
     Grid::new(id).num_columns(2).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
@@ -76,7 +76,7 @@ pub fn explained(ui: &mut Ui, id: &str, rows: &[(&str, String, &str)]) {
     });
 }
 
-/// Names and values in two columns.
+/// Draws names and values in two columns.
 pub fn numbers(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
     let faint = Theme::palette_of(ui).faint;
     Grid::new(id).num_columns(2).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
@@ -88,7 +88,7 @@ pub fn numbers(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
     });
 }
 
-/// A button that gives a command: its help text is the command's, and it is grey with the reason where that does nothing now.
+/// Draws a button that gives a command. It shows the help of the command on hover; a disabled one is grey, with the reason on hover.
 pub fn command(
     ui: &mut Ui,
     shared: &mut Shared,
@@ -98,7 +98,7 @@ pub fn command(
     styled(ui, shared, Button::new(text), command)
 }
 
-/// A button of any look that gives a command.
+/// Draws a button with its own style that gives a command.
 pub fn styled(
     ui: &mut Ui,
     shared: &mut Shared,
@@ -118,7 +118,7 @@ pub fn styled(
     response
 }
 
-/// One problem in two lines; answers whether it was clicked.
+/// Draws a problem of a file in two lines; returns whether it was clicked.
 pub fn problem(ui: &mut Ui, problem: &Diagnostic) -> bool {
     let palette = Theme::palette_of(ui);
     let (mark, colour) =
@@ -146,29 +146,29 @@ pub fn problem(ui: &mut Ui, problem: &Diagnostic) -> bool {
     row.response.interact(Sense::click()).on_hover_text(problem.to_string()).clicked()
 }
 
-/// Field by which a whale feels the gear, and its value.
-const FEELS: [&str; 2] = ["whale.dynamics", "kinetic"];
+/// Field and value that make the gear act on the whale.
+const KINETIC: [&str; 2] = ["whale.dynamics", "kinetic"];
 
-/// Draws the warning where it holds, with the button that changes the scenario.
-pub fn steered_whale(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
+/// Warns if the whale of a run is kinematic, with a button that makes it kinetic in the scenario.
+pub fn kinematic_whale(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
     let whale = view.model.spec.whale.as_ref();
     if view.model.spec.lines.is_empty() || whale.is_none_or(|whale| whale.kinetic.is_some()) {
         return;
     }
-    let text = "This whale does not feel the gear: it goes as it is steered, whatever pulls. \
-                Peak tensions are those of a whale that nothing slows.";
+    let text = "The gear does not act on this whale: it moves as steered, whatever pulls. \
+                Peak tensions are those of a whale that is never slowed.";
     let colour = Theme::palette_of(ui).warning;
     ui.horizontal_wrapped(|ui| {
         ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let of_scenario = !shared.workbench.shows_guest()
-            && documents.field(Documents::SCENARIO, FEELS[0]).is_none();
+            && documents.field(Documents::SCENARIO, KINETIC[0]).is_none();
         let help = "Sets dynamics = \"kinetic\" in the scenario; the next run uses it";
-        if of_scenario && ui.small_button("Let it feel gear").on_hover_text(help).clicked() {
+        if of_scenario && ui.small_button("Let gear act on it").on_hover_text(help).clicked() {
             shared.give(Command::from(EditAction::Set {
                 path: Documents::SCENARIO.to_owned(),
-                field: FEELS[0].to_owned(),
-                value: FEELS[1].to_owned(),
+                field: KINETIC[0].to_owned(),
+                value: KINETIC[1].to_owned(),
             }));
         }
     });

@@ -1,5 +1,5 @@
-//! Charts of a run: each below its title and its key, with one cursor. A click on a chart shows that moment; a click in its key hides or
-//! shows a curve.
+//! Charts of a run, each below its title and key, with a common cursor. A click on a chart shows that moment; a click on an entry of the
+//! key hides or shows a curve.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -22,33 +22,33 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
 
-/// A strength further above the peak than this factor is not drawn.
+/// A strength above the peak by more than this factor is not drawn.
 const REACH: f64 = 3.0;
 
-/// Height of a plot's title and key where they take one row [points].
+/// Height of the title and key of a plot, if they fit in one row [points].
 pub const HEAD: f32 = 34.0;
 
 /// Least height of a plot [points].
 pub const LEAST: f32 = 104.0;
 
-/// The charts drawn last, and which of their curves are hidden.
+/// Charts with their points, reused until the run changes, and the names of hidden curves.
 #[derive(Default)]
 pub struct DrawnCharts {
-    /// Names of curves that a click in the key took away.
+    /// Names of curves that a click in the key has hidden.
     hidden: BTreeSet<String>,
     made: Vec<(Kind, Made)>,
 }
 
-/// A chart with what it was made of.
+/// A chart with the data it was made from.
 struct Made {
     of: (Part, Option<Part>),
     units: Units,
     chart: Chart,
-    /// Points of each curve, as they are drawn.
+    /// Points of each curve, for drawing.
     points: Vec<Vec<PlotPoint>>,
 }
 
-/// As much of a run as a chart shows.
+/// The part of a run that a chart shows.
 struct Part {
     model: Arc<Model>,
     samples: usize,
@@ -70,8 +70,7 @@ impl PartialEq for Part {
     }
 }
 
-/// A chart of a run, with the run it is compared with beside it.
-#[must_use]
+/// Makes a chart of a run, together with the run it is compared with.
 pub fn chart(kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units) -> Chart {
     let own = Chart::of(kind, view, units);
     match other {
@@ -81,7 +80,7 @@ pub fn chart(kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units
 }
 
 impl DrawnCharts {
-    /// Draws a chart of the run shown, in a height that its title and key are part of.
+    /// Draws a chart of the run shown, with title and key, in a height.
     pub fn show(&mut self, ui: &mut Ui, shared: &mut Shared, kind: Kind, title: &str, height: f32) {
         let Some(view) = shared.workbench.view().cloned() else {
             return widgets::nothing(ui, "No run yet.");
@@ -110,7 +109,7 @@ impl DrawnCharts {
         }
     }
 
-    /// Makes a chart anew where the run has gone on since; answers its place.
+    /// Updates a chart if the run has advanced since; returns its index.
     fn make(&mut self, kind: Kind, view: &LiveView, shared: &Shared) -> usize {
         let (other, units) = (shared.workbench.compared_view(), shared.workbench.preferences.units);
         let of = (Part::of(kind, view), other.as_deref().map(|other| Part::of(kind, other)));
@@ -191,7 +190,7 @@ fn colour(curve: &Curve) -> Color32 {
 }
 
 fn line<'a>(curve: &'a Curve, points: &'a [PlotPoint]) -> Line<'a> {
-    // A name would show when the pointer is near.
+    // egui_plot shows the name near the pointer; an edge has none.
     let name = if curve.style == Style::Edge { "" } else { &curve.name };
     let line = Line::new(name, PlotPoints::Borrowed(points)).color(colour(curve)).width(1.5);
     match curve.style {
@@ -201,7 +200,7 @@ fn line<'a>(curve: &'a Curve, points: &'a [PlotPoint]) -> Line<'a> {
     }
 }
 
-/// Strengths and ratings near enough to the peak: a line, with a band above it where there are a least and a greatest.
+/// Draws strengths and ratings near the peak: a line, and a band if there is a least and a greatest value.
 fn levels(plot: &mut PlotUi<'_>, chart: &Chart, palette: Palette) {
     let top = top(chart);
     for level in chart.levels.iter().filter(|level| level.band[0] < REACH * top) {
@@ -218,7 +217,7 @@ fn levels(plot: &mut PlotUi<'_>, chart: &Chart, palette: Palette) {
     }
 }
 
-/// Fills between least and greatest so far, which stand one after the other.
+/// Fills the area between the curves of least and greatest, which follow each other in the list.
 fn shade(plot: &mut PlotUi<'_>, curves: &[&Curve]) {
     for pair in curves.windows(2) {
         let [least, greatest] = pair else { continue };
@@ -235,23 +234,23 @@ fn shade(plot: &mut PlotUi<'_>, curves: &[&Curve]) {
     }
 }
 
-/// The key takes as many rows as it needs up to this share of the plot's height.
+/// Greatest share of a plot's height for a key with several rows.
 const SHARE: f32 = 0.3;
 
-/// Width of a letter, more or less [points].
+/// Approximate width of a letter [points].
 const LETTER: f32 = 6.5;
 
-/// Length of the piece of line [points].
+/// Length of the sample line of an entry [points].
 const SAMPLE: f32 = 14.0;
 
-/// Between it and the name [points].
+/// Gap between sample line and name [points].
 const GAP: f32 = 6.0;
 
 /// Size of the names, and height of a row [points].
 const SIZE: f32 = 12.0;
 const HEIGHT: f32 = 18.0;
 
-/// Draws title and key of a plot of a height; answers the name of the curve that was clicked.
+/// Draws title and key of a plot; returns the name of the curve that was clicked.
 fn key(
     ui: &mut Ui,
     title: &str,
@@ -284,7 +283,7 @@ fn key(
             })
             .inner;
     }
-    // A long key must not push its plot away: it is moved along in one row.
+    // A long key would leave no room for its plot: it scrolls in one row.
     ScrollArea::horizontal()
         .id_salt(("key", chart.kind.name()))
         .auto_shrink([false, true])
@@ -292,7 +291,7 @@ fn key(
         .inner
 }
 
-/// A piece of the curve's line, then its name; never on two rows.
+/// Draws an entry of the key: a sample of the line and the name, never split across rows.
 fn entry(ui: &mut Ui, chart: &Chart, curve: &Curve, hidden: bool) -> Option<String> {
     let palette = Theme::palette_of(ui);
     let text = format!("{}{}", curve.name, peak(chart, curve));
@@ -324,11 +323,11 @@ fn entry(ui: &mut Ui, chart: &Chart, curve: &Curve, hidden: bool) -> Option<Stri
     if hidden {
         ui.painter().hline(words.x_range(), words.center().y, Stroke::new(1.0, palette.faint));
     }
-    let help = if hidden { "Click to show it" } else { "Click to take it away" };
+    let help = if hidden { "Click to show it" } else { "Click to hide it" };
     response.on_hover_text(help).clicked().then(|| curve.name.clone())
 }
 
-/// The greatest value of a tension or a force, with its unit, and its time.
+/// Peak of a tension or force, with its unit and time; empty for other charts.
 fn peak(chart: &Chart, curve: &Curve) -> String {
     if !matches!(chart.kind, Kind::Tension | Kind::Force) {
         return String::new();

@@ -1,4 +1,4 @@
-//! Words and colours for what a run reports: its status, events and outcome; names of the format as titles.
+//! Words and colours on screen for status, events and outcome of a run, and titles for keys of files.
 
 use std::time::Duration;
 
@@ -9,8 +9,7 @@ use endline_sim::metrics::{EventKind, Outcome};
 
 use super::super::theme::Palette;
 
-/// A status in words, and whether it is bad.
-#[must_use]
+/// A status in words, and whether it is an error.
 pub fn status(status: &Status) -> (String, bool) {
     match status {
         Status::Settling => ("Settling".into(), false),
@@ -23,13 +22,11 @@ pub fn status(status: &Status) -> (String, bool) {
 }
 
 /// A kind of event in a few words.
-#[must_use]
 pub fn event(kind: EventKind) -> String {
     capital(&spoken(kind.name()))
 }
 
-/// What the number of an event is, in a word or two before it.
-#[must_use]
+/// Words before the value of an event.
 pub fn event_number(kind: EventKind) -> &'static str {
     match kind {
         EventKind::Contact | EventKind::Lodged => "pressed by",
@@ -55,8 +52,7 @@ pub fn event_colour(kind: EventKind, palette: Palette) -> Color32 {
     }
 }
 
-/// An outcome in words, what it means (docs/entanglement.md), and its colour.
-#[must_use]
+/// An outcome in words, its meaning (docs/entanglement.md) and its colour.
 pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static str, Color32) {
     match outcome {
         Outcome::NoContact => ("No contact", "rope never touched the whale", palette.faint),
@@ -82,7 +78,6 @@ pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static st
 }
 
 /// Colour of a confidence.
-#[must_use]
 pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
     match confidence {
         Confidence::Measured => palette.good,
@@ -91,27 +86,23 @@ pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
     }
 }
 
-/// Words with a capital first letter.
-#[must_use]
+/// Makes the first letter a capital.
 pub fn capital(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A name of a part or outcome in words.
-#[must_use]
+/// An identifier in words: underscores become spaces.
 pub fn spoken(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// A number of a plugin to six digits, as it is shown.
-#[must_use]
+/// Rounds a number of a plugin to six digits.
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// A time in the largest fitting units.
-#[must_use]
+/// A remaining time in suitable units.
 pub fn time_left(left: Duration) -> String {
     let minutes = left.as_secs().div_ceil(60);
     match left.as_secs() {
@@ -121,7 +112,7 @@ pub fn time_left(left: Duration) -> String {
     }
 }
 
-/// Keys that say too little without their table.
+/// Titles of keys that are unclear without the name of their table.
 const TITLES: [(&str, &str); 6] = [
     ("mass.length", "Mass, of length"),
     ("mass.mass", "Mass"),
@@ -132,7 +123,6 @@ const TITLES: [(&str, &str); 6] = [
 ];
 
 /// A key as a title: `stretch_at_break` is `Stretch at break`.
-#[must_use]
 pub fn title(key: &str) -> String {
     if let Some((_, title)) = TITLES.iter().find(|(known, _)| *known == key) {
         return (*title).to_owned();
@@ -145,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn titles_are_readable() {
+    fn keys_become_titles_in_words() {
         assert_eq!(title("stretch_at_break"), "Stretch at break");
         assert_eq!(title("head.mouth"), "Head mouth");
     }

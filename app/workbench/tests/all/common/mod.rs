@@ -1,11 +1,11 @@
-//! The workbench on a fake engine or a real one, with a copy of the shipped library; for every test of the window.
+//! The workbench on a fake or a real engine, with a copy of the shipped library, for all tests of the window.
 #![allow(
     clippy::unwrap_used,
     dead_code,
-    reason = "a test that cannot go on fails; no test uses all of this"
+    reason = "a test that cannot continue fails; no test uses all of this"
 )]
 
-use endline_session::command::RunAction;
+use endline_session::command::{Command, RunAction};
 use endline_workbench::gui::command::action::WindowCommand;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -20,17 +20,65 @@ use endline_session::edit::Documents;
 use endline_session::live::engine::{Engine, Launch, live};
 use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::task::Waker;
+use endline_session::workbench::{Notice, Workbench};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
 
-/// What a test's engine was told, in words.
-pub type Told = Rc<RefCell<Vec<String>>>;
+/// The window of a test.
+pub type Window = Harness<'static, App>;
 
-/// An engine that notes what it is told and does what a run would, at once.
+/// Short paths to what tests of the window read and do.
+pub trait Reach {
+    /// The workbench.
+    fn workbench(&self) -> &Workbench;
+    /// The workbench, to be changed.
+    fn workbench_mut(&mut self) -> &mut Workbench;
+    /// The open files.
+    fn documents(&self) -> &Documents {
+        &self.workbench().project.documents
+    }
+    /// The open files, to be changed.
+    fn documents_mut(&mut self) -> &mut Documents {
+        &mut self.workbench_mut().project.documents
+    }
+    /// The run shown.
+    fn view(&self) -> Arc<LiveView> {
+        Arc::clone(self.workbench().view().unwrap())
+    }
+    /// The last notice.
+    fn notice(&self) -> Notice {
+        self.workbench().notice.clone().unwrap()
+    }
+    /// Performs a command without drawing.
+    fn perform(&mut self, command: impl Into<Command>);
+    /// Sets a field of a file.
+    fn set(&mut self, path: &str, field: &str, value: &str) {
+        self.workbench_mut().set(path, field, value);
+    }
+}
+
+impl Reach for Window {
+    fn workbench(&self) -> &Workbench {
+        &self.state().shared.workbench
+    }
+
+    fn workbench_mut(&mut self) -> &mut Workbench {
+        &mut self.state_mut().shared.workbench
+    }
+
+    fn perform(&mut self, command: impl Into<Command>) {
+        self.state_mut().shared.perform(command);
+    }
+}
+
+/// Commands that a test's engine has received, in words.
+pub type Received = Rc<RefCell<Vec<String>>>;
+
+/// An engine that records commands and changes its view immediately.
 struct FakeEngine {
-    told: Told,
+    received: Received,
     view: RefCell<LiveView>,
 }
 
@@ -75,7 +123,7 @@ impl Engine for FakeEngine {
                 "kept frames".to_owned()
             }
         };
-        self.told.borrow_mut().push(words);
+        self.received.borrow_mut().push(words);
         true
     }
 
@@ -84,7 +132,7 @@ impl Engine for FakeEngine {
     }
 }
 
-/// A copy of the shipped library in a folder of the test's own, deleted in the end.
+/// A copy of the shipped library in a temporary folder, deleted at the end of the test.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -117,10 +165,10 @@ impl Folder {
     }
 
     pub fn documents(&self) -> Documents {
-        self.book_with("reference-a-pendulum")
+        self.documents_of("reference-a-pendulum")
     }
 
-    pub fn book_with(&self, scenario: &str) -> Documents {
+    pub fn documents_of(&self, scenario: &str) -> Documents {
         Documents::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml"))
             .unwrap()
     }
@@ -128,26 +176,26 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // A folder left behind is not worth failing a test for.
+        // A folder that cannot be deleted is no reason to fail a test.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// The workbench on a fake engine; waits until the first model is made.
-pub fn workbench(folder: &Folder, pilot: Pilot) -> (Harness<'static, App>, Told) {
-    let told = Told::default();
-    let noted = Rc::clone(&told);
+/// The workbench on a fake engine, after the first model is assembled.
+pub fn workbench(folder: &Folder, pilot: Pilot) -> (Window, Received) {
+    let received = Received::default();
+    let noted = Rc::clone(&received);
     let launch: Launch = Box::new(move |prepared, _host, _waker| {
-        let told = Rc::clone(&noted);
+        let received = Rc::clone(&noted);
         let view = RefCell::new(LiveView { status: Status::Paused, ..LiveView::before(&prepared) });
-        let engine: Box<dyn Engine> = Box::new(FakeEngine { told, view });
+        let engine: Box<dyn Engine> = Box::new(FakeEngine { received, view });
         Ok(engine)
     });
     let harness = opened(folder.documents(), launch, pilot);
-    (harness, told)
+    (harness, received)
 }
 
-pub fn opened(documents: Documents, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+pub fn opened(documents: Documents, launch: Launch, pilot: Pilot) -> Window {
     opened_with(documents, Arc::new(PluginHost::empty()), launch, pilot)
 }
 
@@ -156,7 +204,7 @@ pub fn opened_with(
     host: Arc<PluginHost>,
     launch: Launch,
     pilot: Pilot,
-) -> Harness<'static, App> {
+) -> Window {
     let waker: Waker = Arc::new(|| {});
     let create = move |creation: &mut eframe::CreationContext<'_>| {
         App::new(creation, Shared::new(documents, host, launch, waker, pilot))
@@ -166,32 +214,42 @@ pub fn opened_with(
     harness
 }
 
-/// One panel and no other.
-pub fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
+/// The workbench with a scenario, on a real engine with the first-party plugins.
+pub fn real(folder: &Folder, scenario: &str) -> Window {
+    opened_with(folder.documents_of(scenario), linked(), live(), Pilot::default())
+}
+
+/// Shows one panel and no other.
+pub fn only(harness: &mut Window, panel: PanelId) {
     harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
     harness.run_steps(3);
 }
 
-/// Draws until something is so.
-pub fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
+/// Draws until a condition holds.
+pub fn wait(harness: &mut Window, holds: impl Fn(&App) -> bool) {
     // A film is drawn by software beside the other tests.
     let patience = Instant::now() + Duration::from_secs(120);
-    while !so(harness.state()) {
-        let shared = &harness.state().shared;
+    while !holds(harness.state()) {
+        let workbench = harness.workbench();
+        let study = || workbench.studies.queue.jobs.last().map(|job| (job.state(), job.progress()));
+        let search = || workbench.searches.job.as_ref().map(|job| (job.state(), job.progress()));
         assert!(
             Instant::now() < patience,
-            "waited in vain: {:?}, {:?}",
-            shared.workbench.status(),
-            shared.workbench.notice
+            "timeout: run {:?}, notice {:?}, study {:?}, search {:?}, rules {:?}",
+            workbench.status(),
+            workbench.notice,
+            study(),
+            search(),
+            workbench.rules.why
         );
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
     }
-    harness.run_steps(2);
+    harness.run_steps(3);
 }
 
-/// Types into the first field that shows `old`, and commits.
-pub fn retype(harness: &mut Harness<'static, App>, old: &str, new: &str) {
+/// Replaces the value of the first field that shows `old`, and commits it.
+pub fn retype(harness: &mut Window, old: &str, new: &str) {
     harness.get_all_by_value(old).next().unwrap().click();
     harness.run_steps(2);
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
@@ -202,7 +260,7 @@ pub fn retype(harness: &mut Harness<'static, App>, old: &str, new: &str) {
     harness.run_steps(3);
 }
 
-/// The value of a field of a file on disk.
+/// Content of a file on disk.
 pub fn on_disk(folder: &Folder, path: &str) -> String {
     std::fs::read_to_string(folder.0.join(path)).unwrap()
 }
@@ -210,36 +268,36 @@ pub fn on_disk(folder: &Folder, path: &str) -> String {
 /// The first-party plugins, linked.
 pub fn linked() -> Arc<PluginHost> {
     let mut host = PluginHost::empty();
-    for hook in endline_workbench::inside::first_party() {
+    for hook in endline_workbench::embedded::first_party() {
         host.add(hook).unwrap();
     }
     Arc::new(host)
 }
 
-/// A short encounter run to its end, with every panel that reads it.
-pub fn flown(folder: &Folder) -> Harness<'static, App> {
-    let mut documents = folder.book_with("hello-endline");
+/// The workbench after a short encounter that ran to its end.
+pub fn flown(folder: &Folder) -> Window {
+    let mut documents = folder.documents_of("hello-endline");
     for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")]
     {
         documents.set("scenario", field, value).unwrap();
     }
     let mut harness = opened_with(documents, linked(), live(), Pilot::default());
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.state_mut().shared.workbench.recordings = Some(folder.0.join("recordings"));
-    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
-    harness.state_mut().shared.perform(RunAction::Start);
+    harness.workbench_mut().recordings = Some(folder.0.join("recordings"));
+    harness.perform(RunAction::Speed(f64::INFINITY));
+    harness.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     harness
 }
 
-/// Gives a command as a menu does, and draws until it is performed.
-pub fn give(harness: &mut Harness<'static, App>, command: impl Into<WindowCommand>) {
+/// Gives a command as a menu does, and draws three frames.
+pub fn give(harness: &mut Window, command: impl Into<WindowCommand>) {
     harness.state_mut().shared.give(command);
-    harness.run_steps(1);
+    harness.run_steps(3);
 }
 
 /// Drags with the mouse.
-pub fn drag(harness: &mut Harness<'static, App>, from: egui::Pos2, to: egui::Pos2) {
+pub fn drag(harness: &mut Window, from: egui::Pos2, to: egui::Pos2) {
     let button = |pos, pressed| {
         let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
         egui::Event::PointerButton { pos, button, pressed, modifiers }
@@ -254,4 +312,55 @@ pub fn drag(harness: &mut Harness<'static, App>, from: egui::Pos2, to: egui::Pos
     }
     harness.event(button(to, false));
     harness.run_steps(2);
+}
+
+/// A study of short encounters of a small rig without a whale: tests of the window need no more physics.
+const STUDY: &str = r#"format = 1
+kind = "study"
+name = "Small"
+scenario = "small-rig"
+encounters = 6
+baseline = "strong"
+
+# Why these two.
+[[option]]
+id = "strong"
+name = "Strong link"
+strength = "600 lbf"
+
+[option.set]
+"link.0.rating" = "600 lbf"
+
+[[option]]
+id = "weak"
+name = "Weak link"
+
+[option.set]
+"link.0.rating" = "5 N"
+
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+
+[encounter.tide]
+choice = ["0.2 m/s", "0.5 m/s"]
+source = "assumed"
+"#;
+
+/// Adds the small study and its scenario to the library.
+pub fn add_study(folder: &Folder) {
+    let scenario = on_disk(folder, "scenarios/study-endline-held.toml");
+    let (gear, _) = scenario.split_once("[whale]").unwrap();
+    // The resolution follows the whale, so it goes with it.
+    let (head, rest) = gear.split_once("[resolution]").unwrap();
+    let (_, rest) = rest.split_once("[site]").unwrap();
+    let gear =
+        format!("{head}[site]{rest}").replace("duration = \"660 s\"", "duration = \"0.5 s\"");
+    std::fs::write(
+        folder.0.join("scenarios/small-rig.toml"),
+        gear.replace("rope_nodes = 500", "rope_nodes = 12"),
+    )
+    .unwrap();
+    std::fs::create_dir_all(folder.0.join("studies")).unwrap();
+    std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
 }

@@ -1,4 +1,4 @@
-//! What goes wrong while a session runs.
+//! Faults injected while a session runs.
 
 use std::fs;
 use std::fs::Permissions;
@@ -16,33 +16,33 @@ use endline_session::plugins::Hook;
 use super::Dice;
 use super::session::numbers;
 
-/// Names the file that holds by how many seconds the clock is wrong.
+/// Environment variable with the file that contains the error of the clock [s].
 const CLOCK: &str = "ENDLINE_TEST_CLOCK";
 
-/// Where a library can be loaded before all others, and root can give up a right; elsewhere these faults are weaker.
+/// Whether libraries can be preloaded and root can drop a capability; elsewhere these faults are weaker.
 const LINUX: bool = cfg!(target_os = "linux");
 
 /// A fault of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// It is killed, and that is all.
+    /// No fault except that it is killed.
     Killed,
-    /// No file may be longer than 8 kB: a disk that is full for all but the smallest.
+    /// No file may exceed 8 kB, like a disk that is almost full.
     FullDisk,
-    /// The folder of kept edits is gone, and a file stands in its place.
+    /// The folder of recovery files is replaced by a file.
     NoDataFolder,
-    /// Somebody else writes files of the library.
+    /// Another program writes files of the library.
     OthersWrite,
-    /// The whale's motion fails, hangs for a second and gives no numbers, by turns.
+    /// The motion plugin fails, hangs for a second and returns NaN, in turn.
     BadPlugin,
-    /// Nothing may be written to the folders of the library.
+    /// The folders of the library are read-only.
     ReadOnly,
-    /// The clock of the day jumps, by a second or by a century, forth and back.
+    /// The system clock jumps by a second or by a century, forwards and backwards.
     ClockJumps,
 }
 
 impl Fault {
-    /// Every fault.
+    /// All faults.
     pub const ALL: [Self; 7] = [
         Self::Killed,
         Self::FullDisk,
@@ -53,33 +53,33 @@ impl Fault {
         Self::ClockJumps,
     ];
 
-    /// Its name, from one program to the other.
+    /// Its name, to pass it to another process.
     pub fn name(self) -> String {
         format!("{self:?}")
     }
 
-    /// The fault of a name.
+    /// Finds a fault by its name.
     pub fn named(name: &str) -> Self {
         Self::ALL.into_iter().find(|fault| fault.name() == name).unwrap_or(Self::Killed)
     }
 
-    /// Whether edits can be kept all the while.
-    pub fn lets_edits_be_kept(self) -> bool {
+    /// Whether recovery files can be written under this fault.
+    pub fn allows_recovery_files(self) -> bool {
         !matches!(self, Self::FullDisk | Self::NoDataFolder)
     }
 
-    /// The command of a session under this fault, on a library.
+    /// Command that starts a session with this fault on a library.
     pub fn command(self, program: &Path, root: &Path) -> Command {
         let mut command = Command::new(program);
         match self {
             Self::FullDisk => {
-                // A write past the limit is an error, not the end.
+                // A write beyond the limit returns an error instead of a signal.
                 command = Command::new("sh");
                 command.args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\""]).arg(program);
             }
             Self::ReadOnly => {
                 set_writable(root, false);
-                // Permissions hold root, too, once it has given up the right to pass them over.
+                // Permissions apply to root only after it has dropped this capability.
                 if LINUX && fs::metadata(root).unwrap().uid() == 0 {
                     command = Command::new("setpriv");
                     command
@@ -95,12 +95,12 @@ impl Fault {
         command
     }
 
-    /// Does what the fault does from outside; called ten times a second.
+    /// Injects the fault from outside; called ten times a second.
     pub fn strike(self, root: &Path, dice: &mut Dice) {
         match self {
             Self::NoDataFolder => {
                 let data = root.join("data");
-                // A session that writes there meanwhile may have it back until the next blow.
+                // A session that writes there may create it again before the next call.
                 if data.is_dir() && fs::remove_dir_all(&data).is_ok() {
                     let _ = fs::write(&data, "no folder");
                 }
@@ -115,28 +115,28 @@ impl Fault {
         }
     }
 
-    /// Puts right what would keep the next session from beginning.
-    pub fn put_right(root: &Path) {
+    /// Repairs what would prevent the next session from starting.
+    pub fn repair(root: &Path) {
         let data = root.join("data");
         if data.is_file() {
             fs::remove_file(data).unwrap();
         }
     }
 
-    /// Puts right what stands in the way of looking at what a session has left.
+    /// Repairs what would prevent the check after a session.
     pub fn end(self, root: &Path) {
         if self == Self::ReadOnly {
             set_writable(root, true);
         }
     }
 
-    /// The plugins of a session.
+    /// Plugins of a session.
     pub fn host(self) -> Arc<PluginHost> {
         if self != Self::BadPlugin {
             return crate::common::linked();
         }
         let mut host = PluginHost::empty();
-        let swim = endline_workbench::inside::first_party().into_iter();
+        let swim = endline_workbench::embedded::first_party().into_iter();
         for hook in swim {
             host.add(match hook {
                 Hook::Motion(sound) => {
@@ -150,14 +150,14 @@ impl Fault {
     }
 }
 
-/// Folders of the library, which hold no kept edits and no results.
+/// Folders of the library, without those for recovery files and results.
 fn folders(root: &Path) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
     let ours = ["data", "home", "results"];
     entries.filter(move |path| path.is_dir() && !ours.iter().any(|name| path.ends_with(name)))
 }
 
-/// Lets folders of the library and their files be written to, or not.
+/// Makes folders of the library and their files writable or read-only.
 fn set_writable(root: &Path, is_writable: bool) {
     let (folder, file) = if is_writable { (0o755, 0o644) } else { (0o555, 0o444) };
     for path in folders(root) {
@@ -168,7 +168,7 @@ fn set_writable(root: &Path, is_writable: bool) {
     }
 }
 
-/// The library that shifts the clock of the day, built from `clock.c`.
+/// Builds the library that shifts the system clock, from `clock.c`.
 fn jumping_clock(root: &Path) -> PathBuf {
     let library = root.join("clock.so");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/soak/clock.c");
@@ -183,7 +183,7 @@ fn jumping_clock(root: &Path) -> PathBuf {
     library
 }
 
-/// Another program changes a figure of a file, whole.
+/// Changes a figure of a file as another program would, by replacing the file.
 fn write_as_another(root: &Path, dice: &mut Dice) {
     let files: Vec<_> =
         fs::read_dir(root.join("ropes")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -201,7 +201,7 @@ fn write_as_another(root: &Path, dice: &mut Dice) {
     fs::rename(beside, file).unwrap();
 }
 
-/// A motion that is sound for a while.
+/// A motion that works for some steps and then fails.
 struct Bad {
     sound: Arc<dyn WhaleMotion>,
     calls: AtomicU32,
@@ -221,7 +221,7 @@ impl WhaleMotion for Bad {
         let call = self.calls.fetch_add(1, Ordering::Relaxed);
         let mut output = self.sound.step(attributes, input, state)?;
         match call % 400 {
-            100 => Err(HookError::new("it does not want to")),
+            100 => Err(HookError::new("injected failure")),
             200 => {
                 std::thread::sleep(Duration::from_secs(1));
                 Ok(output)

@@ -1,17 +1,17 @@
-//! What a session tells of itself, a line for each thing, and what may be lost of it.
+//! The journal of a session, one line per event, and the edits that may be lost at its end.
 //!
 //! | line | meaning |
 //! |---|---|
-//! | `soak does NAME` | a command or an edit comes next |
-//! | `soak unsaved T PATH DIGEST` | a text differs from its file since `T` [s of the window's clock] |
-//! | `soak saved T PATH` | it does no more: saved, taken back or given up |
-//! | `soak at T MB` | the time, and the most memory so far |
+//! | `soak does NAME` | a command or an edit follows |
+//! | `soak unsaved T PATH DIGEST` | a text differs from its file since `T` [s, clock of the window] |
+//! | `soak saved T PATH` | it no longer differs: saved, undone or discarded |
+//! | `soak at T MB` | time and peak memory |
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 
-/// Edits lost at most [s].
+/// Greatest age of lost edits [s].
 const LOST_S: f64 = 30.0;
 
 /// The journal of a session.
@@ -20,14 +20,14 @@ pub struct Journal {
     pub commands: u64,
     pub edits: u64,
     pub most_mb: u64,
-    /// What it did last.
+    /// Last command or edit.
     pub last: String,
     now_s: f64,
-    /// By text: since when it is what; the digest, or `None` where it does not differ from its file.
+    /// For each text: times and digests since then; `None` if it does not differ from its file.
     states: BTreeMap<String, Vec<(f64, Option<u64>)>>,
 }
 
-/// The digest of a text; of one that was removed.
+/// Digest of a text, or of a removed one.
 pub fn digest(text: Option<&str>) -> u64 {
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
@@ -35,9 +35,9 @@ pub fn digest(text: Option<&str>) -> u64 {
 }
 
 impl Journal {
-    /// Takes a line in; false where it is none of a journal.
+    /// Reads a line; returns false if it does not belong to a journal.
     pub fn take(&mut self, line: &str) -> bool {
-        // The harness of the tests prints on the same line at times.
+        // The test harness sometimes prints on the same line.
         let Some((_, line)) = line.split_once("soak ") else { return false };
         if let Some(name) = line.strip_prefix("does ") {
             self.last = name.to_owned();
@@ -64,11 +64,11 @@ impl Journal {
         true
     }
 
-    /// Texts whose edits of more than 30 s before the end are neither kept nor saved.
+    /// Texts with edits older than 30 s at the end that are neither in the recovery file nor saved.
     pub fn lost(&self, kept: Option<&BTreeMap<String, Option<String>>>) -> Vec<String> {
         let cut_s = self.now_s - LOST_S;
         let is_lost = |(path, states): (&String, &Vec<(f64, Option<u64>)>)| {
-            // What was so 30 s before the end, and all since: any of it may have been kept.
+            // Any state since 30 s before the end may be in the recovery file.
             let old = states.iter().rposition(|(time_s, _)| *time_s <= cut_s)?;
             let since = &states[old..];
             let found = kept.and_then(|kept| kept.get(path)).map(|text| digest(text.as_deref()));
@@ -85,7 +85,7 @@ impl Journal {
 }
 
 #[test]
-fn an_edit_of_a_minute_ago_must_be_kept_or_saved_and_one_of_now_need_not() {
+fn an_old_edit_must_be_recoverable_or_saved_and_a_recent_one_need_not() {
     let mut journal = Journal::default();
     let [old, new] = [digest(Some("old")), digest(Some("new"))];
     for line in [
@@ -100,7 +100,7 @@ fn an_edit_of_a_minute_ago_must_be_kept_or_saved_and_one_of_now_need_not() {
         journal.lost(Some(&texts)).len()
     };
     assert_eq!([kept("old"), kept("new"), kept("older")], [0, 0, 1]);
-    assert_eq!(journal.lost(None).len(), 1, "not even the old edit is kept");
+    assert_eq!(journal.lost(None).len(), 1, "the old edit is lost");
     assert!(journal.take("soak saved 65 ropes/a.toml"));
-    assert_eq!(journal.lost(None).len(), 0, "saved since");
+    assert_eq!(journal.lost(None).len(), 0, "saved afterwards");
 }

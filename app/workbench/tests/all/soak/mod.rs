@@ -1,16 +1,15 @@
-//! Sessions of the window at random on a library with faults, killed at a random moment, and what must hold afterwards.
+//! Random sessions of the window with faults, killed at random moments, and checks of what they leave.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `session` | a program of its own that gives random commands and edits until it is killed |
-//! | `fault` | what goes wrong meanwhile |
-//! | `journal` | what a session tells of itself, and what may be lost |
+//! | `session` | a separate process that gives random commands and edits until it is killed |
+//! | `fault` | faults |
+//! | `journal` | the report of a session, and what may be lost |
 //!
-//! After each session: no file is torn, the library opens, no edit older than 30 s is lost, memory was bounded, nothing hung, and
-//! the session did not end by itself. The suite runs one session of each fault; `cargo xtask soak --hours N` runs for hours, from
-//! a seed of the clock.
+//! After each session: no file is truncated, the library opens, no edit older than 30 s is lost, memory is bounded, the session did not
+//! hang and did not end by itself. The suite runs one session per fault; `cargo xtask soak --hours N` runs for hours, with a seed from
+//! the clock.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod fault;
 mod journal;
@@ -28,21 +27,21 @@ use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
 
 use crate::common::Folder;
+use crate::common::add_study;
 use crate::search::add_observation;
-use crate::study::add_study;
 use fault::Fault;
 use journal::Journal;
 
-/// A seed that is always the same, so that a failure comes again.
+/// Seed of the suite, always the same, so that a failure is reproducible.
 const SEED: u64 = 20_261_127;
-/// Sessions on one library, each on what the one before has left, before a fresh one is taken.
+/// Sessions on one library, each on what the previous one left, before a fresh library is used.
 const ON_ONE: u64 = 10;
-/// A session that tells nothing for so long hangs.
+/// A session without output for this time hangs.
 const HANGS: Duration = Duration::from_secs(120);
-/// Most memory of a session [MB].
+/// Greatest memory of a session [MB].
 const MOST_MB: u64 = 2000;
 
-/// Numbers without a pattern (Knuth's MMIX).
+/// Pseudorandom numbers (linear congruential generator MMIX by Knuth).
 struct Dice(u64);
 
 impl Dice {
@@ -56,15 +55,15 @@ impl Dice {
 /// Sessions of a soak.
 struct Soak {
     seed: u64,
-    /// When no further session begins.
+    /// Time after which no session starts.
     until: Option<Instant>,
-    /// How many at most.
+    /// Greatest number of sessions.
     sessions: u64,
-    /// Longest life of a session [s].
+    /// Greatest duration of a session [s].
     longest_s: usize,
 }
 
-/// What came of them.
+/// Result of a soak.
 #[derive(Default)]
 struct Report {
     sessions: u64,
@@ -76,7 +75,7 @@ struct Report {
 }
 
 #[test]
-fn random_sessions_on_faults_keep_every_promise() {
+fn random_sessions_with_faults_lose_and_break_nothing() {
     let hours: Option<f64> =
         std::env::var("ENDLINE_SOAK_HOURS").ok().and_then(|hours| hours.parse().ok());
     let soak = hours.map_or(
@@ -124,37 +123,37 @@ impl Soak {
         report
     }
 
-    /// One session and its end; what is wrong then.
+    /// Runs one session and returns what is wrong after it.
     fn session(&self, root: &Path, seed: u64, fault: Fault, report: &mut Report) -> Vec<String> {
         let data = root.join("data");
         let mut dice = Dice(seed);
         let mut child = began(root, seed, fault);
-        let told = lines(&mut child);
+        let output = lines(&mut child);
         let life = Duration::from_millis(1000 + dice.below(1000 * self.longest_s) as u64);
-        let (journal, mut wrong) = watched(&mut child, &told, life, root, fault, &mut dice);
+        let (journal, mut wrong) = watched(&mut child, &output, life, root, fault, &mut dice);
         fault.end(root);
         report.commands += journal.commands;
         report.edits += journal.edits;
         report.most_mb = report.most_mb.max(journal.most_mb);
         if journal.most_mb > MOST_MB {
-            wrong.push(format!("it took {} MB", journal.most_mb));
+            wrong.push(format!("it used {} MB", journal.most_mb));
         }
         let left = Autosave::in_folder(data).left_behind();
         let kept = left.first().map(|(_, kept)| &kept.texts);
         report.kept += u64::from(kept.is_some());
-        if fault.lets_edits_be_kept() {
+        if fault.allows_recovery_files() {
             wrong.extend(journal.lost(kept));
         }
-        wrong.extend(torn(root));
+        wrong.extend(truncated(root));
         wrong
     }
 }
 
-/// A session as a program of its own.
+/// Starts a session as a separate process.
 fn began(root: &Path, seed: u64, fault: Fault) -> Child {
     let mut command = fault.command(&std::env::current_exe().unwrap(), root);
     command
-        .args(["soak::session::a_session_as_a_program_of_its_own", "--exact", "--nocapture"])
+        .args(["soak::session::role_of_a_session_process", "--exact", "--nocapture"])
         .env(session::ROOT, root)
         .env(session::SEED, seed.to_string())
         .env(session::FAULT, fault.name())
@@ -166,20 +165,20 @@ fn began(root: &Path, seed: u64, fault: Fault) -> Child {
     command.spawn().unwrap()
 }
 
-/// What a session says, line by line, as it says it.
+/// Output of a session, line by line.
 fn lines(child: &mut Child) -> Receiver<String> {
     let out = BufReader::new(child.stdout.take().unwrap());
-    let (tell, told) = channel();
+    let (sender, output) = channel();
     std::thread::spawn(move || {
-        out.lines().map_while(Result::ok).try_for_each(|line| tell.send(line))
+        out.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
     });
-    told
+    output
 }
 
-/// Waits for a session's life, with its fault at work; kills it; what it told, and what is wrong with how it ended.
+/// Lets a session run with its fault, then kills it. Returns its journal and what is wrong with its end.
 fn watched(
     child: &mut Child,
-    told: &Receiver<String>,
+    output: &Receiver<String>,
     life: Duration,
     root: &Path,
     fault: Fault,
@@ -188,7 +187,7 @@ fn watched(
     let (mut journal, mut wrong) = (Journal::default(), Vec::new());
     let (mut begun, mut heard) = (None, Instant::now());
     loop {
-        while let Ok(line) = told.recv_timeout(Duration::from_millis(100)) {
+        while let Ok(line) = output.recv_timeout(Duration::from_millis(100)) {
             heard = Instant::now();
             if journal.take(&line) {
                 begun.get_or_insert(heard);
@@ -209,17 +208,17 @@ fn watched(
             break;
         }
     }
-    // One that has ended needs no killing.
+    // A session that has ended cannot be killed.
     let _ = child.kill();
     child.wait().unwrap();
-    while let Ok(line) = told.recv_timeout(Duration::from_millis(200)) {
+    while let Ok(line) = output.recv_timeout(Duration::from_millis(200)) {
         journal.take(&line);
     }
     (journal, wrong)
 }
 
-/// Files of the library that are not whole, and whether it opens.
-fn torn(root: &Path) -> Vec<String> {
+/// Truncated files of the library, and whether the library opens.
+fn truncated(root: &Path) -> Vec<String> {
     let mut wrong = Vec::new();
     for folder in std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()) {
         for file in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
@@ -227,7 +226,7 @@ fn torn(root: &Path) -> Vec<String> {
             if file.extension().is_some_and(|ending| ending == "toml") {
                 let text = std::fs::read_to_string(&file).unwrap_or_default();
                 if text.is_empty() || Document::parse(&text).is_err() {
-                    wrong.push(format!("{} is torn", file.display()));
+                    wrong.push(format!("{} is truncated", file.display()));
                 }
             }
         }
@@ -242,7 +241,7 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} sessions, {} commands, {} edits, {} times edits were kept, most memory {} MB, {} wrong",
+            "{} sessions, {} commands, {} edits, {} recovery files, peak memory {} MB, {} wrong",
             self.sessions,
             self.commands,
             self.edits,

@@ -18,16 +18,17 @@ use endline_workbench::input::Pilot;
 use super::Dice;
 use super::fault::Fault;
 use super::journal::digest;
+use crate::common::{Reach as _, Window};
 
-/// Tells this test that it is a session, and on which library.
+/// Environment variable with the library, which makes the test below a session.
 pub const ROOT: &str = "ENDLINE_TEST_SOAK";
-/// Its seed.
+/// Environment variable with the seed.
 pub const SEED: &str = "ENDLINE_TEST_SOAK_SEED";
-/// Its fault.
+/// Environment variable with the fault.
 pub const FAULT: &str = "ENDLINE_TEST_SOAK_FAULT";
 
 #[test]
-fn a_session_as_a_program_of_its_own() {
+fn role_of_a_session_process() {
     let Some(root) = std::env::var_os(ROOT).map(PathBuf::from) else { return };
     let variable = |name: &str| std::env::var(name).unwrap();
     let dice = Dice(variable(SEED).parse().unwrap());
@@ -43,7 +44,7 @@ pub fn scenario(root: &Path) -> PathBuf {
 }
 
 fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
-    Fault::put_right(root);
+    Fault::repair(root);
     let mut harness = opened(root, fault);
     let mut unsaved = BTreeSet::new();
     let mut version = None;
@@ -53,17 +54,17 @@ fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
             9..18 => command(&mut harness, &mut dice),
             _ => harness.run_steps(60),
         }
-        // Before a frame can keep what has changed: a session that is killed has told of all that it kept.
-        tell(&harness, &mut unsaved, &mut version);
+        // Reports before the frame writes a recovery file, so that the journal of a killed session covers all recovery files.
+        report(&harness, &mut unsaved, &mut version);
         harness.run_steps(1 + dice.below(20));
-        // The window's clock runs many times faster here than a disk.
-        harness.state_mut().shared.workbench.project.autosave.finish();
-        tell(&harness, &mut unsaved, &mut version);
+        // The clock of the window runs faster here than a disk can write.
+        harness.workbench_mut().project.autosave.finish();
+        report(&harness, &mut unsaved, &mut version);
     }
 }
 
-/// The window on the library, with what a killed session has left taken up.
-fn opened(root: &Path, fault: Fault) -> Harness<'static, App> {
+/// Opens the window on the library and recovers what a killed session left.
+fn opened(root: &Path, fault: Fault) -> Window {
     let mut documents = Documents::open(root, &scenario(root)).unwrap();
     let autosave = Autosave::in_folder(root.join("data"));
     for (file, kept) in autosave.left_behind() {
@@ -78,16 +79,16 @@ fn opened(root: &Path, fault: Fault) -> Harness<'static, App> {
         App::new(creation, Shared::new(documents, host, live(), waker, Pilot::default()))
     };
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
-    let workbench = &mut harness.state_mut().shared.workbench;
+    let workbench = &mut harness.workbench_mut();
     workbench.project.autosave = autosave;
     workbench.studies.folder = Some(root.join("results"));
     workbench.searches.folder = Some(root.join("results"));
     harness
 }
 
-/// Changes a figure of a text.
-fn edit(harness: &mut Harness<'static, App>, dice: &mut Dice) {
-    let documents = &harness.state().shared.workbench.project.documents;
+/// Changes a random figure of a random text.
+fn edit(harness: &mut Window, dice: &mut Dice) {
+    let documents = harness.documents();
     let paths: Vec<&String> = documents.texts().keys().collect();
     let path = paths[dice.below(paths.len())].clone();
     let fields = numbers(documents.text(&path).unwrap_or_default());
@@ -97,10 +98,10 @@ fn edit(harness: &mut Harness<'static, App>, dice: &mut Dice) {
     let (field, number, unit) = fields[dice.below(fields.len())].clone();
     let value = format!("{} {unit}", number * (0.5 + 0.01 * dice.below(150) as f64));
     println!("soak does edit of {path} {field}");
-    harness.state_mut().shared.workbench.set(&path, &field, &value);
+    harness.set(&path, &field, &value);
 }
 
-/// Fields at the head of a text that are a number with a unit.
+/// Fields of the first table of a text whose value is a number with a unit.
 pub fn numbers(text: &str) -> Vec<(String, f64, String)> {
     let head = text.lines().take_while(|line| !line.starts_with('['));
     let of = |line: &str| {
@@ -111,8 +112,8 @@ pub fn numbers(text: &str) -> Vec<(String, f64, String)> {
     head.filter_map(of).collect()
 }
 
-/// Gives a command as the palette would. A dialog needs a display, and quitting is no fault.
-fn command(harness: &mut Harness<'static, App>, dice: &mut Dice) {
+/// Gives a random command as the palette would, without dialogs, which need a display, and without quitting.
+fn command(harness: &mut Window, dice: &mut Dice) {
     let all: Vec<_> = declared().filter(|info| info.id() != "window.quit").collect();
     let info = all[dice.below(all.len())];
     let mut offers = info.offers(&harness.state().shared);
@@ -123,17 +124,13 @@ fn command(harness: &mut Harness<'static, App>, dice: &mut Dice) {
     let offer = offers.swap_remove(dice.below(offers.len()));
     println!("soak does {}", offer.name);
     harness.state_mut().shared.give(offer.command);
-    // A frame keeps first, and performs then.
+    // A frame writes the recovery file before it performs commands.
     harness.run_steps(1);
 }
 
-/// Tells what is unsaved now, the time and the memory.
-fn tell(
-    harness: &Harness<'static, App>,
-    unsaved: &mut BTreeSet<String>,
-    version: &mut Option<u64>,
-) {
-    let documents = &harness.state().shared.workbench.project.documents;
+/// Reports the unsaved texts, the time and the memory.
+fn report(harness: &Window, unsaved: &mut BTreeSet<String>, version: &mut Option<u64>) {
+    let documents = harness.documents();
     let now_s = harness.ctx.input(|input| input.time);
     let now: BTreeSet<String> = documents.unsaved().iter().cloned().collect();
     let is_new = version.replace(documents.version()) != Some(documents.version());
@@ -147,7 +144,7 @@ fn tell(
     println!("soak at {now_s:.3} {}", most_mb().unwrap_or(0));
 }
 
-/// Most memory of this program so far [MB], where the system tells.
+/// Peak memory of this process [MB], if the system reports it.
 fn most_mb() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! Attributes that a motion or a law of friction takes, as typed fields of the scenario; empty ones take what is usual.
+//! Attributes of motions and friction laws, as fields of the scenario with defaults; and the friction laws of rope on whale.
 
 use egui::{Grid, Ui};
 use endline_gear::units::{Quantity, format_si};
@@ -10,7 +10,7 @@ use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::widgets::words;
 
-/// Draws the attributes that stand in a table of the scenario, such as `friction.attributes`.
+/// Draws the attributes in a table of the scenario, such as `friction.attributes`.
 pub(super) fn show(
     ui: &mut Ui,
     shared: &Shared,
@@ -54,7 +54,7 @@ fn cell(
             let choices: Vec<(String, String)> = std::iter::once(usual).chain(words).collect();
             fields::choose(
                 ui,
-                &shared.workbench.project.documents,
+                shared.documents(),
                 Documents::SCENARIO,
                 field,
                 &choices,
@@ -63,7 +63,7 @@ fn cell(
         }
         _ => fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            shared.documents(),
             Documents::SCENARIO,
             field,
             width,
@@ -73,7 +73,7 @@ fn cell(
     edits.extend(typed.map(|value| (field.to_owned(), value)));
 }
 
-/// What holds where the scenario says nothing; the file of a rope's material may say otherwise.
+/// Default value; the file of a rope's material may have another.
 fn usual(attribute: &Attribute) -> String {
     match &attribute.kind {
         AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),

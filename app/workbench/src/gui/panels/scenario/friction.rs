@@ -11,11 +11,11 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// A change of the laws for single surfaces.
+/// A change of the friction laws for single surfaces.
 enum Change {
-    /// A law for a surface.
+    /// Adds a law for a surface.
     Add(&'static str, String),
-    /// The law of this place goes.
+    /// Removes the law with this index.
     Remove(usize),
 }
 
@@ -30,16 +30,16 @@ impl Change {
     }
 }
 
-/// Draws the laws of friction.
+/// Draws the friction laws.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Friction of rope on whale");
     law(ui, shared, "friction", edits);
     let mut change = None;
-    for index in 0..shared.workbench.project.documents.count(Documents::SCENARIO, ON) {
+    for index in 0..shared.documents().count(Documents::SCENARIO, ON) {
         let table = format!("{ON}.{index}");
-        let surfaces = surfaces(&shared.workbench.project.documents, &table);
+        let surfaces = surfaces(shared.documents(), &table);
         ui.horizontal(|ui| {
-            if ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked() {
+            if ui.small_button("✖").on_hover_text("Removes it; Undo restores it").clicked() {
                 change = Some(Change::Remove(index));
             }
             ui.add(
@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
         });
         law(ui, shared, &table, edits);
     }
-    let usual = shared.workbench.project.documents.field(Documents::SCENARIO, "friction.model");
+    let usual = shared.documents().field(Documents::SCENARIO, "friction.model");
     ui.add_enabled_ui(usual.is_some(), |ui| {
         ui.menu_button("Another law for … ⏷", |ui| {
             for word in SURFACES {
@@ -62,18 +62,12 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
             }
         });
     });
-    if let Some(change) = change
-        && let Err(error) = shared
-            .workbench
-            .project
-            .documents
-            .alter(Documents::SCENARIO, |document| change.make(document))
-    {
-        shared.fault(error);
+    if let Some(change) = change {
+        shared.alter(Documents::SCENARIO, |document| change.make(document));
     }
 }
 
-/// The law named in a table of the scenario, with its attributes.
+/// Draws the law in a table of the scenario, with its attributes.
 fn law(ui: &mut Ui, shared: &Shared, table: &str, edits: &mut Vec<Edit>) {
     let (host, _) = shared.workbench.helpers();
     let laws = host
@@ -85,23 +79,13 @@ fn law(ui: &mut Ui, shared: &Shared, table: &str, edits: &mut Vec<Edit>) {
     Grid::new(("law", table)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Law");
         let width = ui.available_width() - 8.0;
-        let taken = fields::choose(
-            ui,
-            &shared.workbench.project.documents,
-            Documents::SCENARIO,
-            &field,
-            &laws,
-            width,
-        );
+        let taken =
+            fields::choose(ui, shared.documents(), Documents::SCENARIO, &field, &laws, width);
         edits.extend(taken.map(|id| (field.clone(), id)));
         ui.end_row();
     });
-    if let Some(law) = shared
-        .workbench
-        .project
-        .documents
-        .field(Documents::SCENARIO, &field)
-        .and_then(|id| host.friction(&id))
+    if let Some(law) =
+        shared.documents().field(Documents::SCENARIO, &field).and_then(|id| host.friction(&id))
     {
         attributes::show(
             ui,
@@ -113,7 +97,7 @@ fn law(ui: &mut Ui, shared: &Shared, table: &str, edits: &mut Vec<Edit>) {
     }
 }
 
-/// The surfaces of a law, as words in a row.
+/// Surfaces of a law as words.
 fn surfaces(documents: &Documents, table: &str) -> String {
     let words = (0..).map_while(|index| {
         documents.field(Documents::SCENARIO, &format!("{table}.surfaces.{index}"))

@@ -1,4 +1,4 @@
-//! Weak links of the scenario: those of its gear types, those put on its lines, whether they part at all.
+//! Weak links of the scenario: those of its gear types, those added to its lines, and whether links can part.
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Document, Kind};
@@ -12,11 +12,11 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
-/// A change of the scenario's list of weak links.
+/// A change of the list of weak links.
 enum Change {
-    /// A link at an end of a line.
+    /// Adds a link at an end of a line.
     Add(String, &'static str),
-    /// The link of this place goes.
+    /// Removes the link with this index.
     Remove(usize),
 }
 
@@ -25,36 +25,28 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Weak links");
     of_gear(ui, shared, edits);
     let mut change = None;
-    for index in 0..shared.workbench.project.documents.count(Documents::SCENARIO, "link") {
+    for index in 0..shared.documents().count(Documents::SCENARIO, "link") {
         let remove = one(ui, shared, index, edits);
         change = change.or(remove.then_some(Change::Remove(index)));
     }
     change = add(ui, shared).or(change);
     flag(ui, shared, &LINKS_PART, edits);
-    if let Some(change) = change
-        && let Err(error) = shared
-            .workbench
-            .project
-            .documents
-            .alter(Documents::SCENARIO, |document| change.make(document))
-    {
-        shared.fault(error);
+    if let Some(change) = change {
+        shared.alter(Documents::SCENARIO, |document| change.make(document));
     }
 }
 
-/// Links that the gear types put in: of the assembly, unless the scenario names another.
+/// Draws the links of gear types: those of the assembly, unless the scenario sets others.
 fn of_gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     let placed = (0..).map_while(|index| {
         shared
-            .workbench
-            .project
-            .documents
+            .documents()
             .field(Documents::SCENARIO, &format!("gear.{index}.assembly"))
             .map(|id| (index, id))
     });
     for (index, assembly) in placed {
         let file = format!("assemblies/{assembly}.toml");
-        let wanted = shared.workbench.project.documents.field(&file, "gear_type");
+        let wanted = shared.documents().field(&file, "gear_type");
         let Some(gear) = shared
             .workbench
             .gear_types()
@@ -70,9 +62,7 @@ fn of_gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
                     continue;
                 }
                 let own = shared
-                    .workbench
-                    .project
-                    .documents
+                    .documents()
                     .field(&file, &format!("attributes.{}", attribute.key))
                     .unwrap_or_else(|| default.to_string());
                 let own = if own.is_empty() { "none".to_owned() } else { title_of(shared, &own) };
@@ -85,7 +75,7 @@ fn of_gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
                         .collect();
                 let taken = fields::choose(
                     ui,
-                    &shared.workbench.project.documents,
+                    shared.documents(),
                     Documents::SCENARIO,
                     &field,
                     &choices,
@@ -98,23 +88,17 @@ fn of_gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     }
 }
 
-/// A link written into the scenario: which item, or what rating; answers whether it is to go.
+/// Draws a link of the scenario: its item or rating; returns whether to remove it.
 fn one(ui: &mut Ui, shared: &Shared, index: usize, edits: &mut Vec<Edit>) -> bool {
     let at = format!("link.{index}");
     let text = |key: &str| {
-        shared
-            .workbench
-            .project
-            .documents
-            .field(Documents::SCENARIO, &format!("{at}.{key}"))
-            .unwrap_or_default()
+        shared.documents().field(Documents::SCENARIO, &format!("{at}.{key}")).unwrap_or_default()
     };
     let remove = ui
         .horizontal(|ui| {
             let words =
                 format!("{}, at the {} of {}", text("id"), word_of(&text("end")), text("line"));
-            let out =
-                ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked();
+            let out = ui.small_button("✖").on_hover_text("Removes it; Undo restores it").clicked();
             ui.add(
                 egui::Label::new(RichText::new(&words).color(Theme::palette_of(ui).faint))
                     .truncate(),
@@ -126,40 +110,31 @@ fn one(ui: &mut Ui, shared: &Shared, index: usize, edits: &mut Vec<Edit>) -> boo
     let (item, rating) = (format!("{at}.item"), format!("{at}.rating"));
     Grid::new(("link", index)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Link");
-        let none = (String::new(), "none: the rating below".to_owned());
+        let none = (String::new(), "none, use the rating below".to_owned());
         let choices: Vec<(String, String)> = std::iter::once(none).chain(items(shared)).collect();
         let width = ui.available_width() - 8.0;
         edits.extend(
-            fields::choose(
-                ui,
-                &shared.workbench.project.documents,
-                Documents::SCENARIO,
-                &item,
-                &choices,
-                width,
-            )
-            .map(|id| (item.clone(), id)),
+            fields::choose(ui, shared.documents(), Documents::SCENARIO, &item, &choices, width)
+                .map(|id| (item.clone(), id)),
         );
         ui.end_row();
     });
     let usual = shared
-        .workbench
-        .project
-        .documents
+        .documents()
         .field(&format!("weak-links/{}.toml", text("item")), "rating")
         .unwrap_or_default();
     let row = [Row {
         label: "Parts above",
         field: &rating,
         usual: &usual,
-        help: "Tension above which it parts, such as 600 lbf; over the link's own",
+        help: "Tension above which it parts, such as 600 lbf, instead of that of the link",
     }];
     problem(ui, shared, &item);
     rows(ui, shared, &rating, &row, edits);
     remove
 }
 
-/// The menu of places where a link can be put.
+/// Draws the menu of places for a new link.
 fn add(ui: &mut Ui, shared: &Shared) -> Option<Change> {
     let view = shared.workbench.view()?;
     // Pieces of a line with inserts are one line in the file.
@@ -196,16 +171,14 @@ impl Change {
     }
 }
 
-/// The end of a line in words: lines of shipped gear run from the bottom to the buoy.
+/// Name of the end of a line; lines of shipped gear run from the bottom to the buoy.
 fn word_of(end: &str) -> &'static str {
     if end == "from" { "foot" } else { "top" }
 }
 
 fn items(shared: &Shared) -> Vec<(String, String)> {
     shared
-        .workbench
-        .project
-        .documents
+        .documents()
         .library()
         .entries(Kind::WeakLink)
         .iter()

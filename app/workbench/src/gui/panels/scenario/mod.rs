@@ -1,4 +1,4 @@
-//! What happens in the run: gear, sea, whale, friction and weak links of the scenario, as typed in its file.
+//! The scenario of a run as a form: gear, sea, whale, friction, weak links, run.
 
 mod attributes;
 mod friction;
@@ -19,10 +19,10 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets;
 
-/// What is typed into a field of the scenario.
+/// Field of the scenario and its new value.
 type Edit = (String, String);
 
-/// Width of the labels.
+/// Width of the labels [points].
 const NAME_WIDTH: f32 = 74.0;
 
 /// The fields of the scenario.
@@ -49,8 +49,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
             let mut edits: Vec<Edit> = Vec::new();
             gear(ui, shared, &mut edits);
             sea(ui, shared, &mut edits);
-            if shared.workbench.project.documents.field(Documents::SCENARIO, "whale.item").is_some()
-            {
+            if shared.documents().field(Documents::SCENARIO, "whale.item").is_some() {
                 whale(ui, shared, &mut edits);
             }
             links::show(ui, shared, &mut edits);
@@ -58,13 +57,9 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
             rows(ui, shared, "run", RUN, &mut edits);
             FLAGS.iter().for_each(|of| flag(ui, shared, of, &mut edits));
             for (field, text) in edits {
-                let changed =
-                    shared.workbench.project.documents.alter(Documents::SCENARIO, |document| {
-                        scenario::set_field(document, &field, &text)
-                    });
-                if let Err(error) = changed {
-                    shared.fault(error);
-                }
+                shared.alter(Documents::SCENARIO, |document| {
+                    scenario::set_field(document, &field, &text)
+                });
             }
         },
     );
@@ -72,47 +67,38 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     apply(ui, shared);
 }
 
-/// The scenario itself, out of those beside it.
+/// Draws the choice of a scenario of the library.
 fn pick(ui: &mut Ui, shared: &mut Shared) {
-    let path = shared.workbench.project.documents.scenario_path().to_owned();
-    let mark = if shared.workbench.project.documents.is_unsaved(Documents::SCENARIO) {
-        "• "
-    } else {
-        ""
-    };
+    let path = shared.documents().scenario_path().to_owned();
+    let mark = if shared.documents().is_unsaved(Documents::SCENARIO) { "• " } else { "" };
     let width = ui.available_width() - 8.0;
     let shown = format!("{mark}{}", files::stem(&path));
     ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            for file in files::scenarios(shared.workbench.project.documents.root()) {
+            for file in files::scenarios(shared.documents().root()) {
                 if ui.selectable_label(file == path, files::stem(&file)).clicked() && file != path {
                     shared.give(EditAction::OpenScenario(file));
                 }
             }
         },
     );
-    if let Some(name) = shared.workbench.project.documents.field(Documents::SCENARIO, "name") {
-        let notes = shared
-            .workbench
-            .project
-            .documents
-            .field(Documents::SCENARIO, "notes")
-            .unwrap_or_default();
+    if let Some(name) = shared.documents().field(Documents::SCENARIO, "name") {
+        let notes = shared.documents().field(Documents::SCENARIO, "notes").unwrap_or_default();
         let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
         ui.add(label).on_hover_text(notes);
     }
 }
 
 fn gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
-    if shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly").is_none() {
+    if shared.documents().field(Documents::SCENARIO, "gear.0.assembly").is_none() {
         return;
     }
     widgets::caption(ui, "Gear");
     Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for index in 0..9 {
             let field = format!("gear.{index}.assembly");
-            if shared.workbench.project.documents.field(Documents::SCENARIO, &field).is_none() {
+            if shared.documents().field(Documents::SCENARIO, &field).is_none() {
                 break;
             }
             name(ui, "Assembly");
@@ -124,7 +110,7 @@ fn gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
 
 fn sea(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Sea");
-    if shared.workbench.project.documents.field(Documents::SCENARIO, "site.item").is_some() {
+    if shared.documents().field(Documents::SCENARIO, "site.item").is_some() {
         Grid::new("site").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             name(ui, "Site");
             choice(ui, shared, "site.item", Kind::Site, edits);
@@ -140,7 +126,7 @@ fn sea(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
 
 fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Whale");
-    let field = |field: &str| shared.workbench.project.documents.field(Documents::SCENARIO, field);
+    let field = |field: &str| shared.documents().field(Documents::SCENARIO, field);
     let dead = field("whale.state").as_deref() == Some("dead");
     let motion = field("whale.motion").and_then(|id| shared.workbench.helpers().0.motion(&id));
     animal(ui, shared, dead, edits);
@@ -161,7 +147,7 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     let mut posing = shared.posing;
     if ui
         .toggle_value(&mut posing, "Drag the start in the view")
-        .on_hover_text("Handles in the 3-D view: place, depth, heading")
+        .on_hover_text("Shows handles in the 3-D view for place, depth and heading")
         .clicked()
     {
         shared.give(PanelAction::Show(PanelId::VIEW));
@@ -170,10 +156,10 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     friction::show(ui, shared, edits);
 }
 
-/// Which animal, whether it lives, and how a living one moves.
+/// Draws animal, state and motion.
 fn animal(ui: &mut Ui, shared: &Shared, dead: bool, edits: &mut Vec<Edit>) {
-    const FEELS: [(&str, &str); 2] =
-        [("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")];
+    const DYNAMICS: [(&str, &str); 2] =
+        [("", "no: kinematic, moves as steered"), ("kinetic", "yes: kinetic")];
     Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Animal");
         choice(ui, shared, "whale.item", Kind::Whale, edits);
@@ -187,7 +173,7 @@ fn animal(ui: &mut Ui, shared: &Shared, dead: bool, edits: &mut Vec<Edit>) {
             edits,
         );
         if !dead {
-            words(ui, shared, "Feels gear", "whale.dynamics", &FEELS, edits);
+            words(ui, shared, "Feels gear", "whale.dynamics", &DYNAMICS, edits);
             name(ui, "Motion");
             motion(ui, shared, edits);
             ui.end_row();
@@ -195,7 +181,7 @@ fn animal(ui: &mut Ui, shared: &Shared, dead: bool, edits: &mut Vec<Edit>) {
     });
 }
 
-/// The motion, out of those of the plugins.
+/// Draws the choice of a motion plugin.
 fn motion(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     let (host, _) = shared.workbench.helpers();
     let named = |id: String| {
@@ -204,43 +190,29 @@ fn motion(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     };
     let motions: Vec<(String, String)> = host.ids().into_iter().filter_map(named).collect();
     let (field, width) = ("whale.motion", ui.available_width() - 8.0);
-    let taken = fields::choose(
-        ui,
-        &shared.workbench.project.documents,
-        Documents::SCENARIO,
-        field,
-        &motions,
-        width,
-    );
+    let taken = fields::choose(ui, shared.documents(), Documents::SCENARIO, field, &motions, width);
     edits.extend(taken.map(|id| (field.to_owned(), id)));
 }
 
-/// How far the mouth is open at the start: the pilot program says so.
+/// Draws the opening of the mouth at the start, which the pilot program contains.
 fn mouth(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
-    let field = scenario::mouth_field(&shared.workbench.project.documents);
+    let field = scenario::mouth_field(shared.documents());
     Grid::new("mouth").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Mouth");
         let said = fields::Said {
             hint: "0, shut",
-            help: "How far open from the start, 0 to 1; the pilot program may change it",
+            help: "Opening at the start, 0 to 1; the pilot program can change it",
         };
         let width = ui.available_width() - 12.0;
         edits.extend(
-            fields::edit(
-                ui,
-                &shared.workbench.project.documents,
-                Documents::SCENARIO,
-                &field,
-                width,
-                said,
-            )
-            .map(|text| (field.clone(), text)),
+            fields::edit(ui, shared.documents(), Documents::SCENARIO, &field, width, said)
+                .map(|text| (field.clone(), text)),
         );
         ui.end_row();
     });
 }
 
-/// A choice among words of the format; the empty one takes the field away.
+/// Draws a choice among words of the format; the empty word removes the field.
 fn words(
     ui: &mut Ui,
     shared: &Shared,
@@ -254,25 +226,18 @@ fn words(
         words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(
-            ui,
-            &shared.workbench.project.documents,
-            Documents::SCENARIO,
-            field,
-            &choices,
-            width,
-        )
-        .map(|word| (field.to_owned(), word)),
+        fields::choose(ui, shared.documents(), Documents::SCENARIO, field, &choices, width)
+            .map(|word| (field.to_owned(), word)),
     );
     ui.end_row();
 }
 
-/// Labels to the left all as wide, so that the groups line up.
+/// Draws a label of fixed width, so that groups align.
 fn name(ui: &mut Ui, text: &str) {
     name_with_help(ui, text, "");
 }
 
-/// A label that is wrapped where it is long, with help on hover.
+/// Draws a label, wrapped if it is long, with help on hover.
 fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
     let colour = Theme::palette_of(ui).faint;
     let galley =
@@ -290,20 +255,13 @@ fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
 }
 
 fn choice(ui: &mut Ui, shared: &Shared, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
-    let library = shared.workbench.project.documents.library();
+    let library = shared.documents().library();
     let choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(
-            ui,
-            &shared.workbench.project.documents,
-            Documents::SCENARIO,
-            field,
-            &choices,
-            width,
-        )
-        .map(|id| (field.to_owned(), id)),
+        fields::choose(ui, shared.documents(), Documents::SCENARIO, field, &choices, width)
+            .map(|id| (field.to_owned(), id)),
     );
 }
 
@@ -313,11 +271,11 @@ fn rows(ui: &mut Ui, shared: &Shared, id: &str, rows: &[Row<'_>], edits: &mut Ve
             name(ui, row.label);
             let width = ui.available_width() - 12.0;
             ui.vertical(|ui| {
-                let site = of_site(&shared.workbench.project.documents, row.field);
+                let site = of_site(shared.documents(), row.field);
                 let hint = if site.is_empty() { row.usual } else { &site };
                 let typed = fields::edit(
                     ui,
-                    &shared.workbench.project.documents,
+                    shared.documents(),
                     Documents::SCENARIO,
                     row.field,
                     width,
@@ -331,7 +289,7 @@ fn rows(ui: &mut Ui, shared: &Shared, id: &str, rows: &[Row<'_>], edits: &mut Ve
     });
 }
 
-/// What is wrong with a field, in its text or in the model last made of it.
+/// Draws the problem of a field, in its text or in the last model.
 fn problem(ui: &mut Ui, shared: &Shared, field: &str) {
     if let Some(problem) = shared.workbench.project.problem_at(Documents::SCENARIO, field) {
         let error = RichText::new(message(problem)).size(11.0).color(Theme::palette_of(ui).error);
@@ -339,7 +297,7 @@ fn problem(ui: &mut Ui, shared: &Shared, field: &str) {
     }
 }
 
-/// What the site gives where the scenario itself names nothing.
+/// Value of the site, used if the scenario has none.
 fn of_site(documents: &Documents, field: &str) -> String {
     let key = match field {
         "site.depth" => "depth",
@@ -348,17 +306,15 @@ fn of_site(documents: &Documents, field: &str) -> String {
     };
     let file = |item: String| format!("sites/{item}.toml");
     let site = documents.field(Documents::SCENARIO, "site.item").map(file);
-    let given = site.and_then(|path| {
+    let value = site.and_then(|path| {
         documents.field(&path, &format!("{key}.value")).or_else(|| documents.field(&path, key))
     });
-    given.map_or_else(String::new, |value| format!("{value} (site)"))
+    value.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
 fn flag(ui: &mut Ui, shared: &Shared, flag: &Flag, edits: &mut Vec<Edit>) {
     let mut on = shared
-        .workbench
-        .project
-        .documents
+        .documents()
         .field(Documents::SCENARIO, flag.field)
         .map_or(flag.usual, |text| text == "true");
     if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
@@ -367,19 +323,18 @@ fn flag(ui: &mut Ui, shared: &Shared, flag: &Flag, edits: &mut Vec<Edit>) {
 }
 
 fn apply(ui: &mut Ui, shared: &mut Shared) {
-    let wanted = shared.workbench.stale()
-        && !shared.workbench.making()
-        && !shared.workbench.project.documents.any_error();
+    let wanted =
+        shared.workbench.stale() && !shared.workbench.making() && !shared.documents().any_error();
     ui.horizontal(|ui| {
         if primary(ui, wanted, "Apply")
-            .on_hover_text("Make the model from the present texts (Ctrl+Enter)")
+            .on_hover_text("Assembles the model from the edited files (Ctrl+Enter)")
             .clicked()
         {
             shared.give(RunAction::Apply);
         }
         if ui
             .button("Pilot program …")
-            .on_hover_text("What the whale is steered to do, on a timeline")
+            .on_hover_text("How the whale is steered, on a timeline")
             .clicked()
         {
             shared.give(PanelAction::Show(PanelId::PROGRAM));

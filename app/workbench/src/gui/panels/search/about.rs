@@ -1,4 +1,4 @@
-//! Whom the observation is of, who saw it, and among which encounters to search; and its text as it stands.
+//! The case of an observation: animal, source and confidence; the encounters to search; and its text.
 
 use egui::{CollapsingHeader, TextEdit, Ui};
 use endline_gear::Setting;
@@ -11,11 +11,11 @@ use crate::gui::files;
 use crate::gui::shared::Shared;
 use crate::gui::widgets;
 
-/// A text being typed, before it is taken over.
+/// Text being typed and not applied yet.
 #[derive(Debug, Default)]
 pub(super) struct Typed(Option<String>);
 
-/// Draws the rest of the form.
+/// Draws the form of the case.
 pub(super) fn show(ui: &mut Ui, text: &mut Typed, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "The case");
     let said = |hint, help| Said { hint, help };
@@ -25,23 +25,23 @@ pub(super) fn show(ui: &mut Ui, text: &mut Typed, shared: &mut Shared, edits: &m
         shared,
         "Source",
         "source",
-        said("who saw it", "Who saw it, and where it is told"),
+        said("observer, publication", "Observer and publication"),
         edits,
     );
     let known = ["measured", "derived", "estimate"].map(|word| (word.to_owned(), word.to_owned()));
     choice(ui, shared, ("Confidence", "confidence"), &known, edits);
-    let whales = &shared.workbench.project.documents.library().whales;
+    let whales = &shared.documents().library().whales;
     let whales = whales.iter().map(|whale| (whale.entry.id.clone(), whale.entry.name.clone()));
     let mut whales: Vec<(String, String)> = whales.collect();
-    whales.insert(0, (String::new(), "as the encounters draw it".to_owned()));
+    whales.insert(0, (String::new(), "drawn with the encounters".to_owned()));
     choice(ui, shared, ("Animal", "whale"), &whales, edits);
-    let help = "Such as 1 yr; its length follows. In place of a length";
+    let help = "Such as 1 yr, instead of a length; sets the length";
     typed(ui, shared, "Age", "age", said("not known", help), edits);
-    let help = "Such as 9.1 m or 30 ft. In place of an age";
+    let help = "Such as 9.1 m or 30 ft, instead of an age";
     typed(ui, shared, "Length", "length", said("not known", help), edits);
     typed(ui, shared, "Notes", "notes", said("", "Remarks, shown in the report"), edits);
-    widgets::caption(ui, "Searched");
-    let studies = files::studies(shared.workbench.project.documents.root());
+    widgets::caption(ui, "Search");
+    let studies = files::studies(shared.documents().root());
     let studies: Vec<(String, String)> =
         studies.iter().map(|file| (files::stem(file), files::stem(file))).collect();
     choice(ui, shared, ("Encounters", "encounters"), &studies, edits);
@@ -59,7 +59,7 @@ fn choice(
     ui.horizontal(|ui| {
         widgets::name(ui, name);
         let width = ui.available_width() - 12.0;
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         if let Some(taken) =
             fields::choose(ui, documents, Documents::OBSERVATION, field, choices, width)
         {
@@ -70,10 +70,10 @@ fn choice(
 }
 
 fn mirrored(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let mut on = documents.field(Documents::OBSERVATION, "mirrored").as_deref() == Some("true");
-    let help = "An ending that is the mirror image of what was seen counts as well: where sides do not matter, a search finds more";
-    if ui.checkbox(&mut on, "The mirror image counts as well").on_hover_text(help).clicked() {
+    let help = "Endings that are mirror images of the observation match too; finds more where sides do not matter";
+    if ui.checkbox(&mut on, "Mirror images match too").on_hover_text(help).clicked() {
         let value = Setting::plain(if on { "true" } else { "false" });
         edits.push(Box::new(move |document| {
             document.put("mirrored", &value).map_err(|error| error.to_string())
@@ -81,10 +81,10 @@ fn mirrored(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
     }
 }
 
-/// The text itself, taken over when it is left.
+/// Draws the text of the observation; edits apply when the editor loses the focus.
 fn as_text(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared) {
     CollapsingHeader::new("As text").id_salt("observation as text").show(ui, |ui| {
-        let stored = shared.workbench.project.documents.text(Documents::OBSERVATION);
+        let stored = shared.documents().text(Documents::OBSERVATION);
         let stored = stored.unwrap_or_default().to_owned();
         let mut text = typed.0.take().unwrap_or_else(|| stored.clone());
         let editor = TextEdit::multiline(&mut text).code_editor().desired_width(f32::INFINITY);

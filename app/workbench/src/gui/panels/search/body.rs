@@ -1,4 +1,4 @@
-//! The whale from four sides, coloured by what is told of each part: a click chooses one.
+//! The body map of an observation, coloured by what was seen on each part; a click selects a part.
 
 use egui::{Align2, Color32, FontId, Painter, Rect, RichText, Sense, Stroke, Ui, vec2};
 use endline_gear::{PathPlace, Site};
@@ -11,19 +11,19 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets::words::{capital, spoken};
 
-/// The map of the body with what is drawn on it.
+/// The body map with its marks.
 #[derive(Default)]
 pub(super) struct Map {
-    /// Of the animal observed, for a version of the texts.
+    /// Map of the observed animal, with the version of the files it was made for.
     body: Option<(u64, BodyMap)>,
-    /// Outline of the chosen site on each face.
+    /// Outline of the selected site on each face.
     outline: Option<(Site, [Vec<Edge>; 4])>,
     hovered: Option<Site>,
 }
 
-/// What is told of the whale, ready to be drawn.
+/// The observation, prepared for drawing.
 struct Seen {
-    /// By single site: under which site it is told, and what.
+    /// For each single site: the site of the observation that covers it, and its state.
     sites: Vec<(Site, Site, Told)>,
     /// Wraps of a site, such as `1 – 4`.
     wraps: Vec<(Site, String)>,
@@ -33,33 +33,33 @@ struct Seen {
 
 impl Seen {
     fn of(ui: &Ui, shared: &Shared) -> Self {
-        let documents = &shared.workbench.project.documents;
-        let told = |single: Site| {
+        let documents = shared.documents();
+        let entry = |single: Site| {
             let site = observation::site_of(documents, single);
             (single, site, observation::told(documents, site))
         };
-        let sites: Vec<(Site, Site, Told)> = Site::SINGLE.into_iter().map(told).collect();
-        let wraps = sites.iter().filter_map(|(single, site, told)| {
+        let sites: Vec<(Site, Site, Told)> = Site::SINGLE.into_iter().map(entry).collect();
+        let wraps = sites.iter().filter_map(|(single, site, sighting)| {
             let [least, most] = observation::range(documents, Range::Wraps(*site));
             let words = if least == most { least } else { format!("{least} – {most}") };
-            (told.has_rope() && !words.is_empty()).then_some((*single, words))
+            (sighting.has_rope() && !words.is_empty()).then_some((*single, words))
         });
         let path = observation::places(documents);
         let path = path.iter().filter_map(|place| PathPlace::named(place)).collect();
         Self { wraps: wraps.collect(), sites, path, palette: Theme::palette_of(ui) }
     }
 
-    fn told(&self, single: Site) -> (Site, Told) {
+    fn sighting(&self, single: Site) -> (Site, Told) {
         let found = self.sites.iter().find(|(own, ..)| *own == single);
-        found.map_or((single, Told::Nothing), |(_, site, told)| (*site, *told))
+        found.map_or((single, Told::Nothing), |(_, site, sighting)| (*site, *sighting))
     }
 }
 
-/// Draws the map, takes a click, and says what the pointer rests on.
+/// Draws the map and its legend, and handles hover and click.
 pub(super) fn show(ui: &mut Ui, panel: &mut SearchPanel, shared: &Shared) {
     let seen = Seen::of(ui, shared);
     let map = &mut panel.map;
-    let version = shared.workbench.project.documents.version();
+    let version = shared.documents().version();
     if map.body.as_ref().is_none_or(|(known, _)| *known != version) {
         let skin = shared.workbench.observed_skin();
         let same = map.body.take().map(|(_, body)| body);
@@ -70,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut SearchPanel, shared: &Shared) {
         map.body = same.or_else(|| skin.map(BodyMap::of)).map(|body| (version, body));
     }
     let Some((_, body)) = &mut map.body else { return };
-    let chosen = seen.told(panel.chosen).0;
+    let chosen = seen.sighting(panel.chosen).0;
     if map.outline.as_ref().is_none_or(|(of, _)| *of != chosen) {
         let own = |face: Face| body.outline(face, |region| is_of(chosen, Site::of_region(region)));
         map.outline = Some((chosen, Face::ALL.map(own)));
@@ -80,7 +80,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut SearchPanel, shared: &Shared) {
     let hovered = map.hovered;
     let colour = |region| {
         let site = Site::of_region(region);
-        let own = colour(seen.told(site).1, plain, seen.palette);
+        let own = colour(seen.sighting(site).1, plain, seen.palette);
         if hovered == Some(site) { own.lerp_to_gamma(seen.palette.text, 0.18) } else { own }
     };
     let at = body.faces(ui, Sense::click(), colour, |body, painter, face, rect| {
@@ -108,13 +108,13 @@ fn is_of(site: Site, single: Site) -> bool {
     site.singles().contains(&single)
 }
 
-/// The colour of a part: stronger the surer it was.
-fn colour(told: Told, plain: Color32, palette: Palette) -> Color32 {
-    match told {
+/// Colour of a body part, stronger with greater certainty.
+fn colour(sighting: Told, plain: Color32, palette: Palette) -> Color32 {
+    match sighting {
         Told::Nothing => plain,
         Told::Hidden => palette.ground.lerp_to_gamma(plain, 0.25),
         Told::Seen(present) => {
-            // Those of the dark theme are light enough to be filled with.
+            // The colours of the dark theme are light enough for filling.
             let Palette { warning, good, .. } = Theme::Dark.palette();
             let end = if present > 0.5 { warning } else { good };
             let sure = (2.0 * present - 1.0).abs() as f32;
@@ -123,13 +123,13 @@ fn colour(told: Told, plain: Color32, palette: Palette) -> Color32 {
     }
 }
 
-/// Wraps beside their parts, and the path of the rope by numbers.
+/// Draws wraps beside their parts, and the path of the rope by numbers.
 fn marks(body: &BodyMap, painter: &Painter, rect: Rect, seen: &Seen) {
     let palette = seen.palette;
     for (single, words) in &seen.wraps {
         let is_it = |region| Site::of_region(region) == *single;
         if let Some(middle) = body.middle(Face::Above, rect, is_it, None) {
-            // Below the part, so that it stays to be seen.
+            // Below the part, so that the part stays visible.
             badge(
                 painter,
                 middle + vec2(0.0, 17.0),
@@ -160,7 +160,7 @@ fn badge(painter: &Painter, at: egui::Pos2, words: &str, ground: Color32, text: 
     painter.galley(Align2::CENTER_CENTER.anchor_size(at, galley.size()).min, galley, text);
 }
 
-/// What the colours mean, and what the pointer rests on.
+/// Draws the legend and the state of the part under the pointer.
 fn legend(ui: &mut Ui, seen: &Seen, plain: Color32, hovered: Option<Site>) {
     let palette = seen.palette;
     ui.horizontal_wrapped(|ui| {
@@ -168,34 +168,34 @@ fn legend(ui: &mut Ui, seen: &Seen, plain: Color32, hovered: Option<Site>) {
             (Told::Seen(1.0), "rope"),
             (Told::Seen(0.0), "no rope"),
             (Told::Hidden, "hidden"),
-            (Told::Nothing, "not told"),
+            (Told::Nothing, "unknown"),
         ];
-        for (told, words) in meanings {
+        for (sighting, words) in meanings {
             let (rect, _) = ui.allocate_exact_size(vec2(11.0, 11.0), Sense::hover());
             ui.painter().rect(
                 rect,
                 2.0,
-                colour(told, plain, palette),
+                colour(sighting, plain, palette),
                 Stroke::new(1.0, palette.faint),
                 egui::StrokeKind::Inside,
             );
             ui.label(RichText::new(words).small().color(palette.faint));
         }
         let words = hovered.map_or_else(
-            || "click a part to tell of it".to_owned(),
+            || "click a part to describe it".to_owned(),
             |single| {
-                let (site, told) = seen.told(single);
-                format!("{}: {}", capital(&spoken(site.name())), in_words(told))
+                let (site, sighting) = seen.sighting(single);
+                format!("{}: {}", capital(&spoken(site.name())), in_words(sighting))
             },
         );
         ui.label(RichText::new(format!("·  {words}")).small().color(palette.text));
     });
 }
 
-/// What is told of a part, in words.
-fn in_words(told: Told) -> String {
-    match told {
-        Told::Nothing => "nothing told".to_owned(),
+/// State of a part in words.
+fn in_words(sighting: Told) -> String {
+    match sighting {
+        Told::Nothing => "unknown".to_owned(),
         Told::Hidden => "hidden from view".to_owned(),
         Told::Seen(present) => {
             let what = if present > 0.5 { "rope" } else { "no rope" };

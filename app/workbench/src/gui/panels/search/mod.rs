@@ -1,4 +1,4 @@
-//! The search for a real case: what was seen on a whale, as a form on the map of its body; and the search at work.
+//! The search for a real case: an observation as a form on the body map of the whale, and the progress of the search.
 
 mod about;
 mod body;
@@ -23,14 +23,14 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::command;
 
-/// Edits of the observation's text, each one step to be taken back.
+/// Edits of the observation, each one step of undo.
 type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;
 
-/// What was seen, and the search for it.
+/// The observation and its search.
 pub struct SearchPanel {
-    /// The part whose form is shown: a single one.
+    /// Body part whose form is shown.
     pub chosen: Site,
-    /// The observation that it is of.
+    /// Observation for which the part was selected.
     of: Option<PathBuf>,
     map: body::Map,
     /// Observations of the library, by file and name, while the list of them is open.
@@ -57,10 +57,10 @@ impl Panel for SearchPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.pick(ui, shared);
-        if shared.workbench.project.documents.text(Documents::OBSERVATION).is_none() {
+        if shared.documents().text(Documents::OBSERVATION).is_none() {
             widgets::nothing(
                 ui,
-                "Choose an observation above, or begin a new one: where rope was seen on a whale. The search looks for encounters that end like it.",
+                "Select an observation above or create a new one, which records where rope was seen on a whale. The search finds encounters that end like it.",
             );
             return;
         }
@@ -80,9 +80,9 @@ impl Panel for SearchPanel {
 }
 
 impl SearchPanel {
-    /// Chooses a part with rope of an observation that is shown for the first time.
+    /// Selects a body part with rope when an observation is shown for the first time.
     fn begin(&mut self, shared: &Shared) {
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let path = documents.observation_path();
         if self.of.as_deref() == path {
             return;
@@ -94,22 +94,22 @@ impl SearchPanel {
         self.chosen = Site::SINGLE.into_iter().find(has_rope).unwrap_or(Site::Body);
     }
 
-    /// The observation: chosen from the library, opened from a file, begun anew.
+    /// Draws the choice of an observation: from the library, from a file, or a new one.
     fn pick(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let path = documents.observation_path().map(Path::to_owned);
         let unsaved = path.is_some() && documents.is_unsaved(Documents::OBSERVATION);
         let mark = if unsaved { "• " } else { "" };
         let name = documents.field(Documents::OBSERVATION, "name");
         let shown = path.as_deref().map_or_else(
-            || "Choose an observation".to_owned(),
+            || "Select an observation".to_owned(),
             |path| format!("{mark}{}", name.unwrap_or_else(|| files::stem(path))),
         );
         ui.horizontal_wrapped(|ui| {
             let width = (ui.available_width() - 224.0).max(120.0);
             let combo = ComboBox::from_id_salt("observation").width(width).truncate();
             let open = combo.selected_text(shown).show_ui(ui, |ui| {
-                let root = shared.workbench.project.documents.root();
+                let root = shared.documents().root();
                 let listed = self.listed.get_or_insert_with(|| files::observations(root));
                 let mut wanted = None;
                 for (file, name) in listed {
@@ -131,20 +131,18 @@ impl SearchPanel {
     }
 }
 
-/// Puts edits into the observation's text.
+/// Applies edits to the observation.
 fn apply(shared: &mut Shared, edits: Edits) {
     for edit in edits {
-        if let Err(error) = shared.workbench.project.documents.alter(Documents::OBSERVATION, edit) {
-            shared.fault(error);
-        }
+        shared.alter(Documents::OBSERVATION, edit);
     }
 }
 
-/// A field of the observation for typing, with its name before it.
+/// Draws a field of the observation with its label.
 fn typed(ui: &mut Ui, shared: &Shared, name: &str, field: &str, said: Said<'_>, edits: &mut Edits) {
     ui.horizontal(|ui| {
         widgets::name(ui, name);
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let width = ui.available_width() - 12.0;
         if let Some(typed) = fields::edit(ui, documents, Documents::OBSERVATION, field, width, said)
         {
@@ -154,16 +152,16 @@ fn typed(ui: &mut Ui, shared: &Shared, name: &str, field: &str, said: Said<'_>, 
     });
 }
 
-/// What is said of a range: its name before it, its unit after it, and help on hover.
+/// Label, unit and help of a range.
 struct Words {
     name: &'static str,
     unit: &'static str,
     help: &'static str,
 }
 
-/// Least and most of a range.
+/// Draws least and greatest value of a range.
 fn ends(ui: &mut Ui, shared: &Shared, words: &Words, range: Range, edits: &mut Edits) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let Some(path) = range.path(documents) else { return };
     ui.horizontal(|ui| {
         widgets::name(ui, words.name);
@@ -183,9 +181,9 @@ fn ends(ui: &mut Ui, shared: &Shared, words: &Words, range: Range, edits: &mut E
     });
 }
 
-/// What is wrong with the observation's text.
+/// Draws problems of the observation.
 fn problems(ui: &mut Ui, shared: &Shared) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let file = documents.shown_name(Documents::OBSERVATION);
     let own = documents.problems().iter().filter(|problem| problem.file == file);
     let own: Vec<Diagnostic> = own.cloned().collect();

@@ -1,4 +1,4 @@
-//! What was seen at the chosen part.
+//! The form of the selected body part.
 
 use egui::{RichText, Slider, Ui};
 use endline_gear::{Setting, Site};
@@ -12,42 +12,42 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::words::{capital, spoken};
 
-/// How sure somebody is who says that there was rope, or that there was none.
+/// Initial certainty of rope or no rope.
 const SURE: f64 = 0.95;
 
 const WRAPS: Words = Words {
     name: "Wraps",
     unit: "turns",
-    help: "Least and most turns about it; empty where nobody could count them",
+    help: "Least and most turns around the part; empty if they could not be counted",
 };
 
 /// Draws the form of a part.
 pub(super) fn show(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &mut Edits) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let site = observation::site_of(documents, single);
-    let told = observation::told(documents, site);
+    let sighting = observation::told(documents, site);
     egui::Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(8.0).show(
         ui,
         |ui| {
             ui.set_width(ui.available_width());
-            head(ui, single, site, told, edits);
-            state(ui, site, told, edits);
-            if let Told::Seen(present) = told {
+            head(ui, single, site, sighting, edits);
+            state(ui, site, sighting, edits);
+            if let Told::Seen(present) = sighting {
                 sure(ui, shared, site, present, edits);
-                rope(ui, shared, site, told, edits);
+                rope(ui, shared, site, sighting, edits);
             }
         },
     );
 }
 
-/// The part's name, and for fins whether it is told by itself or as either of its pair.
-fn head(ui: &mut Ui, single: Site, site: Site, told: Told, edits: &mut Edits) {
+/// Draws the name of the part, and for paired parts whether the side is known.
+fn head(ui: &mut Ui, single: Site, site: Site, sighting: Told, edits: &mut Edits) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(capital(&spoken(site.name()))).strong());
-        let Some(pair) = observation::pair_of(single).filter(|_| told != Told::Nothing) else {
+        let Some(pair) = observation::pair_of(single).filter(|_| sighting != Told::Nothing) else {
             return;
         };
-        let help = "Where it was not told on which side";
+        let help = "If the side is not known";
         let mut either = site == pair;
         if ui.checkbox(&mut either, "either side").on_hover_text(help).clicked() {
             let to = if either { pair } else { single };
@@ -56,21 +56,26 @@ fn head(ui: &mut Ui, single: Site, site: Site, told: Told, edits: &mut Edits) {
     });
 }
 
-/// Rope, no rope, hidden, or nothing told.
-fn state(ui: &mut Ui, site: Site, told: Told, edits: &mut Edits) {
+/// Draws the choice between rope, no rope, hidden and unknown.
+fn state(ui: &mut Ui, site: Site, sighting: Told, edits: &mut Edits) {
     ui.horizontal(|ui| {
         widgets::name(ui, "Seen");
-        let rope = matches!(told, Told::Seen(present) if present > 0.5);
-        let none = matches!(told, Told::Seen(present) if present <= 0.5);
+        let rope = matches!(sighting, Told::Seen(present) if present > 0.5);
+        let none = matches!(sighting, Told::Seen(present) if present <= 0.5);
         let choices = [
-            (rope, Told::Seen(SURE), "Rope", "Rope was seen there"),
-            (none, Told::Seen(1.0 - SURE), "No rope", "It was seen, and there was no rope"),
-            (told == Told::Hidden, Told::Hidden, "Hidden", "Nobody could see it: it costs nothing"),
+            (rope, Told::Seen(SURE), "Rope", "Rope was seen on this part"),
+            (none, Told::Seen(1.0 - SURE), "No rope", "The part was visible and had no rope"),
             (
-                told == Told::Nothing,
+                sighting == Told::Hidden,
+                Told::Hidden,
+                "Hidden",
+                "The part was not visible; it does not affect the distance",
+            ),
+            (
+                sighting == Told::Nothing,
                 Told::Nothing,
-                "Not told",
-                "Nothing is said of it: rope there counts a little",
+                "Unknown",
+                "The observation does not mention it; rope there adds a small cost",
             ),
         ];
         for (is_so, then, words, help) in choices {
@@ -81,7 +86,7 @@ fn state(ui: &mut Ui, site: Site, told: Told, edits: &mut Edits) {
     });
 }
 
-/// How sure it is: 50 % is nobody knows.
+/// Draws the certainty; 50 % means unknown.
 fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut Edits) {
     let has_rope = present > 0.5;
     ui.horizontal(|ui| {
@@ -113,18 +118,18 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
     });
 }
 
-/// Wraps, tightness, and how it was seen.
-fn rope(ui: &mut Ui, shared: &Shared, site: Site, told: Told, edits: &mut Edits) {
-    if told.has_rope() {
+/// Draws wraps, tightness and method of observation.
+fn rope(ui: &mut Ui, shared: &Shared, site: Site, sighting: Told, edits: &mut Edits) {
+    if sighting.has_rope() {
         ends(ui, shared, &WRAPS, Range::Wraps(site), edits);
         tight(ui, shared, site, edits);
     }
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let Some(field) = observation::path(documents, site, "seen_by") else { return };
     ui.horizontal(|ui| {
         widgets::name(ui, "Seen by");
         let width = ui.available_width() - 12.0;
-        let said = Said { hint: "photographs, drone, necropsy …", help: "How it was seen" };
+        let said = Said { hint: "photographs, drone, necropsy …", help: "Method of observation" };
         if let Some(typed) =
             fields::edit(ui, documents, Documents::OBSERVATION, &field, width, said)
         {
@@ -137,13 +142,13 @@ fn rope(ui: &mut Ui, shared: &Shared, site: Site, told: Told, edits: &mut Edits)
 }
 
 fn tight(ui: &mut Ui, shared: &Shared, site: Site, edits: &mut Edits) {
-    let now = observation::field(&shared.workbench.project.documents, site, "tight");
+    let now = observation::field(shared.documents(), site, "tight");
     ui.horizontal(|ui| {
         widgets::name(ui, "Tension");
         for (value, words, help) in [
-            (Some("true"), "Tight", "It pressed into the skin, or stood under load"),
-            (Some("false"), "Slack", "It lay loose"),
-            (None, "Not told", "Nobody said"),
+            (Some("true"), "Tight", "The rope pressed into the skin or was under load"),
+            (Some("false"), "Slack", "The rope was loose"),
+            (None, "Unknown", "The observation does not say"),
         ] {
             let is_so = now.as_deref() == value;
             if ui.selectable_label(is_so, words).on_hover_text(help).clicked() && !is_so {

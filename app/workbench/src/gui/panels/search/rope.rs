@@ -1,4 +1,4 @@
-//! The rope as a whole: the order of places that it passes, what hung behind, how its legs were twisted.
+//! The rope as a whole: the places it passes in order, what trailed behind, and how its legs were twisted.
 
 use egui::{ComboBox, RichText, Ui};
 use endline_gear::{PathPlace, RopeEnd, Site};
@@ -14,13 +14,13 @@ use crate::gui::widgets::words::spoken;
 const LENGTH: Words = Words {
     name: "Length",
     unit: "",
-    help: "Least and most rope that hung from the whale, with its unit, such as 50 m or 200 ft",
+    help: "Least and greatest length of rope that trailed behind the whale, with its unit, such as 50 m or 200 ft",
 };
 
 const TWIST: Words = Words {
     name: "Twist",
     unit: "turns",
-    help: "Least and most turns of the rope's two legs about each other",
+    help: "Least and most turns of the two legs of the rope around each other",
 };
 
 /// Draws the form of the rope.
@@ -33,9 +33,9 @@ pub(super) fn show(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
     ends(ui, shared, &TWIST, Range::Twist, edits);
 }
 
-/// The places in their order: moved, taken out, added.
+/// Draws the list of places, which can be moved, removed and added.
 fn path(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
-    let places = observation::places(&shared.workbench.project.documents);
+    let places = observation::places(shared.documents());
     let faint = Theme::palette_of(ui).faint;
     for (index, place) in places.iter().enumerate() {
         ui.horizontal(|ui| {
@@ -44,7 +44,7 @@ fn path(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
             if ui.add_enabled(index > 0, up).on_hover_text("Earlier").clicked() {
                 edits.push(Box::new(move |document| observation::move_place(document, index)));
             }
-            if ui.small_button("✖").on_hover_text("Take this place out").clicked() {
+            if ui.small_button("✖").on_hover_text("Removes this place").clicked() {
                 edits.push(Box::new(move |document| observation::remove_place(document, index)));
             }
             ui.label(PathPlace::named(place).map_or_else(|| place.clone(), in_words));
@@ -60,12 +60,12 @@ fn path(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
             }
         });
         if places.is_empty() {
-            ui.label(RichText::new("in the order in which the rope passes them").color(faint));
+            ui.label(RichText::new("in the order along the rope").color(faint));
         }
     });
 }
 
-/// Every place that a path may name, from the snout to the tail.
+/// All places that a path can contain, from snout to tail.
 fn every_place() -> impl Iterator<Item = PathPlace> {
     Site::ALL.into_iter().flat_map(|site| {
         let sides = [None, Some(Side::Left), Some(Side::Right)];
@@ -83,13 +83,13 @@ fn in_words(place: PathPlace) -> String {
     format!("{}{side}", spoken(place.site.name()))
 }
 
-/// What was at the ends of the rope.
+/// Draws what was attached to the ends of the rope.
 fn rope_ends(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
-    let now = observation::ends(&shared.workbench.project.documents);
+    let now = observation::ends(shared.documents());
     ui.horizontal_wrapped(|ui| {
         widgets::name(ui, "Its ends");
         for (index, end) in now.iter().enumerate() {
-            let help = "Click to take this end away";
+            let help = "Click to remove this end";
             if ui.button(format!("{end}  ✖")).on_hover_text(help).clicked() {
                 edits.push(Box::new(move |document| observation::remove_end(document, index)));
             }

@@ -1,4 +1,4 @@
-//! The search at work: how long it may take, how far it is, and what is best so far.
+//! The search: start, limits, progress and best distance so far.
 
 use std::time::Duration;
 
@@ -14,9 +14,9 @@ use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::command;
 use crate::gui::widgets::words::time_left;
 
-/// Draws what begins a search, and the search at work.
+/// Draws the start of a search and its progress.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
-    begin(ui, shared);
+    start(ui, shared);
     effort(ui, shared);
     let Some(job) = &shared.workbench.searches.job else { return };
     let (state, found) = (job.state(), job.found());
@@ -29,33 +29,33 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     }
     ui.horizontal_wrapped(|ui| {
         progress(ui, job, &state, &found);
-        said(ui, job, &state, &found, stale);
+        status(ui, job, &state, &found, stale);
     });
 }
 
-/// The one thing to do next.
-fn begin(ui: &mut Ui, shared: &mut Shared) {
+/// Draws the buttons that start, pause and cancel the search.
+fn start(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
         let searches = &shared.workbench.searches;
         let at_work = searches.at_work().map(SearchJob::state);
         let trials = searches.job.as_ref().map_or(0, |job| job.found().trials);
         let at_most = searches.trials;
-        let goes_on = trials > 0 && !shared.workbench.stories_are_of_another();
+        let continues = trials > 0 && !shared.workbench.stories_are_of_another();
         if let Some(state) = at_work {
             let words = if state == State::Paused { "Resume" } else { "Pause" };
             command(ui, shared, words, SearchAction::Pause);
             command(ui, shared, "Cancel", SearchAction::Cancel);
         } else {
-            let words = if goes_on { "Search on" } else { "Search" };
+            let words = if continues { "Continue" } else { "Search" };
             let ready = shared.workbench.observation_is_sound();
-            let help = "Run encounters behind everything else until some end like this. Nothing is saved; a search that was cancelled continues later";
+            let help = "Runs encounters at low priority until some match. Saves no file; a cancelled search continues later";
             if primary(ui, ready, words).on_hover_text(help).clicked() {
                 shared.give(SearchAction::Run);
             }
-            let spent = goes_on && trials >= at_most;
+            let spent = continues && trials >= at_most;
             let why = match (ready, spent) {
-                (false, _) => "errors below, or in Problems",
-                (true, true) => "give more runs to go on",
+                (false, _) => "has errors: see below or in Problems",
+                (true, true) => "increase the runs to continue",
                 (true, false) => "",
             };
             if !why.is_empty() {
@@ -66,7 +66,7 @@ fn begin(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// How long to search, and with what.
+/// Draws the limits of the search.
 fn effort(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
     let searches = &mut shared.workbench.searches;
@@ -75,15 +75,15 @@ fn effort(ui: &mut Ui, shared: &mut Shared) {
         let most = std::thread::available_parallelism().map_or(1, usize::from);
         label(ui, "Runs");
         ui.add(DragValue::new(&mut searches.trials).range(32..=1_000_000).speed(8))
-            .on_hover_text("At most; give more to search on");
+            .on_hover_text("Maximum number of runs; increase it to continue");
         label(ui, "threads");
         ui.add(DragValue::new(&mut searches.threads).range(1..=most).speed(0.05))
-            .on_hover_text("Runs at a time");
+            .on_hover_text("Simultaneous runs");
         label(ui, "neighbours");
         ui.add(DragValue::new(&mut searches.neighbours).range(0..=200).speed(0.1)).on_hover_text(
-            "Runs beside every story that ends alike, each a little different: they tell whether it hangs on chance",
+            "Slightly varied runs for each matching story, which show whether it depends on chance",
         );
-        let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
+        let help = "Runs at normal priority instead of low; the window may respond more slowly";
         ui.checkbox(&mut searches.normal_priority, "Full speed").on_hover_text(help);
     });
 }
@@ -113,30 +113,31 @@ fn progress(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound) {
     ui.add(ProgressBar::new(share).desired_width(180.0).text(text));
 }
 
-/// How the search stands, in words.
-fn said(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound, stale: bool) {
+/// Draws the state of the search in words.
+fn status(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound, stale: bool) {
     let palette = Theme::palette_of(ui);
     let left = job.progress().left().map(time_left);
     let (words, colour) = match state {
         State::Waiting | State::Opening => ("opening".to_owned(), palette.warning),
         State::Cancelling if job.request.only_reads => ("reading".to_owned(), palette.warning),
-        State::Cancelling => ("finishing the runs in progress".to_owned(), palette.warning),
+        State::Cancelling => ("finishing the current runs".to_owned(), palette.warning),
         State::Running | State::Finishing => {
             (left.map_or_else(|| "running".into(), |left| format!("{left} left")), palette.good)
         }
         State::Paused => ("paused".to_owned(), palette.warning),
         State::Done => ("done".to_owned(), palette.good),
-        State::Cancelled => ("runs are stored".to_owned(), palette.faint),
+        State::Cancelled => ("finished runs are kept".to_owned(), palette.faint),
         State::Failed(why) => (why.lines().next().unwrap_or_default().to_owned(), palette.error),
     };
-    let told = if let State::Failed(why) = state { why.clone() } else { words.clone() };
-    ui.add(Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(told);
+    let full = if let State::Failed(why) = state { why.clone() } else { words.clone() };
+    ui.add(Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(full);
     if let Some(best) = found.best {
-        ui.label(format!("least distance {best:.2}"));
+        ui.label(format!("best distance {best:.2}"));
     }
     if stale {
         ui.label(
-            RichText::new("of another observation, or before it was edited").color(palette.warning),
+            RichText::new("from another observation or from before its last edits")
+                .color(palette.warning),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Three doors: what people come to do, and where each begins.
+//! The three purposes on the start page, with buttons that open examples.
 
 use std::path::{Path, PathBuf};
 
@@ -12,33 +12,33 @@ use crate::gui::panel::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// Breadth that a door needs, in points.
-const DOOR: f32 = 250.0;
+/// Least width of a purpose [points].
+const WIDTH: f32 = 250.0;
 
-type Begin = fn(&mut Shared, &Path);
+type Action = fn(&mut Shared, &Path);
 
-/// A purpose, what it takes, and where to begin: the words of each button and what it does.
-struct Door {
+/// A purpose: title, description, and buttons with their actions.
+struct Purpose {
     title: &'static str,
-    words: &'static str,
-    begin: &'static [(&'static str, Begin)],
+    description: &'static str,
+    buttons: &'static [(&'static str, Action)],
 }
 
-const DOORS: [Door; 3] = [
-    Door {
+const PURPOSES: [Purpose; 3] = [
+    Purpose {
         title: "Design gear",
-        words: "Change traps, ropes, buoys and weak links; see the gear at slack and running tide at once; swim a whale into it.",
-        begin: &[
+        description: "Edit traps, ropes, buoys and weak links; see the gear at slack and running tide; let a whale meet it.",
+        buttons: &[
             ("Single trap", |shared, root| design(shared, root, "hello-endline")),
             ("Trawl of ten", |shared, root| design(shared, root, "trawl-10")),
             ("On demand", |shared, root| design(shared, root, "on-demand-release")),
             ("Gillnet", |shared, root| design(shared, root, "gillnet")),
         ],
     },
-    Door {
+    Purpose {
         title: "Compare for a rule",
-        words: "Options on the same encounters, with intervals and a report; what laws ask of a gear, and a sheet to file.",
-        begin: &[
+        description: "Compare options on the same encounters, with confidence intervals and a report; check the rules that apply to gear, with a compliance sheet.",
+        buttons: &[
             ("Weak links", |shared, root| study(shared, root, "weak-links")),
             ("Kinds of gear", |shared, root| study(shared, root, "gear-types")),
             ("Check the rules", |shared, _| {
@@ -47,10 +47,10 @@ const DOORS: [Door; 3] = [
             }),
         ],
     },
-    Door {
+    Purpose {
         title: "Fly, or explain a case",
-        words: "Swim the whale by pad or keys; play real cases; say what was seen on a whale and search for encounters that end like it.",
-        begin: &[
+        description: "Steer a whale by pad or keys; replay real cases; record an observation on a whale and search for encounters that end like it.",
+        buttons: &[
             ("Fly a whale", |shared, root| {
                 open(shared, root, "hello-endline");
                 shared.give(PanelAction::Arrange(Layout::Fly));
@@ -65,30 +65,30 @@ const DOORS: [Door; 3] = [
     },
 ];
 
-/// The doors, side by side where there is room.
+/// Draws the purposes, side by side if there is room.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, root: &Path) {
-    let columns = ((ui.available_width() / DOOR) as usize).clamp(1, DOORS.len());
-    for row in DOORS.chunks(columns) {
+    let columns = ((ui.available_width() / WIDTH) as usize).clamp(1, PURPOSES.len());
+    for row in PURPOSES.chunks(columns) {
         ui.columns(columns, |columns| {
-            for (ui, door) in columns.iter_mut().zip(row) {
-                ui.with_layout(Flow::top_down(Align::Min), |ui| one(ui, shared, root, door));
+            for (ui, purpose) in columns.iter_mut().zip(row) {
+                ui.with_layout(Flow::top_down(Align::Min), |ui| one(ui, shared, root, purpose));
             }
         });
     }
 }
 
-fn one(ui: &mut Ui, shared: &mut Shared, root: &Path, door: &Door) {
+fn one(ui: &mut Ui, shared: &mut Shared, root: &Path, purpose: &Purpose) {
     let palette = Theme::palette_of(ui);
     Frame::group(ui.style()).fill(palette.field).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.set_min_height(112.0);
-        ui.label(RichText::new(door.title).size(16.0).strong());
-        ui.label(RichText::new(door.words).color(palette.faint));
+        ui.label(RichText::new(purpose.title).size(16.0).strong());
+        ui.label(RichText::new(purpose.description).color(palette.faint));
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
-            for (words, begin) in door.begin {
-                if ui.button(*words).clicked() {
-                    begin(shared, root);
+            for (label, action) in purpose.buttons {
+                if ui.button(*label).clicked() {
+                    action(shared, root);
                 }
             }
         });

@@ -1,4 +1,4 @@
-//! What the library holds to begin from: scenarios, studies and observations, by what they are about.
+//! Items of the start page: scenarios, studies and observations of the library, in groups by subject.
 
 use std::path::{Path, PathBuf};
 
@@ -8,18 +8,18 @@ use endline_session::locate;
 use super::sketch::Sketch;
 use crate::gui::files;
 
-/// What a file is, and so where it opens.
+/// Kind of a file, which decides where it opens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum What {
     /// A run.
     Scenario,
     /// Many runs of options.
     Study,
-    /// What was seen on a whale.
+    /// An observation on a whale.
     Observation,
 }
 
-/// What an item is about.
+/// Subject of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Group {
     /// A whale meets gear.
@@ -41,7 +41,7 @@ pub(super) enum Group {
 }
 
 impl Group {
-    /// Every group, in the order of the page.
+    /// All groups, in the order of the page.
     pub(super) const ALL: [Self; 8] = [
         Self::Encounter,
         Self::Study,
@@ -58,21 +58,21 @@ impl Group {
         match self {
             Self::Encounter => "Whales meeting gear",
             Self::Study => "Studies: options compared",
-            Self::Case => "Real cases, played",
-            Self::Observation => "Whales seen entangled, to be explained",
+            Self::Case => "Real cases",
+            Self::Observation => "Observations of entangled whales",
             Self::Gear => "Gear alone",
             Self::Whale => "Whales alone",
             Self::Physics => "Checks of the physics",
-            Self::Base => "What studies and searches draw from",
+            Self::Base => "Scenarios of studies and searches",
         }
     }
 
-    /// Whether it is open at first.
+    /// Whether it is open initially.
     pub(super) fn opens(self) -> bool {
         !matches!(self, Self::Physics | Self::Base | Self::Whale)
     }
 
-    /// The group of a scenario: by its id where that says that it serves studies or a case, else by what is in it.
+    /// Group of a scenario, by the prefix of its id or else by its content.
     fn of_scenario(id: &str, sketch: &Sketch) -> Self {
         let starts = |begins: &[&str]| begins.iter().any(|begin| id.starts_with(begin));
         if starts(&["study-", "search-"]) {
@@ -92,7 +92,7 @@ impl Group {
     }
 }
 
-/// Something to begin from.
+/// An item of the start page.
 #[derive(Clone, Debug)]
 pub(super) struct Item {
     pub what: What,
@@ -100,26 +100,26 @@ pub(super) struct Item {
     pub path: PathBuf,
     pub name: String,
     pub notes: String,
-    /// The first of the notes.
+    /// First sentence of the notes.
     pub first_words: String,
     pub sketch: Sketch,
-    /// Id, name and notes in small letters, for a search.
+    /// Id, name and notes in lower case, for the search.
     text: String,
 }
 
 impl Item {
-    /// Whether it has every one of these words, which are in small letters.
+    /// Whether it contains all of these lower-case words.
     pub(super) fn has(&self, words: &[String]) -> bool {
         words.iter().all(|word| self.text.contains(word))
     }
 }
 
-/// The words of a search, in small letters.
+/// Words of a search, in lower case.
 pub(super) fn words(sought: &str) -> Vec<String> {
     sought.to_lowercase().split_whitespace().map(str::to_owned).collect()
 }
 
-/// Notes up to the end of their first sentence, or so many letters of it, without the marks of code.
+/// First sentence of notes, without code marks, truncated at a word if it is long.
 fn first_words(notes: &str) -> String {
     const MOST: usize = 120;
     let notes = notes.replace('`', "").split_whitespace().collect::<Vec<_>>().join(" ");
@@ -132,12 +132,12 @@ fn first_words(notes: &str) -> String {
     format!("{} …", words.trim_end_matches([',', ';', ':']))
 }
 
-/// How many files there are to begin from.
+/// Number of files of the start page.
 pub(super) fn count(root: &Path) -> usize {
     locate::scenarios(root).len() + locate::studies(root).len() + locate::observations(root).len()
 }
 
-/// Everything to begin from, in order of names; files that cannot be read are told of elsewhere.
+/// Reads all items, in order of names. Files that cannot be read are left out; the panel Problems lists them.
 pub(super) fn all(root: &Path) -> Vec<Item> {
     let of = |what, paths: Vec<PathBuf>| {
         paths.into_iter().filter_map(move |path| read(root, what, path))
@@ -146,7 +146,7 @@ pub(super) fn all(root: &Path) -> Vec<Item> {
         .chain(of(What::Study, locate::studies(root)))
         .chain(of(What::Observation, locate::observations(root)))
         .collect();
-    // Whoever is new begins with the plainest.
+    // The simplest examples first.
     items.sort_by_key(|item| !files::stem(&item.path).starts_with("hello-"));
     items
 }
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn every_shipped_item_is_in_the_group_of_what_it_is_about() {
+    fn shipped_items_are_in_the_group_of_their_subject() {
         let items = shipped();
         let group =
             |id: &str| items.iter().find(|item| files::stem(&item.path) == id).unwrap().group;
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_finds_what_has_all_its_words() {
+    fn a_search_finds_items_with_all_its_words() {
         let found = |sought: &str| {
             let words = words(sought);
             shipped().into_iter().filter(|item| item.has(&words)).count()
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn notes_are_cut_at_a_sentence_or_a_word() {
+    fn notes_are_truncated_at_a_sentence_or_a_word() {
         assert_eq!(first_words("One trap.\nA second sentence."), "One trap.");
         let words = first_words(&"word, ".repeat(40));
         assert!(words.ends_with("word …") && words.chars().count() <= 123, "{words}");

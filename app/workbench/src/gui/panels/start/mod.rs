@@ -1,4 +1,4 @@
-//! Where a user begins: three doors, what was open last, and everything in the library, with a search over it.
+//! The start page: three purposes, recent files, and all items of the library, with a search.
 
 mod doors;
 mod item;
@@ -22,18 +22,18 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use item::{Group, Item, What};
 
-/// Breadth of a column of items, in points.
+/// Width of a column of items [points].
 const COLUMN: f32 = 400.0;
 
-/// How often it is looked whether files came or went.
-const LOOK: Duration = Duration::from_secs(1);
+/// Interval between checks for new and deleted files.
+const CHECK_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Where a user begins; the library is read when the page is first shown, and again when files came or went.
+/// The start page. The library is read when the page is first shown, and again when the number of files has changed.
 #[derive(Debug, Default)]
 pub struct StartPanel {
     items: Option<(usize, Vec<Item>)>,
-    looked: Option<Instant>,
-    sought: String,
+    checked: Option<Instant>,
+    search: String,
 }
 
 impl Panel for StartPanel {
@@ -42,9 +42,9 @@ impl Panel for StartPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let root = shared.workbench.project.documents.root().to_owned();
-        if self.looked.is_none_or(|looked| looked.elapsed() > LOOK) {
-            self.looked = Some(Instant::now());
+        let root = shared.documents().root().to_owned();
+        if self.checked.is_none_or(|checked| checked.elapsed() > CHECK_INTERVAL) {
+            self.checked = Some(Instant::now());
             let files = item::count(&root);
             if self.items.as_ref().is_none_or(|(seen, _)| *seen != files) {
                 self.items = Some((files, item::all(&root)));
@@ -57,8 +57,8 @@ impl Panel for StartPanel {
             recent(ui, shared);
             ui.add_space(10.0);
             let hint = "Search scenarios, studies and cases";
-            ui.add(TextEdit::singleline(&mut self.sought).hint_text(hint).desired_width(COLUMN));
-            listed(ui, shared, items, &self.sought);
+            ui.add(TextEdit::singleline(&mut self.search).hint_text(hint).desired_width(COLUMN));
+            listed(ui, shared, items, &self.search);
         });
     }
 }
@@ -82,7 +82,7 @@ fn recent(ui: &mut Ui, shared: &mut Shared) {
     if recent.is_empty() {
         return;
     }
-    widgets::caption(ui, "Last open");
+    widgets::caption(ui, "Recent");
     ui.horizontal_wrapped(|ui| {
         for path in recent {
             let place = path.display().to_string();
@@ -93,7 +93,7 @@ fn recent(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Opens an item where it is worked on.
+/// Opens an item in its layout.
 fn open(shared: &mut Shared, what: What, path: &Path) {
     let path = path.to_owned();
     match what {
@@ -112,10 +112,10 @@ fn open(shared: &mut Shared, what: What, path: &Path) {
     }
 }
 
-/// The items by group; while something is sought, only what has every word of it, all groups open.
-fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], sought: &str) {
+/// Draws the items by group; with a search, only items with all its words, in open groups.
+fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], search: &str) {
     let mut any = false;
-    let words = item::words(sought);
+    let words = item::words(search);
     for group in Group::ALL {
         let of: Vec<&Item> =
             items.iter().filter(|item| item.group == group && item.has(&words)).collect();
@@ -127,11 +127,11 @@ fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], sought: &str) {
         CollapsingHeader::new(title)
             .id_salt(group.title())
             .default_open(group.opens())
-            .open((!sought.trim().is_empty()).then_some(true))
+            .open((!search.trim().is_empty()).then_some(true))
             .show_unindented(ui, |ui| cards(ui, shared, &of));
     }
     if !any {
-        widgets::nothing(ui, "Nothing in the library has all of these words.");
+        widgets::nothing(ui, "Nothing in the library matches all words.");
     }
 }
 
@@ -150,7 +150,7 @@ fn cards(ui: &mut Ui, shared: &mut Shared, items: &[&Item]) {
     }
 }
 
-/// A picture of what is in it, the name to click, and the first of the notes.
+/// Draws an item: sketch, name as a link, first sentence of the notes.
 fn card(ui: &mut Ui, shared: &mut Shared, item: &Item) {
     let palette = Theme::palette_of(ui);
     ui.horizontal_top(|ui| {

@@ -1,4 +1,4 @@
-//! A small picture of what a file is about, drawn from what stands in it: traps, endlines, a net, a whale.
+//! A sketch of the content of a file: traps, endlines, a net, a whale.
 
 use std::path::Path;
 
@@ -7,24 +7,24 @@ use endline_gear::Document;
 
 use crate::gui::theme::Palette;
 
-/// Traps drawn at most: more would be specks.
+/// Maximum number of traps drawn.
 const MOST_TRAPS: usize = 12;
 
-/// What a file is about.
+/// Content of a sketch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Sketch {
     pub traps: usize,
     pub endlines: usize,
     pub net: bool,
-    /// The endline lies stowed at the trap.
+    /// Whether the endline is stowed at the trap.
     pub stowed: bool,
     pub whale: bool,
-    /// Options that a study compares.
+    /// Number of options of a study.
     pub options: usize,
 }
 
 impl Sketch {
-    /// Of a scenario and the assembly it names.
+    /// Sketch of a scenario and its assembly.
     pub(super) fn of_scenario(root: &Path, scenario: &Document) -> Self {
         let whale = scenario.has("whale");
         let id = scenario.get("gear.0.assembly");
@@ -53,19 +53,19 @@ impl Sketch {
         }
     }
 
-    /// Of a study.
+    /// Sketch of a study.
     pub(super) fn of_study(study: &Document) -> Self {
         let options = (0..MOST_TRAPS).take_while(|index| study.has(&format!("option.{index}")));
         Self { options: options.count().max(2), ..Self::default() }
     }
 
-    /// Whether there is gear to see.
+    /// Whether there is gear.
     pub(super) fn has_gear(&self) -> bool {
         self.traps > 0 || self.endlines > 0
     }
 }
 
-/// Traps and endlines of an assembly that lists its parts: what lies on the seabed, and what floats.
+/// Numbers of traps and endlines of an assembly that lists its parts.
 fn bodies(assembly: &Document) -> (usize, usize) {
     let items = (0..).map_while(|index| assembly.get(&format!("body.{index}.item")));
     items.fold((0, 0), |(traps, floats), item| {
@@ -101,7 +101,7 @@ pub(super) fn draw(painter: &Painter, place: Rect, sketch: &Sketch, palette: Pal
     }
 }
 
-/// Where gear is drawn, from the surface to the seabed.
+/// Drawing area of gear, from the surface to the seabed.
 struct Sea<'a> {
     painter: &'a Painter,
     place: Rect,
@@ -121,7 +121,7 @@ impl Sea<'_> {
         self.painter.hline(place.x_range(), self.seabed, Stroke::new(1.0, self.palette.line));
     }
 
-    /// Traps along the seabed, a net between its ends, and an endline with a buoy up from each end that has one.
+    /// Draws traps along the seabed, a net between the ends, and endlines with buoys at the ends.
     fn gear(&self, sketch: &Sketch) {
         let traps = sketch.traps.min(MOST_TRAPS);
         let (from, to) = self.ends(traps, sketch.whale);
@@ -144,7 +144,7 @@ impl Sea<'_> {
         }
     }
 
-    /// Where the first trap lies and where the last.
+    /// Positions of the first and last trap.
     fn ends(&self, traps: usize, whale: bool) -> (f32, f32) {
         let across = |share: f32| self.place.left() + self.place.width() * share;
         match (traps, whale) {
@@ -154,7 +154,7 @@ impl Sea<'_> {
         }
     }
 
-    /// A rope that leans with the tide, and the buoy at its top.
+    /// Draws a rope that leans with the tide, and its buoy.
     fn endline(&self, foot: f32, top: f32) {
         let bottom = self.seabed - 4.0;
         let lean = (bottom - top) * 0.35;
@@ -167,7 +167,7 @@ impl Sea<'_> {
     }
 }
 
-/// A whale from the side, its head to the right.
+/// Draws a whale from the side, its head to the right.
 fn whale(painter: &Painter, middle: Pos2, colour: Color32) {
     const OUTLINE: [(f32, f32); 14] = [
         (16.0, 1.0),
@@ -186,7 +186,7 @@ fn whale(painter: &Painter, middle: Pos2, colour: Color32) {
         (14.5, 4.0),
     ];
     let points: Vec<Pos2> = OUTLINE.iter().map(|(x, y)| middle + vec2(*x, *y)).collect();
-    // The outline is not convex at the flukes: drawn as a fan about the middle, each piece is.
+    // The outline is not convex at the flukes, but each triangle of a fan about the middle is.
     for index in 0..points.len() {
         let next = points[(index + 1) % points.len()];
         painter.add(Shape::convex_polygon(vec![middle, points[index], next], colour, Stroke::NONE));
@@ -195,7 +195,7 @@ fn whale(painter: &Painter, middle: Pos2, colour: Color32) {
     painter.add(Shape::convex_polygon(flipper.to_vec(), colour, Stroke::NONE));
 }
 
-/// Options of a study: a row of intervals beside a line.
+/// Draws the options of a study as intervals beside a line.
 fn options(painter: &Painter, place: Rect, count: usize, palette: Palette) {
     let rows = count.clamp(2, 5);
     let zero = place.left() + place.width() * 0.45;
@@ -214,7 +214,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sketch_shows_what_the_files_say() {
+    fn a_sketch_shows_the_content_of_its_files() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
         let of = |id: &str| {
             let scenario = read(&root.join(format!("scenarios/{id}.toml"))).unwrap();

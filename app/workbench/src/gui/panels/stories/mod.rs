@@ -1,4 +1,4 @@
-//! What a search found: the map of stories as a table, the chosen one with its terms, to be run, flown on and kept.
+//! Results of a search: a table of stories, and the selected one with the terms of its distance and its actions.
 
 mod story;
 
@@ -17,13 +17,13 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::words::spoken;
 
-/// Least width at which the chosen story stands beside the table.
+/// Least width at which the selected story is beside the table [points].
 const WIDE: f32 = 640.0;
 
-/// What a search found.
+/// Results of a search.
 #[derive(Debug, Default)]
 pub struct StoriesPanel {
-    /// Hash of the chosen story's last state; the nearest where it is not there.
+    /// Hash of the last state of the selected story; the nearest story if it is not in the table.
     chosen: Option<String>,
 }
 
@@ -39,7 +39,7 @@ impl Panel for StoriesPanel {
         };
         head(ui, shared, &found);
         if found.stories.is_empty() {
-            return widgets::nothing(ui, "No run has touched the whale so far.");
+            return widgets::nothing(ui, "No rope has touched the whale in any run so far.");
         }
         ui.separator();
         let number = self.number(&found);
@@ -61,9 +61,9 @@ impl Panel for StoriesPanel {
     }
 }
 
-/// Says why there are no stories.
+/// Draws the reason why there are no stories.
 fn missing(ui: &mut Ui, job: Option<&SearchJob>) {
-    let none = "No stories yet. Choose an observation in Search and begin; the first stories come after 32 runs.";
+    let none = "No stories yet. Select an observation in Search and start; the first stories appear after 32 runs.";
     let reads = job.is_some_and(|job| job.request.only_reads);
     match job.map(SearchJob::state) {
         Some(State::Failed(why)) => {
@@ -75,13 +75,13 @@ fn missing(ui: &mut Ui, job: Option<&SearchJob>) {
             widgets::nothing(ui, "Reading the observation and its encounters …");
         }
         Some(State::Running | State::Paused) => {
-            widgets::nothing(ui, "The first stories come after 32 runs.");
+            widgets::nothing(ui, "The first stories appear after 32 runs.");
         }
         _ => widgets::nothing(ui, none),
     }
 }
 
-/// What was found in a sentence, and the report.
+/// Draws the result in a sentence, and a button for the report.
 fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
     let palette = Theme::palette_of(ui);
     let Some(job) = &shared.workbench.searches.job else { return };
@@ -94,13 +94,13 @@ fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
     });
     ui.horizontal_wrapped(|ui| {
         let draws = format!(
-            "{} runs, {} of them draws from the priors, of which {} end alike (distance at most {LIKE}).",
+            "{} runs, {} of them drawn from the priors; {} of these match the observation (distance at most {LIKE}).",
             found.trials, found.net, found.net_like
         );
-        let caveat = "An encounter that can end like this in the model: neither that it was so, nor how often";
+        let caveat = "Encounters that can end like this in the model. They do not show that it happened this way, or how often";
         ui.label(RichText::new(draws).small().color(palette.faint)).on_hover_text(caveat);
         if shared.workbench.stories_are_of_another() {
-            let words = "Of another observation, or before it was edited.";
+            let words = "These stories are from another observation or from before its last edits.";
             ui.label(RichText::new(words).small().color(palette.warning));
         }
         if let Some(file) = report
@@ -112,7 +112,7 @@ fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
 }
 
 impl StoriesPanel {
-    /// Place of the chosen story.
+    /// Index of the selected story.
     fn number(&self, found: &Stories) -> usize {
         let own = |story: &Story| Some(&story.state_hash) == self.chosen.as_ref();
         found.stories.iter().position(own).unwrap_or(0)
@@ -120,7 +120,7 @@ impl StoriesPanel {
 
     fn table(&mut self, ui: &mut Ui, shared: &mut Shared, found: &Arc<Stories>, number: usize) {
         let mut wanted = None;
-        // Acts and course take what the narrow columns leave.
+        // Acts and course share the width that the narrow columns leave.
         let words = (ui.available_width() - 290.0).max(214.0);
         let table = TableBuilder::new(ui)
             .id_salt("stories")
@@ -149,7 +149,7 @@ impl StoriesPanel {
                     let story = &found.stories[index];
                     line.set_selected(index == number);
                     cells(&mut line, index, story);
-                    let hint = "Click for its reasons; twice to see it in the 3-D view";
+                    let hint = "Click for the terms of its distance; double-click to show it in the 3-D view";
                     let response = line.response().on_hover_text(hint);
                     if response.clicked() {
                         self.chosen = Some(story.state_hash.clone());
@@ -164,14 +164,14 @@ impl StoriesPanel {
 }
 
 const HEADS: [(&str, &str); 6] = [
-    ("", "Place, the nearest first"),
-    ("Distance", "How unlike the observation it ends; up to 1 is like it"),
-    ("First", "The part that rope touched first"),
-    ("Acts", "What the whale did before and then"),
-    ("Course", "Where it came from, against the current"),
+    ("", "Rank, nearest first"),
+    ("Distance", "Distance of the ending from the observation; up to 1 it matches"),
+    ("First", "Body part that rope touched first"),
+    ("Acts", "Acts of the whale, before and after first contact"),
+    ("Course", "Direction of approach, relative to the current"),
     (
         "Neighbours",
-        "Share of runs a little different that end alike; below half it hangs on chance",
+        "Share of slightly varied runs that also match; below one half the story depends on chance",
     ),
 ];
 
@@ -187,13 +187,13 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
         let text = RichText::new(format!("{:.2}{mirrored}", story.distance)).color(colour);
         let response = ui.label(text);
         if story.mirrored {
-            response.on_hover_text("As its mirror image");
+            response.on_hover_text("Matches as a mirror image");
         }
     });
     line.col(|ui| drop(ui.label(spoken(&story.first_part))));
     for text in [story.acts_in_words(), story.course.to_owned()] {
         line.col(|ui| {
-            // A long text is cut in a narrow panel.
+            // A narrow panel truncates a long text.
             ui.label(&text).on_hover_text(&text);
         });
     }
@@ -206,7 +206,7 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
     });
 }
 
-/// The chosen story.
+/// Draws the selected story.
 fn chosen(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: usize) {
     ScrollArea::vertical().id_salt("story").auto_shrink(false).show(ui, |ui| {
         story::show(ui, shared, found, number);

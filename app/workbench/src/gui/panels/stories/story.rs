@@ -1,4 +1,4 @@
-//! The chosen story: what can be done with it, its distance term by term, and what was drawn for it.
+//! The selected story: its actions, the terms of its distance, and its drawn quantities.
 
 use egui::{Color32, Grid, Label, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::command::SearchAction;
@@ -11,7 +11,7 @@ use crate::gui::widgets;
 use crate::gui::widgets::command;
 use crate::gui::widgets::words::{capital, spoken};
 
-/// Width of the longest bar.
+/// Width of the longest bar [points].
 const BAR: f32 = 84.0;
 
 /// Draws a story.
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: us
     widgets::caption(ui, &format!("Distance {:.2}", story.distance));
     terms(ui, story, palette);
     if let Some(trust) = story.trust(found) {
-        widgets::caption(ui, "How far to trust it");
+        widgets::caption(ui, "Reliability");
         ui.add(Label::new(trust).wrap());
     }
     widgets::caption(ui, "The encounter");
@@ -47,16 +47,19 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: us
             ui.label(in_words(text)).on_hover_text(text);
             ui.end_row();
         }
-        ui.label(RichText::new("run for").color(palette.faint));
+        ui.label(RichText::new("duration").color(palette.faint));
         ui.label(format!("{:.0} s", story.simulated_s));
         ui.end_row();
     });
 }
 
-/// The terms of the distance as bars, the greatest first; a line marks what alone would be unlike.
+/// Draws the terms of the distance as bars, largest first; a line marks the cost above which one term alone is no match.
 fn terms(ui: &mut Ui, story: &Story, palette: Palette) {
     if story.terms.is_empty() {
-        ui.label(RichText::new("It ends exactly as was seen.").color(palette.good));
+        ui.label(
+            RichText::new("The ending agrees with the observation in every detail.")
+                .color(palette.good),
+        );
         return;
     }
     let mut terms: Vec<&(f64, String)> = story.terms.iter().collect();

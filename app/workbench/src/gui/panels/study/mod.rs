@@ -1,4 +1,4 @@
-//! The designer of a study: what it asks, its options, how encounters are drawn; and the queue it goes to.
+//! The designer of a study: its question, its options, how encounters are drawn; and the queue of studies.
 
 mod options;
 mod priors;
@@ -22,7 +22,7 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets;
 
-/// An edit of the study's text: a dotted path, and its value as TOML; `None` takes it away.
+/// Edits of the study: dotted path and value as TOML; `None` removes the field.
 type Edits = Vec<(String, Option<Setting>)>;
 
 /// The designer of a study, and the queue.
@@ -42,10 +42,10 @@ impl Panel for StudyPanel {
 /// Draws the study panel.
 fn show(ui: &mut Ui, shared: &mut Shared) {
     pick(ui, shared);
-    if shared.workbench.project.documents.text(Documents::STUDY).is_none() {
+    if shared.documents().text(Documents::STUDY).is_none() {
         widgets::nothing(
             ui,
-            "Choose a study above. Each meets every option of gear with the same drawn encounters and counts what comes of them.",
+            "Select a study above. A study runs every option of gear on the same drawn encounters and counts the outcomes.",
         );
         queue::show(ui, shared);
         return;
@@ -63,42 +63,36 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Puts edits into the study's text, together.
+/// Applies edits to the study, as one step of undo.
 fn apply(shared: &mut Shared, edits: Edits) {
     if edits.is_empty() {
         return;
     }
-    let told = |error: endline_gear::EditError| error.message;
+    let message = |error: endline_gear::EditError| error.message;
     let change = |document: &mut Document| {
         edits.iter().try_for_each(|(path, value)| match value {
-            Some(value) => document.put(path, value).map_err(told),
-            None if document.has(path) => document.remove(path).map_err(told),
+            Some(value) => document.put(path, value).map_err(message),
+            None if document.has(path) => document.remove(path).map_err(message),
             None => Ok(()),
         })
     };
-    if let Err(error) = shared.workbench.project.documents.alter(Documents::STUDY, change) {
-        shared.fault(error);
-    }
+    shared.alter(Documents::STUDY, change);
 }
 
 fn pick(ui: &mut Ui, shared: &mut Shared) {
-    let path = shared.workbench.project.documents.study_path().map(Path::to_owned);
-    let mark = if path.is_some() && shared.workbench.project.documents.is_unsaved(Documents::STUDY)
-    {
-        "• "
-    } else {
-        ""
-    };
+    let path = shared.documents().study_path().map(Path::to_owned);
+    let mark =
+        if path.is_some() && shared.documents().is_unsaved(Documents::STUDY) { "• " } else { "" };
     ui.horizontal(|ui| {
         let shown = path.as_deref().map_or_else(
-            || "Choose a study".to_owned(),
+            || "Select a study".to_owned(),
             |path| format!("{mark}{}", files::stem(path)),
         );
         let width = ui.available_width() - 152.0;
         ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
             ui,
             |ui| {
-                for file in files::studies(shared.workbench.project.documents.root()) {
+                for file in files::studies(shared.documents().root()) {
                     if ui
                         .selectable_label(path.as_ref() == Some(&file), files::stem(&file))
                         .clicked()
@@ -114,24 +108,24 @@ fn pick(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// The one thing to do next, and the same as text.
+/// Draws the buttons that run the study and open results.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
     shared.workbench.check_study();
     let ready = shared.workbench.study_is_sound() && shared.workbench.studies.check.is_clean();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
-            .on_hover_text("Run what is missing behind everything else. Nothing is saved; a study that was cancelled continues when it is run again")
+            .on_hover_text("Runs the missing encounters at low priority. Saves no file; a cancelled study continues when it is run again")
             .clicked()
         {
             shared.give(StudyAction::Run);
         }
         command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
         command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
-        let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
+        let help = "Runs at normal priority instead of low; the window may respond more slowly";
         ui.checkbox(&mut shared.workbench.studies.queue.normal_priority, "Full speed").on_hover_text(help);
         if !ready {
-            ui.label(RichText::new("errors below, or in Problems").color(faint));
+            ui.label(RichText::new("has errors: see below or in Problems").color(faint));
         }
     });
 }
@@ -139,13 +133,7 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
 fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Question");
     text(ui, shared, "Name", "name", "Shown in the report");
-    text(
-        ui,
-        shared,
-        "Notes",
-        "notes",
-        "What is asked and why; stands under the name in the report",
-    );
+    text(ui, shared, "Notes", "notes", "Purpose of the study, shown below the name in the report");
     let scenarios = shared.workbench.studies.scenarios.iter();
     let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
     choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);
@@ -154,39 +142,33 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         ui,
         shared,
         ("Encounters", "encounters"),
-        "How many encounters every option meets; the same for all, at most 65,536",
+        "Number of encounters, the same for every option, at most 65,536",
         edits,
     );
     let mut events: Vec<(String, String)> =
         StudyEvent::all().iter().map(|event| (event.name(), event.words())).collect();
-    if !shared.workbench.project.documents.has(Documents::STUDY, "event") {
+    if !shared.documents().has(Documents::STUDY, "event") {
         events.insert(0, (String::new(), StudyEvent::Entangled.words()));
     }
-    choice(ui, shared, ("Asks about", "event"), &events, edits);
-    let options: Vec<(String, String)> = option_ids(&shared.workbench.project.documents)
-        .into_iter()
-        .map(|id| (id.clone(), id))
-        .collect();
+    choice(ui, shared, ("Event", "event"), &events, edits);
+    let options: Vec<(String, String)> =
+        option_ids(shared.documents()).into_iter().map(|id| (id.clone(), id)).collect();
     choice(ui, shared, ("Baseline", "baseline"), &options, edits);
-    let drawn = shared.workbench.project.documents.keys(Documents::STUDY, "encounter").into_iter();
+    let drawn = shared.documents().keys(Documents::STUDY, "encounter").into_iter();
     let chosen = drawn
         .filter(|name| {
-            shared
-                .workbench
-                .project
-                .documents
-                .has(Documents::STUDY, &format!("encounter.{name}.choice"))
+            shared.documents().has(Documents::STUDY, &format!("encounter.{name}.choice"))
         })
         .map(|name| name.replace('"', ""));
     let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
-    levels.insert(0, (String::new(), "nothing".into()));
+    levels.insert(0, (String::new(), "no split".into()));
     choice(ui, shared, ("Results split by", "split"), &levels, edits);
-    number(ui, shared, ("Seed", "seed"), "Another seed draws other encounters", edits);
+    number(ui, shared, ("Seed", "seed"), "Seed of the drawn encounters", edits);
     number(
         ui,
         shared,
         ("Stop at width", "enough.narrower"),
-        "The study stops once the interval of every option's rate is narrower than this share, such as 0.05 for 5 points of a hundred; empty: it runs all encounters",
+        "Stops the study when the confidence interval of every option's rate is narrower than this, such as 0.05 for 5 percentage points; empty: runs all encounters",
         edits,
     );
 }
@@ -197,7 +179,7 @@ fn text(ui: &mut Ui, shared: &mut Shared, name: &str, field: &str, help: &str) {
         let width = ui.available_width() - 12.0;
         if let Some(typed) = fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            shared.documents(),
             Documents::STUDY,
             field,
             width,
@@ -219,7 +201,7 @@ fn number(
         widgets::name(ui, name);
         if let Some(typed) = fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            shared.documents(),
             Documents::STUDY,
             field,
             90.0,
@@ -229,9 +211,7 @@ fn number(
             let value = (!typed.trim().is_empty()).then(|| Setting::plain(typed.trim()));
             if field == "enough.narrower" {
                 let event = shared
-                    .workbench
-                    .project
-                    .documents
+                    .documents()
                     .field(Documents::STUDY, "event")
                     .unwrap_or_else(|| "entangled".into());
                 match value {
@@ -244,19 +224,19 @@ fn number(
     });
 }
 
-/// The way from the study to its gear, where another scenario is open: an option is made from what is changed there.
+/// Draws a button that opens the scenario of the study, if another one is open, so that an option can be made from edits of it.
 fn design(ui: &mut Ui, shared: &mut Shared) {
-    let documents = &shared.workbench.project.documents;
+    let documents = shared.documents();
     let Some(id) = documents.field(Documents::STUDY, "scenario") else { return };
     let file = documents.root().join(format!("scenarios/{id}.toml"));
     if files::stem(documents.scenario_path()) == id || !file.is_file() {
         return;
     }
-    let help = "Opens the scenario: change its gear and do not save, then come back and take \"From the present design\"";
+    let help = "Opens the scenario. Edit its gear without saving, then return here and click \"From unsaved edits\"";
     ui.horizontal(|ui| {
         widgets::name(ui, "");
-        if ui.button("Open its design").on_hover_text(help).clicked() {
-            // Gear that stands in the scenario itself is edited there.
+        if ui.button("Open the scenario").on_hover_text(help).clicked() {
+            // Gear without an assembly is edited in the scenario itself.
             let text = endline_gear::read::text(&file).unwrap_or_default();
             let has_assembly = Document::parse(&text).is_ok_and(|scenario| scenario.has("gear"));
             shared.give(EditAction::OpenScenario(file));
@@ -278,33 +258,26 @@ fn choice(
     ui.horizontal(|ui| {
         widgets::name(ui, name);
         let width = ui.available_width() - 12.0;
-        if let Some(taken) = fields::choose(
-            ui,
-            &shared.workbench.project.documents,
-            Documents::STUDY,
-            field,
-            choices,
-            width,
-        ) {
+        if let Some(taken) =
+            fields::choose(ui, shared.documents(), Documents::STUDY, field, choices, width)
+        {
             edits.push((field.to_owned(), (!taken.is_empty()).then(|| Setting::text(&taken))));
         }
     });
 }
 
-/// Ids of the options in the order of the file.
+/// Ids of the options, in the order of the file.
 fn option_ids(documents: &Documents) -> Vec<String> {
     (0..)
         .map_while(|index| documents.field(Documents::STUDY, &format!("option.{index}.id")))
         .collect()
 }
 
-/// What is wrong with the study's text, and with its options as they are assembled.
+/// Draws problems of the study's file and of its assembled options.
 fn problems(ui: &mut Ui, shared: &Shared) {
-    let file = shared.workbench.project.documents.shown_name(Documents::STUDY);
+    let file = shared.documents().shown_name(Documents::STUDY);
     let own: Vec<Diagnostic> = shared
-        .workbench
-        .project
-        .documents
+        .documents()
         .problems()
         .iter()
         .filter(|problem| problem.file == file)

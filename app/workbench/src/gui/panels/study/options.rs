@@ -1,4 +1,4 @@
-//! Options of a study: each a list of differences from the baseline scenario.
+//! Options of a study, each a list of differences from the scenario, and the menu of fields that an option can set.
 
 use std::path::{Path, PathBuf};
 
@@ -15,11 +15,11 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::command;
 
-/// What is often set, as a hint where a setting is typed.
-const SUCH_AS: &str =
+/// Fields that are often set, as a hint for typing.
+const EXAMPLES: &str =
     "current.speed, weak_links, link.0.rating, gear.0.assembly, ropes/sink-3-8.strength";
 
-/// What is done with the list of options.
+/// A change of the list of options.
 enum Act {
     Copy(usize),
     Drop(usize),
@@ -28,17 +28,19 @@ enum Act {
 /// Draws every option with its settings.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Options");
-    let count = super::option_ids(&shared.workbench.project.documents).len();
-    let baseline =
-        shared.workbench.project.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
+    let count = super::option_ids(shared.documents()).len();
+    let baseline = shared.documents().field(Documents::STUDY, "baseline").unwrap_or_default();
     let mut act = None;
     ui.horizontal_wrapped(|ui| {
-        if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked()
+        if ui
+            .button("Add option")
+            .on_hover_text("Adds a copy of the last option, to be edited")
+            .clicked()
         {
             act = Some(Act::Copy(count.saturating_sub(1)));
         }
-        command(ui, shared, "From the present design", StudyAction::OptionFromEdits);
-        ui.menu_button("With other gear ⏷", |ui| other_gear(ui, shared));
+        command(ui, shared, "From unsaved edits", StudyAction::OptionFromEdits);
+        ui.menu_button("With another assembly ⏷", |ui| other_gear(ui, shared));
     });
     let is_longer = is_longer(ui, shared, count);
     for index in 0..count {
@@ -56,32 +58,28 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     match act {
         Some(Act::Copy(index)) => copy(shared, index),
         Some(Act::Drop(index)) => {
-            if let Err(error) =
-                shared.workbench.project.documents.alter(Documents::STUDY, |document| {
-                    document.remove_table("option", index).map_err(|error| error.message)
-                })
-            {
-                shared.fault(error);
-            }
+            shared.alter(Documents::STUDY, |document| {
+                document.remove_table("option", index).map_err(|error| error.message)
+            });
         }
         None => {}
     }
 }
 
-/// Whether the open study has more options than when it was drawn last: the new one stands at the end, and is to be seen.
+/// Whether an option was added since the last frame; the new one, at the end, is then scrolled into view.
 fn is_longer(ui: &Ui, shared: &Shared, count: usize) -> bool {
     let id = ui.id().with("options drawn");
-    let study = shared.workbench.project.documents.study_path().map(Path::to_owned);
+    let study = shared.documents().study_path().map(Path::to_owned);
     let before = ui.data(|data| data.get_temp::<(Option<PathBuf>, usize)>(id));
     let is_longer = before.is_some_and(|(of, before)| of == study && before < count);
     ui.data_mut(|data| data.insert_temp(id, (study, count)));
     is_longer
 }
 
-/// The assemblies of the library by their names; one that is chosen is an option.
+/// Draws the assemblies of the library; a click adds one as an option.
 fn other_gear(ui: &mut Ui, shared: &mut Shared) {
     ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let names = documents.files("assemblies").map(|file| {
             let id = id_of(file).to_owned();
             (documents.field(file, "name").unwrap_or_else(|| id.clone()), id)
@@ -107,19 +105,32 @@ fn head(
     let mut act = None;
     ui.horizontal_wrapped(|ui| {
         let id = format!("option.{index}.id");
-        let is_baseline = shared.workbench.project.documents.field(Documents::STUDY, &id).as_deref() == Some(baseline);
+        let is_baseline =
+            shared.documents().field(Documents::STUDY, &id).as_deref() == Some(baseline);
         let fields = [
             (id, 84.0, "id", "Id, unique among the options"),
-            (format!("option.{index}.name"), (ui.available_size_before_wrap().x - 292.0).max(90.0), "name", "Name in tables and figures"),
+            (
+                format!("option.{index}.name"),
+                (ui.available_size_before_wrap().x - 292.0).max(90.0),
+                "name",
+                "Name in tables and figures",
+            ),
             (
                 format!("option.{index}.strength"),
                 84.0,
                 "strength",
-                "Breaking strength it stands for, for the curve of parting against strength; may be empty",
+                "Breaking strength for the curve of parting against strength; optional",
             ),
         ];
         for (field, width, hint, help) in fields {
-            if let Some(typed) = fields::edit(ui, &shared.workbench.project.documents, Documents::STUDY, &field, width, Said { hint, help }) {
+            if let Some(typed) = fields::edit(
+                ui,
+                shared.documents(),
+                Documents::STUDY,
+                &field,
+                width,
+                Said { hint, help },
+            ) {
                 if field.ends_with(".id") && is_baseline {
                     edits.push(("baseline".into(), Some(Setting::text(&typed))));
                 }
@@ -129,10 +140,10 @@ fn head(
         if is_baseline {
             ui.label(RichText::new("baseline").small().color(Theme::palette_of(ui).accent));
         }
-        if ui.small_button("Copy").on_hover_text("Another option like this one").clicked() {
+        if ui.small_button("Copy").on_hover_text("Adds a copy of this option").clicked() {
             act = Some(Act::Copy(index));
         }
-        if !is_baseline && ui.small_button("✖").on_hover_text("Take this option out").clicked() {
+        if !is_baseline && ui.small_button("✖").on_hover_text("Removes this option").clicked() {
             act = Some(Act::Drop(index));
         }
     });
@@ -142,27 +153,31 @@ fn head(
 fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
     let faint = Theme::palette_of(ui).faint;
     let table = format!("option.{index}.set");
-    let leaves = leaves(&shared.workbench.project.documents, &table);
+    let leaves = leaves(shared.documents(), &table);
     if leaves.is_empty() {
-        ui.label(RichText::new("the scenario as it stands").color(faint));
+        ui.label(RichText::new("no differences from the scenario").color(faint));
     }
     for path in leaves {
         ui.horizontal_wrapped(|ui| {
             let shown = path.trim_start_matches(&table).trim_start_matches('.').replace('"', "");
             ui.label(RichText::new(&shown).monospace())
-                .on_hover_text("A field of the scenario, or of a library item, by its dotted path");
+                .on_hover_text("Dotted path of a field of the scenario or of a library item");
             let width = (ui.available_size_before_wrap().x - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                shared.documents(),
                 Documents::STUDY,
                 &path,
                 width,
-                Said { hint: "", help: "As it would stand in the file, with its unit" },
+                Said { hint: "", help: "Value with its unit, as in the file" },
             ) {
                 edits.push((path.clone(), Some(Setting::plain(&typed))));
             }
-            if ui.small_button("✖").on_hover_text("Leave this as the scenario has it").clicked() {
+            if ui
+                .small_button("✖")
+                .on_hover_text("Removes this setting; the value of the scenario applies")
+                .clicked()
+            {
                 edits.push((path.clone(), None));
             }
         });
@@ -177,7 +192,7 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
         let editor = egui::TextEdit::singleline(&mut typed)
             .desired_width(width)
             .hint_text("or its path, such as current.speed");
-        let response = ui.add(editor).on_hover_text(SUCH_AS);
+        let response = ui.add(editor).on_hover_text(EXAMPLES);
         let entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let wanted = (ui.button("Set").clicked() || entered) && !typed.trim().is_empty();
@@ -195,19 +210,17 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
     });
 }
 
-/// A field as the library has it, so that a setting begins with what it changes.
+/// Current value of a field, with which a new setting starts.
 fn current(shared: &Shared, field: &str) -> String {
     let item = field.split_once('.').filter(|(item, _)| item.contains('/'));
     let found = match item {
-        Some((item, field)) => {
-            shared.workbench.project.documents.field(&format!("{item}.toml"), field)
-        }
-        None => shared.workbench.project.documents.field(Documents::SCENARIO, field),
+        Some((item, field)) => shared.documents().field(&format!("{item}.toml"), field),
+        None => shared.documents().field(Documents::SCENARIO, field),
     };
     found.unwrap_or_default()
 }
 
-/// Paths of all values under a table.
+/// Paths of all values below a table.
 fn leaves(documents: &Documents, table: &str) -> Vec<String> {
     let mut found = Vec::new();
     for key in documents.keys(Documents::STUDY, table) {
@@ -221,26 +234,25 @@ fn leaves(documents: &Documents, table: &str) -> Vec<String> {
     found
 }
 
-/// Adds an option like another, under an id of its own.
+/// Adds a copy of an option with a new id.
 fn copy(shared: &mut Shared, index: usize) {
-    let ids = super::option_ids(&shared.workbench.project.documents);
+    let ids = super::option_ids(shared.documents());
     let old = ids.get(index).cloned().unwrap_or_else(|| "option".into());
     let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id))
     else {
         return;
     };
-    let of = |key: &str| {
-        shared.workbench.project.documents.field(Documents::STUDY, &format!("option.{index}.{key}"))
-    };
+    let of =
+        |key: &str| shared.documents().field(Documents::STUDY, &format!("option.{index}.{key}"));
     let name = of("name").map(|name| format!("{name} (copy)"));
     let strength = of("strength");
     let table = format!("option.{index}.set");
-    let settings: Vec<(String, String)> = leaves(&shared.workbench.project.documents, &table)
+    let settings: Vec<(String, String)> = leaves(shared.documents(), &table)
         .into_iter()
         .filter_map(|path| {
             Some((
                 path.trim_start_matches(&table).to_owned(),
-                shared.workbench.project.documents.field(Documents::STUDY, &path)?,
+                shared.documents().field(Documents::STUDY, &path)?,
             ))
         })
         .collect();
@@ -258,7 +270,5 @@ fn copy(shared: &mut Shared, index: usize) {
                 .map_err(|error| error.message)
         })
     };
-    if let Err(error) = shared.workbench.project.documents.alter(Documents::STUDY, change) {
-        shared.fault(error);
-    }
+    shared.alter(Documents::STUDY, change);
 }

@@ -1,4 +1,4 @@
-//! How encounters are drawn: one prior for each thing that varies, with its law, source and confidence.
+//! How encounters are drawn: a prior for each quantity that varies, with its distribution, source and confidence.
 
 use egui::{ComboBox, RichText, Ui};
 use endline_gear::Setting;
@@ -10,7 +10,7 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// What an encounter knows, with a first law for each.
+/// Quantities of an encounter, each with its first distribution and values.
 const KNOWN: [(&str, &str, &str); 17] = [
     ("age", "value", "\"10 yr\""),
     ("answer", "choice", "[\"none\", \"roll-away\", \"turn-away\"]"),
@@ -31,33 +31,37 @@ const KNOWN: [(&str, &str, &str); 17] = [
     ("tide", "choice", "[\"0 m/s\", \"0.25 m/s\", \"0.5 m/s\"]"),
 ];
 
-/// Keys of `[encounter]` that are no priors.
+/// Keys of `[encounter]` that are not priors.
 const NO_PRIORS: [&str; 3] = ["aim", "aim_by", "gap"];
 
-/// Laws, as a file names them and as people do.
+/// Distributions: key in the file and name on screen.
 const LAWS: [(&str, &str); 5] = [
-    ("uniform", "even from, to"),
-    ("normal", "normal about, by"),
-    ("bins", "even within ranges"),
+    ("uniform", "uniform from, to"),
+    ("normal", "normal mean, s.d."),
+    ("bins", "histogram"),
     ("choice", "one of"),
-    ("value", "always"),
+    ("value", "fixed"),
 ];
 
-/// Draws where the whale is aimed, and every prior.
+/// Draws the aim of the whale and all priors.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
-    widgets::caption(ui, "Encounters, drawn alike for every option");
-    list(ui, shared, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
+    widgets::caption(ui, "Encounters, the same for every option");
+    list(
+        ui,
+        shared,
+        ("Aimed at", "encounter.aim"),
+        "Lines of the gear at rest, with commas between; empty: any line",
+        edits,
+    );
     super::text(
         ui,
         shared,
-        "Begins",
+        "Start gap",
         "encounter.gap",
-        "From the snout to the rope at the start, such as 3 m",
+        "Distance from the snout to the rope at the start, such as 3 m",
     );
     let names: Vec<String> = shared
-        .workbench
-        .project
-        .documents
+        .documents()
         .keys(Documents::STUDY, "encounter")
         .into_iter()
         .filter(|name| !NO_PRIORS.contains(&name.as_str()))
@@ -71,9 +75,10 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
 
 fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
     let at = format!("encounter.{name}");
-    let Some((law, _)) = LAWS.iter().find(|(law, _)| {
-        shared.workbench.project.documents.has(Documents::STUDY, &format!("{at}.{law}"))
-    }) else {
+    let Some((law, _)) = LAWS
+        .iter()
+        .find(|(law, _)| shared.documents().has(Documents::STUDY, &format!("{at}.{law}")))
+    else {
         return;
     };
     ui.horizontal(|ui| {
@@ -86,23 +91,25 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         }
         if ui
             .small_button("✖")
-            .on_hover_text("As the scenario has it, in every encounter")
+            .on_hover_text(
+                "Removes this prior; the value of the scenario applies in every encounter",
+            )
             .clicked()
         {
             edits.push((at.clone(), None));
         }
     });
     if *law == "normal" {
-        // On a line of its own: four fields beside the law are wider than the panel.
+        // On a separate line, because four fields beside the distribution are wider than the panel.
         ui.horizontal(|ui| {
             widgets::name(ui, "  within");
             pair(ui, shared, &format!("{at}.between"), edits);
         });
     }
     if *law == "bins" {
-        let ends = "Ends of the ranges in rising order, with commas between";
+        let ends = "Bounds of the bins in ascending order, with commas between";
         list(ui, shared, ("", &format!("{at}.bins")), ends, edits);
-        let shares = "Share of each range, with commas between";
+        let shares = "Weight of each bin, with commas between";
         list(ui, shared, ("  weights", &format!("{at}.weights")), shares, edits);
     }
     if *law == "choice" {
@@ -111,14 +118,14 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
             ui,
             shared,
             ("  weights", &format!("{at}.weights")),
-            "How often each, with commas between; empty: all alike",
+            "Weight of each value, with commas between; empty: equal weights",
             edits,
         );
     }
     confidence(ui, shared, &at, edits);
 }
 
-/// The law of a prior; another one begins with what is usual.
+/// Draws the choice of a distribution; a new one starts with default values.
 fn laws(ui: &mut Ui, at: &str, law: &str, name: &str, edits: &mut Edits) {
     let shown = LAWS.iter().find(|(known, _)| *known == law).map_or(law, |(_, words)| words);
     ComboBox::from_id_salt(("law", at)).width(108.0).selected_text(shown).show_ui(ui, |ui| {
@@ -127,14 +134,14 @@ fn laws(ui: &mut Ui, at: &str, law: &str, name: &str, edits: &mut Edits) {
                 edits.push((format!("{at}.{law}"), None));
                 edits.push((format!("{at}.weights"), None));
                 edits.push((format!("{at}.between"), None));
-                begin(at, other, name, edits);
+                start(at, other, name, edits);
             }
         }
     });
 }
 
-/// A law of a prior with its first values.
-fn begin(at: &str, law: &str, name: &str, edits: &mut Edits) {
+/// Sets a distribution with its first values.
+fn start(at: &str, law: &str, name: &str, edits: &mut Edits) {
     let usual = KNOWN.iter().find(|(known, ..)| *known == name);
     let pair = usual
         .filter(|(_, law, _)| ["uniform", "normal"].contains(law))
@@ -167,25 +174,20 @@ fn pair(ui: &mut Ui, shared: &Shared, field: &str, edits: &mut Edits) {
 
 fn one(ui: &mut Ui, shared: &Shared, field: &str, width: f32, edits: &mut Edits) {
     let said = Said { hint: "", help: "With its unit, such as 0.6 m/s" };
-    if let Some(typed) =
-        fields::edit(ui, &shared.workbench.project.documents, Documents::STUDY, field, width, said)
+    if let Some(typed) = fields::edit(ui, shared.documents(), Documents::STUDY, field, width, said)
     {
         edits.push((field.to_owned(), Some(Setting::plain(&typed))));
     }
 }
 
-/// A list of values as one line with commas.
+/// Draws a list of values as one line with commas.
 fn list(ui: &mut Ui, shared: &Shared, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         widgets::name(ui, name);
         let id = egui::Id::new(("list", field));
         let values: Vec<String> = (0..)
             .map_while(|index| {
-                shared
-                    .workbench
-                    .project
-                    .documents
-                    .field(Documents::STUDY, &format!("{field}.{index}"))
+                shared.documents().field(Documents::STUDY, &format!("{field}.{index}"))
             })
             .collect();
         let stored = values.join(", ");
@@ -208,7 +210,7 @@ fn list(ui: &mut Ui, shared: &Shared, (name, field): (&str, &str), help: &str, e
     });
 }
 
-/// Values with commas between as a list of a file: numbers bare, all else in quotes.
+/// A list in TOML from values with commas between: numbers plain, all else in quotes.
 fn written(typed: &str) -> Option<Setting> {
     let value = |text: &str| {
         if text.parse::<f64>().is_ok() {
@@ -226,25 +228,18 @@ fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         widgets::name(ui, "  source");
         let field = format!("{at}.source");
-        let assumed = shared.workbench.project.documents.field(Documents::STUDY, &field).as_deref()
-            == Some("assumed");
+        let assumed =
+            shared.documents().field(Documents::STUDY, &field).as_deref() == Some("assumed");
         let width = ui.available_width() - if assumed { 12.0 } else { 110.0 };
-        let said = Said { hint: "assumed", help: "Where the distribution comes from, or assumed" };
-        if let Some(typed) = fields::edit(
-            ui,
-            &shared.workbench.project.documents,
-            Documents::STUDY,
-            &field,
-            width,
-            said,
-        ) {
+        let said = Said { hint: "assumed", help: "Source of the distribution, or assumed" };
+        if let Some(typed) =
+            fields::edit(ui, shared.documents(), Documents::STUDY, &field, width, said)
+        {
             let typed = if typed.trim().is_empty() { "assumed".to_owned() } else { typed };
             if typed == "assumed" {
                 edits.push((format!("{at}.confidence"), None));
             } else if shared
-                .workbench
-                .project
-                .documents
+                .documents()
                 .field(Documents::STUDY, &format!("{at}.confidence"))
                 .is_none()
             {
@@ -257,14 +252,9 @@ fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
             let words: Vec<(String, String)> = ["measured", "derived", "estimate", "assumed"]
                 .map(|word| (word.to_owned(), word.to_owned()))
                 .to_vec();
-            if let Some(word) = fields::choose(
-                ui,
-                &shared.workbench.project.documents,
-                Documents::STUDY,
-                &field,
-                &words,
-                88.0,
-            ) {
+            if let Some(word) =
+                fields::choose(ui, shared.documents(), Documents::STUDY, &field, &words, 88.0)
+            {
                 edits.push((field, Some(Setting::text(&word))));
             }
         }
@@ -274,7 +264,7 @@ fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
 fn add(ui: &mut Ui, names: &[String], edits: &mut Edits) {
     ui.add_space(4.0);
     let faint = Theme::palette_of(ui).faint;
-    ui.menu_button("Add what varies ⏷", |ui| {
+    ui.menu_button("Add a prior ⏷", |ui| {
         for (name, law, values) in
             KNOWN.iter().filter(|(name, ..)| !names.iter().any(|known| known == name))
         {
@@ -292,7 +282,11 @@ fn add(ui: &mut Ui, names: &[String], edits: &mut Edits) {
             }
         }
     });
-    ui.label(RichText::new("What is not named is as the scenario has it.").small().color(faint));
+    ui.label(
+        RichText::new("Quantities without a prior have the value of the scenario.")
+            .small()
+            .color(faint),
+    );
 }
 
 #[cfg(test)]
@@ -300,7 +294,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_list_is_written_as_a_file_has_it() {
+    fn a_list_is_written_as_in_a_file() {
         assert_eq!(written("2 yr, 15 yr").unwrap().written(), "[\"2 yr\", \"15 yr\"]");
         assert_eq!(written("0.7, 0.3").unwrap().written(), "[0.7, 0.3]");
         assert!(written(" , ").is_none());

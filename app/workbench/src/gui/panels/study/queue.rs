@@ -1,4 +1,4 @@
-//! The queue of studies: how far each is, what can be done with it, and studies that are ready.
+//! The queue of studies: progress and buttons of each, and results of earlier studies.
 
 use endline_session::command::StudyAction;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::time_left;
 
-/// What is done with a job.
+/// An action on a job.
 #[derive(Clone, Copy)]
 enum Act {
     Pause,
@@ -58,7 +58,7 @@ fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act>
             State::Waiting => ("waiting".to_owned(), palette.faint),
             State::Opening => ("opening".to_owned(), palette.warning),
             State::Running if progress.elsewhere > 0 => (
-                format!("waits for {} that other programs run", progress.elsewhere),
+                format!("waiting for {} encounters of other processes", progress.elsewhere),
                 palette.warning,
             ),
             State::Running => (
@@ -73,7 +73,9 @@ fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act>
                 ("cancelled; the encounters in progress end".to_owned(), palette.warning)
             }
             State::Done => ("done".to_owned(), palette.good),
-            State::Cancelled => ("cancelled; what was run stays".to_owned(), palette.faint),
+            State::Cancelled => {
+                ("cancelled; finished encounters are kept".to_owned(), palette.faint)
+            }
             State::Failed(why) => {
                 (why.lines().next().unwrap_or_default().to_owned(), palette.error)
             }
@@ -99,8 +101,8 @@ fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act>
         {
             *wanted = Some(folder);
         }
-        let told = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
-        ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(told);
+        let full = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
+        ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(full);
     });
     act
 }
@@ -109,7 +111,7 @@ fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
     ui.small_button(text).clicked().then_some(act)
 }
 
-/// Results that lie ready, of studies run before.
+/// Draws the list of results of earlier studies.
 fn ready(ui: &mut Ui, shared: &mut Shared) {
     let root = shared.workbench.studies.root();
     let id = egui::Id::new("ready studies");
@@ -123,7 +125,7 @@ fn ready(ui: &mut Ui, shared: &mut Shared) {
     if found.is_empty() {
         return;
     }
-    egui::CollapsingHeader::new(format!("Studies that were run ({})", found.len()))
+    egui::CollapsingHeader::new(format!("Results of earlier studies ({})", found.len()))
         .id_salt("ready")
         .show(ui, |ui| {
             for (folder, words) in found {

@@ -1,4 +1,4 @@
-//! What an option may set, to be searched: fields of the scenario, attributes of its plugins, figures of library items.
+//! Fields that an option can set, with a search: fields of the scenario, attributes of its plugins, figures of library items.
 
 use egui::{RichText, ScrollArea, TextEdit, Ui};
 use endline_gear::{Document, Kind};
@@ -11,21 +11,21 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
 
-/// Most that are listed at once: who has more types a word.
+/// Maximum number of fields listed.
 const MOST: usize = 200;
 
-/// A field that an option may set.
+/// A field that an option can set.
 #[derive(Clone, Debug)]
 struct Settable {
-    /// What it belongs to and what it is called.
+    /// Heading and label.
     name: String,
-    /// Its dotted path, as an option has it.
+    /// Dotted path for an option.
     path: String,
-    /// What it means.
+    /// Help.
     help: String,
-    /// What it is now; empty where the scenario leaves it open.
+    /// Current value; empty if the scenario has none.
     now: String,
-    /// What holds where it is left open.
+    /// Default value.
     usual: String,
 }
 
@@ -36,7 +36,7 @@ impl Settable {
     }
 }
 
-/// A menu of fields with a search over them; answers the path chosen and its value now.
+/// Draws a menu of fields with a search; returns the path and current value of the selected field.
 pub(super) fn menu(ui: &mut Ui, shared: &Shared, index: usize) -> Option<(String, String)> {
     let mut chosen = None;
     let menu = ui.menu_button("Set a field ⏷", |ui| {
@@ -61,12 +61,12 @@ pub(super) fn menu(ui: &mut Ui, shared: &Shared, index: usize) -> Option<(String
                 }
             }
             if found.is_empty() {
-                ui.label(RichText::new("no field has all of these words").weak());
+                ui.label(RichText::new("no field matches all words").weak());
             }
         });
         ui.data_mut(|data| data.insert_temp(id, sought));
     });
-    menu.response.on_hover_text("Fields of the scenario and of library items, with their meaning");
+    menu.response.on_hover_text("Fields of the scenario and of library items, with help");
     chosen
 }
 
@@ -84,16 +84,16 @@ fn row(ui: &mut Ui, field: &Settable) -> bool {
     .inner
 }
 
-/// The scenario that options are differences from.
+/// The scenario of the study.
 struct Base<'a> {
     shared: &'a Shared,
-    /// Its text, where it is not the scenario that is open.
+    /// Its text, if it is not the open scenario.
     other: Option<Document>,
 }
 
 impl<'a> Base<'a> {
     fn of(shared: &'a Shared) -> Self {
-        let documents = &shared.workbench.project.documents;
+        let documents = shared.documents();
         let of = documents.field(Documents::STUDY, "scenario").unwrap_or_default();
         let open = documents.scenario_path().file_stem().unwrap_or_default().to_string_lossy();
         if id_of(&of) == open {
@@ -105,7 +105,7 @@ impl<'a> Base<'a> {
     }
 
     fn documents(&self) -> &'a Documents {
-        &self.shared.workbench.project.documents
+        self.shared.documents()
     }
 
     fn now(&self, field: &str) -> String {
@@ -121,7 +121,7 @@ impl<'a> Base<'a> {
         })
     }
 
-    /// Attributes of the gear type, the motion and the law of friction.
+    /// Attributes of the gear type, the motion and the friction law.
     fn attributes(&self) -> impl Iterator<Item = Settable> {
         let assembly = self.now("gear.0.assembly");
         let file = format!("assemblies/{assembly}.toml");
@@ -160,7 +160,7 @@ impl<'a> Base<'a> {
         found.into_iter()
     }
 
-    /// Figures of library items: of those that the open scenario uses, and of every item once something is sought.
+    /// Figures of library items: those used by the open scenario, or all items if there are search words.
     fn items(&self, sought: &[String]) -> impl Iterator<Item = Settable> {
         let documents = self.documents();
         let kinds = Kind::ALL.into_iter().filter(|kind| *kind != Kind::Act);
@@ -175,7 +175,7 @@ impl<'a> Base<'a> {
                     path: format!("{item}.{}", field.key),
                     help: field.help.to_owned(),
                     now: documents.field(file, field.key).unwrap_or_default(),
-                    usual: "not given".to_owned(),
+                    usual: "no value".to_owned(),
                 })
             })
         })

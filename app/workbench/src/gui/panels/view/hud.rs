@@ -1,5 +1,5 @@
-//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension and its line, rope on each part of the body,
-//! mouth, flippers and the chosen act.
+//! Head-up display of the pilot: speed, depth, heading, attitude, greatest tension and its line, rope on each body part, mouth, flippers
+//! and the selected act.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, pos2, vec2};
 use endline_sdk::{BodyPart, Controls};
@@ -10,25 +10,25 @@ use endline_sim::{DQuat, DVec3};
 use crate::gui::widgets::words::spoken;
 use crate::input::Hands;
 
-/// Width of a reading where there is room, and where its numbers are set smaller [points].
+/// Normal width of a reading, and the width below which its numbers are smaller [points].
 const WIDTH: f32 = 104.0;
 const NARROW: f32 = 90.0;
 
-/// Roll to starboard and nose up of a whale [degrees].
+/// Roll to starboard and pitch nose up of a whale [degrees].
 fn attitude(orientation: DQuat) -> (f64, f64) {
     let [ahead, port] = [orientation * DVec3::X, orientation * DVec3::Y];
-    // Starboard down is a positive roll: port then points up.
+    // Roll is positive with starboard down, that is with port up.
     let roll = port.z.atan2((orientation * DVec3::Z).z);
     (roll.to_degrees(), ahead.z.clamp(-1.0, 1.0).asin().to_degrees())
 }
 
-/// The readings of the display: name and value.
+/// Name and value of each reading.
 #[must_use]
 pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
     let Some(whale) = &view.frame.whale else { return Vec::new() };
     let ahead = whale.orientation * DVec3::X;
     let (roll, pitch) = attitude(whale.orientation);
-    let (worst, tension_n) = worst(view);
+    let (greatest, tension_n) = greatest(view);
     vec![
         ("SPEED".into(), units.speed(whale.speed_m_s)),
         ("DEPTH".into(), units.depth(-whale.position.z)),
@@ -36,15 +36,15 @@ pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
             "HEADING".into(),
             format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0)),
         ),
-        ("ROLL".into(), turned(roll, ["level", "port", "stbd"])),
-        ("PITCH".into(), turned(pitch, ["level", "down", "up"])),
+        ("ROLL".into(), with_side(roll, ["level", "port", "stbd"])),
+        ("PITCH".into(), with_side(pitch, ["level", "down", "up"])),
         ("THROTTLE".into(), format!("{:.0} %", 100.0 * view.controls.speed)),
-        (format!("TENSION {worst}").trim_end().to_owned(), units.force().text(tension_n)),
+        (format!("TENSION {greatest}").trim_end().to_owned(), units.force().text(tension_n)),
     ]
 }
 
-/// An angle in whole degrees with the word for its side: none, below zero, above.
-fn turned(degrees: f64, [none, below, above]: [&str; 3]) -> String {
+/// An angle in whole degrees with a word for zero, negative or positive values.
+fn with_side(degrees: f64, [none, below, above]: [&str; 3]) -> String {
     let whole = degrees.round();
     if whole == 0.0 {
         return none.to_owned();
@@ -52,9 +52,9 @@ fn turned(degrees: f64, [none, below, above]: [&str; 3]) -> String {
     format!("{:.0}° {}", whole.abs(), if whole < 0.0 { below } else { above })
 }
 
-/// The line of the greatest tension now, by its id, and that tension [N].
+/// Id of the line with the greatest tension now, and the tension [N].
 #[must_use]
-pub fn worst(view: &LiveView) -> (&str, f64) {
+pub fn greatest(view: &LiveView) -> (&str, f64) {
     let segments = view.frame.tension_n.iter().copied().enumerate();
     let most =
         segments.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, tension_n)| *tension_n > 0.0);
@@ -65,40 +65,42 @@ pub fn worst(view: &LiveView) -> (&str, f64) {
     )
 }
 
-/// Rope that presses on each part now, the hardest first, in one line; empty where none does.
+/// Force of rope on each body part now, largest first, in one line; empty without contact.
 #[must_use]
-pub fn touched(view: &LiveView, units: Units) -> String {
+pub fn rope_forces(view: &LiveView, units: Units) -> String {
     let mut forces = BodyPart::ALL.map(|part| (part, 0.0));
     for contact in &view.frame.contacts {
         forces[contact.region.part() as usize].1 += contact.normal_force_n.max(0.0);
     }
     forces.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let told = forces.iter().filter(|(_, force_n)| *force_n > 0.0);
-    told.map(|(part, force_n)| format!("{} {}", spoken(part.name()), units.force().text(*force_n)))
+    let present = forces.iter().filter(|(_, force_n)| *force_n > 0.0);
+    present
+        .map(|(part, force_n)| format!("{} {}", spoken(part.name()), units.force().text(*force_n)))
         .collect::<Vec<_>>()
         .join(" · ")
 }
 
-/// What a pilot is told first where time stands still: the keys steer nothing then.
+/// Hint while the run does not advance, when steering has no effect; empty while it runs.
 #[must_use]
 pub fn waiting(view: &LiveView) -> &'static str {
     match view.status {
         Status::Running => "",
-        Status::Finished | Status::Stopped(_) => "the run is over: Space begins again · ",
+        Status::Finished | Status::Stopped(_) => "the run has ended: Space restarts it · ",
         Status::Settling | Status::Paused | Status::Failed(_) => {
-            "time stands still: Space goes on · "
+            "the run is paused: Space continues it · "
         }
     }
 }
 
-/// The commands to mouth, flippers and acts, in one line; `act` is the name of the chosen one.
+/// Controls of mouth, flippers and acts in one line; `act` is the name of the selected act.
 #[must_use]
-pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
+pub fn controls_text(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
     match hands {
         Hands::On => {}
-        Hands::Holding => return "the pad is gone: its last input holds".to_owned(),
+        Hands::Holding => return "the pad is disconnected: its last input holds".to_owned(),
         Hands::Gliding => {
-            return "the pad is gone: the whale glides; any key that steers takes over".to_owned();
+            return "the pad is disconnected: the whale glides; any steering key takes over"
+                .to_owned();
         }
     }
     let amounts = [
@@ -113,12 +115,12 @@ pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
         .filter(|(_, amount)| amount.abs() > 0.005)
         .map(|(name, amount)| format!("{name} {amount:+.2}"));
     let act = act.map(|name| {
-        format!("act {name}{}", if controls.act > 0.0 { ", now" } else { " (G does it, N next)" })
+        format!("act {name}{}", if controls.act > 0.0 { ", now" } else { " (G: do it, N: next)" })
     });
-    moved.chain(act).chain(["Esc lets go".to_owned()]).collect::<Vec<_>>().join(" · ")
+    moved.chain(act).chain(["Esc: stop steering".to_owned()]).collect::<Vec<_>>().join(" · ")
 }
 
-/// Paints the display along the top of the view.
+/// Paints the display at the top of the view.
 pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note: &str) {
     let readings = readings(view, units);
     let width = ((rect.width() - 24.0) / readings.len().max(1) as f32).min(WIDTH);
@@ -132,7 +134,7 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
     for (index, (name, value)) in readings.iter().enumerate() {
         let x = plate.left() + width * (index as f32 + 0.5);
         let faint = Color32::from_rgb(0x9f, 0xb6, 0xbf);
-        // A long name of a line ends where the next reading begins.
+        // A long line id is clipped at the next reading.
         let place = Rect::from_center_size(pos2(x, plate.top() + 13.0), vec2(width - 6.0, 14.0));
         let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(10.5), faint);
         let left = (x - galley.size().x / 2.0).max(place.left());
@@ -150,9 +152,9 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
         );
     }
     let mut below = plate.center_bottom() + vec2(0.0, 13.0);
-    let touched = touched(view, units);
+    let rope_forces = rope_forces(view, units);
     let lines = [
-        (touched.as_str(), Color32::from_rgb(0xff, 0xc9, 0x7a)),
+        (rope_forces.as_str(), Color32::from_rgb(0xff, 0xc9, 0x7a)),
         (note, Color32::from_rgb(0xd4, 0xe2, 0xe6)),
     ];
     for (text, colour) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {
@@ -161,7 +163,7 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
     }
 }
 
-/// A line of text on a plate of its own.
+/// Paints a line of text on its own background.
 fn line(painter: &Painter, middle: Pos2, text: &str, colour: Color32) {
     let text = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), colour);
     let behind = Rect::from_center_size(middle, text.size() + vec2(14.0, 4.0));
@@ -174,21 +176,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn roll_is_to_the_side_that_goes_down_and_pitch_is_of_the_snout() {
-        // About x by the right hand, y (port) goes towards z (up): starboard goes down.
-        let turned_by = |axis, degrees: f64| DQuat::from_axis_angle(axis, degrees.to_radians());
-        let (roll, pitch) = attitude(turned_by(DVec3::X, 30.0));
+    fn roll_names_the_lower_side_and_pitch_the_direction_of_the_snout() {
+        // A positive rotation about x moves y (port) towards z (up), and starboard down.
+        let rotated = |axis, degrees: f64| DQuat::from_axis_angle(axis, degrees.to_radians());
+        let (roll, pitch) = attitude(rotated(DVec3::X, 30.0));
         assert!((roll - 30.0).abs() < 1e-9 && pitch.abs() < 1e-9);
-        let (roll, pitch) = attitude(turned_by(DVec3::Y, -20.0));
+        let (roll, pitch) = attitude(rotated(DVec3::Y, -20.0));
         assert!(roll.abs() < 1e-9 && (pitch - 20.0).abs() < 1e-9);
-        let (roll, _) = attitude(turned_by(DVec3::Z, 70.0) * turned_by(DVec3::X, 170.0));
-        assert!((roll - 170.0).abs() < 1e-9, "whatever the heading: {roll}");
-        assert_eq!(turned(-12.4, ["level", "port", "stbd"]), "12° port");
-        assert_eq!(turned(0.3, ["level", "down", "up"]), "level");
+        let (roll, _) = attitude(rotated(DVec3::Z, 70.0) * rotated(DVec3::X, 170.0));
+        assert!((roll - 170.0).abs() < 1e-9, "independent of the heading: {roll}");
+        assert_eq!(with_side(-12.4, ["level", "port", "stbd"]), "12° port");
+        assert_eq!(with_side(0.3, ["level", "down", "up"]), "level");
     }
 
     #[test]
-    fn only_what_is_moved_is_told_beside_the_chosen_act() {
+    fn only_active_controls_are_listed_beside_the_selected_act() {
         let controls = Controls {
             speed: 1.0,
             mouth: 1.0,
@@ -197,13 +199,13 @@ mod tests {
             ..Controls::default()
         };
         assert_eq!(
-            told(&controls, Some("Roll away"), Hands::On),
-            "mouth +1.00 · swept -0.50 · act Roll away, now · Esc lets go"
+            controls_text(&controls, Some("Roll away"), Hands::On),
+            "mouth +1.00 · swept -0.50 · act Roll away, now · Esc: stop steering"
         );
-        assert_eq!(told(&Controls::default(), None, Hands::On), "Esc lets go");
+        assert_eq!(controls_text(&Controls::default(), None, Hands::On), "Esc: stop steering");
         assert!(
-            told(&controls, None, Hands::Gliding).contains("glides"),
-            "a lost pad is said first"
+            controls_text(&controls, None, Hands::Gliding).contains("glides"),
+            "a disconnected pad is reported first"
         );
     }
 }

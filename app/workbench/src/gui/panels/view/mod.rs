@@ -1,14 +1,9 @@
-//! The 3-D view: up to four panes, what is shown, what is read, the pilot's head-up display.
+//! The 3-D view: tool bar and up to four panes with readings, ruler and the pilot's head-up display; pictures, films, full screen.
 
-mod card;
 pub mod hud;
-mod marks;
 mod pane;
 pub mod picking;
-mod picture;
 pub mod pose;
-mod presented;
-mod split;
 mod state;
 mod transport;
 
@@ -28,7 +23,7 @@ use crate::gui::widgets::command;
 use crate::gui::widgets::words::capital;
 use crate::scene::View;
 use crate::scene::draw::MOST_PANES;
-use split::{Pane, places};
+use pane::{Pane, places};
 
 impl Panel for ViewPanel {
     fn id(&self) -> PanelId {
@@ -49,7 +44,7 @@ impl Panel for ViewPanel {
         let panes = self.panes(views[1].is_some(), rect).into_iter();
         let panes = panes.filter_map(|pane| Some((pane, views[pane.run].clone()?)));
         let panes: Vec<_> = panes.collect();
-        // What the pointer rests on in one pane is marked in all.
+        // The thing under the pointer is marked in all panes.
         self.picks.hovered = None;
         let looks = panes.iter().map(|(pane, view)| pane::look(ui, self, shared, view, *pane));
         let looks: Vec<_> = looks.collect();
@@ -58,27 +53,28 @@ impl Panel for ViewPanel {
         }
         let halves = places(rect, if views[1].is_some() { 2 } else { 1 });
         let halves = views.iter().flatten().zip(halves);
-        let cards = halves.flat_map(|(view, half)| card::show(ui, &self.picks, shared, view, half));
+        let cards = halves
+            .flat_map(|(view, half)| picking::show_cards(ui, &self.picks, shared, view, half));
         self.picks.cards = cards.collect();
     }
 }
 
 impl ViewPanel {
-    /// Makes the scenes anew, both to one scale of tension.
+    /// Updates the scenes of both runs, with a common tension scale.
     fn load(&mut self, views: &[Option<Arc<LiveView>>; 2]) {
         let tops = views.iter().flatten().map(|view| state::scale_top(view, self.scale));
         self.scale_n = tops.fold(1.0, f64::max);
         let show = Show { scale_n: Some(self.scale_n), ..self.show };
-        let there_is_a_card = self.drawn[0].canvas.is_some();
+        let has_opengl = self.drawn[0].canvas.is_some();
         for (drawn, view) in self.drawn.iter_mut().zip(views) {
             if let Some(view) = view {
-                drawn.like(there_is_a_card);
+                drawn.like(has_opengl);
                 drawn.load(view, show);
             }
         }
     }
 
-    /// Every pane in its place. Two runs stand beside one another, for at most two eyes.
+    /// All panes. Two compared runs are side by side, for at most two eyes.
     fn panes(&self, compared: bool, rect: Rect) -> Vec<Pane> {
         let (runs, most) = if compared { (2, 2) } else { (1, MOST_PANES) };
         let slots = self.eyes.len().min(most);
@@ -94,23 +90,23 @@ impl ViewPanel {
             self.shown(ui);
             ui.separator();
             let mut ruler = self.picks.ruler;
-            let help = "Click two places to measure between them, straight and along the rope (R).\nWithout it a click reads what is there.";
+            let help = "Click two places to measure their distance, straight and along the rope (R).\nWithout the ruler a click shows the reading of a thing.";
             if ui.toggle_value(&mut ruler, "Ruler").on_hover_text(help).clicked() {
                 shared.give(ViewAction::Ruler);
             }
             let mut posing = shared.posing;
-            let help = "Handles in the view: drag where the whale starts, how deep, and where it heads";
+            let help = "Shows handles to drag the start of the whale: place, depth and heading";
             if ui.toggle_value(&mut posing, "Start pose").on_hover_text(help).clicked() {
                 shared.give(ViewAction::Pose);
             }
             let mut flying = shared.flying;
-            if ui.toggle_value(&mut flying, "Fly").on_hover_text("Steer the whale (Ctrl+F); Esc lets go").clicked() {
+            if ui.toggle_value(&mut flying, "Fly").on_hover_text("Steer the whale (Ctrl+F); Esc stops steering").clicked() {
                 shared.give(FlightAction::Toggle);
             }
         });
     }
 
-    /// From where the chosen pane looks, and how many there are.
+    /// Draws the view of the active pane, pictures and films, and the number of panes.
     fn views(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let count = self.eyes.len();
         let eye = self.eye();
@@ -129,7 +125,7 @@ impl ViewPanel {
                 }
             }
         });
-        if ui.button("Frame").on_hover_text("See everything (F)").clicked() {
+        if ui.button("Frame").on_hover_text("Show everything (F)").clicked() {
             self.frame();
         }
         command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
@@ -152,20 +148,20 @@ impl ViewPanel {
         });
     }
 
-    /// Keys of the camera for a film.
+    /// Draws the menu of camera keys for a film.
     fn keys(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let keys = match self.path.times().len() {
             0 => "Camera ⏷".to_owned(),
             1 => "1 camera key ⏷".to_owned(),
             count => format!("{count} camera keys ⏷"),
         };
-        let help = "A film goes from key to key: look from somewhere at a moment, set a key, go on to the next moment.";
+        let help = "The camera of a film moves from key to key: choose a view and a moment, set a key, then go to the next moment.";
         let menu = ui.menu_button(keys, |ui| {
-            command(ui, shared, "Set a key here", ViewAction::SetKey);
-            command(ui, shared, "Clear the keys", ViewAction::ClearKeys);
+            command(ui, shared, "Set a camera key here", ViewAction::SetKey);
+            command(ui, shared, "Clear the camera keys", ViewAction::ClearKeys);
             let any = self.path.times().len() > 0;
-            ui.add_enabled(any, egui::Checkbox::new(&mut self.along, "Look by the keys"))
-                .on_hover_text("The chosen pane shows what a film would show");
+            ui.add_enabled(any, egui::Checkbox::new(&mut self.along, "Preview the film"))
+                .on_hover_text("The active pane shows the camera of the film");
         });
         menu.response.on_hover_text(help);
     }
@@ -180,14 +176,14 @@ impl ViewPanel {
             ui.checkbox(&mut self.show.whale, "Whale");
             ui.checkbox(&mut self.show.names, "Names of small bodies");
             ui.separator();
-            ui.label("Brightest rope at");
-            ui.radio_value(&mut self.scale, ScaleTop::Peak, "the run's peak");
-            ui.radio_value(&mut self.scale, ScaleTop::Strength, "breaking strength");
+            ui.label("Top of the tension scale");
+            ui.radio_value(&mut self.scale, ScaleTop::Peak, "peak of the run");
+            ui.radio_value(&mut self.scale, ScaleTop::Strength, "least breaking strength");
         });
     }
 }
 
-/// A view of the whale as a menu says it.
+/// Name of a view of the whale in menus.
 fn spoken(view: View) -> String {
     match view {
         View::Whale => "Behind the whale".into(),
@@ -200,7 +196,7 @@ fn waiting(ui: &Ui, rect: Rect, shared: &Shared) {
     let palette = Theme::palette_of(ui);
     ui.painter().rect_filled(rect, 0.0, palette.ground);
     let text = if shared.workbench.making() {
-        "Making the model …"
+        "Assembling the model …"
     } else {
         "No model yet; see Problems."
     };

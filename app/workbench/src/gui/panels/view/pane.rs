@@ -1,25 +1,24 @@
-//! One pane of the 3-D view.
+//! Panes of the 3-D view: their arrangement, the mouse in them, and what is drawn over the scene.
 
 use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 use endline_session::live::LiveView;
 use endline_session::scene::forces::greatest_n;
 
-use super::split::Pane;
-use super::{ViewPanel, hud, marks, picking, pose, spoken};
+use crate::gui::panels::view::{ViewPanel, hud, picking, pose, spoken};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::{Camera, Canvas, Overlay, Water, overlay};
 
-/// Width from which a pane names the force of its longest arrow [points].
+/// Least width of a pane that shows the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
 
-/// A pane as the user looks at it.
+/// Camera of a pane and its response to the mouse.
 pub(super) struct Look {
     camera: Camera,
     response: Response,
 }
 
-/// Takes what the mouse does in a pane: turns its eye, picks.
+/// Handles the mouse in a pane: orbits its camera and picks.
 pub(super) fn look(
     ui: &Ui,
     panel: &mut ViewPanel,
@@ -53,7 +52,7 @@ pub(super) fn look(
     Look { camera, response }
 }
 
-/// A click reads what is there, or measures; the pointer at rest is told what it rests on.
+/// A click picks a thing for its reading or the ruler; the thing under the pointer is noted.
 fn pick(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Response, run: usize) {
     let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
     let Some(at) = clicked.or(response.hover_pos()).filter(|_| !response.dragged()) else { return };
@@ -65,7 +64,7 @@ fn pick(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Resp
     panel.picks.hovered = hit.map(|hit| (run, hit));
 }
 
-/// Draws a pane in its place.
+/// Draws a pane.
 pub(super) fn show(
     ui: &mut Ui,
     panel: &mut ViewPanel,
@@ -75,7 +74,7 @@ pub(super) fn show(
     look: &Look,
 ) {
     paint(ui, panel, shared, pane, &look.camera);
-    write_over(ui, panel, shared, view, pane, &look.camera);
+    paint_over(ui, panel, shared, view, pane, &look.camera);
     if look.response.hovered() {
         let units = shared.workbench.preferences.units;
         picking::glance(ui, &panel.picks, &look.response, view, units);
@@ -99,7 +98,7 @@ fn paint(ui: &Ui, panel: &ViewPanel, shared: &Shared, pane: Pane, camera: &Camer
     }
 }
 
-fn write_over(
+fn paint_over(
     ui: &Ui,
     panel: &ViewPanel,
     shared: &Shared,
@@ -112,7 +111,7 @@ fn write_over(
     let several = panel.eyes.len() > 1;
     let compared = shared.workbench.comparison().is_some();
     let caption = caption(panel, shared, view, pane);
-    // One scale is enough for all panes: in the last, at the foot.
+    // Only the last pane shows the tension scale.
     let last = slot + 1 == panel.eyes.len() && run == usize::from(compared);
     let scale_n = if last { panel.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
@@ -130,7 +129,14 @@ fn write_over(
             units: shared.workbench.preferences.units,
         },
     );
-    marks::paint(&painter, &panel.picks, pane, camera, view, shared.workbench.preferences.units);
+    picking::paint_marks(
+        &painter,
+        &panel.picks,
+        pane,
+        camera,
+        view,
+        shared.workbench.preferences.units,
+    );
     if several && slot == panel.chosen {
         painter.rect_stroke(
             rect,
@@ -140,7 +146,7 @@ fn write_over(
         );
     }
     if slot == 0 && run == 0 {
-        felt(ui, shared, &painter, rect);
+        flash(ui, shared, &painter, rect);
     }
     if shared.flying && slot == panel.chosen && run == 0 {
         let act = shared
@@ -153,7 +159,7 @@ fn write_over(
             view,
             shared.workbench.preferences.units,
             &(hud::waiting(view).to_owned()
-                + &hud::told(&view.controls, act, shared.pilot.hands())),
+                + &hud::controls_text(&view.controls, act, shared.pilot.hands())),
         );
     }
 }
@@ -165,8 +171,8 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     let roomy = pane.rect.width() > ROOMY;
     let of = shared.workbench.guest().filter(|_| pane.run == 0 && roomy).unwrap_or_default();
     let edited = shared.workbench.stale() && shared.workbench.guest().is_none();
-    let standing = match (view.sought && pane.run == 0, edited && pane.run == 0) {
-        (true, _) => "looking back",
+    let state = match (view.sought && pane.run == 0, edited && pane.run == 0) {
+        (true, _) => "earlier moment",
         (false, true) => "before the last edits",
         (false, false) => "",
     };
@@ -176,24 +182,57 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     } else {
         String::new()
     };
-    [run, named.as_str(), of, standing, arrows.as_str()]
+    [run, named.as_str(), of, state, arrows.as_str()]
         .into_iter()
         .filter(|words| !words.is_empty())
         .collect::<Vec<_>>()
         .join(", ")
 }
 
-/// The edge flashes with what the pilot feels.
-fn felt(ui: &Ui, shared: &Shared, painter: &egui::Painter, rect: Rect) {
-    let felt = shared.rumble.strength(ui.input(|input| input.time));
-    if felt > 0.0 {
-        let warning = Theme::palette_of(ui).warning.gamma_multiply(felt as f32);
+/// Flashes the border with the pulses of the pad.
+fn flash(ui: &Ui, shared: &Shared, painter: &egui::Painter, rect: Rect) {
+    let strength = shared.rumble.strength(ui.input(|input| input.time));
+    if strength > 0.0 {
+        let warning = Theme::palette_of(ui).warning.gamma_multiply(strength as f32);
         painter.rect_stroke(
             rect,
             0.0,
-            Stroke::new(10.0 * felt as f32, warning),
+            Stroke::new(10.0 * strength as f32, warning),
             StrokeKind::Inside,
         );
         ui.ctx().request_repaint();
+    }
+}
+
+/// Gap between two panes [points].
+const PANE_GAP: f32 = 3.0;
+
+/// A pane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pane {
+    /// Run shown: 0 for the run, 1 for the run it is compared with.
+    pub(super) run: usize,
+    /// Index of its eye.
+    pub(super) slot: usize,
+    /// Its rectangle.
+    pub(super) rect: Rect,
+}
+
+/// Rectangles of a number of panes: side by side, and also one above the other from three on.
+pub(super) fn places(rect: Rect, count: usize) -> Vec<Rect> {
+    let middle = rect.center();
+    let left = rect.with_max_x(middle.x - PANE_GAP / 2.0);
+    let right = rect.with_min_x(middle.x + PANE_GAP / 2.0);
+    let halves = |side: Rect| {
+        [side.with_max_y(middle.y - PANE_GAP / 2.0), side.with_min_y(middle.y + PANE_GAP / 2.0)]
+    };
+    match count {
+        0 | 1 => vec![rect],
+        2 => vec![left, right],
+        3 => std::iter::once(left).chain(halves(right)).collect(),
+        _ => {
+            let ([a, c], [b, d]) = (halves(left), halves(right));
+            vec![a, b, c, d]
+        }
     }
 }

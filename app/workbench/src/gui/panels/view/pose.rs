@@ -1,4 +1,4 @@
-//! The whale's start, dragged in the 3-D view: over the water at its depth, up and down, and its heading.
+//! The start of the whale, dragged in the 3-D view by three handles: horizontally, vertically, and its heading.
 
 use egui::{
     Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo,
@@ -11,20 +11,20 @@ use endline_session::edit::Documents;
 use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
-use super::split::Pane;
+use super::pane::Pane;
 use crate::gui::shared::Shared;
 use crate::scene::Camera;
 
-/// Half size of a handle as it is taken [points].
+/// Half the size of the active area of a handle [points].
 const GRIP: f32 = 11.0;
-/// Length assumed where the scenario names none [m].
+/// Length if the scenario has none [m].
 const USUAL_LENGTH_M: f64 = 13.0;
 const INK: Color32 = Color32::from_rgb(0xff, 0xc9, 0x7a);
 
-/// Where a whale starts.
+/// The start of a whale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// Mid-body: east, north, up [m].
+    /// Position of mid-body: east, north, up [m].
     pub place: DVec3,
     /// Compass bearing of the snout [rad].
     pub heading: f64,
@@ -32,19 +32,19 @@ pub struct Start {
     pub length_m: f64,
 }
 
-/// What is dragged.
+/// A handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handle {
-    /// Over the water.
+    /// Moves the start horizontally.
     Place,
-    /// Up and down.
+    /// Moves the start vertically.
     Depth,
-    /// The snout.
+    /// Rotates the heading.
     Heading,
 }
 
 impl Start {
-    /// Of the scenario's text; `None` where it has no whale or its figures do not read.
+    /// Reads the start from the scenario; `None` if it has no whale or a value is invalid.
     #[must_use]
     pub fn of(documents: &Documents) -> Option<Self> {
         let field = |key: &str| documents.field(Documents::SCENARIO, &format!("whale.{key}"));
@@ -62,32 +62,32 @@ impl Start {
         })
     }
 
-    /// Writes it to the scenario's text, each figure in the unit it is written in.
+    /// Writes the start to the scenario, keeping the unit of each value.
     ///
     /// # Errors
     /// Where the scenario has no whale.
     pub fn write(&self, document: &mut Document) -> Result<(), String> {
-        let told = |error: endline_gear::EditError| error.to_string();
+        let message = |error: endline_gear::EditError| error.to_string();
         let places = [self.place.x, self.place.y].into_iter().enumerate();
         let places: Vec<String> = places
             .map(|(axis, at_m)| {
                 as_written(document, &format!("position.{axis}"), at_m, Quantity::Length)
             })
             .collect();
-        document.put("whale.position", &Setting::texts(&places)).map_err(told)?;
+        document.put("whale.position", &Setting::texts(&places)).map_err(message)?;
         let depth = as_written(document, "depth", -self.place.z, Quantity::Length);
-        document.put("whale.depth", &Setting::text(&depth)).map_err(told)?;
+        document.put("whale.depth", &Setting::text(&depth)).map_err(message)?;
         let degrees = (self.heading.to_degrees().rem_euclid(360.0) * 10.0).round() / 10.0;
         document
             .put("whale.heading", &Setting::text(&format!("{} deg", degrees.rem_euclid(360.0))))
-            .map_err(told)
+            .map_err(message)
     }
 
     fn ahead(&self) -> DVec3 {
         DVec3::new(self.heading.sin(), self.heading.cos(), 0.0)
     }
 
-    /// Where a handle stands.
+    /// Position of a handle.
     #[must_use]
     pub fn handle(&self, handle: Handle) -> DVec3 {
         match handle {
@@ -97,25 +97,25 @@ impl Start {
         }
     }
 
-    /// With a handle dragged to where a ray from the eye points.
+    /// Returns the start after a handle was dragged to a ray from the eye.
     #[must_use]
     pub fn dragged(self, handle: Handle, eye: DVec3, along: DVec3, right: DVec3) -> Self {
         match handle {
-            Handle::Place => Self { place: over_the_water(self.place, eye, along, right), ..self },
+            Handle::Place => Self { place: horizontally(self.place, eye, along, right), ..self },
             Handle::Depth => {
-                let up_m = upright(self.handle(Handle::Depth), eye, along) - 0.35 * self.length_m;
+                let up_m =
+                    vertically(self.handle(Handle::Depth), eye, along) - 0.35 * self.length_m;
                 Self { place: DVec3::new(self.place.x, self.place.y, up_m.min(0.0)), ..self }
             }
             Handle::Heading => {
-                let to =
-                    over_the_water(self.handle(Handle::Heading), eye, along, right) - self.place;
+                let to = horizontally(self.handle(Handle::Heading), eye, along, right) - self.place;
                 Self { heading: bearing_degrees(to.x, to.y).to_radians(), ..self }
             }
         }
     }
 }
 
-/// A length in the unit that a field of the whale is written in, to the centimetre or the hundredth of that unit.
+/// A value in the unit of a field of the whale, rounded to a hundredth of the unit.
 fn as_written(document: &Document, key: &str, value: f64, quantity: Quantity) -> String {
     let text = document.get(&format!("whale.{key}")).unwrap_or_default();
     let name = text.trim_start_matches(|letter: char| !letter.is_alphabetic());
@@ -124,8 +124,8 @@ fn as_written(document: &Document, key: &str, value: f64, quantity: Quantity) ->
     format!("{} {name}", (value / factor * 100.0).round() / 100.0 + 0.0)
 }
 
-/// Where a ray meets the level plane through a place; along that plane only to the right and left where it is seen edge on.
-fn over_the_water(place: DVec3, eye: DVec3, along: DVec3, right: DVec3) -> DVec3 {
+/// Intersection of a ray with the horizontal plane through a place. If the plane is seen edge on, it moves only to the right and left.
+fn horizontally(place: DVec3, eye: DVec3, along: DVec3, right: DVec3) -> DVec3 {
     if along.z.abs() > 0.06 {
         let away_m = (place.z - eye.z) / along.z;
         if away_m > 0.0 {
@@ -133,7 +133,7 @@ fn over_the_water(place: DVec3, eye: DVec3, along: DVec3, right: DVec3) -> DVec3
         }
     }
     let level = DVec3::new(right.x, right.y, 0.0).normalize_or_zero();
-    // The plane through the place that faces the eye.
+    // Use the vertical plane through the place that faces the eye.
     let facing = level.cross(DVec3::Z);
     let away_m = (place - eye).dot(facing) / along.dot(facing);
     if away_m.is_finite() {
@@ -143,8 +143,8 @@ fn over_the_water(place: DVec3, eye: DVec3, along: DVec3, right: DVec3) -> DVec3
     }
 }
 
-/// Height at which a ray passes nearest to the upright line through a place [m].
-fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
+/// Height at which a ray is nearest to the vertical line through a place [m].
+fn vertically(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
     let level = DVec3::new(along.x, along.y, 0.0);
     let facing = level.length_squared();
     if facing < 1e-4 {
@@ -153,7 +153,7 @@ fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
     eye.z + along.z * (place - eye).dot(level) / facing
 }
 
-/// Draws the start with its handles in a pane, and lets them be dragged.
+/// Draws the start with its handles in a pane and handles dragging.
 pub(super) fn show(
     ui: &mut Ui,
     held: &mut Option<Start>,
@@ -162,8 +162,7 @@ pub(super) fn show(
     camera: &Camera,
 ) {
     let Pane { rect, slot, .. } = pane;
-    let Some(written) = Start::of(&shared.workbench.project.documents).filter(|_| shared.posing)
-    else {
+    let Some(written) = Start::of(shared.documents()).filter(|_| shared.posing) else {
         return;
     };
     let start = held.unwrap_or(written);
@@ -176,7 +175,7 @@ pub(super) fn show(
         (Handle::Heading, "Start heading"),
     ] {
         let Some(at) = sheet.place(start.handle(handle)) else { continue };
-        // Seen from above, up and down is no way to drag; the square then stands alone.
+        // Seen from above, the vertical handle coincides with the square and is hidden.
         let hidden = handle != Handle::Place
             && sheet.place(start.place).is_some_and(|middle| middle.distance(at) < 2.0 * GRIP);
         if hidden {
@@ -188,11 +187,11 @@ pub(super) fn show(
             Sense::drag(),
         );
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, name));
-        let taken = response.hovered() || response.dragged();
-        sheet.handle(handle, at, taken);
-        if taken {
+        let active = response.hovered() || response.dragged();
+        sheet.handle(handle, at, active);
+        if active {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
-            sheet.told(&start, at, shared.workbench.preferences.units);
+            sheet.label_start(&start, at, shared.workbench.preferences.units);
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
@@ -200,15 +199,15 @@ pub(super) fn show(
         }
         if response.drag_stopped() {
             *held = None;
-            let_go(shared, &start);
+            write_start(shared, &start);
             return;
         }
     }
     *held = moved.or(*held);
 }
 
-/// One edit of the text; gear that stands ready is taken over at once.
-fn let_go(shared: &mut Shared, start: &Start) {
+/// Writes the start as one edit; applies it immediately if the run has not started.
+fn write_start(shared: &mut Shared, start: &Start) {
     if let Err(error) = shared
         .workbench
         .project
@@ -251,7 +250,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// The whale from above as an outline, its flukes, and the way to its handles.
+    /// Draws the outline of the whale from above, its flukes, and lines to its handles.
     fn body(&self, start: &Start) {
         let (ahead, length_m) = (start.ahead(), start.length_m);
         let port = DVec3::Z.cross(ahead);
@@ -267,8 +266,8 @@ impl Sheet<'_> {
         self.line(start.place, DVec3::new(start.place.x, start.place.y, 0.0), 0.5);
     }
 
-    fn handle(&self, handle: Handle, at: Pos2, taken: bool) {
-        let size = if taken { 8.0 } else { 6.0 };
+    fn handle(&self, handle: Handle, at: Pos2, active: bool) {
+        let size = if active { 8.0 } else { 6.0 };
         let edge = Stroke::new(1.5, Color32::BLACK);
         match handle {
             Handle::Place => self.painter.rect(
@@ -282,7 +281,7 @@ impl Sheet<'_> {
         };
     }
 
-    fn told(&self, start: &Start, at: Pos2, units: Units) {
+    fn label_start(&self, start: &Start, at: Pos2, units: Units) {
         let DVec3 { x, y, z } = start.place;
         let degrees = start.heading.to_degrees().rem_euclid(360.0);
         let text = format!(
@@ -310,13 +309,13 @@ mod tests {
         Start { place: DVec3::new(10.0, -20.0, -12.0), heading: 0.0, length_m: 13.0 };
     const SIZE: DVec2 = DVec2::new(800.0, 600.0);
 
-    /// A ray through where a place is drawn.
+    /// The ray through a place on screen.
     fn through(camera: &Camera, place: DVec3) -> (DVec3, DVec3) {
         camera.ray(camera.project(place, SIZE).unwrap(), SIZE)
     }
 
     #[test]
-    fn a_handle_goes_where_the_pointer_is() {
+    fn a_handle_follows_the_pointer() {
         let camera =
             Camera { target: START.place, distance_m: 60.0, elevation: 0.5, ..Camera::default() };
         let right = camera.axes().0;
@@ -335,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_seen_edge_on_is_dragged_along_to_the_right_and_left_alone() {
+    fn in_a_plane_seen_edge_on_a_drag_moves_only_to_the_right_and_left() {
         let camera = Camera {
             target: START.place,
             distance_m: 60.0,
@@ -349,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn figures_keep_the_units_they_are_written_in() {
+    fn values_keep_their_units() {
         let text = "[whale]\nposition = [\"30 ft\", \"1 m\"]\ndepth = \"5 fathom\"\n";
         let mut document = Document::parse(text).unwrap();
         Start { place: DVec3::new(6.096, -2.5, -18.288), heading: 1.0, length_m: 13.0 }

@@ -1,31 +1,37 @@
-//! State of the 3-D view: its eyes, what is shown, what is drawn.
+//! State of the 3-D view: eyes, camera path, visible parts, picks, and the scenes drawn.
 
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use egui::{Align2, FontId, Ui, pos2};
 use endline_session::live::{LiveView, Status};
 use endline_session::scene::{Scene, Show};
 use endline_sim::{Frame, Model};
 
-use super::picking::Picks;
-use super::pose::Start;
+use crate::gui::panel::Panel;
+use crate::gui::panels::view::picking::Picks;
+use crate::gui::panels::view::pose::Start;
+use crate::gui::pictures::{FilmJob, FilmOrder};
 use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::words;
 use crate::scene::draw::MOST_PANES;
-use crate::scene::{CameraPath, Canvas, Eye, View};
+use crate::scene::{CameraPath, Canvas, Eye, RenderRequest, Renderer, View, Water, write_png};
 
-/// What the top of the tension scale is.
+/// Top of the tension scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScaleTop {
-    /// The run's peak so far.
+    /// Peak of the run so far.
     #[default]
     Peak,
     /// The least breaking strength of the ropes.
     Strength,
 }
 
-/// A run's scene as it was drawn last.
+/// The scene of a run, updated when the frame changes.
 #[derive(Default)]
 pub struct Drawn {
-    /// The drawing, where there is OpenGL.
+    /// The drawing; `None` without OpenGL.
     pub canvas: Option<Arc<Mutex<Canvas>>>,
     shown: Option<(Arc<Frame>, Show)>,
 }
@@ -34,29 +40,29 @@ pub struct Drawn {
 pub struct ViewPanel {
     /// An eye for each pane, at least one.
     pub eyes: Vec<Eye>,
-    /// The pane whose eye is turned by menus and keys.
+    /// Active pane, which menus and keys apply to.
     pub chosen: usize,
-    /// What is shown.
+    /// Visible parts of the scene.
     pub show: Show,
     /// Top of the tension scale.
     pub scale: ScaleTop,
-    /// Keys of the camera, by which a film goes.
+    /// Camera path of a film.
     pub path: CameraPath<Eye>,
-    /// Whether the chosen pane looks by the keys of the camera.
+    /// Whether the active pane previews the camera path.
     pub along: bool,
-    /// What is read and measured.
+    /// Things picked for readings and the ruler.
     pub picks: Picks,
-    /// The drawings of the run and of the one it is compared with.
+    /// Scenes of the run and of the run it is compared with.
     pub drawn: [Drawn; 2],
-    /// Tension at the top of the scale as drawn last [N].
+    /// Tension at the top of the scale in the last frame [N].
     pub(super) scale_n: f64,
-    /// The whale's start while it is dragged.
+    /// Start of the whale while it is dragged.
     pub(super) held: Option<Start>,
-    /// The run as it was seen last.
+    /// State of the run in the last frame.
     seen: Seen,
 }
 
-/// What of the run changes where the eyes look.
+/// State of the run that resets the views when it changes.
 #[derive(Default)]
 struct Seen {
     model: Option<Arc<Model>>,
@@ -83,13 +89,13 @@ impl Default for ViewPanel {
 }
 
 impl ViewPanel {
-    /// The eye that menus and keys turn.
+    /// Eye of the active pane.
     pub fn eye(&mut self) -> &mut Eye {
         let last = self.eyes.len() - 1;
         &mut self.eyes[self.chosen.min(last)]
     }
 
-    /// Shows so many panes; a new one looks from where none looks yet.
+    /// Sets the number of panes; a new one gets a view that no other has.
     pub fn split(&mut self, count: usize) {
         const FROM: [View; MOST_PANES] = [View::Side, View::Top, View::Front, View::FirstPerson];
         self.eyes.truncate(count.max(1));
@@ -102,11 +108,11 @@ impl ViewPanel {
         self.frame_all();
     }
 
-    /// Takes the view anew where the run shows another model or gear come to rest; goes with the whale while it is flown.
+    /// Frames everything when the model changes or statics have converged; follows the whale while it is steered.
     pub(super) fn follow(&mut self, shared: &Shared) {
         if std::mem::replace(&mut self.seen.flying, shared.flying) != shared.flying {
             if shared.flying {
-                self.go_with_whale();
+                self.follow_whale();
             } else {
                 self.frame();
             }
@@ -118,47 +124,47 @@ impl ViewPanel {
         if !known {
             self.seen.model = Some(Arc::clone(&view.model));
         }
-        // Whoever drags the whale's start wants to see it from where they drag it.
+        // While the start of the whale is dragged, the view stays.
         if (!known || settled) && !shared.posing {
             self.frame_all();
         }
     }
 
-    /// Goes to a named view.
+    /// Changes to a named view.
     pub fn look(&mut self, view: View) {
-        self.eye().look(view);
+        self.eye().set_view(view);
     }
 
-    /// Brings everything into sight.
+    /// Frames everything.
     pub fn frame(&mut self) {
         self.eye().frame();
     }
 
-    /// Every eye takes its view anew with the next frame.
+    /// Frames everything in all panes at the next frame.
     fn frame_all(&mut self) {
         self.eyes.iter_mut().for_each(|eye| eye.frame_again = true);
     }
 
-    /// Goes with the whale: as it last did, or behind it.
-    fn go_with_whale(&mut self) {
+    /// Follows the whale, in its last view of the whale or from behind.
+    fn follow_whale(&mut self) {
         let named = self.eye().named;
         self.look(if named.is_of_whale() { named } else { View::Whale });
     }
 
-    /// Sets a key of the camera: what the chosen pane shows, at the moment shown.
+    /// Sets a camera key with the view of the active pane.
     pub fn set_key(&mut self, time_s: f64) {
         let mut eye = self.eye().clone();
         eye.frame_again = false;
         self.path.set(time_s, eye);
     }
 
-    /// Takes every key of the camera away.
+    /// Removes all camera keys.
     pub fn clear_keys(&mut self) {
         self.path.clear();
         self.along = false;
     }
 
-    /// From third person to first and back.
+    /// Switches between first and third person.
     pub fn change_person(&mut self) {
         let first = self.eye().named == View::FirstPerson;
         self.look(if first { View::Whale } else { View::FirstPerson });
@@ -166,14 +172,14 @@ impl ViewPanel {
 }
 
 impl Drawn {
-    /// Has a canvas where the other run's drawing has one.
+    /// Creates a canvas if the other run has one.
     pub fn like(&mut self, other: bool) {
         if other && self.canvas.is_none() {
             self.canvas = Some(Arc::new(Mutex::new(Canvas::default())));
         }
     }
 
-    /// Makes the scene anew where the moment or what is shown has changed.
+    /// Updates the scene if the frame or the visible parts have changed.
     pub fn load(&mut self, view: &LiveView, show: Show) {
         if self
             .shown
@@ -214,4 +220,109 @@ pub fn scale_top(view: &LiveView, top: ScaleTop) -> f64 {
     };
     let now = view.frame.tension_n.iter().copied().fold(0.0, f64::max);
     if value.is_finite() && value > 0.0 { value } else { now }.max(1.0)
+}
+
+/// Width and height of a saved picture [px].
+const PICTURE_SIZE: [u32; 2] = [1920, 1080];
+
+impl ViewPanel {
+    /// Starts a film of the run, as the active pane shows it.
+    ///
+    /// # Errors
+    /// Without a run, while another film is made, or where the file cannot be begun.
+    pub fn film(&mut self, shared: &mut Shared, out: PathBuf) -> Result<FilmJob, String> {
+        if shared.film.is_some() {
+            return Err("a film is in progress; wait for it or cancel it".to_owned());
+        }
+        let view = shared.workbench.view().cloned().ok_or("there is no run to film")?;
+        let order = FilmOrder {
+            model: Arc::clone(&view.model),
+            frames: shared.workbench.kept_frames()?,
+            eye: self.eye().clone(),
+            path: self.path.clone(),
+            show: self.show,
+            water: water(shared),
+            caption: caption(shared),
+            units: shared.workbench.preferences.units,
+            out,
+        };
+        FilmJob::begin(order, shared.workbench.helpers().1)
+    }
+
+    /// Saves the active pane as a PNG, drawn again at full size.
+    ///
+    /// # Errors
+    /// Without a run or OpenGL, or where the file cannot be written.
+    pub fn save_picture(&mut self, shared: &Shared, file: &Path) -> Result<(), String> {
+        let view = shared.workbench.view().ok_or("there is no run to draw")?;
+        let (model, frame) = (Arc::clone(&view.model), Arc::clone(&view.frame));
+        let show = Show { scale_n: Some(self.scale_n), ..self.show };
+        let camera = self.eye().camera.clone();
+        let (water, caption) = (water(shared), caption(shared));
+        let (units, file) = (shared.workbench.preferences.units, PathBuf::from(file));
+        // On a separate thread, because the OpenGL of the window is current on this one.
+        let drawing = std::thread::spawn(move || {
+            let request = RenderRequest {
+                model: &model,
+                frame: &frame,
+                size: PICTURE_SIZE,
+                view: "",
+                scale_n: show.scale_n,
+                fit: &[],
+                caption: &caption,
+                out: &file,
+                units,
+            };
+            let pixels = Renderer::new(PICTURE_SIZE)?.seen_by(&request, &show, &camera, water);
+            write_png(&file, PICTURE_SIZE, &pixels)
+        });
+        drawing.join().map_err(|_| "the picture could not be drawn".to_owned())?
+    }
+}
+
+fn water(shared: &Shared) -> Water {
+    if shared.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT }
+}
+
+/// Name of the scenario, or of another source of the run.
+fn caption(shared: &Shared) -> String {
+    let of = shared.workbench.guest().map(str::to_owned);
+    of.unwrap_or_else(|| shared.workbench.scenario_stem())
+}
+
+/// Height of the letters [points].
+const LETTERS: f32 = 20.0;
+
+impl ViewPanel {
+    /// Draws only the view, with the name of the run and its outcome in large letters above it, for a talk.
+    pub fn presented(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let top = ui.max_rect().center_top();
+        self.ui(ui, shared);
+        let palette = Theme::palette_of(ui);
+        let painter = ui.painter();
+        let name = title(shared);
+        let font = FontId::proportional(LETTERS);
+        painter.text(pos2(top.x, top.y + 8.0), Align2::CENTER_TOP, name, font, palette.text);
+        let Some(view) = shared.workbench.view().filter(|view| view.newest_s > 0.0) else { return };
+        let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
+            return;
+        };
+        let (outcome, _, colour) = words::outcome(whale.outcome, palette);
+        let place = pos2(top.x, top.y + 8.0 + 1.3 * LETTERS);
+        painter.text(
+            place,
+            Align2::CENTER_TOP,
+            outcome,
+            FontId::proportional(0.8 * LETTERS),
+            colour,
+        );
+    }
+}
+
+/// Name of the scenario, or of another source of the run.
+fn title(shared: &Shared) -> String {
+    let documents = shared.documents();
+    let scenario = || documents.field(endline_session::edit::Documents::SCENARIO, "name");
+    let guest = shared.workbench.guest().map(str::to_owned);
+    guest.or_else(scenario).unwrap_or_else(|| shared.workbench.scenario_stem())
 }

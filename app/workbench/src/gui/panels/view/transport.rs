@@ -1,4 +1,4 @@
-//! The transport bar: the run's time under the hand, with what happened marked on it.
+//! The transport bar: a slider for the time of the run, with marks of events and camera keys.
 
 use egui::{Button, Color32, Rect, RichText, Sense, Shape, Stroke, Ui, pos2, vec2};
 use endline_session::command::{RunAction, TimeAction};
@@ -11,9 +11,9 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets::{styled, words};
 use crate::scene::{CameraPath, Eye};
 
-/// Height of the bar with the space above it.
+/// Height of the bar with the space above it [points].
 pub const HEIGHT: f32 = 34.0;
-/// How near the pointer must be to an event's mark to read it [points].
+/// Distance of the pointer to the mark of an event at which its text is shown [points].
 const NEAR: f32 = 5.0;
 
 /// Draws the bar.
@@ -49,7 +49,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// The bar itself: what was run, the moment shown, events.
+/// Draws the bar: time computed, moment shown, events.
 fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
     let palette = Theme::palette_of(ui);
     let painter = ui.painter_at(rect);
@@ -88,7 +88,7 @@ fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
     );
 }
 
-/// Keys of the camera, as diamonds at the foot of the bar.
+/// Draws camera keys as diamonds at the bottom of the bar.
 fn keys(ui: &Ui, rect: Rect, path: &CameraPath<Eye>, end_s: f64) {
     let palette = Theme::palette_of(ui);
     for time_s in path.times() {
@@ -99,7 +99,7 @@ fn keys(ui: &Ui, rect: Rect, path: &CameraPath<Eye>, end_s: f64) {
     }
 }
 
-/// Pressing or dragging shows that moment; over a mark it says what happened.
+/// A press or drag shows its moment; over a mark the text of the event is shown.
 fn scrub(
     ui: &Ui,
     shared: &mut Shared,
@@ -116,7 +116,7 @@ fn scrub(
         return;
     }
     let near = f64::from(NEAR / rect.width()) * end_s;
-    let told: Vec<String> = view
+    let texts: Vec<String> = view
         .events
         .iter()
         .filter(|event| (event.time_s - time_s).abs() <= near)
@@ -130,10 +130,10 @@ fn scrub(
             )
         })
         .collect();
-    if !told.is_empty() && !response.dragged() {
-        response.clone().on_hover_text(told.join("\n"));
+    if !texts.is_empty() && !response.dragged() {
+        response.clone().on_hover_text(texts.join("\n"));
     }
-    // A press is answered at once, not when it ends.
+    // A press takes effect immediately, not at its release.
     if response.is_pointer_button_down_on()
         && view.newest_s > 0.0
         && ui.input(|input| input.pointer.primary_pressed())
