@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use crate::contact::rope_on_solid::SolidWorkspace;
+use crate::contact::rope_on_solid::RopeOnSolid;
 use crate::geometry::Pose;
 use crate::geometry::shape::SolidShape;
 
@@ -144,7 +144,7 @@ pub(crate) fn of_model(model: &Model) -> Vec<Solid> {
 
 /// Whether rope lies in a body that it could touch.
 pub(crate) fn lies_in_body(model: &Model, state: &State) -> bool {
-    model.spec.settings.rope_on_bodies && SolidWorkspace::new(model).any_in_body(state)
+    model.spec.settings.rope_on_bodies && RopeOnSolid::new(model).any_in_body(state)
 }
 
 /// The id of the obstacle that a solid is, or of the body that it is a part of, with what it is.

@@ -21,6 +21,7 @@
 //! Reference: Hairer, Lubich and Wanner 2006, Geometric Numerical Integration, section IV.1 (linear invariants).
 
 mod energies;
+pub(crate) mod source_forces;
 mod summary;
 
 use core::ops::{Add, Mul};

@@ -16,9 +16,11 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::forces::Forces;
 use crate::model::Model;
-use crate::solver::Solver;
 use crate::state::State;
+use crate::system::LinearSystem;
+use crate::trial::Trial;
 
 /// An inner node of a line that resists bending.
 struct Hinge {
@@ -57,11 +59,11 @@ pub(crate) fn bending_energy(model: &Model, state: &State) -> f64 {
     energy
 }
 
-impl Solver {
+impl Forces {
     /// Adds the force of every hinge and its blocks.
-    pub(crate) fn add_bending(&mut self, model: &Model) {
-        let Self { cut, lengths, trial, tridiagonal, .. } = self;
-        each_hinge(model, cut, &lengths.segment, |hinge| {
+    pub(crate) fn add_bending(&self, model: &Model, trial: &Trial, system: &mut LinearSystem) {
+        let tridiagonal = &mut system.rope;
+        each_hinge(model, &self.cut, &self.lengths.segment, |hinge| {
             hinge.push(&trial.place, &mut tridiagonal.force);
             let [before, after] = hinge.inverse;
             for (segment, node, inverse) in
@@ -77,18 +79,23 @@ impl Solver {
     }
 
     /// Adds the force of every hinge alone.
-    pub(crate) fn push_hinges(&self, model: &Model, force: &mut [DVec3]) {
+    pub(crate) fn push_hinges(&self, model: &Model, trial: &Trial, force: &mut [DVec3]) {
         each_hinge(model, &self.cut, &self.lengths.segment, |hinge| {
-            hinge.push(&self.trial.place, force);
+            hinge.push(&trial.place, force);
         });
     }
 
     /// Slope of the energy of bending along the solved step, a share of it taken.
-    pub(crate) fn bending_slope(&self, model: &Model, share: f64) -> f64 {
+    pub(crate) fn bending_slope(
+        &self,
+        model: &Model,
+        (trial, system): (&Trial, &LinearSystem),
+        share: f64,
+    ) -> f64 {
         let mut slope = 0.0;
         each_hinge(model, &self.cut, &self.lengths.segment, |hinge| {
-            let change = hinge.turn(&self.tridiagonal.step);
-            slope += hinge.stiffness * (hinge.turn(&self.trial.place) + change * share).dot(change);
+            let change = hinge.turn(&system.rope.step);
+            slope += hinge.stiffness * (hinge.turn(&trial.place) + change * share).dot(change);
         });
         slope
     }

@@ -9,64 +9,84 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::forces::Forces;
 use crate::matrix::outer;
 use crate::model::{Body, Float, Model, Wet};
-use crate::solver::Solver;
 use crate::state::State;
-use crate::trial::BodyTrial;
+use crate::system::LinearSystem;
 use crate::trial::plan::Attachment;
+use crate::trial::plan::Plan;
 use crate::trial::rotation::momentum_rate;
 use crate::trial::scheme::Scheme;
+use crate::trial::{BodyTrial, StepContext, Trial};
 
 /// Stiffness that keeps a held body where it is.
 pub(crate) const HELD: f64 = 1e30;
 
-impl Solver {
+/// A body as its forces read it.
+#[derive(Clone, Copy)]
+pub(crate) struct BodyAt<'a> {
+    /// Index of the body.
+    pub index: usize,
+    pub body: &'a Body,
+    /// First block of the body in the interface system.
+    pub block: usize,
+    pub trial: &'a BodyTrial,
+}
+
+impl Forces {
     /// Adds inertia, weight, floats, drag and seabed of every body.
-    pub(crate) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+    pub(crate) fn add_bodies(
+        &self,
+        context: &StepContext<'_>,
+        (plan, trial): (&Plan, &Trial),
+        system: &mut LinearSystem,
+    ) {
+        let StepContext { model, scheme, .. } = *context;
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            self.add_body_in_water(model, state, index, scheme);
+            self.add_body_in_water(context, index, (plan, trial), system);
             if scheme.exact {
-                self.add_slopes(model, index, body);
+                self.add_slopes(model, (index, body), (plan, trial), system);
             }
-            self.add_feet(model, state, index, scheme);
+            Self::add_feet(context, index, (plan, trial), system);
         }
-        self.push_bodies_off_skin();
-        self.push_bodies_apart();
     }
 
     /// Adds inertia, weight and the water's forces of a body.
     pub(crate) fn add_body_in_water(
-        &mut self,
-        model: &Model,
-        state: &State,
+        &self,
+        context: &StepContext<'_>,
         index: usize,
-        scheme: &Scheme,
+        (plan, trial): (&Plan, &Trial),
+        system: &mut LinearSystem,
     ) {
+        let StepContext { model, state, scheme } = *context;
         let body = &model.spec.bodies[index];
-        self.interface.force[self.plan.body_block[index]].z -=
-            body.mass_kg * model.spec.water.gravity_m_s2;
-        let [wet, facing] = self.add_floats(model, index, body, scheme);
-        self.add_body_inertia(state, index, body, wet, scheme);
-        self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * facing, scheme);
-        self.add_turn_drag(model, index, body, wet, scheme);
-        self.add_body_push(model, index, body, wet);
+        let at = BodyAt { index, body, block: plan.body_block[index], trial: &trial.bodies[index] };
+        system.interface.force[at.block].z -= body.mass_kg * model.spec.water.gravity_m_s2;
+        let [wet, facing] = self.add_floats(model, &at, scheme, system);
+        add_body_inertia(state, &at, wet, scheme, system);
+        let area = body.drag_area_m2 * facing;
+        self.add_part_drag(model, &at, (DVec3::ZERO, area), scheme, system);
+        add_turn_drag(model, &at, wet, scheme, system);
+        self.water.add_body_push(model, &at, wet, system);
     }
 
     /// Buoyancy and drag of a body's floats; gives the wet shares of its volume, for added mass, and of the area that
     /// faces the flow, for drag as a whole.
     fn add_floats(
-        &mut self,
+        &self,
         model: &Model,
-        index: usize,
-        body: &Body,
+        at: &BodyAt<'_>,
         scheme: &Scheme,
+        system: &mut LinearSystem,
     ) -> [f64; 2] {
+        let body = at.body;
         let (mut wet, mut facing, mut whole) = (0.0, 0.0, 0.0);
         for float in &body.floats {
-            let under = self.add_float(model, index, float, scheme);
+            let under = self.add_float(model, at, float, scheme, system);
             let area = float.drag_area_m2 * under.facing;
-            self.add_part_drag(model, index, float.offset_m, area, scheme);
+            self.add_part_drag(model, at, (float.offset_m, area), scheme, system);
             wet += under.share * float.volume_m3;
             facing += under.facing * float.volume_m3;
             whole += float.volume_m3;
@@ -75,122 +95,124 @@ impl Solver {
     }
 
     /// Buoyancy of a float; gives how much of it is under water.
-    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> Wet {
+    fn add_float(
+        &self,
+        model: &Model,
+        at: &BodyAt<'_>,
+        float: &Float,
+        scheme: &Scheme,
+        system: &mut LinearSystem,
+    ) -> Wet {
         let water = &model.spec.water;
-        let trial = self.trial.bodies[index];
-        let block = self.plan.body_block[index];
+        let BodyAt { index, block, trial, .. } = *at;
         let arm = trial.orientation * float.offset_m;
         let wet = float.form.wet(
-            trial.place.z + arm.z - self.flow_bodies[index].surface_m,
+            trial.place.z + arm.z - self.water.flow_bodies[index].surface_m,
             trial.orientation * DVec3::Z,
         );
         let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
         let attachment = Attachment::Body { block, body: index, offset: float.offset_m };
         let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
-        self.interface.push(attachment, arm, force);
-        self.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
+        system.interface.push(attachment, arm, force);
+        system.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
             return wet;
         }
-        self.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
-        *self.interface.at(block + 1, block + 1) +=
+        system.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
+        *system.interface.at(block + 1, block + 1) +=
             turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
         wet
     }
 
-    fn add_body_inertia(
-        &mut self,
-        state: &State,
-        index: usize,
-        body: &Body,
-        wet: f64,
-        scheme: &Scheme,
-    ) {
-        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
-        let block = self.plan.body_block[index];
-        let axes = DMat3::from_quat(trial.orientation);
-        let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
-        let mass =
-            DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
-        let moments = body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet;
-        let inertia = turned(moments);
-        let share = scheme.inertia * trial.pseudo_mass_scale;
-        *self.interface.at(block, block) += mass * share;
-        if scheme.is_static() {
-            *self.interface.at(block + 1, block + 1) += inertia * share;
-            if scheme.anchored {
-                self.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
-                self.interface.force[block + 1] -= inertia * (trial.turn() * share);
-            }
-        } else {
-            let (turning, growth) = momentum_rate(&trial, now, moments, scheme);
-            self.interface.force[block] -= inertial(&trial, scheme, mass);
-            self.interface.force[block + 1] -= turning;
-            *self.interface.at(block + 1, block + 1) += growth;
-        }
-        if trial.held {
-            *self.interface.at(block, block) += DMat3::IDENTITY * HELD;
-        }
-        if trial.held || trial.upright {
-            *self.interface.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
-        }
-    }
-
     /// Drag of a part of a body, its coefficient times area given by body axis, at a place in the body's frame.
     fn add_part_drag(
-        &mut self,
+        &self,
         model: &Model,
-        index: usize,
-        offset: DVec3,
-        area: DVec3,
+        at: &BodyAt<'_>,
+        (offset, area): (DVec3, DVec3),
         scheme: &Scheme,
+        system: &mut LinearSystem,
     ) {
         if area == DVec3::ZERO {
             return;
         }
-        let trial = self.trial.bodies[index];
-        let block = self.plan.body_block[index];
+        let BodyAt { index, block, trial, .. } = *at;
         let (axes, arm) = (DMat3::from_quat(trial.orientation), trial.orientation * offset);
         let half_density = 0.5 * model.spec.water.density_kg_m3;
         let mut velocity = (trial.place - trial.place_history) * scheme.rate;
         if !scheme.is_static() {
             velocity += trial.spin(scheme).cross(arm);
         }
-        let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
+        let relative = axes.transpose() * (self.water.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
         let attachment = Attachment::Body { block, body: index, offset };
-        self.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
+        system.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
         if !scheme.is_static() {
             let slope =
                 area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
             let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
-            self.interface.add(attachment, arm, attachment, arm, slope);
+            system.interface.add(attachment, arm, attachment, arm, slope);
         }
     }
+}
 
-    /// Drag that a body's turning meets besides that of its parts.
-    fn add_turn_drag(
-        &mut self,
-        model: &Model,
-        index: usize,
-        body: &Body,
-        wet: f64,
-        scheme: &Scheme,
-    ) {
-        if scheme.is_static() {
-            return;
+/// Adds mass, added mass and the change of momentum of a body.
+fn add_body_inertia(
+    state: &State,
+    at: &BodyAt<'_>,
+    wet: f64,
+    scheme: &Scheme,
+    system: &mut LinearSystem,
+) {
+    let BodyAt { index, body, block, trial } = *at;
+    let now = &state.bodies[index];
+    let axes = DMat3::from_quat(trial.orientation);
+    let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
+    let mass = DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
+    let moments = body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet;
+    let inertia = turned(moments);
+    let share = scheme.inertia * trial.pseudo_mass_scale;
+    *system.interface.at(block, block) += mass * share;
+    if scheme.is_static() {
+        *system.interface.at(block + 1, block + 1) += inertia * share;
+        if scheme.anchored {
+            system.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
+            system.interface.force[block + 1] -= inertia * (trial.turn() * share);
         }
-        let trial = self.trial.bodies[index];
-        let block = self.plan.body_block[index];
-        let axes = DMat3::from_quat(trial.orientation);
-        let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
-        let spin = axes.transpose() * trial.spin(scheme);
-        self.interface.force[block + 1] -=
-            axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
-        let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density * scheme.rate);
-        *self.interface.at(block + 1, block + 1) +=
-            axes * DMat3::from_diagonal(slope) * axes.transpose();
+    } else {
+        let (turning, growth) = momentum_rate(trial, now, moments, scheme);
+        system.interface.force[block] -= inertial(trial, scheme, mass);
+        system.interface.force[block + 1] -= turning;
+        *system.interface.at(block + 1, block + 1) += growth;
     }
+    if trial.held {
+        *system.interface.at(block, block) += DMat3::IDENTITY * HELD;
+    }
+    if trial.held || trial.upright {
+        *system.interface.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
+    }
+}
+
+/// Drag that a body's turning meets besides that of its parts.
+fn add_turn_drag(
+    model: &Model,
+    at: &BodyAt<'_>,
+    wet: f64,
+    scheme: &Scheme,
+    system: &mut LinearSystem,
+) {
+    if scheme.is_static() {
+        return;
+    }
+    let BodyAt { body, block, trial, .. } = *at;
+    let axes = DMat3::from_quat(trial.orientation);
+    let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
+    let spin = axes.transpose() * trial.spin(scheme);
+    system.interface.force[block + 1] -=
+        axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
+    let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density * scheme.rate);
+    *system.interface.at(block + 1, block + 1) +=
+        axes * DMat3::from_diagonal(slope) * axes.transpose();
 }
 
 /// Force that gives a mass the acceleration of a body's step.

@@ -7,19 +7,27 @@ use core::ops::Range;
 
 use glam::{DMat3, DVec3};
 
+use crate::forces::Forces;
 use crate::forces::laws::{self as forces, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
 use crate::matrix::outer;
 use crate::model::Model;
-use crate::solver::Solver;
+use crate::system::LinearSystem;
 use crate::system::lanes::space::Sym3;
+use crate::trial::Trial;
 use crate::trial::scheme::Scheme;
 
 /// Least chord that is divided by [m].
 const TINY_M: f64 = 1e-9;
 
-impl Solver {
+impl Forces {
     /// Adds inertia, weight, buoyancy and drag of every node.
-    pub(crate) fn add_nodes(&mut self, model: &Model, scheme: &Scheme) {
+    pub(crate) fn add_nodes(
+        &self,
+        model: &Model,
+        scheme: &Scheme,
+        trial: &Trial,
+        system: &mut LinearSystem,
+    ) {
         let shared = Shared::of(model, scheme);
         // An anchored pass has its pseudo-mass from `add_anchors`.
         let shared = if scheme.anchored { Shared { inertia: 0.0, ..shared } } else { shared };
@@ -27,16 +35,24 @@ impl Solver {
             let rope = PerMetre::of(&model.spec.ropes[line.rope], &model.spec.water);
             let nodes = &model.line_nodes[index];
             for node in nodes.clone() {
-                let at = self.node_at(node, nodes);
+                let at = self.node_at(trial, node, nodes);
                 let (force, block) = forces::node(&rope, &shared, &at);
-                self.tridiagonal.force[node] += DVec3::from(force);
-                self.tridiagonal.diagonal[node] += DMat3::from(block);
+                system.rope.force[node] += DVec3::from(force);
+                system.rope.diagonal[node] += DMat3::from(block);
                 if scheme.is_static() {
-                    self.add_drag_turn(node, nodes, node - index, &rope, &shared);
+                    self.add_drag_turn(
+                        trial,
+                        system,
+                        [node, node - index],
+                        nodes,
+                        (&rope, &shared),
+                    );
                 }
             }
             if scheme.anchored {
                 self.add_anchors(
+                    trial,
+                    system,
                     nodes,
                     (rope.mass + rope.added) * scheme.inertia * self.pseudo_mass_scale[index],
                 );
@@ -45,65 +61,97 @@ impl Solver {
     }
 
     /// Adds the pull back to where an anchored pass of statics began, by pseudo-mass per metre [kg/m/s²].
-    fn add_anchors(&mut self, nodes: &Range<usize>, pull: f64) {
+    fn add_anchors(
+        &self,
+        trial: &Trial,
+        system: &mut LinearSystem,
+        nodes: &Range<usize>,
+        pull: f64,
+    ) {
         for node in nodes.clone() {
             let stiffness = pull * self.lengths.node[node];
-            self.tridiagonal.force[node] -=
-                (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
-            self.tridiagonal.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
+            system.rope.force[node] -= (trial.place[node] - trial.place_history[node]) * stiffness;
+            system.rope.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
         }
     }
 
-    pub(crate) fn node_at(&self, node: usize, nodes: &Range<usize>) -> NodeAt<f64> {
+    pub(crate) fn node_at(&self, trial: &Trial, node: usize, nodes: &Range<usize>) -> NodeAt<f64> {
         let [before, after] = neighbours(node, nodes);
         NodeAt {
-            place: self.trial.place[node].into(),
-            before: self.trial.place[before].into(),
-            after: self.trial.place[after].into(),
-            place_history: self.trial.place_history[node].into(),
-            velocity_history: self.trial.velocity_history[node].into(),
-            flow: self.flow[node].into(),
-            surface: self.surface_at(node),
+            place: trial.place[node].into(),
+            before: trial.place[before].into(),
+            after: trial.place[after].into(),
+            place_history: trial.place_history[node].into(),
+            velocity_history: trial.velocity_history[node].into(),
+            flow: self.water.flow[node].into(),
+            surface: self.water.surface_at(node),
             length: self.lengths.node[node],
         }
     }
 
     /// Adds the change of a node's drag at rest as its neighbours turn it.
     fn add_drag_turn(
-        &mut self,
-        node: usize,
+        &self,
+        trial: &Trial,
+        system: &mut LinearSystem,
+        [node, segment]: [usize; 2],
         nodes: &Range<usize>,
-        segment: usize,
-        rope: &PerMetre<f64>,
-        shared: &Shared<f64>,
+        (rope, shared): (&PerMetre<f64>, &Shared<f64>),
     ) {
-        let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node))
+        let wet = shared.wet_at(trial.place[node].z - self.water.surface_at(node))
             * self.lengths.node[node];
-        let (tangent, inverse_chord) = tangent(&self.trial.place, node, nodes);
-        let turn = drag_by_tangent(self.flow[node], tangent, rope, wet) * inverse_chord;
+        let (tangent, inverse_chord) = tangent(&trial.place, node, nodes);
+        let turn = drag_by_tangent(self.water.flow[node], tangent, rope, wet) * inverse_chord;
         if node + 1 < nodes.end {
-            self.tridiagonal.up[segment] -= turn;
+            system.rope.up[segment] -= turn;
         } else {
-            self.tridiagonal.diagonal[node] -= turn;
+            system.rope.diagonal[node] -= turn;
         }
         if node > nodes.start {
-            self.tridiagonal.low[segment - 1] += turn;
+            system.rope.low[segment - 1] += turn;
         } else {
-            self.tridiagonal.diagonal[node] += turn;
+            system.rope.diagonal[node] += turn;
         }
     }
 
-    /// Adds the pull of every segment that is taut.
-    pub(crate) fn add_tension(&mut self, model: &Model, scheme: &Scheme) {
-        for index in 0..model.spec.lines.len() {
+    /// Sets the tension of every segment to that by the law at the trial places.
+    pub(crate) fn measure_tension(&self, model: &Model, scheme: &Scheme, trial: &mut Trial) {
+        for (index, segments) in model.line_segments.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
-            for (k, segment) in model.line_segments[index].clone().enumerate() {
-                self.add_segment(segment, first_node + k, scheme);
+            for (node, segment) in (first_node..).zip(segments.clone()) {
+                trial.tension[segment] = if self.cut[segment] {
+                    0.0
+                } else {
+                    self.pull_of(segment, node, scheme, trial).tension
+                };
             }
         }
     }
 
-    fn add_segment(&mut self, segment: usize, node: usize, scheme: &Scheme) {
+    /// Adds the pull of every segment that is taut.
+    pub(crate) fn add_tension(
+        &mut self,
+        model: &Model,
+        scheme: &Scheme,
+        trial: &Trial,
+        system: &mut LinearSystem,
+    ) {
+        for index in 0..model.spec.lines.len() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in model.line_segments[index].clone().enumerate() {
+                self.add_segment(segment, first_node + k, scheme, trial, system);
+            }
+        }
+    }
+
+    fn add_segment(
+        &mut self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        trial: &Trial,
+        system: &mut LinearSystem,
+    ) {
         if self.cut[segment] {
             self.pull[segment] = Pull::default();
             return;
@@ -112,51 +160,57 @@ impl Solver {
             segment,
             node,
             scheme,
-            self.trial.place[node + 1] - self.trial.place[node],
+            trial,
+            trial.place[node + 1] - trial.place[node],
         );
-        let taut = self.trial.tension[segment] > 0.0;
-        let across = self.trial.tension[segment].max(0.0) * pull.inverse_chord;
+        let taut = trial.tension[segment] > 0.0;
+        let across = trial.tension[segment].max(0.0) * pull.inverse_chord;
         self.pull[segment] = Pull { taut, across, ..Pull::of(&pull) };
         if taut {
-            self.add_pull(segment, node, 1.0);
+            self.add_pull(system, segment, node, 1.0);
         }
     }
 
     /// Adds the pull of a segment and its block, or takes them away with a sign below zero.
-    fn add_pull(&mut self, segment: usize, node: usize, sign: f64) {
+    fn add_pull(&self, system: &mut LinearSystem, segment: usize, node: usize, sign: f64) {
         let Pull { direction, tension, stiffness, across, .. } = self.pull[segment];
         let force = direction * (sign * tension);
         let block =
             DMat3::from(Sym3::round(sign * across, direction.into(), sign * (stiffness - across)));
-        self.tridiagonal.force[node] += force;
-        self.tridiagonal.force[node + 1] -= force;
-        self.tridiagonal.diagonal[node] += block;
-        self.tridiagonal.diagonal[node + 1] += block;
-        self.tridiagonal.up[segment] -= block;
-        self.tridiagonal.low[segment] -= block;
+        system.rope.force[node] += force;
+        system.rope.force[node + 1] -= force;
+        system.rope.diagonal[node] += block;
+        system.rope.diagonal[node + 1] += block;
+        system.rope.up[segment] -= block;
+        system.rope.low[segment] -= block;
     }
 
     /// After a solve: lets those segments pull, and those alone, that are taut by the linear solution; how many that changes.
-    pub(crate) fn change_taut(&mut self, model: &Model) -> usize {
+    pub(crate) fn change_taut(
+        &mut self,
+        model: &Model,
+        trial: &Trial,
+        system: &mut LinearSystem,
+    ) -> usize {
         let mut changed = 0;
         for (index, segments) in model.line_segments.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in segments.clone().enumerate() {
-                let tension = self.trial.tension[segment];
+                let tension = trial.tension[segment];
                 let pull = self.pull[segment];
                 if pull.taut == (tension > 0.0) || self.cut[segment] {
                     continue;
                 }
                 changed += 1;
                 if pull.taut {
-                    self.add_pull(segment, first_node + k, -1.0);
+                    self.add_pull(system, segment, first_node + k, -1.0);
                     self.pull[segment].taut = false;
                 } else {
-                    let chord = self.trial.place[first_node + k + 1]
-                        .distance(self.trial.place[first_node + k]);
+                    let chord =
+                        trial.place[first_node + k + 1].distance(trial.place[first_node + k]);
                     self.pull[segment].across = tension / chord.max(TINY_M);
                     self.pull[segment].taut = true;
-                    self.add_pull(segment, first_node + k, 1.0);
+                    self.add_pull(system, segment, first_node + k, 1.0);
                 }
             }
         }
@@ -164,9 +218,15 @@ impl Solver {
     }
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.
-    pub(crate) fn pull_of(&self, segment: usize, node: usize, scheme: &Scheme) -> Pull {
-        let between = self.trial.place[node + 1] - self.trial.place[node];
-        Pull::of(&self.law_between(segment, node, scheme, between))
+    pub(crate) fn pull_of(
+        &self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        trial: &Trial,
+    ) -> Pull {
+        let between = trial.place[node + 1] - trial.place[node];
+        Pull::of(&self.law_between(segment, node, scheme, trial, between))
     }
 
     /// Tension of a segment with the trial moved by a share of the solved step.
@@ -175,11 +235,12 @@ impl Solver {
         segment: usize,
         node: usize,
         scheme: &Scheme,
+        (trial, system): (&Trial, &LinearSystem),
         share: f64,
     ) -> Pull {
-        let between = self.trial.place[node + 1] - self.trial.place[node];
-        let moved = (self.tridiagonal.step[node + 1] - self.tridiagonal.step[node]) * share;
-        Pull::of(&self.law_between(segment, node, scheme, between + moved))
+        let between = trial.place[node + 1] - trial.place[node];
+        let moved = (system.rope.step[node + 1] - system.rope.step[node]) * share;
+        Pull::of(&self.law_between(segment, node, scheme, trial, between + moved))
     }
 
     fn law_between(
@@ -187,28 +248,35 @@ impl Solver {
         segment: usize,
         node: usize,
         scheme: &Scheme,
+        trial: &Trial,
         between: DVec3,
     ) -> PullOf<f64> {
         let length = self.lengths.segment[segment];
         let at = SegmentAt {
             between: between.into(),
-            history: (self.trial.place_history[node + 1] - self.trial.place_history[node]).into(),
+            history: (trial.place_history[node + 1] - trial.place_history[node]).into(),
             length,
             inverse_length: 1.0 / length,
             law: self.lengths.axial[segment],
-            predicted: self.trial.tension[segment],
+            predicted: trial.tension[segment],
         };
         forces::pull(&at, scheme.rate)
     }
 
     /// After a solve: the tension each segment will have by the linear solution.
-    pub(crate) fn predict_tension(&mut self, model: &Model, share: f64) {
+    pub(crate) fn predict_tension(
+        &self,
+        model: &Model,
+        trial: &mut Trial,
+        system: &LinearSystem,
+        share: f64,
+    ) {
         for (index, _) in model.spec.lines.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
                 let pull = &self.pull[segment];
-                self.trial.tension[segment] = pull.tension
-                    + pull.stiffness * pull.stretch(&self.tridiagonal.step, first_node + k) * share;
+                trial.tension[segment] = pull.tension
+                    + pull.stiffness * pull.stretch(&system.rope.step, first_node + k) * share;
             }
         }
     }

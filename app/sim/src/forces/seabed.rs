@@ -8,13 +8,16 @@
 use glam::{DQuat, DVec3};
 
 use crate::contact::law::elastic_grip::{Grip, Push};
+use crate::forces::Forces;
 use crate::forces::suction;
 use crate::matrix::outer;
 use crate::model::{Body, Model, Seabed};
-use crate::solver::Solver;
 use crate::state::State;
+use crate::system::LinearSystem;
 use crate::trial::plan::Attachment;
+use crate::trial::plan::Plan;
 use crate::trial::scheme::Scheme;
+use crate::trial::{BodyTrial, StepContext, Trial};
 
 /// Depth over which the seabed's push sets in [m].
 const ONSET_M: f64 = 0.01;
@@ -90,17 +93,25 @@ impl Seabed {
     }
 }
 
-impl Solver {
+impl Forces {
     /// Adds the seabed under every rope node.
-    pub(crate) fn add_seabed(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+    pub(crate) fn add_seabed(
+        &self,
+        context: &StepContext<'_>,
+        trial: &Trial,
+        system: &mut LinearSystem,
+    ) {
+        let StepContext { model, state, scheme } = *context;
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let Some((push, grip)) = self.seabed_at(seabed, state, scheme, node) else { continue };
-            self.tridiagonal.force[node] += seabed.normal * push.force;
-            self.tridiagonal.diagonal[node] += outer(seabed.normal, seabed.normal) * push.rate;
+            let Some((push, grip)) = self.seabed_at(seabed, state, scheme, trial, node) else {
+                continue;
+            };
+            system.rope.force[node] += seabed.normal * push.force;
+            system.rope.diagonal[node] += outer(seabed.normal, seabed.normal) * push.rate;
             if let Some(grip) = grip {
-                self.tridiagonal.force[node] += grip.force;
-                self.tridiagonal.diagonal[node] += grip.block;
+                system.rope.force[node] += grip.force;
+                system.rope.diagonal[node] += grip.block;
             }
         }
     }
@@ -111,68 +122,57 @@ impl Solver {
         seabed: &Seabed,
         state: &State,
         scheme: &Scheme,
+        trial: &Trial,
         node: usize,
     ) -> Option<(Push, Option<Grip>)> {
-        let depth = seabed.depth_of(self.trial.place[node]);
+        let depth = seabed.depth_of(trial.place[node]);
         if depth <= 0.0 {
             return None;
         }
         let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
         let grip = grips_rope(seabed, state, node, scheme)
-            .then(|| self.rope_grip(seabed, state, scheme, node, stiffness));
+            .then(|| rope_grip(seabed, state, scheme, (node, trial.place[node]), stiffness));
         Some((push_at(depth, stiffness), grip))
     }
 
-    fn rope_grip(
-        &self,
-        seabed: &Seabed,
-        state: &State,
-        scheme: &Scheme,
-        node: usize,
-        stiffness: f64,
-    ) -> Grip {
-        let stretch =
-            state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
-        let push = push_at(seabed.depth_of(self.trial.place[node]), stiffness);
-        if scheme.is_static() {
-            return Grip::smooth(
-                stretch,
-                seabed.normal,
-                stiffness,
-                seabed.rope_friction * push.force,
-                trust(scheme),
-            );
-        }
-        Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
-    }
-
     /// Longest solved move of a body that stands on the seabed, and whose feet may then bear or hold otherwise than was solved for [m].
-    pub(crate) fn longest_of_standing(&self, model: &Model) -> f64 {
+    pub(crate) fn longest_of_standing(
+        model: &Model,
+        plan: &Plan,
+        trial: &Trial,
+        system: &LinearSystem,
+    ) -> f64 {
         let Some(seabed) = &model.spec.seabed else { return 0.0 };
         let stands = |index: usize| {
-            let (body, trial) = (&model.spec.bodies[index], self.trial.bodies[index]);
+            let (body, trial) = (&model.spec.bodies[index], trial.bodies[index]);
             (0..body.feet_m.len()).any(|foot| {
                 let arm = body.foot_arm(foot, trial.orientation, seabed.normal);
                 seabed.depth_of(trial.place + arm) > 0.0
             })
         };
-        let moves = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        let moves = plan.body_block.iter().map(|block| system.interface.step[*block].length());
         moves.enumerate().fold(0.0, |longest, (index, move_m)| {
             if move_m > longest && stands(index) { move_m } else { longest }
         })
     }
 
     /// Adds the seabed under a body's feet.
-    pub(crate) fn add_feet(&mut self, model: &Model, state: &State, index: usize, scheme: &Scheme) {
+    pub(crate) fn add_feet(
+        context: &StepContext<'_>,
+        index: usize,
+        (plan, trial): (&Plan, &Trial),
+        system: &mut LinearSystem,
+    ) {
+        let StepContext { model, state, scheme } = *context;
         let Some(seabed) = &model.spec.seabed else { return };
         let body = &model.spec.bodies[index];
         for foot in 0..body.feet_m.len() {
-            let (at, now) = (BodyFoot { body, index, foot }, self.trial.bodies[index]);
+            let (at, now) = (BodyFoot { body, index, foot }, trial.bodies[index]);
             let arm = at.arm(seabed, now.orientation);
             let place = now.place + arm;
             let depth = seabed.depth_of(place);
             let attachment = Attachment::Body {
-                block: self.plan.body_block[index],
+                block: plan.body_block[index],
                 body: index,
                 offset: body.feet_m[foot],
             };
@@ -180,8 +180,8 @@ impl Solver {
                 let (pull, rate) =
                     suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
                 if pull > 0.0 && !scheme.is_static() {
-                    self.interface.push(attachment, arm, seabed.normal * -pull);
-                    self.interface.add(
+                    system.interface.push(attachment, arm, seabed.normal * -pull);
+                    system.interface.add(
                         attachment,
                         arm,
                         attachment,
@@ -204,8 +204,8 @@ impl Solver {
             };
             let from = at.point_before(seabed, state, now.orientation);
             let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
-            self.interface.push(attachment, arm, seabed.normal * push.force + grip.force);
-            self.interface.add(
+            system.interface.push(attachment, arm, seabed.normal * push.force + grip.force);
+            system.interface.add(
                 attachment,
                 arm,
                 attachment,
@@ -216,63 +216,101 @@ impl Solver {
     }
 
     /// Moves the grips of rope and feet on; called while `state` still holds the places of the step's begin.
-    pub(crate) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(crate) fn keep_grips(
+        &self,
+        model: &Model,
+        scheme: &Scheme,
+        trial: &Trial,
+        state: &mut State,
+    ) {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0
-                && grips_rope(seabed, state, node, scheme);
+            let on_ground =
+                seabed.depth_of(trial.place[node]) > 0.0 && grips_rope(seabed, state, node, scheme);
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             state.rope.seabed_grip[node] = if on_ground {
-                self.rope_grip(seabed, state, scheme, node, stiffness).kept
+                rope_grip(seabed, state, scheme, (node, trial.place[node]), stiffness).kept
             } else {
                 DVec3::ZERO
             };
         }
-        self.keep_feet(model, scheme, state);
+        keep_feet(model, scheme, trial, state);
     }
 
     /// Moves the grips of feet on and clears those of rope, where no rope is near the seabed.
-    pub(crate) fn keep_grips_free(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(crate) fn keep_grips_free(
+        model: &Model,
+        scheme: &Scheme,
+        trial: &Trial,
+        state: &mut State,
+    ) {
         if model.spec.seabed.is_some() {
             state.rope.seabed_grip.fill(DVec3::ZERO);
-            self.keep_feet(model, scheme, state);
+            keep_feet(model, scheme, trial, state);
         }
     }
+}
 
-    fn keep_feet(&self, model: &Model, scheme: &Scheme, state: &mut State) {
-        let Some(seabed) = &model.spec.seabed else { return };
-        for (index, body) in model.spec.bodies.iter().enumerate() {
-            for foot in 0..body.feet_m.len() {
-                self.keep_foot(seabed, scheme, BodyFoot { body, index, foot }, state);
-            }
+fn keep_feet(model: &Model, scheme: &Scheme, trial: &Trial, state: &mut State) {
+    let Some(seabed) = &model.spec.seabed else { return };
+    for (index, body) in model.spec.bodies.iter().enumerate() {
+        for foot in 0..body.feet_m.len() {
+            keep_foot(seabed, scheme, BodyFoot { body, index, foot }, &trial.bodies[index], state);
         }
     }
+}
 
-    fn keep_foot(&self, seabed: &Seabed, scheme: &Scheme, at: BodyFoot<'_>, state: &mut State) {
-        let BodyFoot { index, foot, .. } = at;
-        let now = self.trial.bodies[index];
-        let place = now.place + at.arm(seabed, now.orientation);
-        let push = push_at(seabed.depth_of(place), seabed.foot_stiffness_n_m);
-        let (kept, slides) = if push.force > 0.0 {
-            let from = at.point_before(seabed, state, now.orientation);
-            let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
-            let speed = (place - from).length() * scheme.rate;
-            // Statics says itself which feet slide.
-            let slides = if scheme.is_static() {
-                state.bodies[index].sliding[foot]
-            } else {
-                grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot])
-            };
-            (grip.kept, slides)
+fn keep_foot(
+    seabed: &Seabed,
+    scheme: &Scheme,
+    at: BodyFoot<'_>,
+    now: &BodyTrial,
+    state: &mut State,
+) {
+    let BodyFoot { index, foot, .. } = at;
+    let place = now.place + at.arm(seabed, now.orientation);
+    let push = push_at(seabed.depth_of(place), seabed.foot_stiffness_n_m);
+    let (kept, slides) = if push.force > 0.0 {
+        let from = at.point_before(seabed, state, now.orientation);
+        let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
+        let speed = (place - from).length() * scheme.rate;
+        // Statics says itself which feet slide.
+        let slides = if scheme.is_static() {
+            state.bodies[index].sliding[foot]
         } else {
-            (DVec3::ZERO, false)
+            grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot])
         };
-        let lift = -seabed.depth_of(place);
-        state.bodies[index].lift_m[foot] =
-            suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
-        state.bodies[index].grip[foot] = kept;
-        state.bodies[index].sliding[foot] = slides;
+        (grip.kept, slides)
+    } else {
+        (DVec3::ZERO, false)
+    };
+    let lift = -seabed.depth_of(place);
+    state.bodies[index].lift_m[foot] =
+        suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
+    state.bodies[index].grip[foot] = kept;
+    state.bodies[index].sliding[foot] = slides;
+}
+
+/// Friction of the seabed on a node at a place.
+fn rope_grip(
+    seabed: &Seabed,
+    state: &State,
+    scheme: &Scheme,
+    (node, place): (usize, DVec3),
+    stiffness: f64,
+) -> Grip {
+    let stretch = state.rope.seabed_grip[node] + place - state.rope.position[node];
+    let push = push_at(seabed.depth_of(place), stiffness);
+    if scheme.is_static() {
+        return Grip::smooth(
+            stretch,
+            seabed.normal,
+            stiffness,
+            seabed.rope_friction * push.force,
+            trust(scheme),
+        );
     }
+    Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
 }
 
 /// How far statics trusts a grip to yield as it slips: little while passes are rough, wholly at the end.

@@ -8,9 +8,12 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::forces::Forces;
 use crate::matrix::outer;
 use crate::model::{Body, Model};
-use crate::solver::Solver;
+use crate::system::LinearSystem;
+use crate::trial::Trial;
+use crate::trial::plan::Plan;
 
 /// Move and turn of the differences [m], [rad].
 const STEP: f64 = 1e-6;
@@ -23,20 +26,25 @@ pub(crate) fn turning(arm: DVec3, force: DVec3) -> DMat3 {
     DMat3::from_diagonal(DVec3::splat(arm.dot(force))) - outer(arm, force)
 }
 
-impl Solver {
+impl Forces {
     /// Adds `-∂f/∂(x, θ)` of the water's force and torque on a body at rest.
-    pub(crate) fn add_slopes(&mut self, model: &Model, index: usize, body: &Body) {
-        let (place, orientation) =
-            (self.trial.bodies[index].place, self.trial.bodies[index].orientation);
-        let block = self.plan.body_block[index];
-        let moved = |solver: &Self, axis: DVec3| {
+    pub(crate) fn add_slopes(
+        &self,
+        model: &Model,
+        (index, body): (usize, &Body),
+        (plan, trial): (&Plan, &Trial),
+        system: &mut LinearSystem,
+    ) {
+        let (place, orientation) = (trial.bodies[index].place, trial.bodies[index].orientation);
+        let block = plan.body_block[index];
+        let moved = |forces: &Self, axis: DVec3| {
             let at =
-                |step: f64| solver.wrench(model, index, body, place + axis * step, orientation);
+                |step: f64| forces.wrench(model, index, body, place + axis * step, orientation);
             slope(at(-STEP), at(STEP))
         };
-        let turned = |solver: &Self, axis: DVec3| {
+        let turned = |forces: &Self, axis: DVec3| {
             let at = |step: f64| {
-                solver.wrench(
+                forces.wrench(
                     model,
                     index,
                     body,
@@ -49,8 +57,8 @@ impl Solver {
         let by_place = DVec3::AXES.map(|axis| moved(self, axis));
         let by_turn = DVec3::AXES.map(|axis| turned(self, axis));
         for (column, by) in [(block, by_place), (block + 1, by_turn)] {
-            *self.interface.at(block, column) -= DMat3::from_cols(by[0].0, by[1].0, by[2].0);
-            *self.interface.at(block + 1, column) -= DMat3::from_cols(by[0].1, by[1].1, by[2].1);
+            *system.interface.at(block, column) -= DMat3::from_cols(by[0].0, by[1].0, by[2].0);
+            *system.interface.at(block + 1, column) -= DMat3::from_cols(by[0].1, by[1].1, by[2].1);
         }
     }
 
@@ -63,7 +71,7 @@ impl Solver {
         place: DVec3,
         orientation: DQuat,
     ) -> Wrench {
-        let (water, flow) = (&model.spec.water, &self.flow_bodies[index]);
+        let (water, flow) = (&model.spec.water, &self.water.flow_bodies[index]);
         let axes = DMat3::from_quat(orientation);
         let mut wrench = (DVec3::ZERO, DVec3::ZERO);
         let mut push = |arm: DVec3, force: DVec3, torque: DVec3| {

@@ -8,27 +8,50 @@
 
 use glam::DVec3;
 
+use crate::forces::body::BodyAt;
 use crate::forces::laws::{PerMetre, Shared};
+use crate::forces::lengths::Lengths;
 use crate::forces::rope::tangent;
-use crate::model::{Body, Model};
-use crate::solver::Solver;
-use crate::state::State;
-use crate::trial::scheme::Scheme;
+use crate::model::Model;
+use crate::system::LinearSystem;
+use crate::trial::{StepContext, Trial};
+use crate::water::field::Walk;
 use crate::water::{WaterAt, WavesOut};
 
-impl Solver {
+/// The water at the gear, for the end of the step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WaterAtGear {
+    /// Velocity of the water at each node: current and waves [m/s].
+    pub flow: Vec<DVec3>,
+    /// Acceleration of the water at each node; empty where there are no waves [m/s²].
+    flow_acceleration: Vec<DVec3>,
+    /// Height of the surface above each node's z = 0; empty where there are no waves [m].
+    surface: Vec<f64>,
+    /// Force of the water's acceleration on each node through pressure and added mass; empty where there are no waves [N].
+    pub push: Vec<DVec3>,
+    /// The water at each body.
+    pub flow_bodies: Vec<WaterAt>,
+    wave_walk: Walk,
+}
+
+impl WaterAtGear {
+    /// Storage for a number of nodes.
+    pub fn new(nodes: usize) -> Self {
+        Self { flow: vec![DVec3::ZERO; nodes], ..Self::default() }
+    }
+
     /// Takes the water's velocity, acceleration and surface at every node and body where the trial stands.
-    pub(crate) fn measure_flow(&mut self, model: &Model) {
-        let (sea, time_s) = (&model.sea, self.trial.time);
-        sea.current_at(&self.trial.place, time_s, &mut self.flow);
+    pub(crate) fn measure_flow(&mut self, model: &Model, trial: &Trial) {
+        let (sea, time_s) = (&model.sea, trial.time);
+        sea.current_at(&trial.place, time_s, &mut self.flow);
         let out = WavesOut {
             flow: &mut self.flow,
             acceleration: &mut self.flow_acceleration,
             surface: &mut self.surface,
         };
-        sea.add_waves(&self.trial.place, time_s, &mut self.wave_walk, out);
+        sea.add_waves(&trial.place, time_s, &mut self.wave_walk, out);
         self.flow_bodies.clear();
-        self.flow_bodies.extend(self.trial.bodies.iter().map(|body| sea.at(body.place, time_s)));
+        self.flow_bodies.extend(trial.bodies.iter().map(|body| sea.at(body.place, time_s)));
     }
 
     /// Height of the surface over a node [m].
@@ -37,7 +60,8 @@ impl Solver {
     }
 
     /// Takes the push of accelerating water on every node, as the step begins.
-    pub(crate) fn measure_push(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+    pub(crate) fn measure_push(&mut self, context: &StepContext<'_>, lengths: &Lengths) {
+        let StepContext { model, state, scheme } = *context;
         self.push.clear();
         if self.flow_acceleration.is_empty() {
             return;
@@ -51,7 +75,7 @@ impl Solver {
             );
             for node in nodes.clone() {
                 let wet = shared.wet_at(state.rope.position[node].z - self.surface[node])
-                    * self.lengths.node[node];
+                    * lengths.node[node];
                 let acceleration = self.flow_acceleration[node];
                 let (tangent, _) = tangent(&state.rope.position, node, nodes);
                 let along = tangent * (per_metre.spared * tangent.dot(acceleration));
@@ -61,19 +85,25 @@ impl Solver {
     }
 
     /// Adds the push of accelerating water on rope.
-    pub(crate) fn add_push(&mut self) {
-        for (force, push) in self.tridiagonal.force.iter_mut().zip(&self.push) {
+    pub(crate) fn add_push(&self, system: &mut LinearSystem) {
+        for (force, push) in system.rope.force.iter_mut().zip(&self.push) {
             *force += *push;
         }
     }
 
     /// Adds the push of accelerating water on a body of a wet share.
-    pub(crate) fn add_body_push(&mut self, model: &Model, index: usize, body: &Body, wet: f64) {
+    pub(crate) fn add_body_push(
+        &self,
+        model: &Model,
+        at: &BodyAt<'_>,
+        wet: f64,
+        system: &mut LinearSystem,
+    ) {
+        let BodyAt { index, body, block, trial } = *at;
         let WaterAt { acceleration_m_s2: acceleration, surface_m, .. } = self.flow_bodies[index];
         if acceleration == DVec3::ZERO {
             return;
         }
-        let trial = self.trial.bodies[index];
         let height = |offset: DVec3| trial.place.z + (trial.orientation * offset).z - surface_m;
         let axis = trial.orientation * DVec3::Z;
         let volume: f64 = body
@@ -83,7 +113,7 @@ impl Solver {
             .sum();
         let added = trial.orientation
             * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
-        self.interface.force[self.plan.body_block[index]] +=
+        system.interface.force[block] +=
             acceleration * (model.spec.water.density_kg_m3 * volume) + added;
     }
 }

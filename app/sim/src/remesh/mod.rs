@@ -16,7 +16,7 @@ mod split_merge;
 mod wanted;
 
 use crate::broad_phase::pieces::Pieces;
-use crate::contact::rope_on_rope::near::RopeWorkspace;
+use crate::contact::rope_on_rope::near::RopeOnRope;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::approach::Approach;
@@ -41,7 +41,7 @@ pub(crate) struct RemeshWorkspace {
     /// Whether each segment touches skin, or is near rope that it may touch.
     gripped: Vec<bool>,
     pieces: Pieces,
-    ropes: RopeWorkspace,
+    ropes: RopeOnRope,
 }
 
 impl RemeshWorkspace {
@@ -55,7 +55,7 @@ impl RemeshWorkspace {
             wanted: vec![0.0; model.segment_count],
             gripped: vec![false; model.segment_count],
             pieces: Pieces::new(model),
-            ropes: RopeWorkspace::new(model),
+            ropes: RopeOnRope::new(model),
         })
     }
 }

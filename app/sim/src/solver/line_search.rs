@@ -9,7 +9,7 @@
 
 use crate::model::Model;
 use crate::solver::Solver;
-use crate::state::State;
+use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 
 /// Share of the first slope at which a trial is good enough.
@@ -49,21 +49,17 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
 
 impl Solver {
     /// Share of the solved step to take without a whale, at most `longest`.
-    pub(crate) fn line_search_free(
-        &self,
-        model: &Model,
-        state: &State,
-        scheme: &Scheme,
-        longest: f64,
-    ) -> f64 {
-        balance(longest, |share| self.free_slope(model, state, scheme, share))
+    pub(crate) fn line_search_free(&self, context: &StepContext<'_>, longest: f64) -> f64 {
+        balance(longest, |share| self.free_slope(context, share))
     }
 
-    fn free_slope(&self, model: &Model, state: &State, scheme: &Scheme, share: f64) -> f64 {
+    fn free_slope(&self, context: &StepContext<'_>, share: f64) -> f64 {
+        let StepContext { model, scheme, .. } = *context;
+        let Self { plan, trial, system, .. } = self;
         self.linear_slope(share)
             + self.rope_slope(model, scheme, share)
-            + self.bending_slope(model, share)
-            + self.solid_slope(state, scheme, share)
+            + self.forces.bending_slope(model, (trial, system), share)
+            + self.contacts.rope_on_solid.slope(context, (plan, trial, system), share)
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
@@ -73,10 +69,15 @@ impl Solver {
             .force
             .iter()
             .zip(&self.linear_part.diagonal)
-            .zip(&self.tridiagonal.step))
+            .zip(&self.system.rope.step))
         .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * share - force.dot(*step))
         .sum();
-        nodes + self.linear_part.interface.slope(&self.interface.step, &self.plan.body_block, share)
+        nodes
+            + self.linear_part.interface.slope(
+                &self.system.interface.step,
+                &self.plan.body_block,
+                share,
+            )
     }
 
     /// Slope of the energy of stretched rope.
@@ -87,11 +88,12 @@ impl Solver {
             for (k, segment) in model.line_segments[index]
                 .clone()
                 .enumerate()
-                .filter(|(_, segment)| !self.cut[*segment])
+                .filter(|(_, segment)| !self.forces.cut[*segment])
             {
-                let pull = self.pull_moved(segment, first_node + k, scheme, share);
+                let at = (&self.trial, &self.system);
+                let pull = self.forces.pull_moved(segment, first_node + k, scheme, at, share);
                 slope +=
-                    pull.tension.max(0.0) * pull.stretch(&self.tridiagonal.step, first_node + k);
+                    pull.tension.max(0.0) * pull.stretch(&self.system.rope.step, first_node + k);
             }
         }
         slope

@@ -1,118 +1,78 @@
-//! The implicit solve: one linear system for ropes, joints and bodies, solved directly.
+//! The implicit solver: Newton's method on the balance of forces of a solver step.
 //!
-//! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`scheme.rs`): each `pass`
-//! assembles forces and their derivatives at the trial places, eliminates every line down to its ends
-//! (`block_tridiagonal.rs`), solves the interface system (`interface.rs`) and moves the trial. Cost is linear in the number of nodes;
-//! no stiffness or mass ratio limits the step.
+//! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`trial/scheme.rs`): each iteration assembles forces (`forces`), contact
+//! (`contact`) and their derivatives at the trial places into the linear system (`system`), solves it, and moves the trial.
+//!
+//! | file | subject |
+//! |---|---|
+//! | `step.rs` | begin, assemble, solve, move and store a step |
+//! | `newton.rs` | the iterations of a step |
+//! | `stopping.rs` | convergence and the number of iterations |
+//! | `lanes.rs` | an iteration with rope held as lanes |
+//! | `statics.rs`, `line_search.rs` | what statics needs besides |
 
-mod assemble;
-mod begin;
-mod given;
-pub(crate) mod in_lanes;
-mod keep;
+mod lanes;
 mod line_search;
 pub(crate) mod newton;
-mod residual;
-mod solve;
 mod statics;
+mod step;
 pub(crate) mod stopping;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use glam::{DMat3, DVec3};
 
-use crate::broad_phase::pieces::Pieces;
-use crate::contact::body_on_body::{BodyPairs, Coupled};
-use crate::contact::body_on_skin::BodySkin;
-use crate::contact::rope_on_rope::near::RopeWorkspace;
-use crate::contact::rope_on_solid::SolidWorkspace;
-use crate::cost::{CostClock, CostPart};
-use crate::forces::lengths::Lengths;
-use crate::forces::rope::Pull;
+use crate::contact::Contacts;
+use crate::cost::CostClock;
+use crate::forces::Forces;
 use crate::model::Model;
-use crate::state::State;
-use crate::system::block_tridiagonal::BlockTridiagonal;
+use crate::system::LinearSystem;
 use crate::system::interface::InterfaceSystem;
-use crate::system::lanes::Lanes;
-use crate::system::woodbury::Woodbury;
-use crate::trial::plan::{Attachment, Plan};
-use crate::trial::scheme::Scheme;
+use crate::trial::plan::Plan;
 use crate::trial::{BodyTrial, Trial};
-use crate::water::WaterAt;
-use crate::water::field::Walk;
 use crate::whale::hitch::Hitches;
-pub(crate) use given::SkinTouches;
-pub(crate) use newton::{NewtonEnd, Skin, Solved};
+pub(crate) use newton::{NewtonEnd, Solved};
 pub(crate) use statics::{WorstAt, is_laid};
+pub(crate) use step::SkinTouches;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Solver {
-    pub(crate) plan: Plan,
-    pub(crate) trial: Trial,
-    pub(crate) lengths: Lengths,
-    pub(crate) tridiagonal: BlockTridiagonal,
-    pub(crate) lanes: Lanes,
-    /// Whether the step is solved in the lanes.
-    pub(crate) in_lanes: bool,
-    /// Whether rope may touch skin, rope, obstacles or bodies in the step.
-    pub(crate) in_contact: bool,
-    /// Whether rope may touch the seabed in a step of free rope.
-    pub(crate) near_seabed: bool,
-    pub(crate) interface: InterfaceSystem,
-    pub(crate) pull: Vec<Pull>,
-    pub(crate) cut: Vec<bool>,
-    /// What the pseudo-mass of each line is multiplied by in anchored passes of statics.
-    pub(crate) pseudo_mass_scale: Vec<f64>,
-    pub(crate) linear_part: LinearPart,
-    /// Velocity of the water at each node: current and waves [m/s].
-    pub(crate) flow: Vec<DVec3>,
-    /// Acceleration of the water at each node; empty where there are no waves [m/s²].
-    pub(crate) flow_acceleration: Vec<DVec3>,
-    /// Height of the surface above each node's z = 0; empty where there are no waves [m].
-    pub(crate) surface: Vec<f64>,
-    /// What the water's acceleration does to each node through pressure and added mass; empty where there are no waves [N].
-    pub(crate) push: Vec<DVec3>,
-    /// The water at each body.
-    pub(crate) flow_bodies: Vec<WaterAt>,
-    pub(crate) wave_walk: Walk,
-    /// Rope in pieces, measured over the step.
-    pub(crate) pieces: Pieces,
-    /// Rope near obstacles and bodies.
-    pub(crate) solid: SolidWorkspace,
-    /// Rope near rope.
-    pub(crate) ropes: RopeWorkspace,
-    /// Bodies near skin.
-    pub(crate) body_skin: Option<Box<BodySkin>>,
-    /// Bodies near each other, and those that the interface couples for it.
-    pub(crate) body_pairs: BodyPairs,
-    pub(crate) coupled: Vec<Coupled>,
-    pub(crate) woodbury: Woodbury,
+    pub plan: Plan,
+    pub trial: Trial,
+    pub contacts: Contacts,
+    /// What the computing time of the step is spent on.
+    pub cost: CostClock,
+    forces: Forces,
+    pub(crate) system: LinearSystem,
+    linear_part: LinearPart,
+    /// Whether anything may touch in the step.
+    in_contact: bool,
+    /// Whether rope may touch the seabed in a step with rope held as lanes.
+    near_seabed: bool,
     /// Rope and bodies before a move.
-    pub(crate) before: Vec<DVec3>,
-    pub(crate) bodies_before: Vec<BodyTrial>,
-    /// Attachment and arm of each joint, for a solve again.
-    pub(crate) attachments: Vec<(Attachment, DVec3)>,
-    /// What the time of the step goes to.
-    pub(crate) cost: CostClock,
+    before: Vec<DVec3>,
+    bodies_before: Vec<BodyTrial>,
 }
 
-/// Forces and blocks that the search along a step holds linear.
+/// Forces and blocks that the line search of statics treats as linear.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct LinearPart {
+struct LinearPart {
     diagonal: Vec<DMat3>,
     force: Vec<DVec3>,
-    pub(crate) interface: InterfaceSystem,
+    interface: InterfaceSystem,
 }
 
-/// What is fine enough for a small rig or short segments, below the usual tolerances.
+/// Tolerances for a small rig or short segments, below the usual ones.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
-    /// Move of the last pass [m].
+    /// Move of the last iteration [m].
     pub move_m: f64,
     /// Difference between solved and true tension [N].
     pub gap_n: f64,
 }
 
-/// Move of the last pass, as a share of the shortest segment.
+/// Move of the last iteration, as a share of the shortest segment.
 const FINE_MOVE_SHARE: f64 = 0.02;
 /// Difference of tension, as a share of the weight of all gear.
 const FINE_GAP_SHARE: f64 = 0.02;
@@ -122,81 +82,30 @@ impl Solver {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
-        let interface = InterfaceSystem::of_model(&plan, model, &[]);
+        let system = LinearSystem::new(model, &plan);
         Self {
-            linear_part: LinearPart { interface: interface.clone(), ..LinearPart::default() },
-            interface,
-            plan,
+            linear_part: LinearPart {
+                interface: system.interface.clone(),
+                ..LinearPart::default()
+            },
             trial: Trial { hitches: Hitches::new(model), ..Trial::default() },
-            lengths: Lengths::default(),
-            tridiagonal: BlockTridiagonal::new(model.node_count, model.segment_count),
-            lanes: Lanes::new(model),
-            in_lanes: false,
+            contacts: Contacts::new(model),
+            cost: CostClock::default(),
+            forces: Forces::new(model),
+            system,
+            plan,
             in_contact: false,
             near_seabed: false,
-            pull: vec![Pull::default(); model.segment_count],
-            cut: vec![false; model.segment_count],
-            pseudo_mass_scale: vec![1.0; model.spec.lines.len()],
-            flow: vec![DVec3::ZERO; model.node_count],
-            flow_acceleration: Vec::new(),
-            surface: Vec::new(),
-            push: Vec::new(),
-            flow_bodies: Vec::new(),
-            wave_walk: Walk::default(),
-            pieces: Pieces::new(model),
-            solid: SolidWorkspace::new(model),
-            ropes: RopeWorkspace::new(model),
-            body_skin: BodySkin::new(model).map(Box::new),
-            body_pairs: BodyPairs::new(model),
-            coupled: Vec::new(),
-            woodbury: Woodbury::new(),
             before: Vec::new(),
             bodies_before: Vec::new(),
-            attachments: Vec::new(),
-            cost: CostClock::default(),
         }
     }
 
-    /// What is fine enough for the gear at hand.
+    /// The tolerances for this gear.
     pub(crate) fn tolerance(&self) -> Tolerance {
         Tolerance {
-            move_m: FINE_MOVE_SHARE * self.lengths.shortest,
+            move_m: FINE_MOVE_SHARE * self.forces.lengths.shortest,
             gap_n: FINE_GAP_SHARE * self.plan.weight_n,
         }
-    }
-
-    /// Begins a step from a state.
-    pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.in_lanes = false;
-        self.lengths.take(model, &state.rope.segment_length);
-        self.trial.begin(model, &self.plan, state, scheme);
-        self.cut.clone_from(&state.rope.cut);
-        let outer = self.cost.enter(CostPart::Water);
-        self.measure_flow(model);
-        self.measure_push(model, state, scheme);
-        self.cost.enter(outer);
-    }
-
-    /// Moves the trial by a share of the solved step; whether all moves are finite.
-    pub(crate) fn advance(&mut self, model: &Model, share: f64) -> bool {
-        let mut finite = true;
-        self.predict_tension(model, share);
-        self.predict_pushes(share);
-        for (place, step) in self.trial.place.iter_mut().zip(&self.tridiagonal.step) {
-            *place += *step * share;
-            finite &= step.is_finite();
-        }
-        finite &= self.advance_bodies(share).1;
-        self.trial.place_ends(model, &self.plan);
-        finite
-    }
-
-    /// Tension of each segment at the end of the step being solved; below zero it is slack [N].
-    pub(crate) fn tension(&mut self) -> &[f64] {
-        if self.in_lanes {
-            self.trial.tension.resize(self.lengths.segment.len(), 0.0);
-            self.lanes.give_tension(&mut self.trial.tension);
-        }
-        &self.trial.tension
     }
 }

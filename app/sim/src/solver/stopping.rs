@@ -21,7 +21,7 @@
 //! rope is in contact. A free step takes two passes unless the first was as good as exact.
 //! Of moves that shrink by `θ` in each pass, `θ/(1-θ)` of the last is left (Hairer and Wanner 1996, section IV.8).
 
-use crate::contact::ContactMissed;
+use crate::contact::ContactError;
 use crate::model::CONTACT_TOLERANCE;
 use crate::solver::Tolerance;
 use crate::trial::StepContext;
@@ -145,7 +145,7 @@ impl Stopping {
     }
 
     /// What a pass missed by, as a share of what is allowed; `before_m` is how far the pass before it moved [m].
-    pub fn missed(&self, done: &PassDone, contact: ContactMissed, before_m: f64) -> f64 {
+    pub fn missed(&self, done: &PassDone, contact: ContactError, before_m: f64) -> f64 {
         let tension_n = self.tension_n(done.greatest_n);
         let body_move_m = self.leniency * BODY_MOVE_M;
         let mut missed = (done.gap_n / tension_n).max(done.standing_m / body_move_m);
@@ -217,12 +217,7 @@ impl PassCount {
     }
 
     /// Takes in what a pass missed by, contact included; what that is of what is allowed, where the step has converged.
-    pub fn end(
-        &mut self,
-        rules: &Stopping,
-        done: &PassDone,
-        contact: ContactMissed,
-    ) -> Option<f64> {
+    pub fn end(&mut self, rules: &Stopping, done: &PassDone, contact: ContactError) -> Option<f64> {
         let missed = rules.missed(done, contact, self.moved_m);
         let was_half = self.half;
         self.half = rules.in_contact && !was_half && missed > STALLED_SHARE * self.missed;

@@ -14,6 +14,7 @@ use super::trail::Trail;
 use crate::model::Model;
 use crate::solver::{Solver, WorstAt, is_laid};
 use crate::state::State;
+use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 
 /// Residual at which the rig is at rest [N].
@@ -114,7 +115,7 @@ impl<'a> Newton<'a> {
     /// Begins at a guess.
     pub fn new(model: &'a Model, attempt: &Attempt) -> Self {
         let (mut solver, scheme) = (Solver::new(model), Scheme::statics(attempt.pseudo_mass));
-        solver.solid.at_rest_n_m2 = attempt.on_bodies_n_m2;
+        solver.contacts.rope_on_solid.at_rest_n_m2 = attempt.on_bodies_n_m2;
         solver.begin(model, attempt.laid, &scheme);
         match attempt.hold {
             Hold::Laid => solver.hold_laid(model),
@@ -135,9 +136,10 @@ impl<'a> Newton<'a> {
 
     /// Assembles forces and matrix at the trial places; the residual [N].
     pub fn balance(&mut self, way: Way) -> f64 {
+        let context = StepContext { model: self.model, state: &self.laid, scheme: &self.scheme };
         match way {
-            Way::Predicted => self.solver.assemble(self.model, &self.laid, &self.scheme),
-            Way::Searched => self.solver.assemble_searchable(self.model, &self.laid, &self.scheme),
+            Way::Predicted => self.solver.assemble(&context),
+            Way::Searched => self.solver.assemble_searchable(&context),
         }
         self.solver.residual(self.model)
     }
@@ -171,7 +173,8 @@ impl<'a> Newton<'a> {
 
     /// Share of the solved step to take, at most `longest`.
     pub fn line_search(&self, longest: f64) -> f64 {
-        self.solver.line_search_free(self.model, &self.laid, &self.scheme, longest)
+        let context = StepContext { model: self.model, state: &self.laid, scheme: &self.scheme };
+        self.solver.line_search_free(&context, longest)
     }
 
     /// Lets slack rope resist while the pseudo-mass is great.
@@ -207,7 +210,7 @@ impl<'a> Newton<'a> {
         let load_n = laid.map(|body| self.solver.load_on(self.model, body)).collect();
         let mut state = self.laid;
         if residual_n.is_finite() {
-            self.solver.keep(self.model, &self.scheme, &mut state);
+            self.solver.store(self.model, &self.scheme, &mut state);
             state.rest();
         }
         Reached { state, residual_n, worst, load_n }

@@ -1,42 +1,47 @@
-//! Where a solver step ended: whether its path leads through skin, rope or solids, and whether rope is pinched.
+//! Solution of a solver step and the check of its path.
 //!
-//! Newton goes where it likes (`solver/newton.rs`); what counts is the straight path from where the step began to where it ended.
+//! The iterations are free to move anywhere (`solver/newton.rs`); what is checked is the straight path from the start of the step to
+//! its end.
 
 use super::audit::Audit;
 use super::rejection::Rejection;
-use crate::contact::body_on_skin::path::Refused;
-use crate::contact::rope_on_skin::ContactWorkspace;
+use crate::contact::failure::Kind;
 use crate::cost::CostPart;
 use crate::model::Model;
-use crate::solver::{NewtonEnd, Skin, Solved, Solver};
-use crate::state::State;
+use crate::solver::{NewtonEnd, Solved, Solver};
 use crate::trial::StepContext;
 
-/// Most times a step is solved again with rope that came near to something that its drift would not have brought it near to.
+/// Largest number of solutions of a step with rope that came near to something that the search by its drift did not find.
 const MOST_GATHERED: usize = 4;
 
-/// Solves a step, again where rope met something that was not looked at.
+/// Solves a step, again if rope reached something that the search did not find.
 pub(super) fn solve(
     context: &StepContext<'_>,
     solver: &mut Solver,
-    mut near: Skin<'_>,
-    may_touch: bool,
     audit: &mut Audit,
 ) -> Result<Solved, Rejection> {
     let StepContext { model, state, scheme } = *context;
     for _ in 0..MOST_GATHERED {
-        if solver.ropes.touching && is_long(model, scheme.dt) && !solver.ropes.rest(model, state) {
+        let ropes = &solver.contacts.rope_on_rope;
+        if ropes.touching && is_long(model, scheme.dt) && !ropes.rest(model, state) {
             return Err(Rejection::RopesMeet);
         }
-        let mut skin = near.as_deref_mut().filter(|_| may_touch);
-        solver.begin_step(context, skin.as_deref_mut());
-        let solved = solver.solve_step(context, skin);
-        let solved = solved.map_err(|end| reject(end, audit))?;
+        solver.begin_step(context);
+        let solved = solver.solve_step(context).map_err(|end| match end {
+            NewtonEnd::NotConverged => Rejection::NotConverged,
+            NewtonEnd::NotFinite => {
+                audit.non_finite += 1;
+                Rejection::NotFinite
+            }
+            NewtonEnd::Contact(failure) => failure.into(),
+        })?;
         audit.passes += solved.passes as u64;
         solver.cost.enter(CostPart::Detection);
-        if !solver.met_more(context, solved.moved_m) {
-            audit.rope_steps += u64::from(solver.ropes.touching && !may_touch);
-            end_path(state, solver, near, audit)?;
+        if !solver.find_more(context, solved.moved_m) {
+            let contacts = &solver.contacts;
+            let on_skin = contacts.rope_on_skin.as_ref().is_some_and(|kind| kind.touching);
+            audit.rope_steps += u64::from(contacts.rope_on_rope.touching && !on_skin);
+            check_path(context, solver, audit)?;
             return Ok(solved);
         }
     }
@@ -48,65 +53,16 @@ fn is_long(model: &Model, dt: f64) -> bool {
     dt > model.spec.settings.contact_step_s * (1.0 + 1e-9)
 }
 
-/// Ends a step on the straight path from where it began, where that is free and leaves nothing pinched.
-fn end_path(
-    state: &State,
+/// Checks that the path is free and leaves nothing pinched.
+fn check_path(
+    context: &StepContext<'_>,
     solver: &mut Solver,
-    near: Skin<'_>,
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
-    if let Some(work) = near {
-        solver.take_places();
-        leave_skin(state, solver, work, audit)?;
-    }
-    if let Some(segments) = solver.crushed_ropes(true) {
-        return Err(Rejection::RopesPinched(segments));
-    }
-    audit.ropes_crossed += solver.end_ropes(state).ok_or(Rejection::NotConverged)?;
-    if let Some(bodies) = solver.meeting_bodies(state) {
-        return Err(Rejection::BodiesMeet(bodies));
-    }
-    audit.bodies_crossed += solver.end_bodies(state).map_err(|refused| match refused {
-        Refused::Through(body, triangle) => Rejection::BodyPinched(body, triangle),
-        Refused::NotLooked => Rejection::NotConverged,
-        Refused::Strayed => Rejection::Strayed,
-    })?;
-    solver
-        .went_through(state)
-        .map_or(Ok(()), |(segment, solid)| Err(Rejection::WentThrough(segment, solid)))
-}
-
-/// The same with skin.
-fn leave_skin(
-    state: &State,
-    solver: &Solver,
-    work: &mut ContactWorkspace,
-    audit: &mut Audit,
-) -> Result<(), Rejection> {
-    if let Some((segment, triangle)) = work.pinched(&state.rope.position) {
-        return Err(Rejection::Pinched(segment, triangle));
-    }
-    if work.strayed(solver.places()) {
-        return Err(Rejection::Strayed);
-    }
-    let crossings = work.near.end(&state.rope.position, solver.places());
-    audit.tunnelled += crossings.ok_or(Rejection::NotConverged)?;
-    Ok(())
-}
-
-/// Why a step is refused that Newton ended so.
-fn reject(end: NewtonEnd, audit: &mut Audit) -> Rejection {
-    match end {
-        NewtonEnd::NotConverged => Rejection::NotConverged,
-        NewtonEnd::NotFinite => {
-            audit.non_finite += 1;
-            Rejection::NotFinite
-        }
-        NewtonEnd::Crushed(segment, triangle) => Rejection::Pinched(segment, triangle),
-        NewtonEnd::BodyCrushed(body, triangle) => Rejection::BodyPinched(body, triangle),
-        NewtonEnd::BodiesCrushed(bodies) => Rejection::BodiesMeet(bodies),
-        NewtonEnd::CrushedRopes(segments) => Rejection::RopesPinched(segments),
-        NewtonEnd::CrowdedRopes(segments) => Rejection::RopesCrowded(segments),
-        NewtonEnd::Plugin(failed) => Rejection::Plugin(failed),
-    }
+    let mut crossings = [0; Kind::COUNT];
+    let checked = solver.check_path(context, &mut crossings);
+    audit.tunnelled += crossings[Kind::RopeOnSkin as usize];
+    audit.ropes_crossed += crossings[Kind::RopeOnRope as usize];
+    audit.bodies_crossed += crossings[Kind::BodyOnSkin as usize];
+    checked.map_err(Rejection::from)
 }

@@ -1,55 +1,63 @@
-//! What a solver step was, or why it was rejected.
+//! Results of a solver step: its kind, or why it was rejected.
 
-use super::stop::Stop;
+use crate::contact::failure::{ContactFailure, Reason, Refusal};
 use crate::contact::law::friction_arrays::Failed;
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
+use crate::step::stop::Stop;
 
-/// Why a solver step must be redone shorter, or ends the run.
+/// Why a solver step must be repeated shorter, or ends the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Rejection {
     NotFinite,
     NotConverged,
     PartsTooLate,
-    /// Rope left the margin in which skin was looked for.
-    Strayed,
-    /// This segment crosses skin before the step begins.
-    Crossed(usize),
-    /// This segment is pinched at this triangle by skin that closes on it.
-    Pinched(usize, usize),
-    /// This body is pinched at this triangle by skin that closes on it, or would go through it.
-    BodyPinched(usize, usize),
-    /// These two bodies, or this body and this obstacle by its number after all bodies, are pressed into each other or would pass.
-    BodiesMeet([usize; 2]),
-    /// These two segments are pressed into each other harder than rope can bear.
-    RopesPinched([usize; 2]),
     /// Rope may touch rope, which needs the shorter step of contact.
     RopesMeet,
-    /// This segment went into or through this obstacle or body.
-    WentThrough(usize, usize),
-    /// More rope lies together at these two segments than is solved.
-    RopesCrowded([usize; 2]),
+    /// Contact refuses the step.
+    Contact(Refusal),
     /// The friction plugin failed, with its message.
     Plugin(Failed),
+}
+
+impl From<ContactFailure> for Rejection {
+    fn from(failure: ContactFailure) -> Self {
+        match failure {
+            ContactFailure::Refused(refusal) => Self::Contact(refusal),
+            ContactFailure::Plugin(failed) => Self::Plugin(failed),
+        }
+    }
 }
 
 impl Rejection {
     /// Whether a shorter step may help.
     pub fn may_halve(&self) -> bool {
-        !matches!(self, Self::Crossed(_) | Self::RopesCrowded(_) | Self::Plugin(_))
+        match self {
+            Self::Contact(refusal) => refusal.may_halve(),
+            Self::Plugin(_) => false,
+            Self::NotFinite | Self::NotConverged | Self::PartsTooLate | Self::RopesMeet => true,
+        }
     }
 
-    /// The reason a run ends where even the shortest step is rejected.
+    /// Whether contact near the whale must be searched for again.
+    pub fn calls_for_search(&self) -> bool {
+        matches!(self, Self::Contact(refusal) if refusal.reason == Reason::LeftSearchMargin)
+    }
+
+    /// The reason a run ends if even the shortest step is rejected.
     pub fn stop(self, model: &Model, state: &State, solver: &Solver) -> Stop {
-        let line_of =
-            |segment: usize| format!("line {}", model.spec.lines[model.segment_line[segment]].id);
         let worst = || {
             let line = solver.worst_line(model);
             line.map_or_else(
                 || "model".into(),
                 |line| format!("line {}", model.spec.lines[line].id),
             )
+        };
+        let no_balance = || {
+            let reason = "no balance of forces was found at the shortest step; check strength and \
+                          stiffness of this part";
+            (worst(), reason.to_owned())
         };
         let (part, reason) = match self {
             Self::NotFinite => (
@@ -58,85 +66,28 @@ impl Rejection {
                  current of this part"
                     .into(),
             ),
-            Self::NotConverged | Self::Strayed => (
-                worst(),
-                "no balance of forces was found at the shortest step; check strength and stiffness \
-                 of this part"
-                    .into(),
-            ),
+            Self::NotConverged => no_balance(),
             Self::PartsTooLate => {
                 (worst(), "it parts faster than the shortest step can follow".into())
-            }
-            Self::Crossed(segment) => (
-                line_of(segment),
-                "rope crosses the whale's skin where the run starts; move the whale or the gear apart"
-                    .into(),
-            ),
-            Self::Pinched(segment, triangle) => {
-                let whale = model.spec.whale.as_ref();
-                let region =
-                    whale.map_or("skin", |whale| whale.skin.regions[triangle].part().name());
-                let reason = format!(
-                    "rope is pinched at the whale's {region} by parts of the skin that close on it \
-                     harder than rope can bear"
-                );
-                (line_of(segment), reason)
-            }
-            Self::BodyPinched(body, triangle) => {
-                let whale = model.spec.whale.as_ref();
-                let region =
-                    whale.map_or("skin", |whale| whale.skin.regions[triangle].part().name());
-                let reason = format!(
-                    "it is pressed into the whale's {region} by parts of the skin that close on it, or \
-                     by more than skin bears"
-                );
-                (format!("body {}", model.spec.bodies[body].id), reason)
-            }
-            Self::BodiesMeet([body, other]) => {
-                let [part, other] =
-                    [body, other].map(|thing| crate::contact::body_on_body::name_of(model, thing));
-                (part, format!("it is pressed into {other} harder than either bears"))
-            }
-            Self::WentThrough(segment, solid) => {
-                let solid = crate::solids::name_of(model, solid);
-                let reason = format!(
-                    "rope goes through {solid} even at the shortest step; use shorter segments or a \
-                     slower start"
-                );
-                (line_of(segment), reason)
-            }
-            Self::RopesCrowded([segment, other]) => {
-                let reason = format!(
-                    "more rope lies together here, on {}, than can be solved; check its length, or use \
-                     longer segments",
-                    line_of(other)
-                );
-                (line_of(segment), reason)
-            }
-            Self::RopesPinched([segment, other]) => {
-                let reason = format!(
-                    "it is pressed into {} harder than rope can bear; check what pulls on both",
-                    line_of(other)
-                );
-                (line_of(segment), reason)
             }
             Self::RopesMeet => {
                 (worst(), "rope meets rope in a step that cannot be made shorter".into())
             }
+            Self::Contact(refusal) => refusal.describe(model).unwrap_or_else(no_balance),
             Self::Plugin(failed) => (failed.id, failed.message),
         };
         Stop { time_s: state.time_s, part, reason }
     }
 }
 
-/// What a solver step was.
+/// Kind of a solver step that was accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum StepKind {
-    /// No rope near skin.
+    /// Nothing may touch.
     Free,
-    /// Rope near skin, rope, obstacles or bodies; how much of what Newton is allowed it missed by.
+    /// Something may touch.
     InContact {
-        /// As a share.
+        /// Error as a share of the tolerance of Newton.
         missed: f64,
     },
     /// Something parted at its end.

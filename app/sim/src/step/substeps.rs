@@ -7,22 +7,20 @@
 //! which ends the run.
 
 use super::rejection::{Rejection, StepKind};
-use super::solver_step::{look, solver_step};
+use super::solver_step::solver_step;
 use super::stop::Stop;
 use super::workspace::Workspace;
 use crate::contact::rope_on_skin::step_sums::StepSums;
 use crate::cost::CostPart;
 use crate::model::{Model, Settings, Whale};
 use crate::remesh::remesh;
+use crate::solver::Solver;
 use crate::state::{LimitedBy, State, StepControl, WhaleState};
 use crate::step_control::{self, Taken};
 use crate::whale::drive::pose_between;
 use crate::whale::hitch;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
-
-/// Rope this near to the whale's path over a whole step makes the solver steps short [m].
-const NEAR_M: f64 = 0.2;
 
 /// Share of what Newton is allowed to miss below which the next step near the whale is longer, and by how much.
 const LITTLE_MISSED: f64 = 0.3;
@@ -58,7 +56,7 @@ pub(super) fn advance(
         if taken_back == 0 {
             workspace.audit.take_lengths(&remeshed);
         }
-        workspace.solver.pieces.forget();
+        workspace.solver.contacts.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
         let longest =
             if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
@@ -89,48 +87,16 @@ fn near_whale(
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
 ) -> bool {
-    let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
-    workspace.solver.cost.enter(CostPart::Whale);
-    pose_between(model, from, to, 0.0, &mut work.bones[0]);
-    pose_between(model, from, to, 1.0, &mut work.bones[1]);
-    workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
-    workspace.solver.cost.enter(CostPart::Detection);
-    let step_s = model.spec.settings.step_s;
-    let (pieces, [start, end]) = (&mut workspace.solver.pieces, &work.bones);
-    pieces.measure_drift(state, step_s);
-    let near = work.near.any(
-        [start, end],
-        pieces,
-        &state.rope.position,
-        |node| state.rope.velocity[node] * step_s,
-        NEAR_M,
-    );
-    work.near.pairs.clear();
-    if near {
-        work.near.gather_swept(model, (&state.rope.cut, 0.0));
-    }
-    let skin = ([&start[..], &end[..]], &work.near.whole());
-    let bodies = workspace.solver.body_skin.as_mut();
-    let body_near = bodies.is_some_and(|bodies| bodies.gather(model, state, skin, 0.0));
-    workspace.solver.cost.enter(CostPart::Other);
-    near || body_near
-}
-
-/// Gathers rope and bodies near skin for the rest of a step of the model, of which a share has passed.
-fn gather(model: &Model, state: &State, workspace: &mut Workspace, passed: f64) {
-    let Some(work) = &mut workspace.contact else { return };
-    let left_s = model.spec.settings.step_s * (1.0 - passed);
-    let [start, end] = &work.bones;
-    work.near.gather(
-        model,
-        [start, end],
-        &state.rope.position,
-        |node| state.rope.velocity[node] * left_s,
-        (&state.rope.cut, passed),
-    );
-    if let Some(bodies) = &mut workspace.solver.body_skin {
-        bodies.gather(model, state, ([start, end], &work.near.whole()), passed);
-    }
+    let Solver { contacts, trial, cost, .. } = &mut workspace.solver;
+    let Some([from, to]) = whale.filter(|_| contacts.rope_on_skin.is_some()) else { return false };
+    cost.enter(CostPart::Whale);
+    pose_between(model, from, to, 0.0, &mut contacts.bones[0]);
+    pose_between(model, from, to, 1.0, &mut contacts.bones[1]);
+    trial.hitches.move_to(model, [&contacts.bones[0], &contacts.bones[1]]);
+    cost.enter(CostPart::Detection);
+    let near = contacts.find_near_whale(model, state);
+    cost.enter(CostPart::Other);
+    near
 }
 
 /// What bounds the solver steps of one try.
@@ -163,7 +129,10 @@ fn solver_steps(
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
-        let clear = may_stay_clear && stays_clear(state, workspace, left);
+        let clear = may_stay_clear && {
+            workspace.solver.cost.enter(CostPart::Detection);
+            workspace.solver.contacts.stays_clear(state, left)
+        };
         may_stay_clear = clear;
         let most = if clear { settings.step_s } else { longest };
         let (chosen, limit) = wanted(settings, &state.step_control, most);
@@ -179,11 +148,8 @@ fn solver_steps(
         workspace.solver.trial.hitches.span = [share(state.time_s), share(state.time_s + dt)];
         let earlier_dt = state.rope.earlier_dt_s;
         let done = solver_step(model, state, workspace, dt, way);
-        if let (Err(_), Some(work)) = (&done, &mut workspace.contact) {
-            work.near.go_back();
-        }
-        if let (Err(_), Some(bodies)) = (&done, &mut workspace.solver.body_skin) {
-            bodies.go_back();
+        if done.is_err() {
+            workspace.solver.contacts.reject();
         }
         match done {
             Ok(kind) => {
@@ -217,13 +183,14 @@ fn solver_steps(
                     LimitedBy::Convergence
                 };
                 may_stay_clear = false;
-                if workspace.solver.ropes.touching {
+                if workspace.solver.contacts.rope_on_rope.touching {
                     // Rope that rests on rope did not bear a long step.
                     (ropes_meet, longest) = (true, settings.contact_step_s.min(longest));
                 }
-                if why == Rejection::Strayed {
+                if why.calls_for_search() {
                     workspace.solver.cost.enter(CostPart::Detection);
-                    gather(model, state, workspace, share(state.time_s));
+                    let passed = share(state.time_s);
+                    workspace.solver.contacts.find_near_whale_again(model, state, passed);
                 }
                 if (near || ropes_meet) && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
                     state.step_control.contact_step_s = 0.5 * dt;
@@ -238,22 +205,9 @@ fn solver_steps(
     Ok(true)
 }
 
-/// Whether rope and bodies that go on with their velocities touch no skin for the rest of the model's step.
-fn stays_clear(state: &State, workspace: &mut Workspace, left_s: f64) -> bool {
-    workspace.solver.cost.enter(CostPart::Detection);
-    let bodies = workspace.solver.body_skin.as_mut().filter(|bodies| bodies.is_near());
-    if bodies.is_some_and(|bodies| bodies.look(state, 1.0, left_s)) {
-        return false;
-    }
-    workspace
-        .contact
-        .as_mut()
-        .is_none_or(|work| work.near.pairs.is_empty() || !look(state, work, 1.0, left_s))
-}
-
 /// Takes in what opened the whale's mouth in the solver step that has just ended.
 fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
-    let (Some(mouth), Some(work)) = (&mut workspace.mouth, &workspace.contact) else { return };
+    let Some(mouth) = &mut workspace.mouth else { return };
     let rope = workspace.contacts.iter().map(|contact| {
         let push = contact.normal * contact.normal_force_n;
         (contact.triangle, contact.position, -(push + contact.friction_n))
@@ -262,7 +216,8 @@ fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
         let push = contact.normal * contact.normal_force_n;
         (contact.triangle, contact.position, -(push + contact.friction_n))
     });
-    mouth.take(&whale.skin, &work.bones[1], rope.chain(bodies), dt);
+    let bones = &workspace.solver.contacts.bones[1];
+    mouth.take(&whale.skin, bones, rope.chain(bodies), dt);
 }
 
 /// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.

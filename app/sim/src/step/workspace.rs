@@ -10,7 +10,6 @@ use crate::contact::ContactPoint;
 use crate::contact::body_on_skin::BodyContact;
 use crate::contact::body_on_skin::sums::BodySums;
 use crate::contact::rope_on_rope::RopeTouch;
-use crate::contact::rope_on_skin::ContactWorkspace;
 use crate::contact::rope_on_skin::step_sums::StepSums;
 use crate::cost::{Clock, Cost};
 use crate::gear_hook::GearWorkspace;
@@ -46,7 +45,6 @@ pub struct Workspace {
     /// Momentum and energy of the gear so far, where the model tells them ([`Settings::balance`](crate::model::Settings::balance)).
     pub balance: Balance,
     pub(crate) solver: Solver,
-    pub(crate) contact: Option<ContactWorkspace>,
     pub(super) before: Option<State>,
     pub(super) stages: Stages,
     pub(super) gear: GearWorkspace,
@@ -76,7 +74,6 @@ impl Workspace {
             audit: Audit::default(),
             balance: Balance::default(),
             solver: Solver::new(model),
-            contact: ContactWorkspace::new(model),
             before: None,
             stages: Stages::new(model),
             gear: GearWorkspace::default(),

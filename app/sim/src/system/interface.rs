@@ -104,6 +104,13 @@ impl InterfaceSystem {
         &mut self.value[storage as usize]
     }
 
+    /// The block at (row, column), if the layout holds it.
+    #[cfg(test)]
+    pub(super) fn get(&self, row: usize, column: usize) -> Option<DMat3> {
+        let storage = self.storage[row * self.blocks + column];
+        (storage != NONE).then(|| self.value[storage as usize])
+    }
+
     /// Adds a block that acts between the points of two attachments; `row_arm` and `column_arm` lead from a
     /// body's origin to its point in the world frame.
     pub fn add(
@@ -237,7 +244,10 @@ impl InterfaceSystem {
 
 /// Blocks of an attachment with the 3×3 map from the block's move to the move of the point; none where the point moves as the
 /// block does.
-fn parts(attachment: Attachment, arm: DVec3) -> impl Iterator<Item = (usize, Option<DMat3>)> {
+pub(super) fn parts(
+    attachment: Attachment,
+    arm: DVec3,
+) -> impl Iterator<Item = (usize, Option<DMat3>)> {
     let list = match attachment {
         Attachment::Fixed => [None, None],
         Attachment::Free(block) => [Some((block, None)), None],

@@ -1,8 +1,273 @@
-//! The linear system of one Newton iteration.
+//! The linear system of one Newton iteration: `A δ = r` for the moves of rope nodes, free joints and bodies.
+//!
+//! `r` is the force out of balance, `A = -dr/dx`. Force laws and kinds of contact add to both through [`LinearSystem`] alone:
+//!
+//! | function | adds |
+//! |---|---|
+//! | [`add_on_rope`](LinearSystem::add_on_rope), [`add_on_node`](LinearSystem::add_on_node) | a force and its block at a place on rope |
+//! | [`add_on_body`](LinearSystem::add_on_body) | a force and its block at a place on a body |
+//! | [`couple_ropes`](LinearSystem::couple_ropes), [`couple_bodies`](LinearSystem::couple_bodies) | a force and its block between two places |
+//!
+//! Rope is held in one of two forms. *Lines*: one block-tridiagonal matrix for each line (`block_tridiagonal.rs`).
+//! *Lanes*: pieces of lines side by side in the lanes of the processor (`lanes`), which evaluate the force laws of rope as well.
+//! Both eliminate each line down to its two ends, which join the interface system of free joints and bodies (`interface.rs`).
+//! Couplings of rope on rope are a low-rank correction (`woodbury.rs`).
+//! Cost is linear in the number of nodes; no ratio of stiffness or mass limits the step.
 
 pub(crate) mod block_tridiagonal;
 pub(crate) mod condensed;
 pub(crate) mod dense;
 pub(crate) mod interface;
 pub(crate) mod lanes;
+#[cfg(test)]
+pub(crate) mod tests;
 pub(crate) mod woodbury;
+
+use glam::{DMat3, DVec3};
+
+use crate::forces::laws::Shared;
+use crate::model::Model;
+use crate::trial::Trial;
+use crate::trial::plan::{Attachment, Plan};
+use block_tridiagonal::{BlockTridiagonal, Ends};
+use interface::InterfaceSystem;
+use lanes::Lanes;
+use woodbury::{ContactBlock, Woodbury};
+
+/// Largest number of places at which rope presses on rope at a time: four times as many as in four tight hitches. Their dense
+/// system then has 1,200 rows, 12 MB and some 1e9 operations an iteration.
+const MOST_COUPLINGS: usize = 400;
+
+/// Matrix, right-hand side and solution.
+#[derive(Clone, Debug)]
+pub(crate) struct LinearSystem {
+    /// Rope as lines.
+    pub rope: BlockTridiagonal,
+    /// Rope as lanes.
+    pub lanes: Lanes,
+    /// Whether rope is held as lanes in this step.
+    in_lanes: bool,
+    /// Free joints and bodies.
+    pub interface: InterfaceSystem,
+    /// Pairs of bodies that the layout of the interface system couples.
+    coupled: Vec<[usize; 2]>,
+    ropes: Woodbury,
+    /// Attachment and arm of each joint at the last solution.
+    attachments: Vec<(Attachment, DVec3)>,
+    #[cfg(test)]
+    pub method: tests::Method,
+}
+
+impl LinearSystem {
+    /// Storage for a model.
+    pub fn new(model: &Model, plan: &Plan) -> Self {
+        Self {
+            rope: BlockTridiagonal::new(model.node_count, model.segment_count),
+            lanes: Lanes::new(model),
+            in_lanes: false,
+            interface: InterfaceSystem::of_model(plan, model, &[]),
+            coupled: Vec::new(),
+            ropes: Woodbury::new(),
+            attachments: Vec::new(),
+            #[cfg(test)]
+            method: tests::Method::default(),
+        }
+    }
+
+    /// Whether rope of this model can be held as lanes: they evaluate no waves.
+    pub fn suits_lanes(&self, model: &Model) -> bool {
+        #[cfg(test)]
+        if self.method == tests::Method::Dense {
+            return false;
+        }
+        self.lanes.suit(model)
+    }
+
+    /// Sets the form in which rope is held.
+    pub fn hold_rope(&mut self, in_lanes: bool) {
+        self.in_lanes = in_lanes;
+    }
+
+    /// Whether rope is held as lanes.
+    pub fn in_lanes(&self) -> bool {
+        self.in_lanes
+    }
+
+    /// Lays out the interface matrix for these coupled pairs of bodies; returns whether the layout changed.
+    pub fn lay_out(&mut self, model: &Model, plan: &Plan, coupled: &[[usize; 2]]) -> bool {
+        if self.coupled == coupled {
+            return false;
+        }
+        self.coupled.clear();
+        self.coupled.extend_from_slice(coupled);
+        self.interface = InterfaceSystem::of_model(plan, model, coupled);
+        true
+    }
+
+    /// Empties matrix and forces, of rope as lines.
+    pub fn clear(&mut self) {
+        self.rope.clear();
+        self.interface.clear();
+        self.ropes.touches.clear();
+    }
+
+    /// Empties what contact added to rope as lanes.
+    pub fn clear_contact(&mut self) {
+        if self.in_lanes {
+            self.lanes.clear_contact();
+        }
+    }
+
+    /// Adds a force and its block `-dF/dx` at a fraction of a segment, whose first node is `node`.
+    pub fn add_on_rope(
+        &mut self,
+        [segment, node]: [usize; 2],
+        fraction: f64,
+        force: DVec3,
+        block: &DMat3,
+    ) {
+        debug_assert!((0.0..=1.0).contains(&fraction), "fraction {fraction} of a segment");
+        if self.in_lanes {
+            self.lanes.add_contact(segment, fraction, force, block);
+        } else {
+            self.rope.add_at(segment, node, fraction, force, block);
+        }
+    }
+
+    /// Adds a force and its block at a node, which is an end of a segment.
+    pub fn add_on_node(&mut self, [segment, node]: [usize; 2], force: DVec3, block: &DMat3) {
+        if self.in_lanes {
+            let fraction = if self.lanes.first_node_of(segment) == node { 0.0 } else { 1.0 };
+            self.lanes.add_contact(segment, fraction, force, block);
+        } else {
+            self.rope.force[node] += force;
+            self.rope.diagonal[node] += *block;
+        }
+    }
+
+    /// Adds a force and its block at the end of an arm from a body's place.
+    pub fn add_on_body(&mut self, body: Attachment, arm: DVec3, force: DVec3, block: DMat3) {
+        self.interface.push(body, arm, force);
+        self.interface.add(body, arm, body, arm, block);
+    }
+
+    /// Adds a force on the first of two places on rope, its reaction on the second, and the block between them.
+    /// Returns whether there was room: at most 400 places are coupled at a time.
+    pub fn couple_ropes(&mut self, coupling: ContactBlock, force: DVec3) -> bool {
+        debug_assert!(!self.in_lanes, "ropes are coupled as lines");
+        if self.ropes.touches.len() == MOST_COUPLINGS {
+            return false;
+        }
+        for (k, sign) in [(0, 1.0), (1, -1.0)] {
+            let (node, fraction) = (coupling.nodes[k], coupling.fractions[k]);
+            self.rope.force[node] += force * (sign * (1.0 - fraction));
+            self.rope.force[node + 1] += force * (sign * fraction);
+        }
+        self.ropes.touches.push(coupling);
+        true
+    }
+
+    /// Adds a force on the first of two bodies at the ends of their arms, its reaction on the second, and the block between them.
+    /// The layout must couple the two (see [`lay_out`](Self::lay_out)); an obstacle is [`Attachment::Fixed`].
+    pub fn couple_bodies(
+        &mut self,
+        [one, two]: [Attachment; 2],
+        [one_arm, two_arm]: [DVec3; 2],
+        force: DVec3,
+        block: DMat3,
+    ) {
+        self.interface.push(one, one_arm, force);
+        self.interface.push(two, two_arm, -force);
+        self.interface.add(one, one_arm, one, one_arm, block);
+        self.interface.add(two, two_arm, two, two_arm, block);
+        self.interface.add(one, one_arm, two, two_arm, -block);
+        self.interface.add(two, two_arm, one, one_arm, -block);
+    }
+
+    /// Solves the assembled system with rope as lines; the moves are in `rope.step` and `interface.step`.
+    pub fn solve(&mut self, model: &Model, plan: &Plan, trial: &Trial) {
+        self.attachments.clear();
+        self.attachments.extend(
+            plan.attachments.iter().map(|attachment| (*attachment, trial.arm(*attachment))),
+        );
+        #[cfg(test)]
+        if self.method == tests::Method::Dense {
+            return self.solve_densely(model);
+        }
+        let Self { rope, interface, attachments, .. } = self;
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let ends = [attachments[line.from], attachments[line.to]];
+            let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
+            let left = rope.eliminate(nodes, segments, ends[0].0 != Attachment::Fixed);
+            join(interface, ends, &left);
+        }
+        interface.solve();
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let [a, b] = [attachments[line.from], attachments[line.to]];
+            let [step_a, step_b] = [a, b].map(|(at, arm)| interface.step_of(at, arm));
+            let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
+            rope.substitute(nodes, segments, a.0 != Attachment::Fixed, step_a, step_b);
+        }
+        self.ropes.correct(model, &mut self.rope, &mut self.interface, &self.attachments);
+    }
+
+    /// Evaluates forces and eliminates rope as lanes; the ends of lines join the interface system.
+    pub fn eliminate_lanes(
+        &mut self,
+        model: &Model,
+        plan: &Plan,
+        trial: &Trial,
+        shared: &Shared<f64>,
+    ) {
+        self.lanes.reduce(shared);
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let ends = [line.from, line.to].map(|joint| {
+                let attachment = plan.attachments[joint];
+                (attachment, trial.arm(attachment))
+            });
+            let left = self.lanes.line_ends(index, ends[0].0 != Attachment::Fixed);
+            join(&mut self.interface, ends, &left);
+        }
+    }
+
+    /// Solves the interface system and moves the ends of lines by its solution, with rope as lanes.
+    pub fn solve_lanes(&mut self, model: &Model, plan: &Plan, trial: &Trial) {
+        self.interface.solve();
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let [a, b] = [line.from, line.to].map(|joint| plan.attachments[joint]);
+            let [step_a, step_b] = [a, b].map(|at| self.interface.step_of(at, trial.arm(at)));
+            self.lanes.move_ends(index, a != Attachment::Fixed, step_a, step_b);
+        }
+    }
+
+    /// Longest solved move of any node or body [m].
+    pub fn longest(&self, plan: &Plan) -> f64 {
+        let nodes = self.rope.step.iter().map(|step| step.length_squared()).fold(0.0, f64::max);
+        let bodies = plan
+            .body_block
+            .iter()
+            .map(|block| self.interface.step[*block].length_squared())
+            .fold(nodes, f64::max);
+        bodies.sqrt()
+    }
+
+    /// Longest solved move of any body [m].
+    pub fn longest_of_bodies(&self, plan: &Plan) -> f64 {
+        let moves = plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        moves.fold(0.0, f64::max)
+    }
+}
+
+/// Adds what a line leaves on its ends to the interface system.
+fn join(
+    interface: &mut InterfaceSystem,
+    [(a, arm_a), (b, arm_b)]: [(Attachment, DVec3); 2],
+    ends: &Ends,
+) {
+    interface.push(a, arm_a, ends.force_a);
+    interface.push(b, arm_b, ends.force_b);
+    interface.add(a, arm_a, a, arm_a, ends.aa);
+    interface.add(a, arm_a, b, arm_b, ends.ab);
+    interface.add(b, arm_b, a, arm_a, ends.ba);
+    interface.add(b, arm_b, b, arm_b, ends.bb);
+}

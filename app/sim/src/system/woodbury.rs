@@ -14,7 +14,6 @@ use glam::{DMat3, DVec3};
 use pulp::Arch;
 
 use crate::model::Model;
-use crate::solver::Solver;
 use crate::system::block_tridiagonal::BlockTridiagonal;
 use crate::system::condensed::Condensed;
 use crate::system::dense::solve_in_place;
@@ -57,7 +56,7 @@ pub(crate) struct Woodbury {
 
 impl ContactBlock {
     /// Weights of its four nodes.
-    fn weights(&self) -> [(usize, f64); 4] {
+    pub fn weights(&self) -> [(usize, f64); 4] {
         let ([a, b], [s, t]) = (self.nodes, self.fractions);
         [(a, 1.0 - s), (a + 1, s), (b, t - 1.0), (b + 1, -t)]
     }
@@ -161,31 +160,6 @@ impl BlockTridiagonal {
     }
 }
 
-impl Solver {
-    /// Corrects the solved step for the touches of ropes.
-    pub(crate) fn correct_for_rope_contact(&mut self, model: &Model) {
-        if self.woodbury.touches.is_empty() {
-            return;
-        }
-        let mut attachments = std::mem::take(&mut self.attachments);
-        attachments.clear();
-        attachments.extend(
-            self.plan.attachments.iter().map(|attachment| (*attachment, self.arm(*attachment))),
-        );
-        let Self { woodbury, tridiagonal, interface, .. } = self;
-        woodbury.measure(model, tridiagonal, interface, &attachments);
-        woodbury.solve_dense(&tridiagonal.step);
-        woodbury.correct(model, tridiagonal, interface, &attachments);
-        for (step, less) in tridiagonal.step.iter_mut().zip(&woodbury.again.step) {
-            *step -= *less;
-        }
-        for (step, less) in interface.step.iter_mut().zip(&woodbury.again.interface_step) {
-            *step -= *less;
-        }
-        self.attachments = attachments;
-    }
-}
-
 impl Woodbury {
     /// No touches.
     pub fn new() -> Self {
@@ -197,6 +171,28 @@ impl Woodbury {
             again: Again::default(),
             matrix: Vec::new(),
             lambda: Vec::new(),
+        }
+    }
+
+    /// Corrects the solution of lines and interface system for all couplings.
+    pub fn correct(
+        &mut self,
+        model: &Model,
+        tridiagonal: &mut BlockTridiagonal,
+        interface: &mut InterfaceSystem,
+        attachments: &Attachments,
+    ) {
+        if self.touches.is_empty() {
+            return;
+        }
+        self.measure(model, tridiagonal, interface, attachments);
+        self.solve_dense(&tridiagonal.step);
+        self.solve_correction(model, tridiagonal, interface, attachments);
+        for (step, less) in tridiagonal.step.iter_mut().zip(&self.again.step) {
+            *step -= *less;
+        }
+        for (step, less) in interface.step.iter_mut().zip(&self.again.interface_step) {
+            *step -= *less;
         }
     }
 
@@ -250,7 +246,7 @@ impl Woodbury {
     }
 
     /// `A⁻¹ Wᵀ λ`, into `again`.
-    fn correct(
+    fn solve_correction(
         &mut self,
         model: &Model,
         tridiagonal: &BlockTridiagonal,
@@ -270,8 +266,10 @@ impl Woodbury {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::in_lanes::tests::{model, moving};
+    use crate::solver::Solver;
+    use crate::solver::tests::{model, moving};
     use crate::state::State;
+    use crate::trial::StepContext;
     use crate::trial::scheme::Scheme;
 
     /// Touches within a line and between lines, at ends and inside, with blocks that are not symmetric.
@@ -297,10 +295,10 @@ mod tests {
     fn solved(model: &Model, state: &State, prepare: impl FnOnce(&mut Solver)) -> Vec<DVec3> {
         let (mut solver, scheme) = (Solver::new(model), Scheme::bdf2(0.01, 0.01));
         solver.begin(model, state, &scheme);
-        solver.assemble(model, state, &scheme);
+        solver.assemble(&StepContext { model, state, scheme: &scheme });
         prepare(&mut solver);
         solver.solve(model);
-        solver.tridiagonal.step
+        solver.system.rope.step
     }
 
     /// What touches do by the solution is put in as forces; without touches these give the same solution.
@@ -309,12 +307,13 @@ mod tests {
         let model = model(60.0, 0.7);
         let (state, touches) = (moving(&model), touches(&model));
         let free = solved(&model, &state, |_| ());
-        let touched = solved(&model, &state, |solver| solver.woodbury.touches.clone_from(&touches));
+        let touched =
+            solved(&model, &state, |solver| solver.system.ropes.touches.clone_from(&touches));
         let forced = solved(&model, &state, |solver| {
             for touch in &touches {
                 let force = touch.block * touch.relative(&touched);
                 for (node, weight) in touch.weights() {
-                    solver.tridiagonal.force[node] -= force * weight;
+                    solver.system.rope.force[node] -= force * weight;
                 }
             }
         });

@@ -127,6 +127,11 @@ impl Trial {
         }
     }
 
+    /// Lever arm of an attachment from its body's place, in the world frame; zero where it is not on a body [m].
+    pub fn arm(&self, attachment: Attachment) -> DVec3 {
+        Plan::arm(attachment, |body| self.bodies[body].orientation)
+    }
+
     /// Puts line ends where their fixture or body is; free joints keep the place of their first line end.
     pub fn place_ends(&mut self, model: &Model, plan: &Plan) {
         for (index, line) in model.spec.lines.iter().enumerate() {

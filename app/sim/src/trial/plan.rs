@@ -58,6 +58,11 @@ impl Plan {
         plan
     }
 
+    /// The attachment at a body's place.
+    pub fn body(&self, body: usize) -> Attachment {
+        Attachment::Body { block: self.body_block[body], body, offset: DVec3::ZERO }
+    }
+
     /// Lever arm of an attachment in the world frame, from the orientations of the bodies.
     pub fn arm(attachment: Attachment, orientation: impl Fn(usize) -> glam::DQuat) -> DVec3 {
         match attachment {

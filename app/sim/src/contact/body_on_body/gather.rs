@@ -1,6 +1,6 @@
 //! Which parts of bodies may touch each other in a solver step.
 
-use crate::contact::body_on_body::{BodyPairs, Pair};
+use crate::contact::body_on_body::{BodyOnBody, Pair};
 use crate::contact::body_on_skin::gather::moves_m;
 use crate::geometry::core::BodyCore;
 use crate::state::State;
@@ -12,7 +12,7 @@ const LOOK_M: f64 = 1.5e-3;
 /// Two bodies whose blocks the linear system couples.
 pub(crate) type Coupled = [usize; 2];
 
-impl BodyPairs {
+impl BodyOnBody {
     /// Finds the parts of bodies that may touch in a solver step of length `dt`; whether there are any.
     pub fn gather(&mut self, state: &State, dt: f64) -> bool {
         self.pairs.clear();

@@ -1,98 +1,127 @@
-//! Bodies of the rig pressed on each other and on obstacles, in the linear system of a step.
+//! Bodies on each other and on obstacles in the stages of a solver step.
 //!
-//! A touch at `p` with push and friction `F` on the first body, `-F` on the second, and block `B = -dF/d(p₁ - p₂)` acts on the six freedoms of each and
-//! couples them: the layout of the interface matrix holds the blocks of the bodies that may touch in the step (`interface.rs`), and is
-//! laid out anew where these change. An obstacle has no blocks.
+//! A touch at `p` with normal force and friction `F` on the first body, `-F` on the second, and block `B = -dF/d(p₁ - p₂)` acts on the
+//! six freedoms of each and couples them: the layout of the interface matrix holds the blocks of the bodies that may touch in the
+//! step. An obstacle has no freedom.
 
-use glam::DVec3;
-
-use crate::contact::{ContactMissed, GRIP_STRICTER};
-use crate::model::Model;
-use crate::solver::Solver;
-use crate::solver::newton::NewtonEnd;
+use crate::balance::Source;
+use crate::balance::source_forces::SourceForces;
+use crate::contact::body_on_body::BodyOnBody;
+use crate::contact::failure::{ContactFailure, Kind, Reason};
+use crate::contact::{Accepted, Assembly, ContactError, ContactKind, GRIP_STRICTER, Order, Search};
+use crate::cost::CostClock;
 use crate::state::State;
-use crate::system::interface::InterfaceSystem;
-use crate::trial::StepContext;
-use crate::trial::plan::Attachment;
+use crate::system::LinearSystem;
+use crate::trial::plan::{Attachment, Plan};
+use crate::trial::{BodyTrial, StepContext, Trial};
 
-impl Solver {
-    /// Finds bodies that may touch each other in a solver step, and lays out their coupling; whether there are any.
-    pub(crate) fn gather_body_pairs(&mut self, model: &Model, state: &State, dt: f64) -> bool {
-        let touching = self.body_pairs.gather(state, dt);
-        if !self.body_pairs.coupled().eq(self.coupled.iter().copied()) {
-            self.coupled.clear();
-            self.coupled.extend(self.body_pairs.coupled());
-            self.interface = InterfaceSystem::of_model(&self.plan, model, &self.coupled);
-            self.linear_part.interface = self.interface.clone();
-        }
-        touching
+impl BodyOnBody {
+    /// The attachments of a pair of things: obstacles are fixed.
+    fn attachments(&self, plan: &Plan, bodies: [usize; 2]) -> [Attachment; 2] {
+        bodies.map(
+            |thing| {
+                if thing < plan.body_block.len() { plan.body(thing) } else { Attachment::Fixed }
+            },
+        )
+    }
+}
+
+impl ContactKind for BodyOnBody {
+    fn kind(&self) -> Kind {
+        Kind::BodyOnBody
     }
 
-    /// Measures bodies on bodies where the trial stands.
-    pub(crate) fn measure_body_pairs(
+    fn find(&mut self, search: &Search<'_>) -> Result<(), ContactFailure> {
+        self.gather(search.state, search.dt);
+        Ok(())
+    }
+
+    fn is_touching(&self) -> bool {
+        self.touching
+    }
+
+    fn add_couplings(&self, coupled: &mut Vec<[usize; 2]>) {
+        coupled.extend(self.coupled());
+    }
+
+    fn measure(
         &mut self,
         context: &StepContext<'_>,
-    ) -> Result<(), NewtonEnd> {
-        if !self.body_pairs.touching {
+        trial: &Trial,
+        _: &mut CostClock,
+    ) -> Result<(), ContactFailure> {
+        if !self.touching {
             return Ok(());
         }
-        let poses = self.trial.bodies.iter().map(crate::trial::BodyTrial::pose);
-        self.body_pairs.measure(context.state, poses).map_err(NewtonEnd::BodiesCrushed)
+        let poses = trial.bodies.iter().map(BodyTrial::pose);
+        self.evaluate(context.state, poses).map_err(|bodies| {
+            ContactFailure::refused(Kind::BodyOnBody, bodies, Reason::Overcompressed)
+        })
     }
 
-    /// Adds push and friction of bodies on each other, linear about where they were measured.
-    pub(crate) fn push_bodies_apart(&mut self) {
-        let Self { body_pairs, trial, interface, plan, .. } = self;
-        if !body_pairs.touching {
+    fn assemble_on_bodies(&self, order: Order, assembly: &Assembly<'_>, system: &mut LinearSystem) {
+        if order != Order::Last || !self.touching {
             return;
         }
-        for touch in body_pairs.forces_at(|body| trial.bodies[body].pose()) {
-            // An obstacle has no freedom.
-            let [one, two] = touch.bodies.map(|thing| {
-                let block = plan.body_block.get(thing);
-                block.map_or(Attachment::Fixed, |block| Attachment::Body {
-                    block: *block,
-                    body: thing,
-                    offset: DVec3::ZERO,
-                })
-            });
-            let [one_arm, two_arm] = touch.arms;
-            interface.push(one, one_arm, touch.force);
-            interface.push(two, two_arm, -touch.force);
-            interface.add(one, one_arm, one, one_arm, touch.block);
-            interface.add(two, two_arm, two, two_arm, touch.block);
-            interface.add(one, one_arm, two, two_arm, -touch.block);
-            interface.add(two, two_arm, one, one_arm, -touch.block);
+        let Assembly { plan, trial, .. } = *assembly;
+        for touch in self.forces_at(|body| trial.bodies[body].pose()) {
+            let bodies = self.attachments(plan, touch.bodies);
+            system.couple_bodies(bodies, touch.arms, touch.force, touch.block);
         }
     }
 
-    /// After a solution: push and friction of bodies on each other by it.
-    pub(crate) fn note_solved_body_pairs(&mut self) {
-        let Self { body_pairs, trial, .. } = self;
-        if body_pairs.touching {
-            body_pairs.note_solved(|body| trial.bodies[body].pose());
+    fn store_iteration(&mut self, trial: &Trial) {
+        if self.touching {
+            self.store_solved(|body| trial.bodies[body].pose());
         }
     }
 
-    /// What the last solution misses of push and friction of bodies on each other.
-    pub(crate) fn body_pairs_missed(&self) -> ContactMissed {
-        if !self.body_pairs.touching {
-            return ContactMissed::default();
+    fn error(&mut self, _: &StepContext<'_>, _: &Trial) -> ContactError {
+        if !self.touching {
+            return ContactError::default();
         }
-        let [gap_n, greatest_n] = self.body_pairs.missed_n();
-        ContactMissed { gap_n: GRIP_STRICTER * gap_n, greatest_n }
+        let [gap_n, greatest_n] = self.error_n();
+        ContactError { gap_n: GRIP_STRICTER * gap_n, greatest_n }
     }
 
-    /// Two bodies whose cores come too near to each other on the path of the step, if any do.
-    pub(crate) fn meeting_bodies(&self, state: &State) -> Option<[usize; 2]> {
-        if !self.body_pairs.touching {
-            return None;
+    fn check_path(
+        &mut self,
+        context: &StepContext<'_>,
+        trial: &Trial,
+    ) -> Result<u64, ContactFailure> {
+        if !self.touching {
+            return Ok(0);
         }
-        self.body_pairs.meeting(state, |body| self.trial.bodies[body].pose())
+        match self.meeting(context.state, |body| trial.bodies[body].pose()) {
+            Some(bodies) => {
+                Err(ContactFailure::refused(Kind::BodyOnBody, bodies, Reason::Overcompressed))
+            }
+            None => Ok(0),
+        }
     }
 
-    /// Writes the grips of bodies on each other into the state.
-    pub(crate) fn keep_pair_grips(&self, state: &mut State) {
-        self.body_pairs.keep(&mut state.pair_grips);
+    fn store(&self, _: &Accepted<'_>, state: &mut State) {
+        self.store_grips(&mut state.pair_grips);
+    }
+
+    fn source_forces(&self, sources: &mut SourceForces<'_>) {
+        if !self.touching {
+            return;
+        }
+        let trial = sources.trial;
+        for touch in self.forces_at(|body| trial.bodies[body].pose()) {
+            let [first, second] = touch.bodies;
+            let one = sources.motion_of(first).at(touch.arms[0]);
+            if second >= trial.bodies.len() {
+                sources.given.at_end.add(Source::Obstacles, touch.force, one);
+            } else {
+                let two = sources.motion_of(second).at(touch.arms[1]);
+                sources.given.at_end.contact += touch.force.dot(one - two);
+            }
+            sources.push_body(first, touch.arms[0], touch.force);
+            if second < trial.bodies.len() {
+                sources.push_body(second, touch.arms[1], -touch.force);
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::contact::body_on_body::{BodyPairs, Pair, STIFFNESS_N_M, Touch};
+use crate::contact::body_on_body::{BodyOnBody, Pair, STIFFNESS_N_M, Touch};
 use crate::contact::law::barrier::BarrierForce;
 use crate::contact::law::elastic_grip::{Grip, Push};
 use crate::contact::law::patch_shares::{Press, Shared, share_out};
@@ -17,9 +17,9 @@ const SAME_PLACE_M: f64 = 1e-3;
 /// Cosine of the angle of two normals above which a touch goes on as the one that was there before.
 const SAME_FACE: f64 = 0.7;
 
-impl BodyPairs {
+impl BodyOnBody {
     /// Measures every touch with bodies in these poses; the two bodies whose cores meet, if any do.
-    pub fn measure(
+    pub fn evaluate(
         &mut self,
         state: &State,
         poses: impl Iterator<Item = Pose>,
@@ -168,7 +168,7 @@ impl BodyPairs {
     }
 
     /// Notes push and friction of the last solution, for bodies that it moved to poses.
-    pub fn note_solved(&mut self, pose: impl Fn(usize) -> Pose) {
+    pub fn store_solved(&mut self, pose: impl Fn(usize) -> Pose) {
         self.pairs.iter_mut().for_each(|pair| pair.solved = DVec3::ZERO);
         for place in 0..self.touches.len() {
             let touch = self.touches[place];
@@ -180,7 +180,7 @@ impl BodyPairs {
     }
 
     /// How far push and friction as measured last are from those of the last solution, and the greatest of them [N].
-    pub fn missed_n(&self) -> [f64; 2] {
+    pub fn error_n(&self) -> [f64; 2] {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         for (index, pair) in self.pairs.iter().enumerate() {
             let mine = self.touches.iter().filter(|touch| touch.pair == index);
@@ -192,7 +192,7 @@ impl BodyPairs {
     }
 
     /// Keeps the grips of an accepted step.
-    pub fn keep(&self, grips: &mut Vec<PairGrip>) {
+    pub fn store_grips(&self, grips: &mut Vec<PairGrip>) {
         grips.clear();
         for (index, pair) in self.pairs.iter().enumerate() {
             let [one, two] = pair.bodies.map(|body| &self.measured[body]);

@@ -28,7 +28,6 @@ use crate::geometry::core::BodyCore;
 use crate::model::{Model, Obstacle};
 use crate::state::State;
 
-pub(crate) use gather::Coupled;
 pub use touching::bodies_touching;
 
 /// Stiffness of a touch of two bodies [N/m]: wire traps and hard floats give way by a millimetre or so under the weight of a man; estimate.
@@ -80,7 +79,7 @@ pub(crate) fn name_of(model: &Model, thing: usize) -> String {
 
 /// Scratch of bodies against each other for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct BodyPairs {
+pub(crate) struct BodyOnBody {
     /// Cores of the parts of bodies, then of obstacles.
     cores: Vec<BodyCore>,
     /// How many of them are those of bodies, and how many bodies there are.
@@ -110,7 +109,7 @@ pub(crate) struct BodyPairs {
     dt: f64,
 }
 
-impl BodyPairs {
+impl BodyOnBody {
     /// Scratch for a model.
     pub fn new(model: &Model) -> Self {
         let (bodies, obstacles) = (&model.spec.bodies, &model.spec.obstacles);

@@ -1,6 +1,6 @@
 //! Whether a solver step takes two bodies through each other, or farther past each other than it can follow.
 
-use crate::contact::body_on_body::{BodyPairs, Pair};
+use crate::contact::body_on_body::{BodyOnBody, Pair};
 use crate::geometry::Pose;
 use crate::geometry::core::BodyCore;
 use crate::geometry::sweep::walk;
@@ -15,7 +15,7 @@ const STILL_SHARE: f64 = 0.9;
 /// Share of their contact distance by which bodies may move relative to each other in a step in which they touch: a blow takes a few steps.
 const FOLLOWED_SHARE: f64 = 0.5;
 
-impl BodyPairs {
+impl BodyOnBody {
     /// Two bodies whose cores come too near on their way from the state to these poses, or too far in one step, if any do.
     pub fn meeting(&self, state: &State, pose: impl Fn(usize) -> Pose) -> Option<[usize; 2]> {
         let refused = |(index, pair): &(usize, &Pair)| {

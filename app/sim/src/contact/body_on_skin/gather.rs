@@ -2,7 +2,7 @@
 
 use glam::DAffine3;
 
-use crate::contact::body_on_skin::{BodySkin, NearPart, Pair};
+use crate::contact::body_on_skin::{BodyOnSkin, NearPart, Pair};
 use crate::geometry::Pose;
 use crate::geometry::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
@@ -15,7 +15,7 @@ const MARGIN_M: f64 = 0.03;
 const LOOK_MOVES: f64 = 1.5;
 const LOOK_M: f64 = 1.5e-3;
 
-impl BodySkin {
+impl BodyOnSkin {
     /// Gathers skin near bodies over a step of the model, of which a share has passed, by the poses and a box around all skin in it;
     /// whether there is any.
     pub fn gather(
@@ -104,7 +104,7 @@ impl BodySkin {
     }
 
     /// Takes skin to the end of a solver step of length `dt`, and finds what may touch on the way; whether anything may.
-    pub fn look(&mut self, state: &State, goal: f64, dt: f64) -> bool {
+    pub fn find_active_pairs(&mut self, state: &State, goal: f64, dt: f64) -> bool {
         (self.start, self.goal, self.shared) = (self.fraction, goal, 0);
         self.touching = false;
         self.touches.clear();

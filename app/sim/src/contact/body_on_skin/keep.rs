@@ -1,13 +1,13 @@
 //! What bodies on skin leave behind at the end of a solver step: friction's floats in the state, and a report.
 
-use crate::contact::body_on_skin::{BodyContact, BodySkin};
+use crate::contact::body_on_skin::{BodyContact, BodyOnSkin};
 use crate::contact::law::friction_arrays::Failed;
 use crate::model::Friction;
 use crate::state::{BodyGrip, BodyGrips};
 
-impl BodySkin {
+impl BodyOnSkin {
     /// Keeps the grips of an accepted step, and tells where bodies press.
-    pub fn keep(
+    pub fn advance_friction(
         &mut self,
         friction: &Friction,
         dt_s: f64,

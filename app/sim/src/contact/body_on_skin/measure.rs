@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use crate::contact::body_on_skin::press::push;
-use crate::contact::body_on_skin::{BodySkin, Touch};
+use crate::contact::body_on_skin::{BodyOnSkin, Touch};
 use crate::contact::law::friction_arrays::{Asked, Failed, kept_floats};
 use crate::contact::law::patch_shares::{Press, Shared, share_out};
 use crate::geometry::Pose;
@@ -29,9 +29,9 @@ pub(crate) enum Unmeasured {
     Plugin(Failed),
 }
 
-impl BodySkin {
+impl BodyOnSkin {
     /// Measures every touch with bodies in these poses, and asks for its friction.
-    pub fn measure(
+    pub fn evaluate(
         &mut self,
         model: &Model,
         state: &State,
@@ -164,7 +164,7 @@ impl BodySkin {
     }
 
     /// Notes push and friction of the last solution, for a body that it moved to a pose.
-    pub fn note_solved(&mut self, pose: impl Fn(usize) -> Pose) {
+    pub fn store_solved(&mut self, pose: impl Fn(usize) -> Pose) {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.iter_mut().for_each(|pair| pair.solved = DVec3::ZERO);
         for force in self.forces_at(pose) {
@@ -174,7 +174,7 @@ impl BodySkin {
     }
 
     /// How far push and friction as measured last are from those of the last solution, and the greatest of them [N].
-    pub fn missed_n(&self) -> [f64; 2] {
+    pub fn error_n(&self) -> [f64; 2] {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         for (index, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.active) {
             let mine = self.touches.iter().enumerate().filter(|(_, touch)| touch.pair == index);

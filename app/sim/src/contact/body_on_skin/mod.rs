@@ -107,7 +107,7 @@ struct Touch {
 
 /// Scratch of bodies against skin for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
-pub(crate) struct BodySkin {
+pub(crate) struct BodyOnSkin {
     /// Cores of all parts of bodies.
     cores: Vec<BodyCore>,
     surface: Surface,
@@ -135,7 +135,7 @@ pub(crate) struct BodySkin {
     blocks: Vec<DMat3>,
 }
 
-impl BodySkin {
+impl BodyOnSkin {
     /// Scratch for a model, where it has a whale and bodies that touch it.
     pub fn new(model: &Model) -> Option<Self> {
         let tree = model.skin_tree.clone()?;

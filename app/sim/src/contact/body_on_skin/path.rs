@@ -4,7 +4,8 @@
 //! The path is proved free by steps of time that the distance of the core and the greatest possible approach allow (`sweep.rs`), and
 //! checked by an exact test of the core's axis that knows nothing of distances (`crossing.rs`).
 
-use crate::contact::body_on_skin::{BodySkin, NearPart, Pair};
+use crate::contact::body_on_skin::{BodyOnSkin, NearPart, Pair};
+use crate::contact::failure::Reason;
 use crate::geometry::Pose;
 use crate::geometry::crossing::first_meeting;
 use crate::geometry::placed::on_triangle;
@@ -19,20 +20,13 @@ const STILL_PINCHED: f64 = 0.99;
 /// Share of the contact distance to which a guess may bring a core.
 const HELD_OFF_SHARE: f64 = 0.6;
 
-/// Why a path is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Refused {
-    /// This body goes through this triangle or is pinched at it.
-    Through(usize, usize),
-    /// A body came near skin that was not looked at.
-    NotLooked,
-    /// A body left the room in which skin was gathered.
-    Strayed,
-}
-
-impl BodySkin {
+impl BodyOnSkin {
     /// Ends a solver step at these poses where every path is free; the number of crossings that an exact test finds.
-    pub fn end(&mut self, state: &State, pose: impl Fn(usize) -> Pose) -> Result<u64, Refused> {
+    pub fn end_path(
+        &mut self,
+        state: &State,
+        pose: impl Fn(usize) -> Pose,
+    ) -> Result<u64, ([usize; 2], Reason)> {
         let share = self.goal - self.start;
         let mut crossings = 0;
         for place in 0..self.near.len() {
@@ -41,7 +35,7 @@ impl BodySkin {
             let poses = [Pose::of(&state.bodies[near.body]), pose(near.body)];
             let own_m = own_move(&poses, core.radius);
             if near.moved + own_m > near.room {
-                return Err(Refused::Strayed);
+                return Err(([near.body, 0], Reason::LeftSearchMargin));
             }
             if !self.swept {
                 crossings += self.crossings_of(near, &poses);
@@ -56,10 +50,10 @@ impl BodySkin {
                 } else if pair.active {
                     crossings += u64::from(self.crosses(near, &pair, &poses));
                     let gap = self.proved(near, &pair, &poses, approach);
-                    let through = Refused::Through(near.body, pair.triangle as usize);
+                    let through = ([near.body, pair.triangle as usize], Reason::PassedThrough);
                     self.pairs[index].gap = gap.ok_or(through)?;
                 } else {
-                    return Err(Refused::NotLooked);
+                    return Err(([near.body, pair.triangle as usize], Reason::PathNotProved));
                 }
             }
             self.near[place].moved += own_m;

@@ -1,28 +1,29 @@
-//! Rope pressed on rope.
+//! Rope on rope in the stages of a solver step.
 //!
-//! At a point (`contact/rope_on_rope/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii, of a knot its own),
-//! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/law/barrier.rs`, along the line between the two. Friction
-//! is the elastic grip that slips at `μN` (`elastic_grip.rs`), stretched by how the two points of the ropes moved past each other. Both
-//! act on the four nodes, in opposite senses; the block joins the linear system (`woodbury.rs`).
+//! At a point (`points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii, of a knot its own),
+//! bearing length `l` and stiffness `K` per metre: `N` by the law of `law/barrier.rs`, along the line between the two. Friction
+//! is the elastic grip that slips at `μN` (`law/elastic_grip.rs`), stretched by the relative move of the two points of the ropes. Both
+//! act on the four nodes, in opposite senses; the block joins the linear system as a coupling (`system/woodbury.rs`).
 
 use glam::{DMat3, DVec3};
 
+use crate::balance::source_forces::SourceForces;
+use crate::contact::failure::{ContactFailure, Kind, Reason};
 use crate::contact::law::barrier::{BarrierForce, CRUSHED_SHARE, PINCHED_SHARE};
 use crate::contact::law::elastic_grip::{Grip, Push};
 use crate::contact::rope_on_rope::RopeTouch;
-use crate::contact::rope_on_rope::near::{Pair, between};
+use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, between};
 use crate::contact::rope_on_rope::points::RopeContactPoint;
-use crate::contact::{ContactMissed, GRIP_STRICTER};
+use crate::contact::{
+    Accepted, Assembly, ContactError, ContactKind, GRIP_STRICTER, Order, Reports, Search, Solution,
+};
+use crate::cost::CostClock;
 use crate::matrix::outer;
-use crate::model::{Model, RopeOnRope};
-use crate::solver::Solver;
+use crate::model::RopeOnRope as RopeLaw;
 use crate::state::State;
+use crate::system::LinearSystem;
 use crate::system::woodbury::ContactBlock;
-use crate::trial::scheme::Scheme;
-
-/// Most places where rope presses on rope at a time: four times as many as in four tight hitches. Their dense system then has 1,200
-/// rows, 12 MB and some 1e9 operations a pass.
-const MOST_TOUCHES: usize = 400;
+use crate::trial::{StepContext, Trial};
 
 /// What two ropes do to each other at a point.
 struct Touch {
@@ -51,7 +52,7 @@ impl Touch {
 
 /// What happens at a point with nodes at the places given, if it presses.
 fn touch_at(
-    law: &RopeOnRope,
+    law: &RopeLaw,
     state: &State,
     pair: &Pair,
     point: &RopeContactPoint,
@@ -85,52 +86,86 @@ fn touch_at(
     Some(Touch { fractions, normal, distance, moved, barrier, growth_n, grip })
 }
 
-impl Solver {
-    /// Adds push and friction of rope on rope: forces to the block-tridiagonal systems, blocks to the touches of the linear system.
-    pub(crate) fn add_ropes(&mut self, state: &State) {
-        self.woodbury.touches.clear();
-        self.ropes.crowded = None;
-        let Some(law) = self.ropes.law else { return };
-        let mut pairs = std::mem::take(&mut self.ropes.pairs);
+impl ContactKind for RopeOnRope {
+    fn kind(&self) -> Kind {
+        Kind::RopeOnRope
+    }
+
+    fn find(&mut self, search: &Search<'_>) -> Result<(), ContactFailure> {
+        self.gather(search.model, search.state, search.pieces, search.dt);
+        self.check_crowded()
+    }
+
+    fn is_touching(&self) -> bool {
+        self.touching
+    }
+
+    fn project_guess(&self, state: &State, trial: &mut Trial) {
+        if self.touching {
+            self.hold_off(&state.rope.position, &mut trial.place);
+        }
+    }
+
+    fn open(&mut self, context: &StepContext<'_>, trial: &Trial) {
+        if self.touching {
+            self.open_points(context.state, &trial.place);
+        }
+    }
+
+    fn open_more(&mut self, context: &StepContext<'_>, trial: &Trial) -> bool {
+        self.touching && self.open_nearer_points(context.state, &trial.place)
+    }
+
+    fn measure(
+        &mut self,
+        _: &StepContext<'_>,
+        trial: &Trial,
+        _: &mut CostClock,
+    ) -> Result<(), ContactFailure> {
+        self.check_crowded()?;
+        self.check_compressed(trial, CRUSHED_SHARE)
+    }
+
+    fn assemble_on_rope(
+        &mut self,
+        order: Order,
+        assembly: &Assembly<'_>,
+        system: &mut LinearSystem,
+    ) {
+        if order != Order::First || system.in_lanes() {
+            return;
+        }
+        self.crowded = None;
+        let Some(law) = self.law else { return };
+        let Assembly { context, trial, .. } = *assembly;
+        self.follow(&trial.place);
+        let mut pairs = std::mem::take(&mut self.pairs);
         for pair in &mut pairs {
             for k in 0..pair.points.len() {
-                let touch =
-                    touch_at(&law, state, pair, &pair.points[k], |node| self.trial.place[node]);
+                let at = |node: usize| trial.place[node];
+                let touch = touch_at(&law, context.state, pair, &pair.points[k], at);
                 let point = &mut pair.points[k];
                 (point.force, point.block) = touch
                     .as_ref()
                     .map_or((DVec3::ZERO, DMat3::ZERO), |touch| (touch.force(), touch.block()));
                 point.normal = touch.as_ref().map_or(DVec3::ZERO, |touch| touch.normal);
                 if let Some(touch) = touch {
-                    if self.woodbury.touches.len() == MOST_TOUCHES {
-                        self.ropes.crowded = Some(pair.segments);
+                    let (nodes, fractions) = (pair.nodes, touch.fractions);
+                    let coupling = ContactBlock { nodes, fractions, block: touch.block() };
+                    if !system.couple_ropes(coupling, touch.force()) {
+                        self.crowded = Some(pair.segments);
                         break;
                     }
-                    self.push_ropes_apart(pair.nodes, &touch);
                 }
             }
         }
-        self.ropes.pairs = pairs;
+        self.pairs = pairs;
     }
 
-    fn push_ropes_apart(&mut self, nodes: [usize; 2], touch: &Touch) {
-        let force = touch.force();
-        for (k, sign) in [(0, 1.0), (1, -1.0)] {
-            let (node, fraction) = (nodes[k], touch.fractions[k]);
-            self.tridiagonal.force[node] += force * (sign * (1.0 - fraction));
-            self.tridiagonal.force[node + 1] += force * (sign * fraction);
-        }
-        self.woodbury.touches.push(ContactBlock {
-            nodes,
-            fractions: touch.fractions,
-            block: touch.block(),
-        });
-    }
-
-    /// After a solution: push and friction of rope on rope by it.
-    pub(crate) fn note_solved_ropes(&mut self) {
-        let step = &self.tridiagonal.step;
-        for pair in &mut self.ropes.pairs {
+    fn store_solution(&mut self, _: &Trial, solution: &Solution<'_>) {
+        let Solution::Step { system, .. } = solution else { return };
+        let step = &system.rope.step;
+        for pair in &mut self.pairs {
             let [one, other] = pair.nodes.map(|node| [step[node], step[node + 1]]);
             for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
                 let (moved, _) = between(one, other, point.fractions);
@@ -141,121 +176,140 @@ impl Solver {
         }
     }
 
-    /// What push and friction of the last solution miss at the trial places.
-    pub(crate) fn ropes_missed(&self, state: &State) -> ContactMissed {
-        let mut missed = ContactMissed::default();
-        self.each_touch(state, |_, point, touch| {
+    fn error(&mut self, context: &StepContext<'_>, trial: &Trial) -> ContactError {
+        let mut error = ContactError::default();
+        self.each_touch(context.state, trial, |_, point, touch| {
             let force = touch.map_or(DVec3::ZERO, |touch| touch.force());
-            missed = missed.and(ContactMissed {
+            error = error.and(ContactError {
                 gap_n: GRIP_STRICTER * force.distance(point.solved),
                 greatest_n: force.length(),
             });
         });
-        missed
+        error
     }
 
-    /// Two segments that are pressed together harder than rope can bear at the trial places, if any: on the way to a balance,
-    /// or at its end.
-    pub(crate) fn crushed_ropes(&self, at_end: bool) -> Option<[usize; 2]> {
-        let share = if at_end { PINCHED_SHARE } else { CRUSHED_SHARE };
-        let crushed = |pair: &&Pair| {
-            let [one, other] = pair.places(|node| self.trial.place[node]);
-            let here = |point: &RopeContactPoint| {
-                between(one, other, point.fractions).1 + point.forgiven_m
-                    < share * pair.contact_distance
-            };
-            pair.points.iter().any(|point| point.length > 0.0 && here(point))
-        };
-        self.ropes.pairs.iter().find(crushed).map(|pair| pair.segments)
+    fn check_path(
+        &mut self,
+        context: &StepContext<'_>,
+        trial: &Trial,
+    ) -> Result<u64, ContactFailure> {
+        if self.pairs.is_empty() {
+            return Ok(0);
+        }
+        self.check_compressed(trial, PINCHED_SHARE)?;
+        let crossings = self.end(&context.state.rope.position, &trial.place);
+        crossings.ok_or(ContactFailure::refused(Kind::RopeOnRope, [0, 0], Reason::PathNotProved))
     }
 
-    /// Writes the grips of rope on rope into the state; called while it still holds the places of the step's begin.
-    pub(crate) fn keep_rope_grips(&self, scheme: &Scheme, state: &mut State) {
+    fn accept(
+        &mut self,
+        accepted: &Accepted<'_>,
+        state: &mut State,
+        reports: &mut Reports<'_>,
+    ) -> Result<(), ContactFailure> {
+        let trial = accepted.trial;
+        self.each_touch(state, trial, |pair, _, touch| {
+            reports.rope_on_rope.extend(touch.map(|touch| {
+                RopeTouch {
+                    segments: pair.segments,
+                    knots: pair.knots,
+                    fractions: touch.fractions,
+                    position: trial.place[pair.nodes[0]]
+                        .lerp(trial.place[pair.nodes[0] + 1], touch.fractions[0]),
+                    normal: touch.normal,
+                    distance_m: touch.distance,
+                    normal_force_n: touch.barrier.force,
+                    friction_n: touch.grip.force,
+                    slip_m: touch.moved.reject_from_normalized(touch.normal),
+                    dt_s: accepted.scheme.dt,
+                }
+            }));
+        });
+        Ok(())
+    }
+
+    fn store(&self, accepted: &Accepted<'_>, state: &mut State) {
+        let Accepted { scheme, trial, in_lanes, .. } = *accepted;
         let mut grips = std::mem::take(&mut state.rope.rope_grips);
         grips.clear();
-        if !scheme.is_static() {
-            self.each_touch(state, |pair, point, touch| {
-                let forgiven_m = self.still_forgiven_m(pair, point);
+        if !scheme.is_static() && !in_lanes {
+            self.each_touch(state, trial, |pair, point, touch| {
+                let forgiven_m = still_forgiven_m(trial, pair, point);
                 if let Some(touch) = touch {
-                    grips.push(self.ropes.grip_of(pair, point, touch.grip.kept, forgiven_m));
+                    grips.push(self.grip_of(pair, point, touch.grip.kept, forgiven_m));
                 } else if forgiven_m > 0.0 {
-                    grips.push(self.ropes.grip_of(pair, point, DVec3::ZERO, forgiven_m));
+                    grips.push(self.grip_of(pair, point, DVec3::ZERO, forgiven_m));
                 }
             });
         }
         state.rope.rope_grips = grips;
     }
 
-    /// How deep two ropes may still lie in each other: as they did when the run began, less by what they have been drawn apart since [m].
-    fn still_forgiven_m(&self, pair: &Pair, point: &RopeContactPoint) -> f64 {
-        if point.forgiven_m <= 0.0 {
-            return 0.0;
+    fn source_forces(&self, sources: &mut SourceForces<'_>) {
+        if sources.system.in_lanes() {
+            return;
         }
-        let [one, other] = pair.places(|node| self.trial.place[node]);
-        let distance_m = between(one, other, point.fractions).1;
-        point.forgiven_m.min((pair.contact_distance - distance_m).max(0.0))
-    }
-
-    /// Tells where rope presses on rope at the end of a step of length `dt_s`, from a state that still holds the places of its begin.
-    pub(crate) fn report_ropes(&self, state: &State, dt_s: f64, touches: &mut Vec<RopeTouch>) {
-        touches.clear();
-        self.each_touch(state, |pair, _, touch| {
-            touches.extend(touch.map(|touch| {
-                RopeTouch {
-                    segments: pair.segments,
-                    knots: pair.knots,
-                    fractions: touch.fractions,
-                    position: self.trial.place[pair.nodes[0]]
-                        .lerp(self.trial.place[pair.nodes[0] + 1], touch.fractions[0]),
-                    normal: touch.normal,
-                    distance_m: touch.distance,
-                    normal_force_n: touch.barrier.force,
-                    friction_n: touch.grip.force,
-                    slip_m: touch.moved.reject_from_normalized(touch.normal),
-                    dt_s,
-                }
-            }));
+        let (trial, rate) = (sources.trial, sources.context.scheme.rate);
+        let moved = |node: usize| trial.place[node] - trial.place_history[node];
+        let mut power = 0.0;
+        self.each_touch(sources.context.state, trial, |pair, _, touch| {
+            let Some(touch) = touch else { return };
+            let (force, [one, other]) = (touch.force(), pair.places(moved));
+            power += force.dot(between(one, other, touch.fractions).0) * rate;
+            for (k, sign) in [(0, 1.0), (1, -1.0)] {
+                let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
+                sources.on_nodes[node] += force * (sign * (1.0 - fraction));
+                sources.on_nodes[node + 1] += force * (sign * fraction);
+            }
         });
+        sources.given.at_end.contact += power;
+    }
+}
+
+impl RopeOnRope {
+    fn check_crowded(&self) -> Result<(), ContactFailure> {
+        let refused = |parts| ContactFailure::refused(Kind::RopeOnRope, parts, Reason::Crowded);
+        self.crowded.map_or(Ok(()), |segments| Err(refused(segments)))
     }
 
-    /// Does something with every point and what happens there at the trial places.
+    /// Refuses two segments that are closer than a share of their contact distance at the trial.
+    fn check_compressed(&self, trial: &Trial, share: f64) -> Result<(), ContactFailure> {
+        let compressed = |pair: &&Pair| {
+            let [one, other] = pair.places(|node| trial.place[node]);
+            let here = |point: &RopeContactPoint| {
+                between(one, other, point.fractions).1 + point.forgiven_m
+                    < share * pair.contact_distance
+            };
+            pair.points.iter().any(|point| point.length > 0.0 && here(point))
+        };
+        let refused = |pair: &Pair| {
+            ContactFailure::refused(Kind::RopeOnRope, pair.segments, Reason::Overcompressed)
+        };
+        self.pairs.iter().find(compressed).map_or(Ok(()), |pair| Err(refused(pair)))
+    }
+
+    /// Calls `act` for every open point, with the contact there at the trial.
     fn each_touch(
         &self,
         state: &State,
+        trial: &Trial,
         mut act: impl FnMut(&Pair, &RopeContactPoint, Option<Touch>),
     ) {
-        let Some(law) = self.ropes.law else { return };
-        for pair in &self.ropes.pairs {
+        let Some(law) = self.law else { return };
+        for pair in &self.pairs {
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
-                act(pair, point, touch_at(&law, state, pair, point, |node| self.trial.place[node]));
+                act(pair, point, touch_at(&law, state, pair, point, |node| trial.place[node]));
             }
         }
     }
+}
 
-    /// Adds the forces of rope on rope to those on the nodes; the power of all of them [W].
-    pub(crate) fn push_touching_ropes(
-        &self,
-        state: &State,
-        scheme: &Scheme,
-        on_nodes: &mut [DVec3],
-    ) -> f64 {
-        let mut power = 0.0;
-        let moved = |node: usize| self.trial.place[node] - self.trial.place_history[node];
-        self.each_touch(state, |pair, _, touch| {
-            let Some(touch) = touch else { return };
-            let (force, [one, other]) = (touch.force(), pair.places(moved));
-            power += force.dot(between(one, other, touch.fractions).0) * scheme.rate;
-            for (k, sign) in [(0, 1.0), (1, -1.0)] {
-                let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
-                on_nodes[node] += force * (sign * (1.0 - fraction));
-                on_nodes[node + 1] += force * (sign * fraction);
-            }
-        });
-        power
+/// Overlap of two ropes that is still allowed: as much as when the run began, less by how far they have separated since [m].
+fn still_forgiven_m(trial: &Trial, pair: &Pair, point: &RopeContactPoint) -> f64 {
+    if point.forgiven_m <= 0.0 {
+        return 0.0;
     }
-
-    /// Gathers rope near rope for a step; whether any may touch.
-    pub(crate) fn gather_ropes(&mut self, model: &Model, state: &State, dt: f64) -> bool {
-        self.ropes.gather(model, state, &self.pieces, dt)
-    }
+    let [one, other] = pair.places(|node| trial.place[node]);
+    let distance_m = between(one, other, point.fractions).1;
+    point.forgiven_m.min((pair.contact_distance - distance_m).max(0.0))
 }

@@ -12,9 +12,9 @@ pub(crate) mod touch;
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
-use crate::contact::ContactMissed;
+use crate::contact::ContactError;
 use crate::contact::ContactPoint;
 use crate::contact::law::barrier::PINCHED_SHARE;
 use crate::contact::law::friction_arrays::Failed;
@@ -31,30 +31,29 @@ const STILL_PINCHED: f64 = 0.99;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
-pub(crate) struct ContactWorkspace {
+pub(crate) struct RopeOnSkin {
     pub near: Near,
-    pub points: SkinContactPoints,
-    pub touching: Touching,
-    /// Bones at the start and the end of the solver step.
-    pub bones: [Vec<DAffine3>; 2],
+    points: SkinContactPoints,
+    friction: Touching,
+    /// Whether rope may touch skin in this solver step.
+    pub touching: bool,
     /// Places where contact was measured last.
-    pub before: Vec<DVec3>,
+    before: Vec<DVec3>,
     /// Where rope goes by its velocities.
-    pub target: Vec<DVec3>,
+    target: Vec<DVec3>,
     /// Greatest contact distance of any rope [m].
-    pub greatest_contact_distance: f64,
+    greatest_contact_distance: f64,
 }
 
-impl ContactWorkspace {
+impl RopeOnSkin {
     /// Scratch for a model, where it has a whale.
     pub fn new(model: &Model) -> Option<Self> {
         let tree = model.skin_tree.clone()?;
-        let touching = Touching::new(Arc::new(Grains::new(tree.skin())));
         Some(Self {
+            friction: Touching::new(Arc::new(Grains::new(tree.skin()))),
             near: Near::new(model, tree),
             points: SkinContactPoints::default(),
-            touching,
-            bones: [Vec::new(), Vec::new()],
+            touching: false,
             before: Vec::new(),
             target: Vec::new(),
             greatest_contact_distance: model
@@ -67,9 +66,29 @@ impl ContactWorkspace {
         })
     }
 
-    /// Notes the block `-dF/dx` of every contact as measured last.
-    pub fn note_blocks(&mut self) {
-        let Self { points, touching, .. } = self;
+    /// Whether rope is near skin in this step of the model.
+    pub fn is_near(&self) -> bool {
+        !self.near.pairs.is_empty()
+    }
+
+    /// Finds the pairs that may touch in a solver step that ends at the share `goal` of the model's step, by the velocities of rope;
+    /// returns whether there are any.
+    pub fn find_active_pairs(&mut self, state: &State, goal: f64, dt: f64) -> bool {
+        let rope = &state.rope;
+        self.target.clear();
+        self.target.extend(
+            rope.position
+                .iter()
+                .zip(&rope.velocity)
+                .map(|(place, velocity)| *place + *velocity * dt),
+        );
+        self.near.look(&rope.position, &self.target, goal);
+        self.near.may_touch()
+    }
+
+    /// Stores the block `-dF/dx` of every contact as measured last.
+    fn store_blocks(&mut self) {
+        let Self { points, friction: touching, .. } = self;
         touching.block.clear();
         for (place, index) in touching.point.iter().enumerate() {
             let touch = &points.touches(&points.list[*index])[touching.face[place]];
@@ -79,7 +98,7 @@ impl ContactWorkspace {
 
     /// Push and friction of every contact as measured last, with its block as noted.
     pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
-        let Self { points, touching, .. } = self;
+        let Self { points, friction: touching, .. } = self;
         touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
             (&points.list[*index], touching.arrays.force_of(place), block)
         })
@@ -97,21 +116,21 @@ impl ContactWorkspace {
     }
 
     /// How far the push of the last solution is from the law's at the places given, with skin as measured last.
-    pub fn law_missed(&self, places: &[DVec3]) -> ContactMissed {
-        let Self { points, touching, before, .. } = self;
-        let mut missed = ContactMissed::default();
+    fn law_error_at(&self, places: &[DVec3]) -> ContactError {
+        let Self { points, friction: touching, before, .. } = self;
+        let mut missed = ContactError::default();
         for (place, index) in touching.point.iter().enumerate() {
             let step = points.list[*index].on_rope(|node| places[node] - before[node]);
             let gap_n = points.law_missed(*index, touching.face[place], step);
             let force = touching.arrays.force_of(place) - touching.block[place] * step;
-            missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
+            missed = missed.and(ContactError { gap_n, greatest_n: force.length() });
         }
         missed
     }
 
     /// Takes the push of every contact as linear about what the last solution found.
     pub fn follow_law(&mut self, places: &[DVec3]) {
-        let Self { points, touching, before, .. } = self;
+        let Self { points, friction: touching, before, .. } = self;
         for place in 0..touching.point.len() {
             let index = touching.point[place];
             let step = points.list[index].on_rope(|node| places[node] - before[node]);
@@ -121,8 +140,8 @@ impl ContactWorkspace {
     }
 
     /// After a solution: push and friction of every contact point by it.
-    pub fn note_solved(&mut self, places: &[DVec3]) {
-        let Self { points, touching, before, .. } = self;
+    fn store_solved(&mut self, places: &[DVec3]) {
+        let Self { points, friction: touching, before, .. } = self;
         points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
         for (place, index) in touching.point.iter().enumerate() {
             let point = &mut points.list[*index];
@@ -133,8 +152,8 @@ impl ContactWorkspace {
     }
 
     /// What push and friction of the last solution miss as measured last.
-    pub fn missed(&mut self) -> ContactMissed {
-        let Self { points, touching, .. } = self;
+    fn solution_error(&mut self) -> ContactError {
+        let Self { points, friction: touching, .. } = self;
         let mut greatest = 0.0_f64;
         for (place, index) in touching.point.iter().enumerate() {
             let force = touching.arrays.force_of(place);
@@ -142,19 +161,14 @@ impl ContactWorkspace {
             greatest = greatest.max(force.length_squared());
         }
         let gap = points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
-        ContactMissed { gap_n: gap.sqrt(), greatest_n: greatest.sqrt() }
+        ContactError { gap_n: gap.sqrt(), greatest_n: greatest.sqrt() }
     }
 
     /// Opens the contact points of rope that may touch, as its predicted places lie.
-    pub fn open_active_points(
-        &mut self,
-        model: &Model,
-        state: &State,
-        lengths: &[f64],
-        places: &[DVec3],
-    ) {
+    pub fn open_active_points(&mut self, model: &Model, state: &State, places: &[DVec3]) {
         let Some(whale) = &model.spec.whale else { return };
         let (stiffness, friction) = (whale.contact_stiffness_n_m2, &state.rope.friction);
+        let lengths = &state.rope.segment_length;
         self.points.open(model, &self.near, lengths, stiffness, friction);
         self.points.measure(&self.near, places);
         while self.points.open_more(&self.near, places) > 0 {
@@ -164,12 +178,12 @@ impl ContactWorkspace {
     }
 
     /// Whether rope has left the margin in which skin near it was gathered.
-    pub fn strayed(&self, places: &[DVec3]) -> bool {
+    fn has_left_margin(&self, places: &[DVec3]) -> bool {
         self.near.strayed(places, self.near.margin_m - self.greatest_contact_distance)
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.
-    pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
+    fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
         self.points.list.iter().find_map(|point| {
             let touch = self
                 .points
@@ -183,7 +197,7 @@ impl ContactWorkspace {
     /// A segment and triangle between which rope is pinched at the end of a step from `from`, if any. Rope that began it pinched may stay,
     /// and come out again.
     /// A knot may be pressed flat: the rope in its middle has contact points of its own.
-    pub fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
+    fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
         self.points.list.iter().filter(|point| !point.is_knot).find_map(|point| {
             let is_pinched = |touch: &&Touch| {
                 let share = touch.distance / point.contact_distance;
@@ -198,7 +212,7 @@ impl ContactWorkspace {
     }
 
     /// Contacts at the end of an accepted step; the friction model's floats move on.
-    pub fn keep(
+    fn advance_friction(
         &mut self,
         model: &Model,
         friction: &Friction,
@@ -208,9 +222,9 @@ impl ContactWorkspace {
     ) -> Result<(), Failed> {
         contacts.clear();
         let Some(whale) = &model.spec.whale else { return Ok(()) };
-        for place in self.touching.in_order.iter().copied() {
-            let point = &self.points.list[self.touching.point[place]];
-            let touch = self.points.touches(point).get(self.touching.face[place]);
+        for place in self.friction.in_order.iter().copied() {
+            let point = &self.points.list[self.friction.point[place]];
+            let touch = self.points.touches(point).get(self.friction.face[place]);
             let Some(touch) = touch else { continue };
             let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {
@@ -226,11 +240,11 @@ impl ContactWorkspace {
                 length_m: point.length,
                 is_knot: point.is_knot,
                 normal_force_n: touch.barrier.force,
-                friction_n: self.touching.arrays.friction_of(place),
-                slip_m: self.touching.arrays.slip_of(place),
+                friction_n: self.friction.arrays.friction_of(place),
+                slip_m: self.friction.arrays.slip_of(place),
                 dt_s,
             });
         }
-        self.touching.advance(friction, dt_s, &self.points, &mut state.rope.friction)
+        self.friction.advance(friction, dt_s, &self.points, &mut state.rope.friction)
     }
 }

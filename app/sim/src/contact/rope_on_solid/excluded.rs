@@ -1,6 +1,6 @@
 //! Rope next to the body that it is made fast to, which does not touch any part of that body.
 
-use crate::contact::rope_on_solid::SolidWorkspace;
+use crate::contact::rope_on_solid::RopeOnSolid;
 use crate::model::{JointKind, Model};
 use crate::solids::{Carrier, Solid};
 
@@ -19,7 +19,7 @@ pub(crate) struct Spared {
     length_m: f64,
 }
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Fractions of a segment between which it may touch a solid.
     pub(crate) fn range_of(&self, solid: usize, line: usize, node: usize) -> (f64, f64) {
         let (start, length) = (self.along_m[node], self.length_of(node));

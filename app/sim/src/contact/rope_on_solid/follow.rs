@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::contact::rope_on_solid::points::SolidContactPoint;
-use crate::contact::rope_on_solid::{MARGIN_M, Pair, SolidWorkspace};
+use crate::contact::rope_on_solid::{MARGIN_M, Pair, RopeOnSolid};
 use crate::geometry::Pose;
 use crate::geometry::along::nearest_stretch;
 use crate::geometry::shape::SolidShape;
@@ -15,7 +15,7 @@ const TWO_POINTS_M: f64 = 0.02;
 /// Passes in which contact points within segments follow the nearest point.
 const FOLLOWING_PASSES: usize = 4;
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Lets the contact points within segments follow the nearest points, in the first passes of a step.
     pub fn follow_all(&mut self, state: &State, places: &[DVec3], pose: impl Fn(&Carrier) -> Pose) {
         self.passes += 1;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::broad_phase::pieces::Pieces;
 use crate::broad_phase::solids::NearGroup;
 use crate::contact::rope_on_solid::points::SolidContactPoint;
-use crate::contact::rope_on_solid::{MARGIN_M, Pair, SolidWorkspace};
+use crate::contact::rope_on_solid::{MARGIN_M, Pair, RopeOnSolid};
 use crate::geometry::Pose;
 use crate::model::Knot;
 use crate::solids::{Carrier, Solid};
@@ -85,7 +85,7 @@ struct Search<'a> {
     again: bool,
 }
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Gathers rope near solids for a step of length `dt`, as the state begins it, by rope's pieces over the step.
     pub fn gather(&mut self, state: &State, pieces: &Pieces, dt: f64) {
         self.predicted.clear();

@@ -47,7 +47,7 @@ pub(crate) struct Pair {
 
 /// Rope near solids in one step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct SolidWorkspace {
+pub(crate) struct RopeOnSolid {
     pub solids: Vec<Solid>,
     /// The body that each of them is a part of.
     body_of: Vec<Option<usize>>,
@@ -86,7 +86,7 @@ pub(crate) struct SolidWorkspace {
     neighbours: Neighbours,
 }
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Storage for a model.
     pub fn new(model: &Model) -> Self {
         let solids = of_model(model);

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::contact::rope_on_solid::SolidWorkspace;
+use crate::contact::rope_on_solid::RopeOnSolid;
 use crate::geometry::Pose;
 use crate::solids::{Carrier, Solid};
 use crate::state::{Bears, SolidGrip, State};
@@ -72,7 +72,7 @@ impl SolidContactPoint {
     }
 }
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Stiffness, grip and first normal force of a contact point whose rope goes from one place to another.
     pub(crate) fn begin_point(
         &mut self,

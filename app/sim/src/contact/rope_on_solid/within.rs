@@ -3,12 +3,12 @@
 //! It does not touch that body until it has come out of it. No push could lead it out: where a line is made fast on both sides the push
 //! would only grow. Lengths of rope are told by their place along the line, which stays as segments are split and merged.
 
-use crate::contact::rope_on_solid::{SolidWorkspace, least_distance};
+use crate::contact::rope_on_solid::{RopeOnSolid, least_distance};
 use crate::geometry::Pose;
 use crate::solids::Solid;
 use crate::state::{RopeWithin, State};
 
-impl SolidWorkspace {
+impl RopeOnSolid {
     /// Whether rope lies in a body, by the depth of its surface.
     pub fn any_in_body(&mut self, state: &State) -> bool {
         self.measure_lengths(&state.rope.segment_length);

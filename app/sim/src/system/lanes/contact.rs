@@ -6,8 +6,14 @@ use crate::system::lanes::Lanes;
 use crate::system::lanes::rows::ContactRow;
 
 impl Lanes {
-    /// Forgets all contact.
-    pub fn leave_contact(&mut self) {
+    /// First node of a segment.
+    pub fn first_node_of(&self, segment: usize) -> usize {
+        let piece = &self.pieces[self.piece_of[segment]];
+        piece.first_node + segment - piece.first_segment
+    }
+
+    /// Removes all contact.
+    pub fn clear_contact(&mut self) {
         self.contact.resize(self.nodes.len(), ContactRow::default());
         for row in self.contact_rows.drain(..) {
             self.contact[row] = ContactRow::default();
@@ -25,7 +31,8 @@ impl Lanes {
             self.contact[row].block.add(lane, &(*block * (share * share)));
         }
         self.contact[row].coupling.add(lane, &(*block * (first * second)));
-        // Contact points come in the order of the rope: most rows are noted already.
+        // A row may be noted twice, which does no harm: points of neighbouring segments come one after the other, so that most rows
+        // are found among the last three.
         for row in [row, row + 1] {
             let last = self.contact_rows.len().saturating_sub(3);
             if !self.contact_rows[last..].contains(&row) {

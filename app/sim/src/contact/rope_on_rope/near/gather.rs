@@ -6,7 +6,7 @@ use crate::broad_phase::knots::on_segments;
 use crate::broad_phase::pieces::Pieces;
 use crate::broad_phase::reach::Reach;
 use crate::broad_phase::ropes::{Moves, Rope};
-use crate::contact::rope_on_rope::near::{Pair, RopeWorkspace, TOUCH_M};
+use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, TOUCH_M};
 use crate::geometry::segment_pair::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::state::State;
@@ -27,7 +27,7 @@ const RUNS_ON_SHARE: f64 = 0.5;
 /// Least separation kept, as a share of the contact distance.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
 
-impl RopeWorkspace {
+impl RopeOnRope {
     /// Takes over the lengths of segments, where they are not those there are.
     fn measure_lengths(&mut self, model: &Model, lengths: &[f64], pieces: &Pieces) {
         if self.lengths_number == pieces.lengths_number {

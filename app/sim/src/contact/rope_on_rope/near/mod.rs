@@ -13,7 +13,7 @@ use crate::broad_phase::ropes::{Broad, Found};
 use crate::contact::rope_on_rope::points::RopeContactPoint;
 use crate::geometry::segment_pair::nearest;
 use crate::geometry::sweep::SweptSegment;
-use crate::model::{Model, RopeOnRope};
+use crate::model::{Model, RopeOnRope as RopeLaw};
 use crate::state::State;
 
 /// Ropes that come this near in a step, beyond touching, may touch [m].
@@ -53,9 +53,9 @@ pub(crate) struct Pair {
 
 /// Scratch of rope against rope for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct RopeWorkspace {
+pub(crate) struct RopeOnRope {
     /// `None` where ropes pass through each other.
-    pub law: Option<RopeOnRope>,
+    pub law: Option<RopeLaw>,
     pub pairs: Vec<Pair>,
     /// Whether ropes may touch in this step.
     pub touching: bool,
@@ -81,7 +81,7 @@ pub(crate) struct RopeWorkspace {
     pub crowded: Option<[usize; 2]>,
 }
 
-impl RopeWorkspace {
+impl RopeOnRope {
     /// Storage for a model.
     pub fn new(model: &Model) -> Self {
         let Some(law) = model.spec.settings.rope_on_rope else { return Self::default() };

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::broad_phase::pieces::Pieces;
-use crate::contact::rope_on_rope::near::{Pair, RopeWorkspace, TOUCH_M, between};
+use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, TOUCH_M, between};
 use crate::geometry::crossing::first_crossing;
 use crate::geometry::segment_pair::{greatest_approach, nearest, safe_fraction};
 use crate::geometry::sweep::{SweptSegment, walk};
@@ -23,7 +23,7 @@ const HELD_OFF_SHARE: f64 = 0.3;
 /// rope within a step would else be pushed at neither end of it.
 const FOLLOWED_SHARE: f64 = 0.5;
 
-impl RopeWorkspace {
+impl RopeOnRope {
     /// Ends a step on the straight path from where it began; the number of crossings that an exact test finds on it, or `None` where
     /// ropes may cross on it.
     pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {

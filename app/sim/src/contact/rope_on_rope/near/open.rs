@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::contact::rope_on_rope::near::{Pair, RopeWorkspace, between};
+use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, between};
 use crate::contact::rope_on_rope::points::{RopeContactPoint, point_of_ball, points_of};
 use crate::geometry::segment_pair::nearest;
 use crate::state::{RopeGrip, State};
@@ -16,9 +16,9 @@ const FOLLOWING_PASSES: usize = 6;
 /// A place of a pair that is nearer than its points by this share calls for new ones.
 const NEARER: f64 = 0.9;
 
-impl RopeWorkspace {
+impl RopeOnRope {
     /// Opens the points of every pair at these places, with the grips that they continue.
-    pub fn open(&mut self, state: &State, places: &[DVec3]) {
+    pub fn open_points(&mut self, state: &State, places: &[DVec3]) {
         self.passes = 0;
         for index in 0..self.pairs.len() {
             self.open_pair(index, state, places, false);
@@ -79,7 +79,7 @@ impl RopeWorkspace {
     }
 
     /// Opens points anew where ropes have come nearer than at those they have; whether there were any.
-    pub fn open_more(&mut self, state: &State, places: &[DVec3]) -> bool {
+    pub fn open_nearer_points(&mut self, state: &State, places: &[DVec3]) -> bool {
         let mut opened = false;
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];

@@ -21,7 +21,7 @@ const LENGTH_M: f64 = 0.1;
 /// Three lines with knots at their ends.
 fn three_lines() -> Model {
     let mut spec = spec(vec![LENGTH_M; SEGMENTS]);
-    spec.settings.rope_on_rope = Some(RopeOnRope::default());
+    spec.settings.rope_on_rope = Some(crate::model::RopeOnRope::default());
     spec.lines[0].knots_m = [0.06, 0.02];
     for id in ["second", "third"] {
         let mut line = spec.lines[0].clone();
@@ -65,7 +65,7 @@ fn drift(state: &State, node: usize) -> DVec3 {
 /// Segments and knots of a pair, bits of its distance, and whether it may touch.
 type Told = ([usize; 2], [Option<usize>; 2], u64, bool);
 
-fn pairs_of(work: &RopeWorkspace) -> Vec<Told> {
+fn pairs_of(work: &RopeOnRope) -> Vec<Told> {
     let told = |pair: &Pair| (pair.segments, pair.knots, pair.first.to_bits(), pair.may_touch);
     work.pairs.iter().map(told).collect()
 }
@@ -75,14 +75,14 @@ fn pairs_of(work: &RopeWorkspace) -> Vec<Told> {
 fn a_kept_list_gathers_what_a_new_one_gathers() {
     let model = three_lines();
     let mut state = State::start(&model);
-    let (mut kept, mut kept_pieces) = (RopeWorkspace::new(&model), Pieces::new(&model));
+    let (mut kept, mut kept_pieces) = (RopeOnRope::new(&model), Pieces::new(&model));
     let mut counts = [0; 3];
     for step in 0..STEPS {
         go(&mut state, step);
         if step == 250 {
             state.rope.segment_length[5] *= 1.5;
         }
-        let (mut new, mut pieces) = (RopeWorkspace::new(&model), Pieces::new(&model));
+        let (mut new, mut pieces) = (RopeOnRope::new(&model), Pieces::new(&model));
         for (work, pieces) in [(&mut kept, &mut kept_pieces), (&mut new, &mut pieces)] {
             pieces.measure(
                 &state.rope.position,

@@ -1,14 +1,19 @@
-//! The lanes against the solve line by line, and lanes of one width against another.
+//! Rope as lanes against rope as lines and against a dense system, and lanes of one width against another.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use pulp::Arch;
 
 use crate::matrix::outer;
 use crate::model::{
-    Body, BodyRole, Joint, JointKind, Line, ModelSpec, PlacedShape, Rope, Seabed, Settings, Shape,
-    Strength,
+    Body, BodyRole, Joint, JointKind, Line, Model, ModelSpec, PlacedShape, Rope, Seabed, Settings,
+    Shape, Strength,
 };
-use crate::solver::*;
+use crate::solver::Solver;
+use crate::state::State;
+use crate::system::tests::Method;
+use crate::system::woodbury::ContactBlock;
+use crate::trial::StepContext;
+use crate::trial::scheme::Scheme;
 use crate::water::{Current, Water};
 
 /// Passes after which Newton has long come to rest, though bending is solved for only roughly in each.
@@ -126,14 +131,14 @@ fn in_lanes(
 ) -> Vec<DVec3> {
     let mut solver = Solver::new(model);
     if let Some(arch) = arch {
-        solver.lanes.set_arch(arch);
+        solver.system.lanes.set_arch(arch);
     }
     solver.begin_in_lanes(model, state, scheme, |_| ());
     for _ in 0..passes {
-        assert!(solver.pass_in_lanes(model, state, scheme, 1.0).finite);
+        assert!(solver.pass_in_lanes(&StepContext { model, state, scheme }, 1.0).finite);
     }
     let mut after = state.clone();
-    solver.keep_from_lanes(model, scheme, &mut after);
+    solver.store(model, scheme, &mut after);
     after.rope.position
 }
 
@@ -180,10 +185,11 @@ fn lanes_solve_what_the_lines_solve() {
     let one = model(60.0, 0.7);
     for model in [eight(&one), one, model(19.05, 0.3)] {
         let (state, scheme) = (moving(&model), Scheme::bdf2(0.01, 0.01));
+        let context = StepContext { model: &model, state: &state, scheme: &scheme };
         let mut solver = Solver::new(&model);
         solver.begin(&model, &state, &scheme);
         for _ in 0..PASSES {
-            solver.assemble(&model, &state, &scheme);
+            solver.assemble(&context);
             solver.solve(&model);
             solver.advance(&model, 1.0);
         }
@@ -229,25 +235,27 @@ fn lanes_solve_contact_as_the_lines_do() {
     let one = model(60.0, 0.7);
     for model in [eight(&one), one] {
         let (state, scheme) = (moving(&model), Scheme::backward_euler(0.002));
+        let context = StepContext { model: &model, state: &state, scheme: &scheme };
         let mut lines = Solver::new(&model);
         lines.begin(&model, &state, &scheme);
-        lines.assemble(&model, &state, &scheme);
+        lines.assemble(&context);
         for (segment, fraction, force, block) in contacts(&model) {
             let node = segment + model.segment_line[segment];
-            lines.tridiagonal.add_at(segment, node, fraction, force, &block);
+            lines.system.add_on_rope([segment, node], fraction, force, &block);
         }
         lines.solve(&model);
         lines.advance(&model, 1.0);
         let in_lanes = |arch: Option<Arch>| {
             let mut solver = Solver::new(&model);
             if let Some(arch) = arch {
-                solver.lanes.set_arch(arch);
+                solver.system.lanes.set_arch(arch);
             }
             solver.begin_in_lanes(&model, &state, &scheme, |_| ());
             for (segment, fraction, force, block) in contacts(&model) {
-                solver.lanes.add_contact(segment, fraction, force, &block);
+                let node = segment + model.segment_line[segment];
+                solver.system.add_on_rope([segment, node], fraction, force, &block);
             }
-            assert!(solver.pass_in_lanes(&model, &state, &scheme, 1.0).finite);
+            assert!(solver.pass_in_lanes(&context, 1.0).finite);
             solver.take_places();
             solver.trial.place
         };
@@ -259,6 +267,59 @@ fn lanes_solve_contact_as_the_lines_do() {
         assert!(moved > 1e-3 && apart < 1e-9, "{apart} m apart after a move of {moved} m");
         assert_eq!(wide, narrow);
     }
+}
+
+/// One iteration with contact and with couplings of rope on rope, as lines and as one dense matrix.
+#[test]
+fn elimination_solves_what_a_dense_system_solves() {
+    for model in [model(60.0, 0.7), model(19.05, 0.3)] {
+        let (state, scheme) = (moving(&model), Scheme::backward_euler(0.002));
+        let context = StepContext { model: &model, state: &state, scheme: &scheme };
+        let steps = [Method::Elimination, Method::Dense].map(|method| {
+            let mut solver = Solver::new(&model);
+            solver.system.method = method;
+            solver.begin(&model, &state, &scheme);
+            solver.assemble(&context);
+            for (segment, fraction, force, block) in contacts(&model) {
+                let node = segment + model.segment_line[segment];
+                solver.system.add_on_rope([segment, node], fraction, force, &block);
+            }
+            for (nodes, fractions) in [([3, 40], [0.2, 0.9]), ([10, 70], [0.5, 0.1])] {
+                let block = DMat3::from_diagonal(DVec3::new(1e4, 2e4, 3e4));
+                let coupling = ContactBlock { nodes, fractions, block };
+                assert!(solver.system.couple_ropes(coupling, DVec3::new(5.0, -3.0, 8.0)));
+            }
+            solver.solve(&model);
+            (solver.system.rope.step.clone(), solver.system.interface.step.clone())
+        });
+        let [(rope, interface), (dense_rope, dense_interface)] = &steps;
+        let pairs = rope.iter().zip(dense_rope).chain(interface.iter().zip(dense_interface));
+        let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
+        for (one, other) in pairs {
+            apart = apart.max(one.distance(*other));
+            moved = moved.max(other.length());
+        }
+        assert!(moved > 1e-4 && apart < 1e-9 * moved.max(1.0), "{apart} of {moved} m");
+    }
+}
+
+/// A whole run with the dense system ends where the run of the program ends.
+#[test]
+fn a_run_with_a_dense_system_is_the_same_run() {
+    let model = model(19.05, 0.3);
+    let ends = [Method::Elimination, Method::Dense].map(|method| {
+        let (mut state, mut workspace) = (moving(&model), crate::Workspace::new(&model));
+        workspace.solver.system.method = method;
+        for _ in 0..5 {
+            crate::step(&model, &crate::Input::default(), &mut state, &mut workspace)
+                .expect("a rig that moves");
+        }
+        state.rope.position
+    });
+    let apart = ends[0].iter().zip(&ends[1]).map(|(one, other)| one.distance(*other));
+    let apart = apart.fold(0.0, f64::max);
+    // Both end within the tolerance of Newton, which is 1 mm of move.
+    assert!(apart < 1e-3, "{apart} m");
 }
 
 #[test]
