@@ -8,6 +8,7 @@ mod rejection;
 mod solver_step;
 mod stages;
 pub mod stop;
+mod substep_policy;
 mod substeps;
 pub mod workspace;
 

@@ -6,27 +6,22 @@
 //! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
 //! which ends the run.
 
-use super::rejection::{Rejection, StepKind};
+use super::rejection::StepKind;
 use super::solver_step::solver_step;
 use super::stop::Stop;
+use super::substep_policy::{AfterRejection, SubstepPolicy};
 use super::workspace::Workspace;
 use crate::contact::rope_on_skin::step_sums::StepSums;
 use crate::cost::CostPart;
-use crate::model::{Model, Settings, Whale};
+use crate::model::{Model, Whale};
 use crate::remesh::remesh;
 use crate::solver::Solver;
-use crate::state::{LimitedBy, State, StepControl, WhaleState};
+use crate::state::{LimitedBy, State, WhaleState};
 use crate::step_control::{self, Taken};
 use crate::whale::drive::pose_between;
 use crate::whale::hitch;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
-
-/// Share of what Newton is allowed to miss below which the next step near the whale is longer, and by how much.
-const LITTLE_MISSED: f64 = 0.3;
-const GROWTH: f64 = 1.4;
-/// Least step that is chosen near the whale; a step that does not converge at it is halved for itself [s].
-const LEAST_CHOSEN_S: f64 = 1e-4;
 
 /// Times a model's step may be taken back and begun with shorter solver steps.
 const MOST_TAKEN_BACK: usize = 3;
@@ -58,10 +53,9 @@ pub(super) fn advance(
         }
         workspace.solver.contacts.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
-        let longest =
-            if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
-        let limits = Limits { longest, near, may_take_back: taken_back < MOST_TAKEN_BACK };
-        if solver_steps(model, state, workspace, whale, limits)? {
+        let policy = SubstepPolicy::new(settings, near, model.whale_is_towed());
+        let may_take_back = taken_back < MOST_TAKEN_BACK;
+        if solver_steps(model, state, workspace, whale, policy, may_take_back)? {
             break;
         }
         workspace.audit.halved += 1;
@@ -99,72 +93,36 @@ fn near_whale(
     near
 }
 
-/// What bounds the solver steps of one try.
-#[derive(Clone, Copy, Debug)]
-struct Limits {
-    /// Longest solver step where rope may touch something [s].
-    longest: f64,
-    /// Whether rope or a body may be near the whale.
-    near: bool,
-    /// Whether a step that misses its wanted error may be taken back.
-    may_take_back: bool,
-}
-
-/// Solver steps to the end of the model's step, halved where one is refused; `false` where a step missed its wanted error
-/// and may be taken back.
+/// Solver steps to the end of the model's step, shortened where one is rejected; returns `false` if the error of a step is far above
+/// the wanted one and the step of the model may be taken back.
 fn solver_steps(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
-    Limits { mut longest, near, may_take_back }: Limits,
+    mut policy: SubstepPolicy<'_>,
+    may_take_back: bool,
 ) -> Result<bool, Stop> {
     let settings = &model.spec.settings;
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
-    let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
+    let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
     workspace.stages.clear();
-    // Momentum goes from a line to the whale that it is made fast to by backward Euler, in steps as short as with contact.
-    let (mut may_stay_clear, mut ropes_meet) = (near && !model.whale_is_towed(), false);
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
-        let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
-        let clear = may_stay_clear && {
+        let substep = policy.next(&state.step_control, left, || {
             workspace.solver.cost.enter(CostPart::Detection);
             workspace.solver.contacts.stays_clear(state, left)
-        };
-        may_stay_clear = clear;
-        let most = if clear { settings.step_s } else { longest };
-        let (chosen, limit) = wanted(settings, &state.step_control, most);
-        let by_contact = (near && !clear) || ropes_meet;
-        let chosen = if by_contact {
-            chosen.min(contact_step(settings, &state.step_control))
-        } else {
-            chosen
-        };
-        let wanted = chosen / f64::from(1_u32 << halvings.min(30));
-        let whole = left / (left / wanted - 1e-9).ceil().max(1.0);
-        let (dt, way) = workspace.stages.next(state, whole, halvings > 0, !by_contact);
+        });
+        let (dt, way) =
+            workspace.stages.next(state, substep.length_s, substep.is_halved, !substep.by_contact);
         workspace.solver.trial.hitches.span = [share(state.time_s), share(state.time_s + dt)];
         let earlier_dt = state.rope.earlier_dt_s;
-        let done = solver_step(model, state, workspace, dt, way);
-        if done.is_err() {
-            workspace.solver.contacts.reject();
-        }
-        match done {
+        match solver_step(model, state, workspace, dt, way) {
             Ok(kind) => {
-                if let Some(whale) = &model.spec.whale {
-                    workspace.sums.take(&whale.skin, &workspace.contacts, dt);
-                    workspace.body_sums.take(&workspace.body_contacts, dt);
-                    take_mouth(whale, workspace, dt);
-                }
-                feel(model, state, workspace, whale, dt);
-                if let (true, StepKind::InContact { missed }) = (by_contact, kind) {
-                    lengthen(settings, &mut state.step_control, dt, missed);
-                }
-                let limit = if halvings > 0 { refused } else { limit };
-                workspace.audit.limited_by[limit as usize] += 1;
-                halvings = halvings.saturating_sub(1);
+                measure_skin(model, state, workspace, whale, dt);
+                policy.accepted(&substep, dt, kind, &mut state.step_control);
+                workspace.audit.limited_by[substep.limit as usize] += 1;
                 let taken = workspace.stages.keep(state, way, kind, [earlier_dt, dt]);
                 if taken.is_some_and(|taken| choose_next(model, state, kind, taken))
                     && may_take_back
@@ -172,37 +130,42 @@ fn solver_steps(
                     return Ok(false);
                 }
             }
-            Err(Rejection::RopesMeet) => {
-                (may_stay_clear, ropes_meet) = (false, true);
-                longest = settings.contact_step_s.min(longest);
+            Err(why) => {
+                let contacts = &mut workspace.solver.contacts;
+                contacts.reject();
+                let on_ropes = contacts.rope_on_rope.touching;
+                match policy.rejected(&why, dt, on_ropes, &mut state.step_control) {
+                    AfterRejection::LimitByContact => {}
+                    AfterRejection::Shorten => {
+                        if why.calls_for_search() {
+                            workspace.solver.cost.enter(CostPart::Detection);
+                            let passed = share(state.time_s);
+                            workspace.solver.contacts.find_near_whale_again(model, state, passed);
+                        }
+                        workspace.audit.halved += 1;
+                    }
+                    AfterRejection::End => return Err(why.stop(model, state, &workspace.solver)),
+                }
             }
-            Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
-                refused = if why == Rejection::PartsTooLate {
-                    LimitedBy::Parting
-                } else {
-                    LimitedBy::Convergence
-                };
-                may_stay_clear = false;
-                if workspace.solver.contacts.rope_on_rope.touching {
-                    // Rope that rests on rope did not bear a long step.
-                    (ropes_meet, longest) = (true, settings.contact_step_s.min(longest));
-                }
-                if why.calls_for_search() {
-                    workspace.solver.cost.enter(CostPart::Detection);
-                    let passed = share(state.time_s);
-                    workspace.solver.contacts.find_near_whale_again(model, state, passed);
-                }
-                if (near || ropes_meet) && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
-                    state.step_control.contact_step_s = 0.5 * dt;
-                } else {
-                    halvings += 1;
-                }
-                workspace.audit.halved += 1;
-            }
-            Err(why) => return Err(why.stop(model, state, &workspace.solver)),
         }
     }
     Ok(true)
+}
+
+/// Sums over the step of the model what rope and bodies do to skin in a solver step that is accepted.
+fn measure_skin(
+    model: &Model,
+    state: &State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+    dt: f64,
+) {
+    if let Some(whale) = &model.spec.whale {
+        workspace.sums.take(&whale.skin, &workspace.contacts, dt);
+        workspace.body_sums.take(&workspace.body_contacts, dt);
+        take_mouth(whale, workspace, dt);
+    }
+    feel(model, state, workspace, whale, dt);
 }
 
 /// Takes in what opened the whale's mouth in the solver step that has just ended.
@@ -239,30 +202,6 @@ fn feel(
     workspace.pulled.add_bodies(&workspace.body_contacts, centre, times);
     for (force, place) in hitch::pulls(model, state) {
         workspace.pulled.add(force, place - centre, times);
-    }
-}
-
-/// The solver step near the whale, by how nearly linear the last ones were.
-fn contact_step(settings: &Settings, control: &StepControl) -> f64 {
-    let longest = settings.contact_step_s.min(settings.step_s);
-    if control.contact_step_s > 0.0 { control.contact_step_s.min(longest) } else { longest }
-}
-
-/// Lengthens the solver step near the whale where the one just taken missed little of what Newton is allowed.
-fn lengthen(settings: &Settings, control: &mut StepControl, dt: f64, missed: f64) {
-    let step = contact_step(settings, control);
-    control.contact_step_s = if missed < LITTLE_MISSED { step.max(GROWTH * dt) } else { step };
-}
-
-/// The longest solver step to try now, and what limits it.
-fn wanted(settings: &Settings, control: &StepControl, longest: f64) -> (f64, LimitedBy) {
-    let is_shorter = control.step_s > 0.0 && control.step_s < longest;
-    if is_shorter || (control.in_two_stages() && control.step_s <= longest) {
-        (control.step_s, control.limit)
-    } else if longest < settings.step_s {
-        (longest, LimitedBy::Contact)
-    } else {
-        (longest, LimitedBy::Inputs)
     }
 }
 
