@@ -184,7 +184,11 @@ const UNREADABLE: [(&str, Make); 5] = [
 #[test]
 fn every_command_that_takes_a_file_refuses_what_is_none_and_ends() {
     let place = Place::new("taking");
-    let jobs: Vec<_> = TAKING.iter().flat_map(|row| UNREADABLE.map(|kind| (row, kind))).collect();
+    // A permission is for the bytes of a file, whatever they are.
+    let is_refused =
+        |words: &str, kind: &str| !(words.starts_with("plugins allow") && kind == "noise");
+    let all = TAKING.iter().flat_map(|row| UNREADABLE.map(|kind| (row, kind)));
+    let jobs: Vec<_> = all.filter(|(row, kind)| is_refused(row.1, kind.0)).collect();
     let (next, wrong) = (AtomicUsize::new(0), AtomicUsize::new(0));
     std::thread::scope(|scope| {
         for _ in 0..4 {
