@@ -5,7 +5,7 @@ use endline_sdk::{GearAction, GearStep, LineEnd};
 use crate::model::Model;
 use crate::parting::{cut, link_segment, note_line};
 use crate::state::State;
-use crate::step::stop::Stop;
+use crate::step::Stop;
 
 /// Scratch of the gear types' calls.
 #[derive(Clone, Debug, Default)]

@@ -2,7 +2,6 @@
 
 pub(crate) mod knots;
 pub(crate) mod pieces;
-pub(crate) mod reach;
 pub(crate) mod rope_neighbours;
 pub(crate) mod ropes;
 pub(crate) mod solids;

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use crate::broad_phase::knots::{Ball, on_segments};
 use crate::broad_phase::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
-use crate::broad_phase::reach::Reach;
+use crate::broad_phase::ropes::Reach;
 use crate::whale::Bounds;
 
 /// Pieces that are usually near a piece, itself included.

@@ -5,15 +5,13 @@
 //! two of its points lie at least `c` times the rope between them apart. Both ends of a step are looked at; what is between is
 //! a mean of the two, and so as straight. Two pieces in a row need directions that agree too.
 
-use glam::DVec3;
-
 use crate::broad_phase::knots::Ball;
 use crate::broad_phase::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
-use crate::broad_phase::reach::Reach;
 use crate::broad_phase::rope_neighbours::{
     Are, MayTouch, NearGroups, NearKnot, NearPieces, Neighbours,
 };
 use crate::whale::Bounds;
+use glam::DVec3;
 
 /// The search, with the list that it keeps from step to step.
 #[derive(Clone, Debug, Default)]
@@ -199,5 +197,27 @@ impl<F: Fn(usize) -> DVec3> Step<'_, F> {
                 }
             }
         }
+    }
+}
+
+/// How far apart things are looked for [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach {
+    /// Segments.
+    pub ropes_m: f64,
+    /// Knots from segments; not less.
+    pub knots_m: f64,
+}
+
+impl Reach {
+    /// A box around a segment or more, grown so that two of them meet within reach.
+    #[inline(always)]
+    pub fn of_segment(&self, bounds: &Bounds) -> Bounds {
+        bounds.grown(0.5 * self.ropes_m)
+    }
+
+    /// The greater of the two, with a little for what rounding may take [m].
+    pub fn farthest_m(&self) -> f64 {
+        self.ropes_m.max(self.knots_m) + 2e-9
     }
 }

@@ -4,7 +4,6 @@ pub(crate) mod axial;
 pub(crate) mod bending;
 pub(crate) mod body;
 pub(crate) mod laws;
-pub(crate) mod lengths;
 pub(crate) mod pulled;
 pub(crate) mod rope;
 pub(crate) mod seabed;
@@ -16,8 +15,7 @@ use glam::DVec3;
 
 use crate::model::Model;
 use crate::trial::Trial;
-use lengths::Lengths;
-use rope::Pull;
+use rope::{Lengths, Pull};
 use water::WaterAtGear;
 
 /// What the force laws of a step read, and the axial law of each segment as last evaluated.

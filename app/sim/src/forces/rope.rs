@@ -1,20 +1,20 @@
-//! Forces along and on a rope line by line: where the laws of `forces.rs` go in the matrix, node after node.
+//! Forces along and on a rope with rope held as lines: the laws of `laws.rs`, node after node, and the lengths that they read.
 //!
 //! Statics adds what the laws leave out: with `D` the drag, `d` the chord between a node's neighbours and `t` its direction,
-//! `∂D/∂t (1 - t tᵀ)/|d|` couples a node to its neighbours, and makes passes converge quadratically.
-
-use core::ops::Range;
-
-use glam::{DMat3, DVec3};
+//! `∂D/∂t (1 - t tᵀ)/|d|` couples a node to its neighbours, and makes iterations converge quadratically.
 
 use crate::forces::Forces;
+use crate::forces::axial::Axial;
 use crate::forces::laws::{self as forces, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
 use crate::matrix::outer;
 use crate::model::Model;
+use crate::same_bits::same_bits;
 use crate::system::LinearSystem;
 use crate::system::lanes::space::Sym3;
 use crate::trial::Trial;
 use crate::trial::scheme::Scheme;
+use core::ops::Range;
+use glam::{DMat3, DVec3};
 
 /// Least chord that is divided by [m].
 const TINY_M: f64 = 1e-9;
@@ -428,6 +428,46 @@ mod tests {
                 force(&rope, &shared, &NodeAt { after, ..at })
             });
             assert!((turn * axis - (ahead - behind) / (2.0 * step)).length() < 1e-6);
+        }
+    }
+}
+
+/// Lengths of a step, taken from the state it begins from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lengths {
+    /// Unstretched length of each segment [m].
+    pub segment: Vec<f64>,
+    /// Length of the shortest segment [m].
+    pub shortest: f64,
+    /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
+    pub node: Vec<f64>,
+    /// Axial law of each segment.
+    pub axial: Vec<Axial>,
+}
+
+impl Lengths {
+    /// Takes over the lengths of a state, where they are not those there are.
+    pub fn take(&mut self, model: &Model, segment_length: &[f64]) {
+        if self.shortest > 0.0 && same_bits(&self.segment, segment_length) {
+            return;
+        }
+        self.segment.clear();
+        self.segment.extend_from_slice(segment_length);
+        self.shortest = segment_length.iter().copied().fold(f64::INFINITY, f64::min);
+        self.axial.clear();
+        self.axial.extend(
+            segment_length
+                .iter()
+                .enumerate()
+                .map(|(segment, length)| Axial::of(model.rope_of_segment(segment), *length)),
+        );
+        self.node.clear();
+        self.node.resize(model.node_count, 0.0);
+        for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
+            for (node, length) in (nodes.start..).zip(&segment_length[segments.clone()]) {
+                self.node[node] += 0.5 * length;
+                self.node[node + 1] += 0.5 * length;
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::forces::body::BodyAt;
 use crate::forces::laws::{PerMetre, Shared};
-use crate::forces::lengths::Lengths;
+use crate::forces::rope::Lengths;
 use crate::forces::rope::tangent;
 use crate::model::Model;
 use crate::system::LinearSystem;

@@ -11,7 +11,7 @@
 use glam::DVec3;
 
 use super::RemeshWorkspace;
-use crate::contact::rope_on_skin::site::shift_site;
+use crate::contact::rope_on_skin::stored_faces::shift_site;
 use crate::model::Model;
 use crate::state::{RopeState, State};
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::contact::rope_on_skin::site::segment_of;
+use crate::contact::rope_on_skin::stored_faces::segment_of;
 use crate::metrics::tests::{model, spec};
 use crate::model::JointKind;
 use crate::water::Current;

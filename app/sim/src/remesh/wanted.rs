@@ -33,7 +33,7 @@ pub(super) fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
 pub(super) fn grip(model: &Model, state: &State, work: &mut RemeshWorkspace) {
     work.gripped.fill(false);
     for site in &state.rope.friction.sites {
-        work.gripped[crate::contact::rope_on_skin::site::segment_of(*site)] = true;
+        work.gripped[crate::contact::rope_on_skin::stored_faces::segment_of(*site)] = true;
     }
     // A merge moves rope, and rope near it would be crossed.
     let rope = &state.rope;

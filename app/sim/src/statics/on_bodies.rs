@@ -2,7 +2,7 @@
 //!
 //! The gear is first at rest with rope that passes through bodies, which most gear never does. Where a length of it lies in a body, the balance is
 //! found again from there with bodies that push, softly at first. Where that leads to none, rope stays as it is: it is then taken as stowed within
-//! the body (`contact/rope_on_solid/within.rs`), and touches it once it has come out.
+//! the body (`contact/rope_on_solid/excluded.rs`), and touches it once it has come out.
 
 use super::Found;
 use super::newton::{Attempt, FAR, Hold, Reached};

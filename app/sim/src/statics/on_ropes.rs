@@ -18,7 +18,7 @@ use glam::DVec3;
 use super::outcome::Outcome;
 use super::{Found, lengths};
 use crate::broad_phase::pieces::Pieces;
-use crate::broad_phase::reach::Reach;
+use crate::broad_phase::ropes::Reach;
 use crate::broad_phase::ropes::{Broad, Found as Near, Moves, Rope as Searched};
 use crate::geometry::distance::segment_segment;
 use crate::model::{Body, BodyRole, Model, PlacedShape, Seabed};

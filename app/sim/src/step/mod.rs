@@ -1,19 +1,5 @@
 //! One step of a run: from inputs to the next state.
 
-pub mod audit;
-mod contact;
-pub mod input;
-pub mod peaks;
-mod rejection;
-mod solver_step;
-mod stages;
-pub mod stop;
-mod substep_policy;
-mod substeps;
-pub mod workspace;
-
-use glam::DVec3;
-
 use crate::cost::CostPart;
 use crate::gear_hook;
 use crate::model::Model;
@@ -21,10 +7,20 @@ use crate::state::{State, WhaleState};
 use crate::whale::drive::drive;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::pilot;
+use endline_sdk::Controls;
+use glam::DVec3;
+
+pub mod audit;
+mod contact;
+pub mod peaks;
+mod rejection;
+mod solver_step;
+mod stages;
+mod substep_policy;
+mod substeps;
+pub mod workspace;
 
 pub use audit::Audit;
-pub use input::Input;
-pub use stop::Stop;
 pub use workspace::Workspace;
 
 /// Advances `state` by the model's step.
@@ -105,4 +101,22 @@ fn move_whale(
     let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
     from.clone_from(now);
     drive(model, input, from, state.time_s, to, hull)
+}
+
+/// All that enters a step from outside; recorded, so that a run replays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Input {
+    /// The pilot's controls.
+    pub controls: Controls,
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Time at which it stopped [s].
+    pub time_s: f64,
+    /// Which part, such as `line endline-top` or a plugin's id.
+    pub part: String,
+    /// The reason, for the user.
+    pub reason: String,
 }

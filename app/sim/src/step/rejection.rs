@@ -5,7 +5,7 @@ use crate::contact::law::friction_arrays::Failed;
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
-use crate::step::stop::Stop;
+use crate::step::Stop;
 
 /// Why a solver step must be repeated shorter, or ends the run.
 #[derive(Clone, Debug, PartialEq, Eq)]

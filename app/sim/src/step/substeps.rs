@@ -6,9 +6,9 @@
 //! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
 //! which ends the run.
 
+use super::Stop;
 use super::rejection::StepKind;
 use super::solver_step::solver_step;
-use super::stop::Stop;
 use super::substep_policy::{AfterRejection, SubstepPolicy};
 use super::workspace::Workspace;
 use crate::contact::rope_on_skin::step_sums::StepSums;

@@ -13,8 +13,8 @@ use super::kinetic::swim::{self, Surroundings, Wish, swim};
 use super::pose::pose;
 use crate::model::{Model, Whale};
 use crate::state::WhaleState;
-use crate::step::input::Input;
-use crate::step::stop::Stop;
+use crate::step::Input;
+use crate::step::Stop;
 use endline_sdk::{MotionInput, MotionOutput, Posture};
 
 /// Half height of a right whale as a share of its length, kept above the seabed.

@@ -2,17 +2,20 @@
 //!
 //! A touch at `p` (`measure.rs`) with normal force and friction `F` and block `B = -dF/dp` acts at the arm `r = p - x` of the body's
 //! place `x`: on the six freedoms of the body by `F`, `r × F`, and by `B` between the moves of that point. Skin moves as the whale
-//! swims, so nothing else is coupled.
+//! swims, so nothing else is coupled. At the end of a step the floats of the friction law are stored in the state.
 
 use crate::balance::Source;
 use crate::balance::source_forces::SourceForces;
-use crate::contact::body_on_skin::BodyOnSkin;
 use crate::contact::body_on_skin::measure::Unmeasured;
+use crate::contact::body_on_skin::{BodyContact, BodyOnSkin};
 use crate::contact::failure::{ContactFailure, Kind, Reason};
+use crate::contact::law::friction_arrays::Failed;
 use crate::contact::{Accepted, Assembly, ContactError, ContactKind, Order, Reports, Search};
 use crate::cost::{CostClock, CostPart};
 use crate::geometry::Pose;
+use crate::model::Friction;
 use crate::state::State;
+use crate::state::{BodyGrip, BodyGrips};
 use crate::system::LinearSystem;
 use crate::trial::{BodyTrial, StepContext, Trial};
 
@@ -128,5 +131,40 @@ impl ContactKind for BodyOnSkin {
             sources.given.at_end.add(Source::Skin, force, velocity);
             sources.push_body(contact.body, arm, force);
         }
+    }
+}
+
+impl BodyOnSkin {
+    /// Keeps the grips of an accepted step, and tells where bodies press.
+    pub fn advance_friction(
+        &mut self,
+        friction: &Friction,
+        dt_s: f64,
+        grips: &mut BodyGrips,
+        contacts: &mut Vec<BodyContact>,
+    ) -> Result<(), Failed> {
+        contacts.clear();
+        self.arrays.advance(friction, dt_s)?;
+        grips.clear();
+        for (place, touch) in self.touches.iter().enumerate() {
+            grips.contacts.push(BodyGrip {
+                part: touch.part,
+                place: self.measured[touch.body].inward(touch.place),
+                normal: touch.normal,
+            });
+            self.arrays.keep(friction, place, &mut grips.floats);
+            contacts.push(BodyContact {
+                body: touch.body,
+                triangle: self.pairs[touch.pair].triangle as usize,
+                region: touch.region,
+                position: touch.place,
+                normal: touch.normal,
+                depth_m: touch.depth,
+                normal_force_n: touch.push_n,
+                friction_n: self.arrays.friction_of(place),
+                slip_m: self.arrays.slip_of(place),
+            });
+        }
+        Ok(())
     }
 }

@@ -10,7 +10,6 @@
 //! (`measure.rs`). The forces act on the body's place and rotation in the one linear system of rope and bodies (`contact/body_on_skin/kind.rs`).
 
 pub(crate) mod gather;
-mod keep;
 mod kind;
 pub(crate) mod measure;
 pub(crate) mod path;

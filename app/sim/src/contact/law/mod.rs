@@ -4,6 +4,5 @@ pub(crate) mod barrier;
 pub(crate) mod capstan_correction;
 pub(crate) mod elastic_grip;
 pub(crate) mod friction_arrays;
-pub(crate) mod friction_energy;
 pub(crate) mod patch_shares;
 pub(crate) mod skin_direction;

@@ -4,10 +4,9 @@ mod crease;
 mod kind;
 pub(crate) mod near;
 pub(crate) mod points;
-pub(crate) mod site;
 pub(crate) mod skin_friction;
 pub mod step_sums;
-mod stored_faces;
+pub(crate) mod stored_faces;
 pub(crate) mod touch;
 
 use std::sync::Arc;

@@ -1,15 +1,16 @@
-//! What contact points keep from one solver step to the next: the push on each face that they touched, and the friction law's floats.
+//! What contact points of rope on skin store from one solver step to the next: the normal force on each face, and the floats of the
+//! friction law.
 //!
-//! A face is known again by the direction of its push. Its place in the row of faces will not do: where a second wall comes near, the row
-//! shifts, and each face would take over the grip of another.
+//! A face is identified by the direction of its normal force, not by its index among the faces of the point: where a second wall comes
+//! near, the indices shift, and each face would inherit the grip of another.
+//!
+//! A *site* is the number under which a face is stored. From the highest bit down it holds the segment, the sub-segment, the contact
+//! point of the sub-segment, and the face.
 
-use std::ops::Range;
-
-use glam::DVec3;
-
-use crate::contact::rope_on_skin::site::{FACE_BITS, MOST_POINTS, PIECE_BITS};
 use crate::contact::rope_on_skin::touch::{SAME_FACE, Touch};
 use crate::state::FrictionState;
+use glam::DVec3;
+use std::ops::Range;
 
 /// Share of the greatest push on its piece from which a further contact point is opened again in the next solver step.
 const BEARING_SHARE: f64 = 0.5;
@@ -129,5 +130,28 @@ mod tests {
         let others =
             state(&[(point - (1 << FACE_BITS), DVec3::Z), (point + (1 << FACE_BITS), DVec3::Z)]);
         assert_eq!(assigned(&others, point, &[DVec3::Z]), [None]);
+    }
+}
+
+/// Bits below the segment.
+pub(crate) const SEGMENT_BITS: u32 = 20;
+/// Bits that name the face.
+pub(crate) const FACE_BITS: u32 = 2;
+/// Bits that name the contact point within its piece, and the face.
+pub(crate) const PIECE_BITS: u32 = 3 + FACE_BITS;
+/// Most contact points of a piece.
+pub(crate) const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
+
+/// The segment a site lies on.
+pub(crate) fn segment_of(site: u64) -> usize {
+    (site >> SEGMENT_BITS) as usize
+}
+
+/// A site whose segment, where it is among these, has moved by one place up or down.
+pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
+    if segments.contains(&segment_of(site)) {
+        site.wrapping_add_signed(by << SEGMENT_BITS)
+    } else {
+        site
     }
 }

@@ -10,7 +10,6 @@ mod gather;
 pub(crate) mod kind;
 mod points;
 mod ray;
-mod within;
 
 use std::ops::Range;
 

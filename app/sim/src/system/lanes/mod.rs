@@ -5,10 +5,8 @@
 //! the ends of a line's pieces are a short chain of their own (`block_tridiagonal.rs`), and the line's ends join the interface system as ever.
 //! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
 
-mod contact;
-mod input;
+mod exchange;
 mod layout;
-mod output;
 pub(crate) mod real;
 mod rows;
 pub(crate) mod space;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::broad_phase::pieces::{Piece, Pieces};
-use crate::broad_phase::reach::Reach;
+use crate::broad_phase::ropes::Reach;
 use crate::broad_phase::ropes::{Moves, Rope};
 use crate::contact::rope_on_rope::near::*;
 use crate::metrics::tests::{model, spec};

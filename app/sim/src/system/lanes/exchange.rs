@@ -1,16 +1,17 @@
-//! Copies rope into the lanes: lengths, places, the seabed, and the ends of lines.
+//! Exchange between lanes and the rest of the solver: lengths, places, the seabed, contact and the ends of lines go in; places,
+//! tensions and ends of lines come out.
 
-use glam::{DMat3, DVec3};
-
-use crate::forces::lengths::Lengths;
+use crate::forces::rope::Lengths;
 use crate::model::Model;
 use crate::same_bits::same_bits;
 use crate::state::RopeState;
 use crate::system::lanes::Lanes;
 use crate::system::lanes::layout::Piece;
+use crate::system::lanes::rows::ContactRow;
 use crate::system::lanes::rows::{GroundRow, LANES, NodeRow, SegmentRow};
 use crate::trial::Trial;
 use crate::trial::scheme::Scheme;
+use glam::{DMat3, DVec3};
 
 impl Lanes {
     /// Takes over lengths, laws and what is cut, where they are not those there are.
@@ -194,5 +195,101 @@ impl PieceRows<'_> {
             let hinges = nodes[k + 1].hinge.0[lane] + nodes[k + 2].hinge.0[lane];
             row.bending.0[lane] = hinges * row.inverse_length.0[lane] * row.inverse_length.0[lane];
         }
+    }
+}
+
+impl Lanes {
+    /// Places of all nodes.
+    pub fn give_places(&self, place: &mut [DVec3]) {
+        for piece in &self.pieces {
+            let rows = &self.nodes[self.groups[piece.group].node_row + 1..][..=piece.segments];
+            for (place, row) in place[piece.first_node..].iter_mut().zip(rows) {
+                *place = row.place.vector(piece.lane);
+            }
+        }
+    }
+
+    /// Pull at an end of a line in the last solve: direction from its first node to its second, and tension predicted [N].
+    pub fn end_pull(&self, line: usize, at_b: bool) -> (DVec3, f64) {
+        let pieces = &self.line_pieces[line];
+        let piece = &self.pieces[if at_b { pieces.end - 1 } else { pieces.start }];
+        let row = self.groups[piece.group].segment_row + if at_b { piece.segments - 1 } else { 0 };
+        (self.solved[row].direction.vector(piece.lane), self.segments[row].tension.0[piece.lane])
+    }
+
+    /// Hands the places of all line ends to the trial.
+    pub fn give_ends(&self, model: &Model, trial: &mut Trial) {
+        for (line, pieces) in self.line_pieces.iter().enumerate() {
+            let nodes = &model.line_nodes[line];
+            trial.place[nodes.start] =
+                self.node(pieces.start, 0).place.vector(self.pieces[pieces.start].lane);
+            let last = &self.pieces[pieces.end - 1];
+            trial.place[nodes.end - 1] =
+                self.node(pieces.end - 1, last.segments).place.vector(last.lane);
+        }
+    }
+
+    /// Hands the rope to the state as a step ends.
+    pub fn keep(&self, scheme: &Scheme, state: &mut RopeState) {
+        core::mem::swap(&mut state.earlier_position, &mut state.position);
+        core::mem::swap(&mut state.earlier_velocity, &mut state.velocity);
+        for piece in &self.pieces {
+            let group = &self.groups[piece.group];
+            let rows = &self.nodes[group.node_row + 1..][..=piece.segments];
+            for (row, node) in rows.iter().zip(piece.first_node..) {
+                let place = row.place.vector(piece.lane);
+                state.position[node] = place;
+                state.velocity[node] = (place - row.place_history.vector(piece.lane)) * scheme.rate;
+            }
+        }
+        self.give_tension(&mut state.tension);
+    }
+
+    /// Hands tensions over as the last solve predicted them.
+    pub fn give_tension(&self, tension: &mut [f64]) {
+        for piece in &self.pieces {
+            let rows = &self.segments[self.groups[piece.group].segment_row..][..piece.segments];
+            for (tension, row) in tension[piece.first_segment..].iter_mut().zip(rows) {
+                *tension = row.tension.0[piece.lane];
+            }
+        }
+    }
+}
+
+impl Lanes {
+    /// First node of a segment.
+    pub fn first_node_of(&self, segment: usize) -> usize {
+        let piece = &self.pieces[self.piece_of[segment]];
+        piece.first_node + segment - piece.first_segment
+    }
+
+    /// Removes all contact.
+    pub fn clear_contact(&mut self) {
+        self.contact.resize(self.nodes.len(), ContactRow::default());
+        for row in self.contact_rows.drain(..) {
+            self.contact[row] = ContactRow::default();
+        }
+        self.touches.fill(false);
+    }
+
+    /// Adds a force and its block `-dF/dx` at a fraction of a segment.
+    pub fn add_contact(&mut self, segment: usize, fraction: f64, force: DVec3, block: &DMat3) {
+        let piece = &self.pieces[self.piece_of[segment]];
+        let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
+        let (lane, first, second) = (piece.lane, 1.0 - fraction, fraction);
+        for (row, share) in [(row, first), (row + 1, second)] {
+            self.contact[row].force.add(lane, force * share);
+            self.contact[row].block.add(lane, &(*block * (share * share)));
+        }
+        self.contact[row].coupling.add(lane, &(*block * (first * second)));
+        // A row may be noted twice, which does no harm: points of neighbouring segments come one after the other, so that most rows
+        // are found among the last three.
+        for row in [row, row + 1] {
+            let last = self.contact_rows.len().saturating_sub(3);
+            if !self.contact_rows[last..].contains(&row) {
+                self.contact_rows.push(row);
+            }
+        }
+        self.touches[piece.group] = true;
     }
 }

@@ -3,16 +3,12 @@
 //! They are measured once for all that looks for rope near something: skin (`contact/near/mod.rs`), obstacles and bodies
 //! (`broad_phase/solids.rs`), other rope (`broad_phase/ropes.rs`). Wider boxes that hold for several steps bound what these look at (`held.rs`).
 
-mod held;
-
-use std::ops::Range;
-
-use glam::DVec3;
-
 use crate::model::Model;
 use crate::same_bits::same_bits;
 use crate::state::State;
 use crate::whale::Bounds;
+use glam::DVec3;
+use std::ops::Range;
 
 /// Segments in one piece.
 const IN_A_PIECE: usize = 16;
@@ -233,5 +229,36 @@ impl Both {
     fn normalized(&self) -> Self {
         let [from, end] = self.two().map(DVec3::normalize_or_zero);
         Self::of(from, end)
+    }
+}
+
+/// Steps of the present speed for which held boxes are laid out.
+const STEPS: f64 = 10.0;
+/// Least slack [m].
+const LEAST_SLACK_M: f64 = 0.04;
+/// Slack beyond which too much would be near: boxes then hold for one step alone [m].
+const MOST_SLACK_M: f64 = 0.4;
+
+impl Pieces {
+    /// Lays out the held boxes anew, about the boxes of a step that goes from one place to another.
+    #[cold]
+    pub(crate) fn hold(&mut self, from: &[DVec3], to: impl Fn(usize) -> DVec3) {
+        let moves = from.iter().enumerate().map(|(node, place)| place.distance_squared(to(node)));
+        let slack_m = STEPS * moves.fold(0.0, f64::max).sqrt();
+        let slack_m = if slack_m <= MOST_SLACK_M { slack_m.max(LEAST_SLACK_M) } else { 0.0 };
+        for piece in &mut self.pieces {
+            piece.held = piece.groups.map(|group| group.grown(slack_m));
+            piece.held_whole = piece.held.iter().fold(Bounds::EMPTY, |all, one| all.join(*one));
+        }
+        self.holding += 1;
+    }
+}
+
+impl Piece {
+    /// Whether each of its groups lies in its held box.
+    #[inline(always)]
+    pub(crate) fn is_held(&self) -> bool {
+        let pairs = self.held.iter().zip(&self.groups);
+        pairs.fold(true, |all, (held, group)| all & held.holds(group))
     }
 }
