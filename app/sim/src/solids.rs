@@ -1,9 +1,7 @@
-//! Solid things that rope meets and that are not the whale: obstacles of a scenario, and the bodies of the rig.
+//! Solids that rope touches and that are not the whale: obstacles of a scenario, and the bodies of the rig.
 //!
-//! A solid has a shape with a signed distance (`shape.rs`); a body is one solid for each of its parts. Rope touches it at its nodes and, where an
-//! edge or a shape smaller than a segment lies nearer, at up to two points within a segment (`along.rs`). Rope near
-//! solids is gathered once a step by boxes (`broad.rs`); what touches lives in a list of contact points (`workspace.rs`). The forces
-//! stand in `contact/rope_on_solid/kind.rs`. A picture asks where a ray meets a body (`ray.rs`).
+//! A solid has a shape with a signed distance (`geometry/shape.rs`); a body is one solid for each of its parts. Contact of rope on
+//! solids is in `contact/rope_on_solid`.
 
 use glam::DVec3;
 
@@ -19,10 +17,10 @@ use crate::state::{BodyState, State};
 /// known second hand; estimate).
 pub const ROPE_ON_BODY_FRICTION: f64 = 0.25;
 
-/// What carries a solid.
+/// Carrier of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Carrier {
-    /// It stands still at this pose.
+    /// It is fixed at this pose.
     World(Pose),
     /// It is a part of a body.
     Body {
@@ -52,7 +50,7 @@ impl Carrier {
 }
 
 impl Obstacle {
-    /// Where it stands.
+    /// Its pose.
     pub(crate) fn pose(&self) -> Pose {
         Pose { place: self.position_m, orientation: self.orientation }
     }
@@ -72,7 +70,7 @@ pub(crate) struct Solid {
     pub carrier: Carrier,
     pub friction: f64,
     pub stiffness_n_m2: f64,
-    /// Mass with which it answers a push at its farthest point [kg]; infinite where it stands still.
+    /// Effective mass at its farthest point [kg]; infinite if it is fixed.
     pub mass_kg: f64,
     /// Radius of a ball round its origin that holds it [m]; infinite for a plane.
     pub radius_m: f64,
@@ -147,7 +145,7 @@ pub(crate) fn lies_in_body(model: &Model, state: &State) -> bool {
     model.spec.settings.rope_on_bodies && RopeOnSolid::new(model).any_in_body(state)
 }
 
-/// The id of the obstacle that a solid is, or of the body that it is a part of, with what it is.
+/// "obstacle" or "body" with the id of the obstacle or body to which a solid belongs.
 pub(crate) fn name_of(model: &Model, solid: usize) -> String {
     let (obstacles, bodies) = (&model.spec.obstacles, &model.spec.bodies);
     match obstacles.get(solid) {

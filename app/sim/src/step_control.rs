@@ -1,6 +1,6 @@
 //! The length of a solver step of free rope, chosen by the program, and what limited it.
 //!
-//! Two errors are looked at after each step, of length `h`:
+//! Two errors are estimated after each step, of length `h`:
 //!
 //! | error | estimate |
 //! |---|---|
@@ -12,28 +12,28 @@
 //! | BDF2 | 1/3 | 1/4 |
 //! | two stages | 0.0404 | 0.0404 - 1/12 |
 //!
-//! An error of place stays where nothing drags: a swing goes on with the phase that it was given. Without water its rate is
-//! therefore bounded at any setting, and steps are taken in two stages, down to [`STAYING_S`], where BDF2 misses it.
+//! An error of place persists without drag: a swing keeps its phase error. Without water its rate is
+//! therefore bounded at any setting, and steps are taken in two stages, down to [`STAYING_S`], if BDF2 exceeds the target.
 //! Water drags, and rope forgets within a second; so it does on the seabed.
 //!
 //! With `auto_step` the rate is bounded in water too, as finely as waves along a rope need, and so is the tension.
 //! A rate and not an error in each step: waves run to and fro hundreds of times before a snap, and its peak is the sum of
-//! those that meet there. A step that misses by [`MISSED`] is taken back, with all since the last input, and made shorter.
+//! those that meet there. A step whose error is [`MISSED`] times its target is undone, with all since the last input, and made shorter.
 //! With rope near the whale the contact step holds instead: friction makes tension jump at any step.
 //! References: Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.4; Alexander 1977 (two stages).
 
 use crate::model::Model;
 use crate::state::{BodyState, LimitedBy, State};
 
-/// Error of place wanted in a second, with `auto_step` [m/s].
+/// Target of the error of place in a second, with `auto_step` [m/s].
 pub const PLACE_M_S: f64 = 1e-3;
-/// The same without water, where it stays, as far as steps of [`STAYING_S`] allow [m/s].
+/// Target without water, where the error persists, as far as steps of [`STAYING_S`] allow [m/s].
 pub const STAYING_M_S: f64 = 1e-4;
-/// Error of tension wanted in a step, as a share of the greatest tension.
+/// Target of the error of tension in a step, as a share of the greatest tension.
 pub const TENSION_SHARE: f64 = 0.02;
-/// Least error of tension that is looked at [N].
+/// Smallest target of the error of tension [N].
 pub const TENSION_N: f64 = 5.0;
-/// Shortest step chosen for accuracy [s]; what does not converge may be made shorter still.
+/// Shortest step chosen for accuracy [s]; a step that does not converge may be shorter.
 pub const SHORTEST_S: f64 = 1e-4;
 /// Step after something parted [s].
 pub const PARTED_S: f64 = 5e-4;
@@ -43,20 +43,20 @@ pub const STAYING_S: f64 = 5e-3;
 const NO_DRAG_KG_M3: f64 = 10.0;
 /// Error of place in a second of BDF2 and of a step in two stages, as a share of `h² x‴`.
 const PLACE_SHARE: [f64; 2] = [1.0 / 3.0, 0.0404];
-/// What the estimate shows of `h³ x‴` in either.
+/// Share of `h³ x‴` in the estimate, for each.
 const SHOWN_SHARE: [f64; 2] = [0.25, 1.0 / 12.0 - 0.0404];
-/// What is nearer to the seabed than this may touch it [m].
+/// Rope and feet closer to the seabed than this may touch it [m].
 const NEAR_GROUND_M: f64 = 0.05;
-/// Least third derivative that is looked at [m/s³].
+/// Smallest third derivative [m/s³].
 const LEAST_JERK_M_S3: f64 = 1e-9;
-/// Aim a little below what is wanted.
+/// Safety factor on the step length.
 const SAFETY: f64 = 0.9;
 const LEAST_FACTOR: f64 = 0.2;
-/// Below the growth at which the multistep scheme starts anew.
+/// Below the growth at which the multistep scheme restarts.
 const GREATEST_FACTOR: f64 = 1.8;
-/// Times the wanted error at which a step is taken back.
+/// Ratio of error to target at which a step is undone.
 const MISSED: f64 = 3.0;
-/// Steps in two stages go on until BDF2 would keep the wanted error this many times as long.
+/// Steps in two stages are used until BDF2 would reach the target with a step this many times as long.
 const SURELY: f64 = 1.2;
 
 /// A step of free rope that was taken.
@@ -81,7 +81,7 @@ fn errors_stay(model: &Model) -> bool {
     model.spec.water.density_kg_m3 < NO_DRAG_KG_M3
 }
 
-/// Chooses the next step from the one just taken; whether that one missed and should be taken back.
+/// Chooses the next step from the one just taken; returns whether that one should be undone.
 pub(crate) fn choose(model: &Model, state: &mut State, taken: Taken) -> bool {
     let settings = &model.spec.settings;
     let longest = settings.step_s;
@@ -130,14 +130,14 @@ fn is_on_ground(model: &Model, state: &State) -> bool {
         .any(|place| seabed.depth_of(place) > -NEAR_GROUND_M)
 }
 
-/// Lengths of steps with the wanted error of place, by how they are taken [s].
+/// Lengths of steps with the target error of place, by scheme [s].
 #[derive(Clone, Copy, Debug)]
 struct Lengths {
     multistep: f64,
     in_two_stages: f64,
 }
 
-/// The longest steps with the wanted error of place, for motion with this third derivative.
+/// The longest steps with the target error of place, for motion with this third derivative.
 fn lengths(model: &Model, jerk: f64) -> Lengths {
     let settings = &model.spec.settings;
     let length = |rate: f64, share: f64| (rate / (share * jerk)).sqrt();
@@ -174,7 +174,7 @@ fn jerk(model: &Model, state: &State, Taken { dt, in_two_stages, .. }: Taken) ->
     (greatest / (SHOWN_SHARE[usize::from(in_two_stages)] * dt * dt * dt)).max(LEAST_JERK_M_S3)
 }
 
-/// Greatest error of a line's tension, as a share of what is wanted; takes the line's tensions down.
+/// Greatest error of a line's tension, as a share of its target; stores the tensions of lines.
 fn tension_error(model: &Model, state: &mut State, Taken { dt, earlier_dt, .. }: Taken) -> f64 {
     let State { rope, step_control: control, .. } = state;
     let ratio = if earlier_dt > 0.0 { dt / earlier_dt } else { 0.0 };

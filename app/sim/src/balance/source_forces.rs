@@ -1,7 +1,7 @@
 //! Forces of each source on rope and bodies in a solver step that is solved (see `balance/mod.rs`).
 //!
 //! Forces come from the laws that the solver uses, at the places where the step ends; only tension is the one that was solved for.
-//! With `f` the sum of all forces on the end of a line, inertia among them, what holds the end exerts `-f`: a fixture, the whale or a
+//! With `f` the sum of all forces on the end of a line, inertia included, the holder of the end exerts `-f`: a fixture, the whale or a
 //! held body. The scratch of the linear system serves for the sums: forces on nodes, and on free joints and bodies.
 
 use glam::{DMat3, DVec3};
@@ -162,7 +162,7 @@ impl SourceForces<'_> {
         }
     }
 
-    /// What axial damping takes: with strain `ε` and its rate `ε̇`, solved tension `T` and length `l`, `-(T - T_e) ε̇ l` of every segment,
+    /// Dissipation of axial damping: with strain `ε` and its rate `ε̇`, solved tension `T` and length `l`, `-(T - T_e) ε̇ l` of every segment,
     /// where `T_e = T(max(ε, 0), 0)` is the tension that goes into stretch.
     fn add_damping(&mut self) {
         for (segment, node) in self.plan.segment_node.iter().copied().enumerate() {
@@ -224,7 +224,7 @@ impl SourceForces<'_> {
         [self.system.interface.force[block], self.system.interface.force[block + 1]]
     }
 
-    /// What holds or pulls the ends of lines and the bodies that are held.
+    /// Forces that hold or pull the ends of lines, and that hold bodies.
     fn add_ends(&mut self) {
         let model = self.context.model;
         for (index, line) in model.spec.lines.iter().enumerate() {
@@ -259,7 +259,7 @@ impl SourceForces<'_> {
         }
     }
 
-    /// Steady forces on free ends, and what holds such an end until its force sets in.
+    /// Constant forces on free ends, and the force that holds such an end until its force begins.
     fn add_pulled(&mut self) {
         for (index, joint) in self.context.model.spec.joints.iter().enumerate() {
             let (JointKind::Pulled { force_n, .. }, Attachment::Free(block)) =

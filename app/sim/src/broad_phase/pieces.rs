@@ -1,7 +1,13 @@
-//! Rope in pieces of sixteen segments, in groups of four: a box around the move of each over a step, and whether a piece runs straight.
+//! Rope in pieces of sixteen segments, in groups of four: a box around the path of each over a step, and whether a piece is straight.
 //!
-//! They are measured once for all that looks for rope near something: skin (`contact/near/mod.rs`), obstacles and bodies
-//! (`broad_phase/solids.rs`), other rope (`broad_phase/ropes.rs`). Wider boxes that hold for several steps bound what these look at (`held.rs`).
+//! They are measured once for all searches: skin (`contact/rope_on_skin/near`), obstacles and bodies (`broad_phase/solids.rs`), other rope
+//! (`broad_phase/ropes.rs`).
+//!
+//! *Held boxes* are the boxes of groups grown by a slack; they hold for several steps. A search among held boxes gives a list of
+//! neighbours (Verlet 1967, Physical Review 159, 98). As long as each group is in its held box, every two boxes that meet belong to held
+//! boxes that meet: `A ⊆ A'` and `B ⊆ B'`, so `A ∩ B ⊆ A' ∩ B'`, also for boxes grown by a margin, since rounding preserves the order of
+//! numbers. The list therefore omits nothing, and the boxes of the step remove what is too much: the result does not depend on the age
+//! of the list.
 
 use crate::model::Model;
 use crate::same_bits::same_bits;
@@ -20,7 +26,7 @@ pub(crate) const GROUPS: usize = IN_A_PIECE / IN_A_GROUP;
 /// stay within 60° of one direction.
 const STRAIGHT: f64 = 0.766;
 
-/// Share of a step by which the length of another may differ that is the same but for rounding.
+/// Relative difference of two step lengths that is rounding.
 const SAME_STEP: f64 = 1e-9;
 
 /// Segments in a row of one line.
@@ -35,7 +41,7 @@ pub(crate) struct Piece {
     /// Wider boxes that those lie in for some steps, and a box around all of these.
     pub held: [Bounds; GROUPS],
     pub held_whole: Bounds,
-    /// Whether each of its segments goes on along one direction.
+    /// Whether all of its segments advance along one direction.
     pub is_straight: bool,
     /// Direction from its first node to its last, at the start and at the end of the step.
     directions: [DVec3; 2],
@@ -47,9 +53,9 @@ pub(crate) struct Pieces {
     pub pieces: Vec<Piece>,
     /// Pieces of each line, with a box around all of it.
     pub lines: Vec<(Range<usize>, Bounds)>,
-    /// Whether anybody asks for them.
+    /// Whether any search uses them.
     wanted: bool,
-    /// Whether anybody asks for the boxes that hold for several steps, and how often these have been laid out anew.
+    /// Whether any search uses held boxes, and the number of times these have been laid out.
     holds: bool,
     pub holding: u64,
     /// Unstretched lengths of the segments, and how often these have changed [m].
@@ -92,7 +98,7 @@ impl Pieces {
         all
     }
 
-    /// Measures rope that goes from one place to another in a step, its segments of these unstretched lengths, where anybody asks for it.
+    /// Measures rope that goes from one place to another in a step, its segments of these unstretched lengths, if any search uses them.
     pub fn measure(&mut self, from: &[DVec3], to: impl Fn(usize) -> DVec3, lengths: &[f64]) {
         self.measured = None;
         if !self.wanted {
@@ -113,7 +119,7 @@ impl Pieces {
         }
     }
 
-    /// Takes over the lengths of segments, where they are not those there are.
+    /// Copies the lengths of segments, if they have changed.
     fn take_lengths(&mut self, lengths: &[f64]) {
         if self.holds && !same_bits(&self.lengths, lengths) {
             self.lengths.clear();
@@ -122,7 +128,7 @@ impl Pieces {
         }
     }
 
-    /// Measures rope over a step of length `dt` in which it goes on as it moves, or leaves what was measured of that step before.
+    /// Measures rope over a step of length `dt` in which it keeps its velocities, unless that step was measured already.
     #[expect(clippy::float_cmp, reason = "the same time, to the bit, is that of the same state")]
     pub fn measure_drift(&mut self, state: &State, dt: f64) {
         let is_same = |[time_s, length_s]: [f64; 2]| {
@@ -240,7 +246,7 @@ const LEAST_SLACK_M: f64 = 0.04;
 const MOST_SLACK_M: f64 = 0.4;
 
 impl Pieces {
-    /// Lays out the held boxes anew, about the boxes of a step that goes from one place to another.
+    /// Lays out the held boxes around the boxes of a step.
     #[cold]
     pub(crate) fn hold(&mut self, from: &[DVec3], to: impl Fn(usize) -> DVec3) {
         let moves = from.iter().enumerate().map(|(node, place)| place.distance_squared(to(node)));

@@ -15,7 +15,7 @@ use crate::whale::Bounds;
 /// Pieces that are usually near a piece, itself included.
 const USUAL_PIECES: usize = 6;
 
-/// What rounding may take the middle of a knot out of the box of its segment [m].
+/// Margin for rounding of the middle of a knot in the box of its segment [m].
 const ROUNDING_M: f64 = 1e-9;
 
 /// Two groups of rope.
@@ -27,7 +27,7 @@ pub(crate) struct NearGroups {
     pub may: [[bool; IN_A_GROUP]; IN_A_GROUP],
 }
 
-/// Most pairs of groups that are listed, for about 100 MB: a hundred times what the shipped scenarios have.
+/// Largest number of pairs of groups, about 100 MB: a hundred times that of the shipped scenarios.
 const MOST_GROUPS: usize = 1_000_000;
 
 /// A knot and a group of rope.
@@ -44,7 +44,7 @@ pub(crate) struct NearKnot {
 /// How two pieces lie on rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Are {
-    /// They are the same.
+    /// Both are one piece.
     One,
     /// One follows the other.
     InARow,
@@ -52,7 +52,7 @@ pub(crate) enum Are {
     Apart,
 }
 
-/// Two pieces, or one twice, and what may be near each other in them.
+/// Two pieces, or one twice, and the groups in them that may be near each other.
 #[derive(Clone, Debug)]
 pub(crate) struct NearPieces {
     pub pieces: [usize; 2],
@@ -68,7 +68,7 @@ pub(crate) type MayTouch<'a> = &'a dyn Fn([usize; 2], Option<usize>) -> bool;
 /// The list, for one layout of held boxes and one reach.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Neighbours {
-    /// Of which layout of held boxes, and for what reach; of none at first.
+    /// Number of the layout of held boxes, and the reach, for which the list holds.
     of: Option<(u64, Reach)>,
     order: Vec<usize>,
     pub pieces: Vec<NearPieces>,
@@ -79,12 +79,12 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Drops the list: what may touch has changed.
+    /// Discards the list, because the pairs that may touch have changed.
     pub fn forget(&mut self) {
         self.of = None;
     }
 
-    /// Makes the list anew where it is not that of these held boxes and this reach.
+    /// Builds the list, if it does not hold for these held boxes and this reach.
     pub fn update(&mut self, all: &Pieces, knots: &[Ball], reach: Reach, may_touch: MayTouch<'_>) {
         if self.of == Some((all.holding, reach)) {
             return;
@@ -114,7 +114,7 @@ impl Neighbours {
         }
     }
 
-    /// Empties the list, with room for what rope usually has near it, so that it does not grow as rope goes about.
+    /// Empties the list, with a capacity that rarely grows.
     fn clear(&mut self, pieces: usize, knots: usize) {
         self.crowded = false;
         self.pieces.clear();

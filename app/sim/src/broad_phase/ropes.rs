@@ -1,9 +1,9 @@
-//! Which segments of rope may come near each other in a step, and which knots may come near segments: boxes of segments and knots that
-//! meet, among the neighbours that a list keeps for several steps (`neighbours.rs`).
+//! Pairs of segments of rope, and of knots and segments, that may come near each other in a step: those whose boxes meet, among the
+//! neighbours of a list that holds for several steps (`rope_neighbours.rs`).
 //!
-//! A piece whose segments all run on along one direction cannot come back to itself: where each goes at least `c l` along it,
-//! two of its points lie at least `c` times the rope between them apart. Both ends of a step are looked at; what is between is
-//! a mean of the two, and so as straight. Two pieces in a row need directions that agree too.
+//! A piece whose segments all advance along one direction cannot return to itself: if each advances by at least `c l`,
+//! two of its points are at least `c` times the rope between them apart. This is tested at both ends of a step; any moment between is
+//! a mean of the two, and so as straight. Two consecutive pieces need directions that agree too.
 
 use crate::broad_phase::knots::Ball;
 use crate::broad_phase::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
@@ -13,7 +13,7 @@ use crate::broad_phase::rope_neighbours::{
 use crate::whale::Bounds;
 use glam::DVec3;
 
-/// The search, with the list that it keeps from step to step.
+/// The search, with its list of neighbours.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Broad {
     neighbours: Neighbours,
@@ -27,7 +27,7 @@ pub(crate) struct Moves<'a, F: Fn(usize) -> DVec3> {
     pub to: F,
 }
 
-/// What may come near each other.
+/// Pairs that may come near each other.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Found {
     /// Pairs of segments, the first below the second, in rising order.
@@ -38,7 +38,7 @@ pub(crate) struct Found {
     pub crowded: bool,
 }
 
-/// Most pairs of segments that are listed: a hundred times what the shipped scenarios have.
+/// Largest number of pairs of segments: a hundred times that of the shipped scenarios.
 const MOST_PAIRS: usize = 500_000;
 
 /// Rope in which to search.
@@ -48,17 +48,17 @@ pub(crate) struct Rope<'a> {
     pub pieces: &'a Pieces,
     /// Its knots, in rising order of segment.
     pub knots: &'a [Ball],
-    /// What of it may touch at all; asked for pieces that do not follow each other.
+    /// Which pairs may touch at all; called for pieces that are not consecutive.
     pub may_touch: MayTouch<'a>,
 }
 
 impl Broad {
-    /// Drops what is kept from step to step: what may touch at all has changed.
+    /// Discards the list, because the pairs that may touch at all have changed.
     pub fn forget(&mut self) {
         self.neighbours.forget();
     }
 
-    /// Collects what comes within reach in the step by its boxes, which is nowhere more than the farthest.
+    /// Collects the pairs whose boxes come within `reach` in the step, which is at most the reach of the list.
     pub fn collect(
         &mut self,
         rope: Rope<'_>,
@@ -99,7 +99,7 @@ impl Broad {
     }
 }
 
-/// The boxes around the ways of a piece's segments, as far as they have been asked for.
+/// The boxes around the paths of the segments of a piece, as far as they have been computed.
 struct SegmentBoxes {
     boxes: [[Bounds; IN_A_GROUP]; GROUPS],
     known: [bool; GROUPS],
@@ -159,7 +159,7 @@ impl<F: Fn(usize) -> DVec3> Step<'_, F> {
         *self.boxes[side].of(self.pieces[side], group, self.moves)
     }
 
-    /// Adds the pairs of their segments that come within reach.
+    /// Adds the pairs of segments that come within reach.
     fn pairs(&mut self, found: &mut Vec<[usize; 2]>) {
         let (list, reach, [one, other]) = (self.list, self.reach, self.pieces);
         for NearGroups { groups: [first, second], may } in &list.groups[self.near.groups.clone()] {
@@ -179,7 +179,7 @@ impl<F: Fn(usize) -> DVec3> Step<'_, F> {
         }
     }
 
-    /// Adds the pairs of a knot and a segment of theirs that come within reach.
+    /// Adds the pairs of a knot and a segment that come within reach.
     fn knots(&mut self, knots: &[Ball], found: &mut Vec<[usize; 2]>) {
         let list = self.list;
         for NearKnot { knot, side, group, may } in &list.knots[self.near.knots.clone()] {
@@ -200,7 +200,7 @@ impl<F: Fn(usize) -> DVec3> Step<'_, F> {
     }
 }
 
-/// How far apart things are looked for [m].
+/// Distances within which pairs are searched for [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
     /// Segments.
@@ -216,7 +216,7 @@ impl Reach {
         bounds.grown(0.5 * self.ropes_m)
     }
 
-    /// The greater of the two, with a little for what rounding may take [m].
+    /// The greater of the two, with a margin for rounding [m].
     pub fn farthest_m(&self) -> f64 {
         self.ropes_m.max(self.knots_m) + 2e-9
     }

@@ -9,13 +9,13 @@ use crate::geometry::Pose;
 use crate::solids::Solid;
 use crate::whale::Bounds;
 
-/// Groups of rope for each solid that a list has room for from the start, so that it does not grow as rope goes about.
+/// Initial capacity of the list in groups of rope for each solid, so that it rarely grows.
 const USUAL_GROUPS: usize = 32;
 
 /// Slack of a solid's box [m].
 const SLACK_M: f64 = 0.04;
 
-/// What rounding may take from the distance of a box from a plane [m].
+/// Margin for rounding in the distance of a box from a plane [m].
 const ROUNDING_M: f64 = 1e-9;
 
 /// A group of segments near a solid.
@@ -29,7 +29,7 @@ pub(crate) struct NearGroup {
 /// The list, for one layout of held boxes and one distance.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Neighbours {
-    /// Of which layout of held boxes, and for what distance; of none at first.
+    /// Number of the layout of held boxes, and the distance, for which the list holds.
     of: Option<(u64, f64)>,
     /// Boxes in which the ways of solids' origins lie.
     held: Vec<Bounds>,
@@ -37,7 +37,7 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Makes the list anew where it is not that of these held boxes, of solids that go from one pose to another, and of this distance.
+    /// Builds the list, if it does not hold for these held boxes, paths of solids and distance.
     pub fn update(
         &mut self,
         all: &Pieces,
@@ -167,7 +167,7 @@ mod tests {
         shapes.map(|shape| Solid::of_obstacle(&obstacle(shape))).into()
     }
 
-    /// Rope and solids wander, now slowly, now fast; every group of every piece is looked at one by one.
+    /// Rope and solids wander, now slowly, now fast; every group of every piece is tested one by one.
     #[test]
     fn a_kept_list_finds_all_groups_that_come_near() {
         let mut spec = spec(vec![0.1; 70]);
@@ -183,7 +183,7 @@ mod tests {
         ];
         for step in 0..400_u64 {
             let pace_m = [0.001, 0.01, 0.2][(step / 30 % 3) as usize];
-            // What strays is drawn back to where it was.
+            // Rope that strays is drawn back.
             let home = |node: usize| DVec3::X * 0.1 * node as f64;
             let moves: Vec<DVec3> = (0..71)
                 .map(|node| {

@@ -2,7 +2,7 @@
 //!
 //! Newton and Euler about the centre of mass, in the world frame:
 //! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
-//! Floats lift by what they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
+//! Floats lift by the water they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
 //! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
 //! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
 //! Place and rotation (`rotation.rs`) follow the step's scheme. Rope ends pull on the body inside the same linear solve (`interface.rs`).
@@ -20,7 +20,7 @@ use crate::trial::rotation::momentum_rate;
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
 
-/// Stiffness that keeps a held body where it is.
+/// Stiffness that holds a body in place.
 pub(crate) const HELD: f64 = 1e30;
 
 /// A body as its forces read it.
@@ -72,7 +72,7 @@ impl Forces {
         self.water.add_body_push(model, &at, wet, system);
     }
 
-    /// Buoyancy and drag of a body's floats; gives the wet shares of its volume, for added mass, and of the area that
+    /// Adds buoyancy and drag of a body's floats; returns the wet shares of its volume, for added mass, and of the area that
     /// faces the flow, for drag as a whole.
     fn add_floats(
         &self,
@@ -94,7 +94,7 @@ impl Forces {
         if body.wetted_drag && whole > 0.0 { [wet / whole, facing / whole] } else { [1.0; 2] }
     }
 
-    /// Buoyancy of a float; gives how much of it is under water.
+    /// Adds the buoyancy of a float; returns how much of it is under water.
     fn add_float(
         &self,
         model: &Model,
@@ -124,7 +124,7 @@ impl Forces {
         wet
     }
 
-    /// Drag of a part of a body, its coefficient times area given by body axis, at a place in the body's frame.
+    /// Adds the drag of a part of a body at a place in the body's frame; `area` is coefficient times area by body axis.
     fn add_part_drag(
         &self,
         model: &Model,
@@ -193,7 +193,7 @@ fn add_body_inertia(
     }
 }
 
-/// Drag that a body's turning meets besides that of its parts.
+/// Adds the drag on a body's rotation besides that of its parts.
 fn add_turn_drag(
     model: &Model,
     at: &BodyAt<'_>,
@@ -221,8 +221,8 @@ pub(crate) fn inertial(trial: &BodyTrial, scheme: &Scheme, mass: DMat3) -> DVec3
     mass * ((velocity - trial.velocity_history) * scheme.rate)
 }
 
-/// How stiffly a force at the end of an arm keeps the arm turned: the part of its derivative that
-/// is never negative, so that the matrix stays definite while a body capsizes.
+/// Turning stiffness of a force at the end of an arm: the part of its derivative that is never negative, so that the matrix stays
+/// definite while a body capsizes.
 pub(crate) fn turn_stiffness(arm: DVec3, force: DVec3) -> DMat3 {
     let square = arm.length_squared();
     if square < 1e-18 {

@@ -19,7 +19,7 @@ use crate::system::lanes::space::{Sym3, Vec3};
 use crate::trial::scheme::Scheme;
 use crate::water::Water;
 
-/// Height over which a node goes from wet to dry at the surface [m].
+/// Height over which a node changes from wet to dry at the surface [m].
 pub(crate) const SURFACE_HEIGHT_M: f64 = 0.1;
 /// Least chord or speed that is divided by.
 const TINY: f64 = 1e-12;
@@ -65,7 +65,7 @@ impl PerMetre<f64> {
     }
 }
 
-/// What all nodes of a step share.
+/// Constants of all nodes in a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<R> {
     /// `1/h` of the scheme [1/s].
@@ -76,7 +76,7 @@ pub(crate) struct Shared<R> {
     pub wet: R,
     /// [1/m].
     pub drying: R,
-    /// Whether the drag along some rope has a viscous share; spares the root where none has.
+    /// Whether the drag along some rope has a viscous share; the square root is skipped if not.
     pub viscous: bool,
 }
 
@@ -98,7 +98,7 @@ impl<R: Real> Shared<R> {
     }
 }
 
-/// A node where the trial stands.
+/// A node at the trial.
 #[derive(Clone, Copy)]
 pub(crate) struct NodeAt<R> {
     pub place: Vec3<R>,
@@ -163,10 +163,10 @@ pub(crate) fn node<R: Real>(
     (force, Sym3 { zz: block.zz + fading, ..block })
 }
 
-/// A segment where the trial stands.
+/// A segment at the trial.
 #[derive(Clone, Copy)]
 pub(crate) struct SegmentAt<R> {
-    /// From its first node to its second, and the same of `x̂`.
+    /// From its first node to its second, and the history `x̂` of this vector.
     pub between: Vec3<R>,
     pub history: Vec3<R>,
     /// Unstretched length and its inverse.

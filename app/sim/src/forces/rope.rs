@@ -60,7 +60,7 @@ impl Forces {
         }
     }
 
-    /// Adds the pull back to where an anchored pass of statics began, by pseudo-mass per metre [kg/m/s²].
+    /// Adds the force back to where an anchored iteration of statics began, by pseudo-mass per metre [kg/m/s²].
     fn add_anchors(
         &self,
         trial: &Trial,
@@ -89,7 +89,7 @@ impl Forces {
         }
     }
 
-    /// Adds the change of a node's drag at rest as its neighbours turn it.
+    /// Adds the derivative of a node's drag at rest by the places of its neighbours.
     fn add_drag_turn(
         &self,
         trial: &Trial,
@@ -171,7 +171,7 @@ impl Forces {
         }
     }
 
-    /// Adds the pull of a segment and its block, or takes them away with a sign below zero.
+    /// Adds the pull of a segment and its block; subtracts them if `sign` is negative.
     fn add_pull(&self, system: &mut LinearSystem, segment: usize, node: usize, sign: f64) {
         let Pull { direction, tension, stiffness, across, .. } = self.pull[segment];
         let force = direction * (sign * tension);
@@ -185,7 +185,7 @@ impl Forces {
         system.rope.low[segment] -= block;
     }
 
-    /// After a solve: lets those segments pull, and those alone, that are taut by the linear solution; how many that changes.
+    /// After a solution: makes exactly the segments pull that are taut by the linear solution; returns how many changed.
     pub(crate) fn change_taut(
         &mut self,
         model: &Model,
@@ -263,7 +263,7 @@ impl Forces {
         forces::pull(&at, scheme.rate)
     }
 
-    /// After a solve: the tension each segment will have by the linear solution.
+    /// After a solution: sets the tension of each segment to that of the linear solution.
     pub(crate) fn predict_tension(
         &self,
         model: &Model,
@@ -290,7 +290,7 @@ pub(crate) struct Pull {
     pub stiffness: f64,
     /// Stiffness across: predicted tension over length [N/m].
     pub across: f64,
-    /// Whether the last solve let it pull.
+    /// Whether it pulls in the last solution.
     pub taut: bool,
 }
 
@@ -439,14 +439,14 @@ pub(crate) struct Lengths {
     pub segment: Vec<f64>,
     /// Length of the shortest segment [m].
     pub shortest: f64,
-    /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
+    /// Unstretched length assigned to each node: half of its segments in the same line [m].
     pub node: Vec<f64>,
     /// Axial law of each segment.
     pub axial: Vec<Axial>,
 }
 
 impl Lengths {
-    /// Takes over the lengths of a state, where they are not those there are.
+    /// Copies the lengths of a state, if they have changed.
     pub fn take(&mut self, model: &Model, segment_length: &[f64]) {
         if self.shortest > 0.0 && same_bits(&self.segment, segment_length) {
             return;

@@ -1,9 +1,10 @@
 //! The seabed under rope nodes and the feet of bodies.
 //!
 //! Depth `p` below the plane, stiffness `k`: `N = k p²/2e` for `0 < p < e`, `N = k (p - e/2)` beyond
-//! (smooth onset over `e`). A foot is a point of the body, or a ball about it, whose lowest place touches: it sinks by how the ball's middle moves, and
-//! grips by how the body's own point moves that touches as the step ends, so that a ball rolls. Friction is an elastic grip (`elastic_grip.rs`). A body's foot starts at `μ_start` and slides at `μ_slide`
-//! until it stands still again; lifted, it is held back until it has broken out (`suction.rs`).
+//! (smooth onset over `e`). A foot is a point of the body, or a ball whose lowest place touches. The ball sinks by the move of its
+//! middle, and grips by the move of the point of the body that touches as the step ends, so that a ball rolls.
+//! Friction is an elastic grip (`contact/law/elastic_grip.rs`). The foot of a body starts to slide at `μ_start` and slides at `μ_slide`
+//! until it is at rest again; lifted, it is held back until it has broken out (`suction.rs`).
 
 use glam::{DQuat, DVec3};
 
@@ -19,9 +20,9 @@ use crate::trial::plan::Plan;
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
 
-/// Depth over which the seabed's push sets in [m].
+/// Depth of the onset of the seabed's normal force [m].
 const ONSET_M: f64 = 0.01;
-/// Speed below which a sliding foot takes hold again [m/s].
+/// Speed below which a sliding foot grips again [m/s].
 const HOLD_SPEED_M_S: f64 = 1e-3;
 /// Pseudo-mass of statics at which half of a grip's yielding is trusted [1/s²].
 const TRUSTED_MASS: f64 = 0.01;
@@ -135,7 +136,7 @@ impl Forces {
         Some((push_at(depth, stiffness), grip))
     }
 
-    /// Longest solved move of a body that stands on the seabed, and whose feet may then bear or hold otherwise than was solved for [m].
+    /// Longest solved move of a body on the seabed, whose feet may then bear or grip differently than in the solution [m].
     pub(crate) fn longest_of_standing(
         model: &Model,
         plan: &Plan,
@@ -215,7 +216,7 @@ impl Forces {
         }
     }
 
-    /// Moves the grips of rope and feet on; called while `state` still holds the places of the step's begin.
+    /// Updates the grips of rope and feet; `state` still holds the places at the start of the step.
     pub(crate) fn keep_grips(
         &self,
         model: &Model,
@@ -237,7 +238,7 @@ impl Forces {
         keep_feet(model, scheme, trial, state);
     }
 
-    /// Moves the grips of feet on and clears those of rope, where no rope is near the seabed.
+    /// Updates the grips of feet and clears those of rope, if no rope is near the seabed.
     pub(crate) fn keep_grips_free(
         model: &Model,
         scheme: &Scheme,
@@ -313,18 +314,18 @@ fn rope_grip(
     Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
 }
 
-/// How far statics trusts a grip to yield as it slips: little while passes are rough, wholly at the end.
+/// Share of the yielding of a slipping grip that the block of statics holds: small in rough iterations, one at the end.
 fn trust(scheme: &Scheme) -> f64 {
     if scheme.anchored { 1.0 } else { 1.0 / (1.0 + scheme.inertia / TRUSTED_MASS) }
 }
 
-/// Whether the seabed grips a node that lies on it: in statics only one that lay on it before, for where another
-/// first touched is not known.
+/// Whether the seabed grips a node on it: in statics only one that was on it before, because the point of first contact of others
+/// is unknown.
 fn grips_rope(seabed: &Seabed, state: &State, node: usize, scheme: &Scheme) -> bool {
     !scheme.is_static() || seabed.depth_of(state.rope.position[node]) > 0.0
 }
 
-/// Friction of a foot that moved from one place to another: it starts to slide at one coefficient and slides on at another.
+/// Friction of a foot that moved from one place to another: it starts to slide at one coefficient and slides at another.
 fn foot_grip(
     seabed: &Seabed,
     state: &State,

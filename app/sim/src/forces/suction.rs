@@ -1,17 +1,17 @@
-//! Break-out: what the seabed holds a foot back with that has rested on it and is lifted.
+//! Break-out: the force with which the seabed holds back a foot that has rested on it and is lifted.
 //!
-//! With `d` the height of the foot above the bed and `λ` the greatest since it last set, the pull is
-//! `F(d) = d E(λ)/λ`, `E` rising in proportion to the break-out force at 5 mm and falling to nothing at 30 mm: lifted
-//! further it comes loose for good, lowered again it follows the straight line back to zero. The way up costs at least what
-//! the way down gives, so that no energy is gained. On the bed `λ` falls back to zero within a minute: the foot sets again.
-//! In statics feet set at once and nothing holds them back. The force is a figure of the item, the lengths and the time are
+//! With `d` the height of the foot above the bed and `λ` the greatest height since it last set, the force is
+//! `F(d) = d E(λ)/λ`. `E` rises in proportion to the break-out force up to 5 mm and falls to zero at 30 mm: beyond, the foot is loose;
+//! lowered before, it follows the straight line back to zero. Lifting takes at least the work that lowering returns, so that no energy
+//! is gained. On the bed `λ` returns to zero within a minute: the foot sets again.
+//! In statics feet set at once and nothing holds them back. The force is a figure of the item; the lengths and the time are
 //! estimates; the shape is that of cohesive zones (Alfano and Crisfield 2001, doi:10.1002/nme.93).
 
 use crate::trial::scheme::Scheme;
 
 /// Lift at which the pull is greatest [m].
 const PEAK_M: f64 = 0.005;
-/// Lift at which a foot has come loose [m].
+/// Lift at which a foot is loose [m].
 pub(crate) const LOOSE_M: f64 = 0.03;
 /// Time in which a loose foot sets again on the bed [s].
 const SETTING_S: f64 = 60.0;
@@ -27,7 +27,7 @@ pub(crate) fn pull(break_out_n: f64, lift_m: f64, before_m: f64) -> (f64, f64) {
     (stiffness * lift_m, stiffness)
 }
 
-/// The greatest lift to go on with, after a step that ends at a lift.
+/// The greatest lift after a step that ends at a lift.
 pub(crate) fn keep(lift_m: f64, before_m: f64, scheme: &Scheme) -> f64 {
     match (lift_m > 0.0, scheme.is_static()) {
         (true, true) => LOOSE_M,

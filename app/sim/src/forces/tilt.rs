@@ -1,10 +1,9 @@
-//! How the water's forces on a body change as it moves and turns, as statics needs them to end quickly.
+//! Derivatives of the water's forces on a body, with which statics converges quickly.
 //!
 //! Near its balance a body's forces and torques `f(x, q)` are differentiated as they are: floats and drag by central
-//! differences of six small moves `δ`, `∂f/∂x_k ≈ (f(x + δ e_k) - f(x - δ e_k))/2δ`, turns about the world's axes likewise;
-//! a force `F` at the end of an arm `a` that turns with the body has `-∂(a × F)/∂θ = (a·F) 1 - a Fᵀ`. The matrix that keeps
-//! definite while a body capsizes (`body.rs`) leaves out what of this is not symmetric, and a tilted buoy then took a
-//! hundred passes to find its tilt.
+//! differences of six small moves `δ`, `∂f/∂x_k ≈ (f(x + δ e_k) - f(x - δ e_k))/2δ`, rotations about the world's axes likewise;
+//! a force `F` at the end of an arm `a` that turns with the body has `-∂(a × F)/∂θ = (a·F) 1 - a Fᵀ`. The matrix that stays
+//! definite while a body capsizes (`body.rs`) omits the part that is not symmetric; with it a tilted buoy takes a hundred iterations.
 
 use glam::{DMat3, DQuat, DVec3};
 

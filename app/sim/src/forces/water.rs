@@ -1,9 +1,9 @@
-//! The water at nodes and bodies, and what its acceleration does to them.
+//! The water at nodes and bodies, and the forces of its acceleration.
 //!
-//! Measured once a step, where the step's first guess stands, for the step's end. With acceleration `a` of the water:
+//! Evaluated once a step at the predictor, for the end of the step. With acceleration `a` of the water:
 //! rope node `F = L [ρ A_m a + ρ (π d²/4)(C_a (I - t tᵀ) + C_at t tᵀ) a]`, body `F = (ρ V_wet + A) a`: the pressure gradient that drives
-//! the water (Froude and Krylov) and the added mass against it (Morison); buoyancy reckoned from the wave's own surface
-//! is the rest of the pressure. Without waves, and before they begin, none of this costs anything.
+//! the water (Froude and Krylov) and the added mass against it (Morison). Buoyancy from the surface of the wave is the rest of the
+//! pressure. Without waves, and before they begin, none of this is computed.
 //! Reference: Morison et al. 1950 (doi:10.2118/950149-G); Sumer and Fredsøe 2006, section 4.1.
 
 use glam::DVec3;
@@ -40,7 +40,7 @@ impl WaterAtGear {
         Self { flow: vec![DVec3::ZERO; nodes], ..Self::default() }
     }
 
-    /// Takes the water's velocity, acceleration and surface at every node and body where the trial stands.
+    /// Evaluates velocity, acceleration and surface of the water at every node and body of the trial.
     pub(crate) fn measure_flow(&mut self, model: &Model, trial: &Trial) {
         let (sea, time_s) = (&model.sea, trial.time);
         sea.current_at(&trial.place, time_s, &mut self.flow);
@@ -59,7 +59,7 @@ impl WaterAtGear {
         self.surface.get(node).copied().unwrap_or(0.0)
     }
 
-    /// Takes the push of accelerating water on every node, as the step begins.
+    /// Evaluates the force of accelerating water on every node, at the start of the step.
     pub(crate) fn measure_push(&mut self, context: &StepContext<'_>, lengths: &Lengths) {
         let StepContext { model, state, scheme } = *context;
         self.push.clear();
@@ -84,14 +84,14 @@ impl WaterAtGear {
         }
     }
 
-    /// Adds the push of accelerating water on rope.
+    /// Adds the force of accelerating water on rope.
     pub(crate) fn add_push(&self, system: &mut LinearSystem) {
         for (force, push) in system.rope.force.iter_mut().zip(&self.push) {
             *force += *push;
         }
     }
 
-    /// Adds the push of accelerating water on a body of a wet share.
+    /// Adds the force of accelerating water on a body with this wet share.
     pub(crate) fn add_body_push(
         &self,
         model: &Model,

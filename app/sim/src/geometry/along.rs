@@ -1,4 +1,4 @@
-//! Where a segment of rope comes nearest to a solid.
+//! Where a segment of rope is nearest to a solid.
 //!
 //! The distance from a convex shape along a straight segment is a convex function of the fraction along it: its least
 //! value is found by golden section, and where the segment lies along a flat face, the two ends of the stretch that is
@@ -8,7 +8,7 @@
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Halvings of golden section and bisection.
 const PASSES: usize = 26;
-/// What counts as equally near [m].
+/// Distances that differ by less count as equal [m].
 const AS_NEAR_M: f64 = 3e-4;
 
 /// The stretch of a segment that is nearest.
@@ -20,7 +20,7 @@ pub(crate) struct NearestStretch {
     pub ends: (f64, f64),
 }
 
-/// Where a convex `distance` is least between two fractions. Of a stretch shorter than `shortest` only that place is told.
+/// Where a convex `distance` is least between two fractions. If the interval of least distance is shorter than `shortest`, only that place is returned.
 pub(crate) fn nearest_stretch(
     distance: impl Fn(f64) -> f64,
     (first, last): (f64, f64),

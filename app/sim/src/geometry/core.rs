@@ -1,6 +1,6 @@
 //! The core of a part of a body, and its distance from a triangle of skin.
 //!
-//! Ball: its centre. Buoy with rounded ends: the straight part of its axis. Box and flat-ended cylinder: what is left where `h` is taken off each side,
+//! Ball: its centre. Buoy with rounded ends: the straight part of its axis. Box and flat-ended cylinder: reduced by `h` on each side,
 //! so that edges are rounded by `h`. Spheroid: one with both half axes less by `h` (`core/spheroid.rs`). Distances of points and rods
 //! (`geometry/distance.rs`), of cylinders and of spheroids (`core/convex.rs`) are exact; that of a box is found by the algorithm of Gilbert, Johnson
 //! and Keerthi (1988, doi:10.1109/56.2083), of the library parry.
@@ -135,7 +135,7 @@ impl BodyCore {
         })
     }
 
-    /// Corners of a core, and the side of a cylinder that looks to a place, with the places nearest to them on a triangle; a face or a side that
+    /// Corners of a core, and the side of a cylinder that faces a place, with the places nearest to them on a triangle; a face or a side that
     /// lies along skin bears on them. Empty for cores without.
     pub fn nearest_to_corners(
         &self,
@@ -149,7 +149,7 @@ impl BodyCore {
         })
     }
 
-    /// Corners of a box's core and places round the rims of a cylinder's, in a pose; none for other cores.
+    /// Corners of a box's core and places round the rims of a cylinder's, in a pose; empty for other cores.
     pub fn corners(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
         let (half, cylinder) = match &self.core {
             Core::Box(cuboid) => (Some(cuboid.half_extents), None),
@@ -167,7 +167,7 @@ impl BodyCore {
         corners.chain(rims).map(move |place| pose.outward(middle + place))
     }
 
-    /// Both ends of the line along a cylinder's side that looks to a place; none for other cores.
+    /// Both ends of the line along a cylinder's side that faces a place; empty for other cores.
     pub fn side_towards(&self, pose: &Pose, place: DVec3) -> impl Iterator<Item = DVec3> {
         let ends = match &self.core {
             Core::Cylinder(cylinder) => {

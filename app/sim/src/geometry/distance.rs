@@ -1,6 +1,6 @@
 //! Distance of a rope segment's centre line from a skin triangle: unsigned, 0 where they cross.
 //!
-//! Nothing here asks for inside or outside, so thin edges need no special case.
+//! Nothing here distinguishes inside from outside, so thin edges need no special case.
 //! A segment or triangle that has shrunk to a line or a point is measured as such.
 
 use glam::DVec3;
@@ -88,7 +88,7 @@ pub(crate) fn point_triangle_in(
     Some(nearest_edge(point, triangle, beyond))
 }
 
-/// The nearest place to a point on the edges wanted, each named by the corner opposite.
+/// The nearest place to a point on a set of edges, each named by the corner opposite.
 fn nearest_edge(point: DVec3, triangle: [DVec3; 3], wanted: [bool; 3]) -> (f64, [f64; 3]) {
     let (mut least, mut barycentric) = (f64::INFINITY, [1.0, 0.0, 0.0]);
     for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
@@ -137,7 +137,7 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole <= f64::MIN_POSITIVE { 0.0 } else { (part / whole).clamp(0.0, 1.0) }
 }
 
-/// The nearest of the edges wanted, each named by the corner opposite; infinitely far where none is.
+/// The nearest of a set of edges, each named by the corner opposite; infinite distance if the set is empty.
 fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3], wanted: [bool; 3]) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
     let mut least = f64::INFINITY;

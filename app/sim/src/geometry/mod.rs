@@ -25,7 +25,7 @@ impl Pose {
         self.orientation.inverse() * (place - self.place)
     }
 
-    /// The same orientation about another place of this frame.
+    /// The pose with this orientation at another place of this frame.
     pub fn about(&self, place: DVec3) -> Self {
         Self { place: self.outward(place), ..*self }
     }

@@ -1,4 +1,4 @@
-//! A triangle of skin near rope, as it stands within a step of the model, ready to be measured from.
+//! A triangle of skin near rope at a moment of the model's step, prepared for distances.
 //!
 //! A ball around it and its plane show for most rope that it is too far; both are made once for each place of the skin and
 //! serve every segment that is near.
@@ -19,12 +19,12 @@ pub(crate) struct Placed {
     pub triangle: u32,
     /// Corners at the start and the end of the model's step.
     pub sweep: SweptTriangle,
-    /// Share of that step at which it stands.
+    /// Share of that step at which its corners are evaluated.
     pub stands: f64,
     /// Corners now.
     pub now: [DVec3; 3],
     ball: Ball,
-    /// `None` for a needle.
+    /// `None` for a degenerate triangle.
     plane: Option<Plane>,
 }
 
@@ -42,7 +42,7 @@ impl Placed {
         Self { triangle, sweep, stands: share, now, ball: Ball::around(now), plane: Plane::of(now) }
     }
 
-    /// Stands at a share of the model's step.
+    /// Evaluates its corners at a share of the model's step.
     #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
     pub fn stand(&mut self, share: f64) {
         if self.stands != share {
@@ -63,7 +63,7 @@ impl Placed {
         on_triangle(self.corner_moves(), barycentric)
     }
 
-    /// Nearest places of a segment and the triangle as it stands.
+    /// Nearest places of a segment and the triangle.
     pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
         segment_triangle_in(self.plane.as_ref(), segment, self.now)
     }

@@ -1,4 +1,4 @@
-//! How far two rope segments may move together before their centre lines come too near.
+//! How far two rope segments may move before the distance of their centre lines falls below a limit.
 //!
 //! Additive continuous collision detection (Li et al. 2021), as in `geometry/sweep.rs`: steps of time that distance and
 //! greatest possible approach prove safe.

@@ -116,7 +116,7 @@ impl SolidShape {
         }
     }
 
-    /// What is wrong with its measures, if anything.
+    /// The error in its measures, if there is one.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let above_zero =
             |values: &[f64]| values.iter().all(|value| value.is_finite() && *value > 0.0);

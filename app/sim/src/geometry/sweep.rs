@@ -1,4 +1,4 @@
-//! How far a rope segment and a skin triangle may move together before they come too near.
+//! How far a rope segment and a skin triangle may move before their distance falls below a limit.
 //!
 //! Additive continuous collision detection (Li et al. 2021): steps of time that distance and
 //! greatest possible approach prove safe, so that a path cut short here never crosses the skin.
@@ -33,7 +33,7 @@ pub type SweptTriangle = [[DVec3; 3]; 2];
 
 /// The search stops once this share of the first gap is left.
 const STOP_AT_SHARE: f64 = 0.1;
-/// Steps of time before the search gives back what it has proved.
+/// Largest number of time steps of the search; it then returns what it has proved.
 const MOST_STEPS: usize = 100;
 
 /// Squared area over squared edge lengths below which a triangle's normal is not trusted.

@@ -1,4 +1,4 @@
-//! A solver step in the lanes of the processor: rope that water, seabed, skin, obstacles and bodies touch, but no other rope.
+//! An iteration with rope held as lanes: rope that water, seabed, skin, obstacles and bodies touch, but no other rope.
 
 use glam::{DMat3, DVec3};
 
@@ -17,16 +17,16 @@ use crate::trial::scheme::Scheme;
 /// Rope nearer to the seabed than this is not free [m].
 const SEABED_MARGIN_M: f64 = 0.05;
 
-/// What a pass of free rope did.
+/// Result of an iteration with rope held as lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LanePass {
     /// Longest move of any node or body [m].
     pub longest_m: f64,
-    /// Greatest difference between the pull solved for and the tension at its place, to second order [N].
+    /// Greatest difference between the solved tension and the law at the trial, to second order [N].
     pub gap_n: f64,
-    /// Greatest difference between the pull solved for and there across the rope, as a segment turns [N].
+    /// Greatest difference across the rope, as a segment turns [N].
     pub turned_n: f64,
-    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
+    /// Greatest tension of a segment that was assumed taut and is slack in the solution, or the reverse [N].
     pub flipped_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
@@ -47,7 +47,7 @@ impl Solver {
         state.rope.position.iter().zip(&state.rope.velocity).any(near)
     }
 
-    /// Begins a step in the lanes, from a guess that may be changed.
+    /// Begins a step with rope held as lanes, from a predictor that `change` may change.
     pub(crate) fn begin_in_lanes(
         &mut self,
         model: &Model,
@@ -70,7 +70,7 @@ impl Solver {
         self.system.clear_contact();
     }
 
-    /// One Newton pass that moves the trial by a share of what it solves.
+    /// One solution; moves the trial by a share of it.
     pub(crate) fn pass_in_lanes(&mut self, context: &StepContext<'_>, share: f64) -> LanePass {
         let StepContext { model, scheme, .. } = *context;
         let shared = Shared::of(model, scheme);
@@ -121,7 +121,7 @@ impl Solver {
         system.lanes.take_ground(&system.rope.force, &system.rope.diagonal);
     }
 
-    /// The turning stiffness of rope pulling on bodies.
+    /// Adds the turning stiffness of rope that pulls on bodies.
     fn add_end_turns_in_lanes(&mut self, model: &Model) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             for (joint, at_b, sign) in [(line.from, false, 1.0), (line.to, true, -1.0)] {

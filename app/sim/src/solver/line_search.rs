@@ -1,10 +1,9 @@
-//! How far along a Newton step to go: to where the forces along it balance.
+//! Step length of an iteration of statics: where the forces along the step balance.
 //!
-//! `g(s) = -F(x + s δ)·δ` is the slope of the incremental potential along the step `δ`; it begins below zero.
-//! The whole step is taken where `g` has not grown beyond half of what it began with, else the zero of `g` is
-//! closed in on by regula falsi (Illinois). Tension, push and friction of skin, of solids and of rope on rope are taken anew at each trial, friction by
-//! its plugin, so that neither the barrier's wall nor the kink where rope stops sliding is overshot; inertia, weight,
-//! drag, seabed and bodies are linear along the step by their assembled blocks.
+//! `g(s) = -F(x + s δ)·δ` is the slope of the incremental potential along the step `δ`; it is negative at `s = 0`.
+//! The whole step is taken if `g` does not exceed half of its first magnitude; else the zero of `g` is found by regula falsi
+//! (Illinois). Tension and the contact of rope on solids are evaluated at each trial, so that neither the barrier nor the kink where rope
+//! stops sliding is overshot. Inertia, weight, drag, seabed and bodies are linear along the step by their assembled blocks.
 //! Reference: Nocedal and Wright 2006, Numerical Optimization, section 3.5 (doi:10.1007/978-0-387-40065-5).
 
 use crate::model::Model;
@@ -14,7 +13,7 @@ use crate::trial::scheme::Scheme;
 
 /// Share of the first slope at which a trial is good enough.
 const ENOUGH: f64 = 0.5;
-/// Most trials along a step.
+/// Largest number of trials along a step.
 const MOST_TRIALS: usize = 14;
 
 /// The share, at most `longest`, at which a slope that begins below zero is near enough to zero.
@@ -62,7 +61,7 @@ impl Solver {
             + self.contacts.rope_on_solid.slope(context, (plan, trial, system), share)
     }
 
-    /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
+    /// Slope of the terms that are linear along the step: inertia, weight, drag, seabed, bodies.
     fn linear_slope(&self, share: f64) -> f64 {
         let nodes: f64 = (self
             .linear_part

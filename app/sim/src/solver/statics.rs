@@ -1,5 +1,5 @@
-//! What statics asks of the solver besides the balance of forces: how far a pass turns the gear, passes that pull back
-//! to where they began, and where the greatest force is left.
+//! Queries and operations of statics beyond the balance of forces: how far an iteration turns the gear, anchored iterations, and where
+//! the residual is greatest.
 
 use glam::DVec3;
 
@@ -29,21 +29,21 @@ pub(crate) fn is_laid(model: &Model, body: usize) -> bool {
 }
 
 impl Solver {
-    /// Holds every laid body as it lies, through the attempt that was begun.
+    /// Holds every laid body in place, in this attempt.
     pub(crate) fn hold_laid(&mut self, model: &Model) {
         for (index, body) in self.trial.bodies.iter_mut().enumerate() {
             body.held |= is_laid(model, index);
         }
     }
 
-    /// Lets every laid body move but not turn, through the attempt that was begun.
+    /// Lets every laid body move but not turn, in this attempt.
     pub(crate) fn keep_upright(&mut self, model: &Model) {
         for (index, body) in self.trial.bodies.iter_mut().enumerate() {
             body.upright |= is_laid(model, index);
         }
     }
 
-    /// Puts the trial where another state is, through the attempt that was begun; held bodies stay.
+    /// Sets the trial to the places of another state; held bodies stay.
     pub(crate) fn start_at(&mut self, model: &Model, guess: &State) {
         self.trial.place.clone_from(&guess.rope.position);
         self.trial.tension.clone_from(&guess.rope.tension);
@@ -56,7 +56,7 @@ impl Solver {
         self.forces.water.measure_flow(model, &self.trial);
     }
 
-    /// Takes the trial as the place that anchored passes pull back to.
+    /// Makes the trial the place to which anchored iterations pull back.
     pub(crate) fn anchor(&mut self) {
         self.trial.place_history.clone_from(&self.trial.place);
         for body in &mut self.trial.bodies {
@@ -74,8 +74,8 @@ impl Solver {
         self.forces.water.measure_flow(model, &self.trial);
     }
 
-    /// Moves the trial by a share of the solved step, tension as a multiplier of its own: a share of the way from what
-    /// it was to what the solve predicted, whatever the strain.
+    /// Moves the trial by a share of the solved step. Tension is an unknown of its own: it moves by the same share from its value to the
+    /// predicted one, whatever the strain.
     pub(crate) fn advance_at_rest(&mut self, model: &Model, share: f64, before: &mut Vec<f64>) {
         before.clone_from(&self.trial.tension);
         let Self { forces, trial, system, .. } = self;
@@ -88,8 +88,8 @@ impl Solver {
         self.forces.water.measure_flow(model, &self.trial);
     }
 
-    /// Lets slack segments resist being stretched or shortened within a pass, as rope that is taut does, by a share of its
-    /// stiffness: it changes how a pass goes and not where passes end.
+    /// Gives slack segments a share of the stiffness of taut rope within an iteration. It changes the path of the iterations and not
+    /// their limit.
     pub(crate) fn stiffen_slack(&mut self, model: &Model, share: f64) {
         for (index, segments) in model.line_segments.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
@@ -247,7 +247,7 @@ impl Solver {
                 interface[*block] = DVec3::ZERO;
             }
         }
-        // A maximum would pass over what is not a number.
+        // `f64::max` ignores NaN.
         let all_finite =
             interface.iter().chain(&self.system.rope.force).all(|force| force.is_finite());
         if all_finite {

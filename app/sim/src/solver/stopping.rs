@@ -1,25 +1,25 @@
-//! When Newton's passes have converged, and how many are made: the rules of every kind of step.
+//! Convergence of the iterations of a step, and their number.
 //!
-//! A step has converged when what its last solution took for granted is so where the trial now stands:
+//! A step has converged if what its last solution assumed holds at the trial:
 //!
-//! | quantity | allowed | in a step |
+//! | quantity | tolerance | step |
 //! |---|---|---|
-//! | tension of a segment, by the solution against the law at its place | 2 N or 2 % of the weight of all gear, if that is less; or 2 % of the greatest tension | of any kind |
-//! | pull across a segment that turns, likewise | the same | in contact |
-//! | push and friction on a contact point of skin, likewise | 0.1 N, or 2 % of the greatest | in contact |
-//! | the same of rope on rope and on obstacles | 10 mN, or 0.2 % | in contact |
-//! | the same of rope on bodies of the rig | 1 mN, or 0.02 % | in contact |
-//! | move of a body in the last solution | 0.1 mm | in contact; of one that stands on the seabed in any kind |
-//! | move of the last solution | 1 mm, or 2 % of the shortest segment, if that is less | free |
-//! | move that is left, where rope resists bending | 10 µm | of any kind |
+//! | tension of a segment: solution against the law | 2 N or 2 % of the weight of all gear, whichever is less; or 2 % of the greatest tension | of any kind |
+//! | force across a segment that turns: solution against the law | as for tension | in contact |
+//! | normal force and friction at a contact point of skin: solution against the law | 0.1 N, or 2 % of the greatest | in contact |
+//! | normal force and friction of rope on rope and on obstacles | 10 mN, or 0.2 % | in contact |
+//! | normal force and friction of rope on bodies of the rig | 1 mN, or 0.02 % | in contact |
+//! | move of a body in the last solution | 0.1 mm | in contact; on the seabed in any step |
+//! | move of the last solution | 1 mm, or 2 % of the shortest segment, whichever is less | free |
+//! | remaining move, if rope resists bending | 10 µm | of any kind |
 //!
-//! In contact a move is not bounded by itself: it costs balance only as far as segments under tension turn by it. Slack rope may swing to
-//! and fro by millimetres from pass to pass, with every force known.
+//! In contact a move is not bounded by itself: it changes the balance only as far as segments under tension turn by it. Slack rope may
+//! swing by millimetres from iteration to iteration while every force is known.
 //!
-//! A step of free rope in two stages may miss a tenth of that tension, and as much across a segment.
-//! The share of the greatest push and friction is `contact_tolerance`, here the usual one; the other figures are in proportion to it where
-//! rope is in contact. A free step takes two passes unless the first was as good as exact.
-//! Of moves that shrink by `θ` in each pass, `θ/(1-θ)` of the last is left (Hairer and Wanner 1996, section IV.8).
+//! A step of free rope in two stages has a tenth of that tolerance of tension, along and across a segment.
+//! The share of the greatest normal force and friction is `contact_tolerance`; the table states the default. The other tolerances
+//! scale with it if rope is in contact. A free step takes two iterations unless the first was nearly exact.
+//! If moves shrink by a factor `θ` in each iteration, `θ/(1-θ)` of the last remains (Hairer and Wanner 1996, section IV.8).
 
 use crate::contact::ContactError;
 use crate::model::CONTACT_TOLERANCE;
@@ -29,7 +29,7 @@ use crate::trial::StepContext;
 /// Difference of tension [N], and as a share of the greatest.
 const TENSION_N: f64 = 2.0;
 const TENSION_SHARE: f64 = 0.02;
-/// A step in two stages may miss so much of this: it is taken for accuracy, and its second stage more than doubles what the first missed.
+/// Factor on this tolerance in a step in two stages: its second stage more than doubles the error of the first.
 const STAGE_LENIENCY: f64 = 0.1;
 /// Difference of push and friction [N].
 const CONTACT_N: f64 = 0.1;
@@ -39,40 +39,41 @@ const BODY_MOVE_M: f64 = 1e-4;
 /// Move that is left where rope resists bending, whose passes converge linearly [m].
 const BENT_LEFT_M: f64 = 1e-5;
 
-/// Most passes in contact, and as many again once further contact points are opened.
+/// Iteration limit in contact, and once more after further contact points are opened.
 const MOST_PASSES: usize = 8;
-/// Most passes of a free step: as many as this for so many segments, for slack runs along rope segment by segment, and within these bounds.
+/// Iteration limit of a free step: one per 12 segments, because slack propagates one segment per iteration; at least 12, at most 40.
 const SEGMENTS_FOR_A_PASS: usize = 12;
 const MOST_FREE_PASSES: [usize; 2] = [12, 40];
-/// Most passes of a step in two stages that was made as short as [`SHORT_S`]: hard rope falls slack segment by segment, one in each pass.
+/// Iteration limit of a step in two stages as short as [`SHORT_S`]: stiff rope falls slack one segment per iteration.
 const MOST_SHORT_FREE_PASSES: usize = 80;
-/// Most passes where rope resists bending.
+/// Iteration limit if rope resists bending.
 const MOST_BENT_PASSES: usize = 40;
-/// Passes that a free step takes at least.
+/// Smallest number of iterations of a free step.
 const LEAST_FREE_PASSES: usize = 2;
-/// What a free step may miss of what is allowed for one pass to be enough: of move, of tension by itself and as a share of the greatest.
+/// Error of tension for which one iteration suffices in a free step: [N], and as a share of the greatest tension.
 const EXACT_N: f64 = 0.02;
 const EXACT_SHARE: f64 = 1e-4;
 
-/// Share of what the pass before missed by, above which a pass has stalled: the next goes half of the way, for whole ones go to and fro.
+/// Ratio of an error to that of the iteration before, above which iterations have stalled: the next takes half of its move, because
+/// whole moves oscillate.
 const STALLED_SHARE: f64 = 0.5;
 
-/// Step up to which one that does not converge is kept where it hardly moves any more, and counted [s].
+/// A step up to this length that does not converge is accepted if it hardly moves any more, and counted [s].
 pub(crate) const SHORT_S: f64 = 1.3e-4;
-/// Most passes of so short a step.
+/// Iteration limit of such a short step.
 const MOST_SHORT_PASSES: usize = 24;
 
-/// What a pass did.
+/// Result of an iteration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PassDone {
-    /// Longest move of a node or body that it solved for [m].
+    /// Longest solved move of a node or body [m].
     pub longest_m: f64,
-    /// Longest move of a body, and of one that stands on the seabed [m].
+    /// Longest solved move of a body, and of a body on the seabed [m].
     pub body_m: f64,
     pub standing_m: f64,
-    /// Greatest difference between the tension that it solved for and the one at its place [N].
+    /// Greatest difference between the solved tension and the law at the trial [N].
     pub gap_n: f64,
-    /// The same across the rope, as segments turn [N].
+    /// Greatest difference across the rope, as segments turn [N].
     pub turned_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
@@ -80,14 +81,14 @@ pub(crate) struct PassDone {
     pub near_seabed: bool,
 }
 
-/// What is allowed in a step.
+/// Tolerances of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stopping {
     in_contact: bool,
     /// Whether the step is free and in two stages.
     in_stages: bool,
     bends: bool,
-    /// What is allowed as a multiple of what is usual.
+    /// Factor on the default tolerances.
     leniency: f64,
     tension_n: f64,
     contact_share: f64,
@@ -96,7 +97,7 @@ pub(crate) struct Stopping {
 }
 
 impl Stopping {
-    /// The rules of a step, in contact or free.
+    /// Tolerances of a step, in contact or free.
     pub fn new(context: &StepContext<'_>, fine: Tolerance, in_contact: bool) -> Self {
         let StepContext { model, state, scheme } = *context;
         let contact_share = model.spec.settings.contact_tolerance;
@@ -134,17 +135,17 @@ impl Stopping {
         self.in_contact
     }
 
-    /// Difference of tension that is allowed [N].
+    /// Tolerance of tension [N].
     pub fn tension_n(&self, greatest_n: f64) -> f64 {
         self.leniency * self.tension_n.max(TENSION_SHARE * greatest_n)
     }
 
-    /// Difference of push and friction on skin that is allowed [N].
+    /// Tolerance of normal force and friction on skin [N].
     pub fn contact_n(&self, greatest_n: f64) -> f64 {
         (self.leniency * CONTACT_N).max(self.contact_share * greatest_n)
     }
 
-    /// What a pass missed by, as a share of what is allowed; `before_m` is how far the pass before it moved [m].
+    /// Error of an iteration as a share of the tolerance; `before_m` is the move of the iteration before [m].
     pub fn missed(&self, done: &PassDone, contact: ContactError, before_m: f64) -> f64 {
         let tension_n = self.tension_n(done.greatest_n);
         let body_move_m = self.leniency * BODY_MOVE_M;
@@ -166,7 +167,7 @@ impl Stopping {
             .max(done.body_m / body_move_m)
     }
 
-    /// Whether a step may end after its first pass.
+    /// Whether a step may end after an iteration with this number.
     fn is_enough(&self, pass: usize, done: &PassDone) -> bool {
         let exact = || {
             let gap_n = EXACT_N.min(self.fine.gap_n).max(EXACT_SHARE * done.greatest_n);
@@ -176,19 +177,19 @@ impl Stopping {
     }
 }
 
-/// Passes of a step so far.
+/// Iterations of a step so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PassCount {
     pub all: usize,
     /// Since the last contact points were opened.
     since_opened: usize,
-    /// What the last missed by; beyond any bound where it went half of the way, or where there was none.
+    /// Error of the last iteration; infinite before the first and after half a move.
     missed: f64,
-    /// How far it moved [m].
+    /// Move of the last iteration [m].
     moved_m: f64,
-    /// How far all of them moved [m].
+    /// Sum of the moves of all iterations [m].
     pub path_m: f64,
-    /// Whether the next goes half of the way.
+    /// Whether the next iteration takes half of its move.
     half: bool,
 }
 
@@ -206,7 +207,7 @@ impl Default for PassCount {
 }
 
 impl PassCount {
-    /// Begins a pass: the share of its move to take; `None` where there have been enough.
+    /// Begins an iteration; returns the share of its move to take, `None` at the iteration limit.
     pub fn begin(&mut self, rules: &Stopping) -> Option<f64> {
         if self.since_opened >= rules.most_passes {
             return None;
@@ -216,7 +217,7 @@ impl PassCount {
         Some(if self.half { 0.5 } else { 1.0 })
     }
 
-    /// Takes in what a pass missed by, contact included; what that is of what is allowed, where the step has converged.
+    /// Ends an iteration; returns its error as a share of the tolerance if the step has converged.
     pub fn end(&mut self, rules: &Stopping, done: &PassDone, contact: ContactError) -> Option<f64> {
         let missed = rules.missed(done, contact, self.moved_m);
         let was_half = self.half;
@@ -227,12 +228,12 @@ impl PassCount {
         (!was_half && missed <= 1.0 && rules.is_enough(self.all, done)).then_some(missed)
     }
 
-    /// Begins to count again, with further contact points.
+    /// Restarts the count, with further contact points.
     pub fn open_more(&mut self) {
         *self = Self { all: self.all, path_m: self.path_m, ..Self::default() };
     }
 
-    /// Whether the last pass hardly moved anything.
+    /// Whether the last iteration hardly moved anything.
     pub fn hardly_moves(&self) -> bool {
         self.moved_m <= MOVE_M
     }

@@ -16,7 +16,7 @@ use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 use crate::water::{Current, Water};
 
-/// Passes after which Newton has long come to rest, though bending is solved for only roughly in each.
+/// Number of iterations after which Newton has converged, although bending is only approximate in each.
 const PASSES: usize = 40;
 
 fn rope(id: &str, mass_kg_m: f64, bending_stiffness_n_m2: f64) -> Rope {

@@ -1,9 +1,9 @@
-//! Counters of a run: what the solver did, and what its reader should know.
+//! Counters of a run.
 
 use crate::remesh::Remeshed;
 use crate::state::LimitedBy;
 
-/// What a run did that its reader should know; see `docs/physics.md`.
+/// Counters of a run that its reader should know; see `docs/physics.md`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Audit {
     /// Rope passed through skin, found by an exact test over every sub-move.
@@ -12,15 +12,15 @@ pub struct Audit {
     pub max_penetration_m: f64,
     /// Rope passed through rope, found by an exact test over every sub-move.
     pub ropes_crossed: u64,
-    /// Most pairs of segments at a time that run through each other since the start, and are left alone.
+    /// Largest number of pairs of segments at a time that have passed through each other since the start, and are ignored.
     pub ropes_through: u64,
-    /// Most rope at a time that has lain within bodies since the start, and does not touch them [m].
+    /// Largest length of rope at a time that has been within bodies since the start, and does not touch them [m].
     pub rope_within_m: f64,
     /// Bodies passed through skin, found by an exact test of their axes over every solver step.
     pub bodies_crossed: u64,
     /// Solver steps, away from the whale, that had rope on rope.
     pub rope_steps: u64,
-    /// Nearest that the rope's centre line came to skin it touched [m]; `None` where it never touched.
+    /// Least distance of the rope's centre line from skin it touched [m]; `None` if it never touched.
     pub least_distance_m: Option<f64>,
     /// Numbers that were not finite.
     pub non_finite: u64,
@@ -32,33 +32,33 @@ pub struct Audit {
     pub halved: u64,
     /// Solver steps with rope on skin, rope, obstacles or bodies.
     pub touching_steps: u64,
-    /// Solver steps accepted above the wanted residual.
+    /// Solver steps accepted with an error above the tolerance.
     pub unconverged: u64,
-    /// Solver steps accepted above the wanted residual at whose end something parted.
+    /// Solver steps accepted with an error above the tolerance, at whose end something parted.
     pub unconverged_parted: u64,
-    /// Tensions of a line that stand alone in time (`step/peaks.rs`).
+    /// Isolated tensions of a line (`step/peaks.rs`).
     pub spikes: u64,
     /// Newton passes in all.
     pub passes: u64,
     /// Segments split, each paid for by a merge, as resolution followed the whale.
     pub splits: u64,
-    /// Times at which segment lengths were looked at with rope near the whale.
+    /// Number of checks of segment lengths with rope near the whale.
     pub resolution_looks: u64,
-    /// Those of them that left a segment near the whale longer than wanted by a quarter or more.
+    /// Checks that left a segment near the whale longer than its target by a quarter or more.
     pub resolution_missed: u64,
-    /// Greatest ratio of a segment's length near the whale to the one wanted.
+    /// Greatest ratio of a segment's length near the whale to its target.
     pub resolution_ratio: f64,
-    /// Steps in which the whale's motion asked for a posture beyond the joints' ranges, and was held.
+    /// Steps in which the whale's motion requested a posture beyond the ranges of the joints, and was limited.
     pub postures_held: u64,
-    /// Solver steps by what kept them from being longer, in the order of [`LimitedBy::ALL`].
+    /// Solver steps by what limited their length, in the order of [`LimitedBy::ALL`].
     pub limited_by: [u64; LimitedBy::ALL.len()],
 }
 
-/// Ratio of a segment's length to the one wanted from which resolution counts as missed.
+/// Ratio of a segment's length to its target from which resolution counts as missed.
 pub const RESOLUTION_MISSED: f64 = 1.25;
 
 impl Audit {
-    /// Takes in a look at the lengths of segments.
+    /// Records a check of the lengths of segments.
     pub(super) fn take_lengths(&mut self, remeshed: &Remeshed) {
         self.splits += remeshed.splits;
         if let Some(ratio) = remeshed.near_ratio {

@@ -1,7 +1,7 @@
 //! Greatest tensions of a step, and those that last one solver step alone.
 //!
-//! A solver step that did not converge has tensions that balance nothing; what it says is kept apart.
-//! A spike is a tension that stands alone in time: the greatest of a line in a solver step that is [`SPIKE_RATIO`] times that of the one
+//! A solver step that did not converge has tensions that are not in balance; its peaks are recorded apart.
+//! A spike is an isolated tension: the greatest of a line in a solver step that is [`SPIKE_RATIO`] times that of the one
 //! before and of the one after, and [`SPIKE_N`] above both. No mesh and no step follows so short a pull, whether the gear had one or not.
 
 use crate::model::Model;
@@ -11,7 +11,7 @@ pub const SPIKE_RATIO: f64 = 3.0;
 /// How far a spike rises above both [N].
 pub const SPIKE_N: f64 = 50.0;
 
-/// Looks for tensions that stand alone in time.
+/// Counts isolated tensions.
 #[derive(Clone, Debug)]
 pub(crate) struct SpikeWatch {
     /// Greatest tension of each line in the solver step before the last, and in the last [N]; `None` before there are any.
@@ -24,7 +24,7 @@ impl SpikeWatch {
         Self { earlier: vec![[None; 2]; model.spec.lines.len()] }
     }
 
-    /// Takes in a solver step by the tensions of its segments [N]; how many lines had a spike in the one before.
+    /// Records the tensions of a solver step [N]; returns how many lines had a spike in the step before.
     pub fn take(&mut self, model: &Model, tension_n: &[f64]) -> u64 {
         let mut spikes = 0;
         for (earlier, segments) in self.earlier.iter_mut().zip(&model.line_segments) {
@@ -38,7 +38,7 @@ impl SpikeWatch {
     }
 }
 
-/// Whether the second of three tensions stands alone [N].
+/// Whether the second of three tensions is isolated [N].
 fn is_spike(before: f64, peak: f64, after: f64) -> bool {
     let beside = before.max(after);
     peak > SPIKE_RATIO * beside && peak > beside + SPIKE_N

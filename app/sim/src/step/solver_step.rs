@@ -15,7 +15,7 @@ use crate::state::State;
 use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 
-/// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
+/// One solver step of length `dt`: written to `state` if it converges and parts nothing late.
 pub(super) fn solver_step(
     model: &Model,
     state: &mut State,
@@ -25,7 +25,7 @@ pub(super) fn solver_step(
 ) -> Result<StepKind, Rejection> {
     let unconverged = workspace.audit.unconverged;
     let done = try_solver_step(model, state, workspace, dt, way);
-    // A step counts once however many poses it was solved at, and only where it is kept.
+    // A step counts once, and only if it is accepted.
     let missed = done.is_ok() && workspace.audit.unconverged > unconverged;
     let audit = &mut workspace.audit;
     audit.unconverged = unconverged + u64::from(missed);

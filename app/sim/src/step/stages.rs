@@ -16,13 +16,13 @@ use crate::trial::scheme::FIRST_SHARE;
 pub(super) enum Way {
     /// BDF2, from the step before.
     Multistep,
-    /// Backward Euler, which damps what did not converge.
+    /// Backward Euler, which damps a step that did not converge.
     Damped,
     /// First stage of a step in two stages.
     FirstStage,
     /// Second stage of a step in two stages, which is this long in all [s].
     SecondStage {
-        /// As said.
+        /// Length of the whole step [s].
         whole_s: f64,
     },
 }
@@ -96,8 +96,8 @@ impl Stages {
         }));
     }
 
-    /// Takes in a solver step that was kept, with the length of the one before it; the step that it ends, or `None` where its second
-    /// stage is still to come.
+    /// Records a solver step that was accepted, with the length of the one before it; returns the step that it ends, or `None` before
+    /// its second stage.
     pub fn keep(
         &mut self,
         state: &mut State,
@@ -118,7 +118,7 @@ impl Stages {
         }
     }
 
-    /// Makes where the step began, and not its first stage, what came before its end.
+    /// Makes the start of the whole step, and not its first stage, the earlier state.
     fn end(&mut self, state: &mut State) {
         let rope = &mut state.rope;
         core::mem::swap(&mut rope.earlier_position, &mut self.position);

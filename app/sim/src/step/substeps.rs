@@ -1,10 +1,9 @@
 //! Divides the model's step into solver steps.
 //!
-//! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where their error
-//! asks for it (`step_control.rs`), each then in two stages (`stages.rs`). Where rope may touch the whale or other rope a solver step is as long as keeps it nearly linear,
-//! at most `settings.contact_step_s`.
-//! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
-//! which ends the run.
+//! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several if accuracy asks for
+//! it (`step_control.rs`), each in two stages (`stages.rs`). In contact, solver steps are at most `settings.contact_step_s`.
+//! A step that does not converge, or in which a link would part late, is repeated shorter (`substep_policy.rs`).
+//! The run ends if a step of `settings.least_step_s` is rejected.
 
 use super::Stop;
 use super::rejection::StepKind;
@@ -23,10 +22,10 @@ use crate::whale::hitch;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
 
-/// Times a model's step may be taken back and begun with shorter solver steps.
+/// How many times a step of the model may be undone and repeated with shorter solver steps.
 const MOST_TAKEN_BACK: usize = 3;
 
-/// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.
+/// Solver steps to the end of the model's step; all are undone and repeated shorter if the error of one is far above its target.
 pub(super) fn advance(
     model: &Model,
     state: &mut State,
@@ -65,7 +64,7 @@ pub(super) fn advance(
     Ok(())
 }
 
-/// Goes back to where the model's step began, with the shorter solver step.
+/// Returns to the start of the model's step, with the shorter solver step.
 fn take_back(state: &mut State, workspace: &Workspace) {
     let (step_s, limit) = (state.step_control.step_s, state.step_control.limit);
     if let Some(before) = &workspace.before {
@@ -94,7 +93,7 @@ fn near_whale(
 }
 
 /// Solver steps to the end of the model's step, shortened where one is rejected; returns `false` if the error of a step is far above
-/// the wanted one and the step of the model may be taken back.
+/// its target and the step of the model may be undone.
 fn solver_steps(
     model: &Model,
     state: &mut State,
@@ -168,7 +167,7 @@ fn measure_skin(
     feel(model, state, workspace, whale, dt);
 }
 
-/// Takes in what opened the whale's mouth in the solver step that has just ended.
+/// Adds the load that opens the whale's mouth in the last solver step.
 fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
     let Some(mouth) = &mut workspace.mouth else { return };
     let rope = workspace.contacts.iter().map(|contact| {
@@ -183,7 +182,7 @@ fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
     mouth.take(&whale.skin, bones, rope.chain(bodies), dt);
 }
 
-/// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.
+/// Adds the impulse of rope on a kinetic whale in the last solver step.
 fn feel(
     model: &Model,
     state: &State,
@@ -205,7 +204,7 @@ fn feel(
     }
 }
 
-/// Chooses the step after this one; whether this one should be taken back.
+/// Chooses the next step; returns whether this one should be undone.
 fn choose_next(model: &Model, state: &mut State, kind: StepKind, taken: Taken) -> bool {
     if !step_control::chooses(model) {
         return false;

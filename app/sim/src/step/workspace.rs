@@ -1,4 +1,4 @@
-//! Scratch of a run, and what its last step left for readers.
+//! Scratch of a run, and the results of its last step for readers.
 
 use glam::DVec3;
 
@@ -20,29 +20,29 @@ use crate::state::{State, WhaleState};
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::RopeImpulse;
 
-/// Scratch of the solver and what the last step left for readers; dropping it between two steps changes no bit.
+/// Scratch of the solver, and the results of the last step for readers; dropping it between two steps changes no bit.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     /// Places where rope pressed on skin at the end of the last step.
     pub contacts: Vec<ContactPoint>,
     /// Greatest tension of each segment over the solver steps of the last step that converged; zero where none did [N].
     pub peak_tension_n: Vec<f64>,
-    /// The same over those that did not converge; zero where all did [N].
+    /// Greatest tension of each segment over the solver steps that did not converge; zero if all did [N].
     pub unconverged_peak_n: Vec<f64>,
     pub(super) spikes: SpikeWatch,
-    /// What rope did to skin over the solver steps of the last step.
+    /// Forces of rope on skin, summed over the solver steps of the last step.
     pub sums: StepSums,
     /// Places where bodies pressed on skin at the end of the last step.
     pub body_contacts: Vec<BodyContact>,
-    /// What bodies did to skin over the solver steps of the last step.
+    /// Forces of bodies on skin, summed over the solver steps of the last step.
     pub body_sums: BodySums,
-    /// What opens a mouth that closes with a strength of its own.
+    /// Load that opens a mouth which closes with a limited strength.
     pub(super) mouth: Option<MouthLoad>,
     /// Places where rope pressed on rope at the end of the last step.
     pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
     pub audit: Audit,
-    /// Momentum and energy of the gear so far, where the model tells them ([`Settings::balance`](crate::model::Settings::balance)).
+    /// Momentum and energy of the gear so far, if the model asks for them ([`Settings::balance`](crate::model::Settings::balance)).
     pub balance: Balance,
     pub(crate) solver: Solver,
     pub(super) before: Option<State>,
@@ -53,7 +53,7 @@ pub struct Workspace {
     pub(super) whale: Option<Box<[WhaleState; 2]>>,
     /// Scratch of a kinetic whale's hull near the surface.
     pub(super) hull: Vec<DVec3>,
-    /// What rope gave the whale over the solver steps of the step.
+    /// Impulse of rope on the whale over the solver steps of the step.
     pub(super) pulled: RopeImpulse,
 }
 
@@ -84,7 +84,7 @@ impl Workspace {
         }
     }
 
-    /// Takes in the tensions at the end of a solver step [N].
+    /// Records the tensions at the end of a solver step [N].
     pub(super) fn take_tensions(&mut self, model: &Model, tension_n: &[f64], converged: bool) {
         let peaks_n =
             if converged { &mut self.peak_tension_n } else { &mut self.unconverged_peak_n };
@@ -92,12 +92,12 @@ impl Workspace {
         self.audit.spikes += self.spikes.take(model, tension_n);
     }
 
-    /// Lends a clock by which steps tell what their time goes to; none of their numbers depends on it.
+    /// Sets the clock with which steps measure their computing time; no result depends on it.
     pub fn lend_clock(&mut self, clock: Clock) {
         self.solver.cost.clock = Some(clock);
     }
 
-    /// What the computing time of the last step went to; nothing without a clock.
+    /// Computing time of the last step by part; zero without a clock.
     #[must_use]
     pub fn cost(&self) -> &Cost {
         &self.solver.cost.cost

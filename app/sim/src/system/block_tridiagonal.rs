@@ -22,15 +22,15 @@ pub(crate) struct BlockTridiagonal {
     pub force: Vec<DVec3>,
     /// Solution: move of each node.
     pub step: Vec<DVec3>,
-    /// After [`eliminate`](Self::eliminate): force of each inner node, inverse of its diagonal, and what couples its row to end A
-    /// and end A's row to it.
+    /// After [`eliminate`](Self::eliminate): force of each inner node, inverse of its diagonal, and the blocks that couple its row to
+    /// end A and end A's row to it.
     reduced: Vec<DVec3>,
     pub inverse: Vec<DMat3>,
     pub fill: Vec<DMat3>,
     pub back: Vec<DMat3>,
 }
 
-/// What a line leaves on its ends A and B.
+/// Matrix and force of a line reduced to its ends A and B.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub aa: DMat3,
@@ -42,7 +42,7 @@ pub(crate) struct Ends {
 }
 
 impl BlockTridiagonal {
-    /// Storage for so many nodes and segments.
+    /// Storage for these numbers of nodes and segments.
     pub fn new(nodes: usize, segments: usize) -> Self {
         Self {
             diagonal: vec![DMat3::ZERO; nodes],

@@ -10,7 +10,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// Columns of a panel.
 const PANEL: usize = 8;
 
-/// Solves a system, row after row; the solution takes the right-hand side's place.
+/// Solves a system in row-major order in place; the solution replaces the right-hand side.
 pub(crate) fn solve_in_place(arch: Arch, matrix: &mut [f64], right: &mut [f64]) {
     let rows = right.len();
     for first in (0..rows).step_by(PANEL) {
@@ -44,7 +44,7 @@ fn swap_rows(matrix: &mut [f64], rows: usize, one: usize, other: usize) {
     }
 }
 
-/// Eliminates a column from the rows below, within the panel that ends at `end`; the factors take the column's place.
+/// Eliminates a column from the rows below, within the panel that ends at `end`; the factors replace the column.
 fn eliminate(matrix: &mut [f64], rows: usize, column: usize, end: usize) {
     let (above, below) = matrix.split_at_mut((column + 1) * rows);
     let lead = &above[column * rows..];
@@ -56,7 +56,7 @@ fn eliminate(matrix: &mut [f64], rows: usize, column: usize, end: usize) {
     }
 }
 
-/// Takes the rows of a panel above from one of its own rows, right of the panel.
+/// Subtracts the rows of a panel above from one of its own rows, right of the panel.
 fn take_from(matrix: &mut [f64], rows: usize, row: usize, first: usize, end: usize) {
     let (above, below) = matrix.split_at_mut(row * rows);
     let (factors, values) = below[..rows].split_at_mut(end);
@@ -66,7 +66,7 @@ fn take_from(matrix: &mut [f64], rows: usize, row: usize, first: usize, end: usi
     }
 }
 
-/// Takes the rows of a whole panel from all rows below it, right of the panel.
+/// Subtracts the rows of a whole panel from all rows below it, right of the panel.
 struct TakePanel<'a> {
     matrix: &'a mut [f64],
     rows: usize,

@@ -2,7 +2,7 @@
 //!
 //! Lines reduced to their ends couple interface blocks pairwise. The block matrix is factored without pivoting
 //! (inertia keeps its diagonal dominant) along an order of least degree found once per model, with
-//! the fill it causes laid out beforehand: trees of gear have none, a loop a few blocks.
+//! the fill laid out beforehand: trees of gear have no fill, a loop has a few blocks.
 
 use glam::{DMat3, DVec3};
 
@@ -91,7 +91,7 @@ impl InterfaceSystem {
         self.force.fill(DVec3::ZERO);
     }
 
-    /// Takes over matrix and forces of a system of the same layout.
+    /// Copies matrix and forces of a system of the same layout.
     pub fn copy_values(&mut self, from: &Self) {
         self.value.clone_from(&from.value);
         self.force.clone_from(&from.force);
@@ -242,7 +242,7 @@ impl InterfaceSystem {
     }
 }
 
-/// Blocks of an attachment with the 3×3 map from the block's move to the move of the point; none where the point moves as the
+/// Blocks of an attachment with the 3×3 map from the block's move to the move of the point; no map if the point moves as the
 /// block does.
 pub(super) fn parts(
     attachment: Attachment,

@@ -111,7 +111,7 @@ impl LinearSystem {
         self.ropes.touches.clear();
     }
 
-    /// Empties what contact added to rope as lanes.
+    /// Removes contact from rope as lanes.
     pub fn clear_contact(&mut self) {
         if self.in_lanes {
             self.lanes.clear_contact();
@@ -258,7 +258,7 @@ impl LinearSystem {
     }
 }
 
-/// Adds what a line leaves on its ends to the interface system.
+/// Adds a line reduced to its ends to the interface system.
 fn join(
     interface: &mut InterfaceSystem,
     [(a, arm_a), (b, arm_b)]: [(Attachment, DVec3); 2],

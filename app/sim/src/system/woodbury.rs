@@ -61,7 +61,7 @@ impl ContactBlock {
         [(a, 1.0 - s), (a + 1, s), (b, t - 1.0), (b + 1, -t)]
     }
 
-    /// `W` of moves given at nodes.
+    /// `W` of the moves of nodes.
     fn relative(&self, at: &[DVec3]) -> DVec3 {
         self.weights().into_iter().map(|(node, weight)| at[node] * weight).sum()
     }
@@ -119,7 +119,7 @@ impl Again {
 }
 
 impl BlockTridiagonal {
-    /// Eliminates the inner nodes from another right-hand side, after [`eliminate`](Self::eliminate); what is left on both ends.
+    /// Eliminates the inner nodes from another right-hand side, after [`eliminate`](Self::eliminate); returns the remainder at both ends.
     fn reduce_again(
         &self,
         nodes: &Range<usize>,
@@ -301,7 +301,7 @@ mod tests {
         solver.system.rope.step
     }
 
-    /// What touches do by the solution is put in as forces; without touches these give the same solution.
+    /// The forces of the couplings in the solution are applied as external forces; without couplings these give the same solution.
     #[test]
     fn touches_as_forces_give_the_same_moves() {
         let model = model(60.0, 0.7);

@@ -15,7 +15,7 @@ use crate::trial::rotation::turn_history;
 use crate::trial::scheme::Scheme;
 use crate::whale::hitch::Hitches;
 
-/// Unknowns of a step with what they are measured from.
+/// Unknowns of a step, with their history.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trial {
     /// Time at the end of the step [s].
@@ -45,7 +45,7 @@ pub(crate) struct BodyTrial {
     pub velocity_history: DVec3,
     /// `θ̂` (`rotation.rs`).
     pub turn_history: DVec3,
-    /// What its pseudo-mass in statics is multiplied by.
+    /// Factor on its pseudo-mass in statics.
     pub pseudo_mass_scale: f64,
     /// Whether it is held in place.
     pub held: bool,
@@ -72,7 +72,7 @@ impl Trial {
         self.place_ends(model, plan);
     }
 
-    /// Starts a step of free rope: the same, but for the rope's history, which the lanes take from the state.
+    /// Starts a step with rope held as lanes, which read the history of rope from the state.
     pub fn begin_free(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
         self.hitches.share = self.hitches.span[1];
@@ -81,7 +81,7 @@ impl Trial {
         self.place_ends(model, plan);
     }
 
-    /// Takes what places and velocities of rope are measured from.
+    /// Computes the history of places and velocities of rope.
     pub fn take_history(&mut self, state: &State, scheme: &Scheme) {
         let rope = &state.rope;
         let history = |now: &[DVec3], earlier: &[DVec3], out: &mut Vec<DVec3>| {
@@ -94,7 +94,7 @@ impl Trial {
         history(&rope.velocity, &rope.earlier_velocity, &mut self.velocity_history);
     }
 
-    /// Guesses where rope goes by its velocities.
+    /// Sets the predictor of rope by its velocities.
     fn guess(&mut self, state: &State, scheme: &Scheme) {
         let rope = &state.rope;
         self.place.clear();
@@ -132,7 +132,7 @@ impl Trial {
         Plan::arm(attachment, |body| self.bodies[body].orientation)
     }
 
-    /// Puts line ends where their fixture or body is; free joints keep the place of their first line end.
+    /// Sets line ends to the places of their fixture or body; free joints stay at the place of their first line end.
     pub fn place_ends(&mut self, model: &Model, plan: &Plan) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let nodes = &model.line_nodes[index];

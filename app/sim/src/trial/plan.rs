@@ -1,4 +1,4 @@
-//! What the solver derives once from a model: where line ends and segments sit.
+//! Attachments of line ends and blocks of bodies, derived once from a model.
 
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ pub(crate) enum Attachment {
 /// Attachment of each joint and the arm from its body's origin to it.
 pub(crate) type Attachments = [(Attachment, DVec3)];
 
-/// Fixed look-ups of the solver.
+/// Look-up tables of the solver for one model.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// Attachment of each joint.
@@ -27,7 +27,7 @@ pub(crate) struct Plan {
     pub body_block: Vec<usize>,
     /// First node of each segment.
     pub segment_node: Vec<usize>,
-    /// A node that stands for each joint, where a line ends there.
+    /// A node at each joint, if a line ends there.
     pub joint_node: Vec<Option<usize>>,
     /// Weight in air of all rope and bodies [N].
     pub weight_n: f64,

@@ -13,7 +13,7 @@
 //! and `v̂` is formed from velocities as `x̂` from places. `x₁` is the end of the first stage, a step of backward Euler of length
 //! γ dt; both stages together are the L-stable method of second order of Alexander (1977), `x = xₙ + dt ((1-γ) v₁ + γ v)`.
 //! Its error is an eighth of that of BDF2. In statics `inertia` is not `1/h²` but the
-//! weight of a pseudo-mass that keeps each pass short.
+//! weight of a pseudo-mass that limits the move of each iteration.
 //! Reference: Hairer and Wanner, Solving Ordinary Differential Equations II, section V.1.
 
 use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
@@ -112,7 +112,7 @@ impl Scheme {
         self.rate <= 0.0
     }
 
-    /// What the unknown is measured from: `x̂` of places, `v̂` of velocities.
+    /// History of the unknown: `x̂` of places, `v̂` of velocities.
     pub fn history(&self, now: DVec3, earlier: DVec3) -> DVec3 {
         now * self.now - earlier * self.earlier
     }
@@ -141,7 +141,7 @@ mod tests {
         );
     }
 
-    /// Phase by which steps of a length lag behind `x″ = -x`, in so many radians, and how much of the swing is left.
+    /// Phase lag of steps of a length behind `x″ = -x` over `radians`, and the remaining amplitude.
     fn swing(dt: f64, radians: f64) -> (f64, f64) {
         let solved = |scheme: &Scheme, now: [DVec3; 2], earlier: [DVec3; 2]| {
             let [place, velocity] = [0, 1].map(|of| scheme.history(now[of], earlier[of]));

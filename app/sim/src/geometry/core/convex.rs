@@ -15,7 +15,7 @@ use crate::geometry::distance::point_triangle;
 
 /// Passes in which a root is closed in on; ten or so do.
 const PASSES: usize = 80;
-/// What counts as no distance [m].
+/// Shorter distances count as zero [m].
 const NOTHING_M: f64 = 1e-12;
 
 /// A closed convex set about its origin.

@@ -19,7 +19,7 @@ pub(crate) struct Cylinder {
 }
 
 impl Cylinder {
-    /// What is left of a cylinder whose rims are rounded, and by how much they are [m].
+    /// The core of a cylinder whose rims are rounded, and the radius of the rounding [m].
     pub fn rounded(radius_m: f64, half_length_m: f64) -> (Self, f64) {
         let reach = rounded(radius_m.min(half_length_m));
         (Self { radius: radius_m - reach, half: half_length_m - reach }, reach)
@@ -35,7 +35,7 @@ impl Cylinder {
         })
     }
 
-    /// Ends of the line along its side that looks to a place of its frame.
+    /// Ends of the line along its side that faces a place of its frame.
     pub fn side_towards(self, place: DVec3) -> [DVec3; 2] {
         let across = DVec3::new(place.x, place.y, 0.0).normalize_or_zero() * self.radius;
         [across - DVec3::Z * self.half, across + DVec3::Z * self.half]

@@ -14,7 +14,7 @@ use crate::trial::scheme::Scheme;
 use glam::{DMat3, DVec3};
 
 impl Lanes {
-    /// Takes over lengths, laws and what is cut, where they are not those there are.
+    /// Copies lengths, laws and cuts of segments, if they have changed.
     pub fn take_lengths(&mut self, model: &Model, lengths: &Lengths, cut: &[bool]) {
         if same_bits(&self.lengths, &lengths.segment) && self.cut == cut {
             return;
@@ -35,7 +35,7 @@ impl Lanes {
         }
     }
 
-    /// Takes over the rope as a step begins: `guess` of its places, and the water's velocity there.
+    /// Copies the rope at the start of a step: the predictor of its places, and the velocity of the water there.
     pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
         for group in &self.groups {
             let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
@@ -71,7 +71,7 @@ impl Lanes {
         self.refresh_ghosts();
     }
 
-    /// Takes over other places of all nodes.
+    /// Copies the places of all nodes.
     pub fn take_places(&mut self, place: &[DVec3]) {
         for group in &self.groups {
             for (lane, piece) in group.pieces.iter().enumerate() {
@@ -85,8 +85,8 @@ impl Lanes {
         self.refresh_ghosts();
     }
 
-    /// Takes what the seabed does to nodes: forces and blocks, of which the symmetric part is kept (Newton then comes to the
-    /// same balance, a little slower where rope slides).
+    /// Copies forces and blocks of the seabed on nodes. Of the blocks the symmetric part is used: Newton converges to the same
+    /// balance, a little slower where rope slides.
     pub fn take_ground(&mut self, force: &[DVec3], block: &[DMat3]) {
         self.ground.resize(self.nodes.len(), GroundRow::default());
         for piece in &self.pieces {
@@ -103,12 +103,12 @@ impl Lanes {
         }
     }
 
-    /// Forgets the seabed.
+    /// Removes the seabed.
     pub fn leave_ground(&mut self) {
         self.ground.clear();
     }
 
-    /// Takes the places of all line ends from the trial, where joints and bodies have put them.
+    /// Copies the places of all line ends from the trial, where joints and bodies are.
     pub fn take_ends(&mut self, model: &Model, trial: &Trial) {
         for line in 0..self.line_pieces.len() {
             let (pieces, nodes) = (self.line_pieces[line].clone(), &model.line_nodes[line]);
@@ -157,7 +157,7 @@ struct PieceRows<'a> {
 }
 
 impl PieceRows<'_> {
-    /// Takes over lengths and laws of a piece.
+    /// Copies lengths and laws of a piece.
     fn take_lengths(&mut self, piece: &Piece, lengths: &Lengths, cut: &[bool]) {
         let Self { lane, nodes, segments } = self;
         let lane = *lane;

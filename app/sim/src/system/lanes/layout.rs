@@ -9,14 +9,14 @@ use crate::system::lanes::rows::{LANES, Row};
 /// Least segments of a piece that is cut from a longer line.
 const LEAST_SEGMENTS: usize = 12;
 
-/// So many segments in a row of one line.
+/// Consecutive segments of one line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     pub line: usize,
     pub first_node: usize,
     pub first_segment: usize,
     pub segments: usize,
-    /// Whether the line goes on before and behind it.
+    /// Whether the line continues before and behind it.
     pub follows: bool,
     pub goes_on: bool,
     /// Whether its end A is on a fixture.

@@ -1,9 +1,9 @@
-//! Free rope eight pieces at a time: the quick way through a solver step, in the lanes of the processor.
+//! Rope held as lanes: eight pieces of rope side by side in the lanes of the processor.
 //!
-//! A rig's lines are cut into pieces (`layout.rs`) that are worked on side by side (`sweep.rs`), each reduced to its ends; rope is copied in
-//! (`input.rs`) and out (`output.rs`);
-//! the ends of a line's pieces are a short chain of their own (`block_tridiagonal.rs`), and the line's ends join the interface system as ever.
-//! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
+//! Lines are cut into pieces (`layout.rs`) that are evaluated side by side (`sweep`), each reduced to its ends.
+//! Rope is copied in and out by `exchange.rs`. The ends of the pieces of a line form a short chain (`block_tridiagonal.rs`), and the ends
+//! of the line join the interface system. The force laws are those of `forces/laws.rs`; eight lanes give the bits of eight single
+//! evaluations.
 
 mod exchange;
 mod layout;
@@ -35,9 +35,9 @@ pub(crate) struct Lanes {
     nodes: Vec<NodeRow>,
     segments: Vec<SegmentRow>,
     solved: Vec<Solved>,
-    /// What the seabed does to nodes, in the layout of `nodes`; empty where no rope is near it.
+    /// Force and block of the seabed on nodes, in the layout of `nodes`; empty if no rope is near it.
     ground: Vec<GroundRow>,
-    /// What skin, obstacles and bodies do to nodes, in the layout of `nodes`; the rows of it in use, and which groups have any.
+    /// Force and block of skin, obstacles and bodies on nodes, in the layout of `nodes`; the rows in use, and which groups have any.
     contact: Vec<ContactRow>,
     contact_rows: Vec<usize>,
     touches: Vec<bool>,
@@ -53,16 +53,16 @@ pub(crate) struct Lanes {
     chain: BlockTridiagonal,
 }
 
-/// What a pass did to the rope.
+/// Result of a solution for rope.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RopeMoved {
     /// Longest move of a node [m].
     pub longest_m: f64,
-    /// Greatest difference between the pull solved for and the tension there, to second order [N].
+    /// Greatest difference between the solved tension and the law, to second order [N].
     pub gap_n: f64,
-    /// Greatest difference between the pull solved for and there across the rope, as a segment turns [N].
+    /// Greatest difference across the rope, as a segment turns [N].
     pub turned_n: f64,
-    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
+    /// Greatest tension of a segment that was assumed taut and is slack in the solution, or the reverse [N].
     pub flipped_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
@@ -155,13 +155,13 @@ impl Lanes {
         }
     }
 
-    /// What a line leaves on its ends.
+    /// Matrix and force of a line reduced to its ends.
     pub fn line_ends(&mut self, line: usize, a_moves: bool) -> Ends {
         let pieces = self.line_pieces[line].clone();
         self.chain.eliminate(&chain_nodes(line, &pieces), &pieces, a_moves)
     }
 
-    /// Takes the moves of a line's ends.
+    /// Sets the moves of the ends of a line.
     pub fn move_ends(&mut self, line: usize, a_moves: bool, step_a: DVec3, step_b: DVec3) {
         let pieces = self.line_pieces[line].clone();
         self.chain.substitute(&chain_nodes(line, &pieces), &pieces, a_moves, step_a, step_b);

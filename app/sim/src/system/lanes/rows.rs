@@ -1,6 +1,6 @@
-//! What the sweeps read and write, node by node, in rows of eight lanes.
+//! Inputs and outputs of the sweeps, node by node, in rows of eight lanes.
 //!
-//! A lane holds a *piece* of rope: so many nodes in a row of one line. Row `k` holds node `k` of every piece, and segment
+//! A lane holds a *piece* of rope: consecutive nodes of one line. Row `k` holds node `k` of every piece, and segment
 //! `k` behind it. Pieces of unlike length share a group: rows beyond a piece's end hold copies of its last node.
 
 use glam::{DMat3, DVec3};
@@ -82,7 +82,7 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// What a sweep reads at a node.
+/// Inputs of a sweep at a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NodeRow {
     pub place: Row3,
@@ -96,14 +96,14 @@ pub(crate) struct NodeRow {
     pub inverse_behind: Row,
 }
 
-/// What the seabed does to a node.
+/// Force and block of the seabed at a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct GroundRow {
     pub force: Row3,
     pub block: Row6,
 }
 
-/// What contact with skin does to a node, and to its coupling with the next.
+/// Force and block of contact at a node, and the block of its coupling with the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactRow {
     pub force: Row3,
@@ -111,7 +111,7 @@ pub(crate) struct ContactRow {
     pub coupling: Row9,
 }
 
-/// What a sweep reads at a segment, and the tension it predicts.
+/// Inputs of a sweep at a segment, and the tension it predicts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentRow {
     pub length: Row,
@@ -119,12 +119,12 @@ pub(crate) struct SegmentRow {
     pub ea: Row,
     pub ea2: Row,
     pub damping: Row,
-    /// What the hinges at both ends add to the block [N/m].
+    /// Part of the block due to the hinges at both ends [N/m].
     pub bending: Row,
     pub tension: Row,
 }
 
-/// What the forward sweep leaves for the backward sweep: `step_k = g - W step_A + X step_(k+1)`, and segment `k`'s pull.
+/// Results of the forward sweep for the backward sweep: `step_k = g - W step_A + X step_(k+1)`, and segment `k`'s pull.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Solved {
     pub x: Row9,
@@ -136,7 +136,7 @@ pub(crate) struct Solved {
     pub inverse_chord: Row,
 }
 
-/// What pieces leave on their ends A and B.
+/// Matrix and force of pieces reduced to their ends A and B.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EndRows {
     pub aa: Row9,
@@ -155,7 +155,7 @@ pub(crate) struct MoveRows {
     /// Greatest difference between the pull solved for and the tension there, where a segment stays taut or slack.
     pub gap: Row,
     pub turned: Row,
-    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse.
+    /// Greatest tension of a segment that was assumed taut and is slack in the solution, or the reverse.
     pub flipped: Row,
     /// Greatest tension.
     pub greatest: Row,

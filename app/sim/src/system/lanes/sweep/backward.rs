@@ -33,7 +33,7 @@ impl WithSimd for Backward<'_> {
     }
 }
 
-/// What is gathered on the way.
+/// Maxima over the nodes.
 #[derive(Clone, Copy)]
 struct Moved<R> {
     longest: R,
@@ -151,7 +151,7 @@ fn predict<S: Simd>(
     // The linear solution lets the pull turn without its change, and its change without the turn.
     let turn = across.sqrt() * inverse_chord;
     let turned = (change.abs() + tension.max(zero) * turn) * turn;
-    // What was solved as taut and comes out slack, or the reverse, is off by its whole tension.
+    // A segment that was assumed taut and is slack in the solution, or the reverse, has its whole tension as error.
     let was_taut = part.get(&row.tension);
     let flipped = was_taut.positive((-tension).max(zero), tension.max(zero));
     part.put(&mut row.tension, tension);

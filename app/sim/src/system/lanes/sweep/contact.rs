@@ -30,7 +30,7 @@ impl WithSimd for ForwardContact<'_> {
     }
 }
 
-/// What is carried from node to node.
+/// Values carried from node to node.
 #[derive(Clone, Copy)]
 struct Carry<R> {
     block: Mat3<R>,

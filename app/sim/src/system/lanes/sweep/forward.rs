@@ -26,7 +26,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// What is carried from node to node.
+/// Values carried from node to node.
 #[derive(Clone, Copy)]
 struct Carry<R> {
     block: Sym3<R>,
@@ -47,7 +47,7 @@ pub(crate) struct Inputs<'a, S: Simd> {
     shared: Shared<Lane<S>>,
 }
 
-/// Inputs of a part of a group, where its solution goes, and from where on which lanes live.
+/// Inputs of a part of a group, the place for its solution, and the node from which each lane is active.
 pub(crate) type Spread<'a, S> = (Inputs<'a, S>, &'a mut [Solved], (usize, &'a [Row]));
 
 impl<'a, S: Simd> Inputs<'a, S> {

@@ -15,7 +15,7 @@ pub(crate) use backward::Backward;
 pub(crate) use contact::ForwardContact;
 pub(crate) use forward::Forward;
 
-/// What a group is made of.
+/// The rows of a group.
 pub(crate) struct GroupRows<'a> {
     /// Node rows with one ghost row before and one behind.
     pub nodes: &'a mut [NodeRow],
@@ -27,7 +27,7 @@ pub(crate) struct GroupRows<'a> {
     pub shortest: usize,
     /// For each segment from `shortest` on: 1 in lanes whose piece has it.
     pub live: &'a [Row],
-    /// Whether end A of every piece stands still: nothing couples to it then.
+    /// Whether end A of every piece is fixed: nothing couples to it then.
     pub anchored: bool,
     /// Whether any of it resists bending.
     pub bends: bool,
