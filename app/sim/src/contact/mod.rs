@@ -70,7 +70,7 @@ pub struct ContactPoint {
     pub normal: DVec3,
     /// Distance of the centre line from the skin [m].
     pub distance_m: f64,
-    /// Length of rope it stands for [m].
+    /// Length of rope that it represents [m].
     pub length_m: f64,
     /// Whether it is a knot, splice or link that presses.
     pub is_knot: bool,

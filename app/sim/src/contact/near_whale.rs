@@ -50,7 +50,7 @@ impl Contacts {
         }
     }
 
-    /// Whether rope and bodies that keep their velocities touch no skin for the rest of the model's step.
+    /// Whether rope and bodies with constant velocities touch no skin for the rest of the model's step.
     pub fn stays_clear(&mut self, state: &State, left_s: f64) -> bool {
         let bodies = self.body_on_skin.as_mut().filter(|bodies| bodies.is_near());
         if bodies.is_some_and(|bodies| bodies.find_active_pairs(state, 1.0, left_s)) {

@@ -5,9 +5,9 @@ use crate::contact::body_on_skin::gather::moves_m;
 use crate::geometry::core::BodyCore;
 use crate::state::State;
 
-/// Times the expected move that bodies are looked at beyond their contact distance, and a length more [m].
-const LOOK_MOVES: f64 = 1.5;
-const LOOK_M: f64 = 1.5e-3;
+/// Margin of the search beyond the contact distance: factor on the expected move, and a length [m].
+const SEARCH_MOVES: f64 = 1.5;
+const SEARCH_M: f64 = 1.5e-3;
 
 /// Two bodies whose blocks the linear system couples.
 pub(crate) type Coupled = [usize; 2];
@@ -28,7 +28,7 @@ impl BodyOnBody {
             let seconds = if self.mutual { first + 1 } else { self.part_count };
             for second in seconds..self.cores.len() {
                 if self.cores[first].thing != self.cores[second].thing {
-                    self.look_at(state, [first, second]);
+                    self.search_pair(state, [first, second]);
                 }
             }
         }
@@ -36,24 +36,24 @@ impl BodyOnBody {
         self.touching
     }
 
-    fn look_at(&mut self, state: &State, parts: [usize; 2]) {
+    fn search_pair(&mut self, state: &State, parts: [usize; 2]) {
         let [first, second] = parts.map(|part| &self.cores[part]);
         let bodies = [first.thing, second.thing];
         let [one, two] = bodies.map(|thing| self.began(state, thing));
         let moves = self.moves_m[parts[0]] + self.moves_m[parts[1]];
-        let look = LOOK_M + LOOK_MOVES * moves;
+        let look = SEARCH_M + SEARCH_MOVES * moves;
         let within = first.radius + second.radius + look;
         if one.place.distance_squared(two.place) > within * within {
             return;
         }
-        // Bodies whose cores meet as they are placed are left alone: no push leads them apart.
+        // Bodies whose cores meet as they are placed are ignored: no normal force would separate them.
         let Some([a, b]) = first.nearest_to(&one, second, &two) else { return };
         let gap = a.distance(b);
         let depth = first.reach + second.reach - gap;
         if depth < -look {
             return;
         }
-        // What overlaps as the run begins is forgiven; what comes to overlap later is not.
+        // An overlap at the start of the run is allowed; a later one is not.
         let mut kept = state.pair_grips.iter().filter(|grip| grip.parts == parts);
         let as_placed = if state.time_s <= 0.0 { depth.max(0.0) } else { 0.0 };
         let forgiven_m = kept.next().map_or(as_placed, |grip| grip.forgiven_m);

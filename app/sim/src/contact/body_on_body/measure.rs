@@ -1,4 +1,4 @@
-//! Where bodies push each other where the trial stands, and with what.
+//! Touches of bodies at the trial, with normal force and friction.
 
 use glam::DVec3;
 
@@ -14,11 +14,11 @@ use crate::state::{PairGrip, State};
 const ALONG: f64 = 0.99;
 /// Two touches nearer to each other than this are one [m].
 const SAME_PLACE_M: f64 = 1e-3;
-/// Cosine of the angle of two normals above which a touch goes on as the one that was there before.
+/// Cosine of the angle of two normals above which a touch continues a stored one.
 const SAME_FACE: f64 = 0.7;
 
 impl BodyOnBody {
-    /// Measures every touch with bodies in these poses; the two bodies whose cores meet, if any do.
+    /// Evaluates every touch with bodies in these poses; the error is two bodies whose cores meet.
     pub fn evaluate(
         &mut self,
         state: &State,
@@ -135,7 +135,7 @@ impl BodyOnBody {
         touch.stretch = grip.kept;
     }
 
-    /// The kept grip that a touch goes on from: the nearest on the first body whose push goes almost its way.
+    /// The stored grip that a touch continues: the nearest on the first body with almost the same normal.
     fn kept_grip<'a>(&self, grips: &'a [PairGrip], touch: &Touch) -> Option<&'a PairGrip> {
         let Pair { parts, bodies, .. } = self.pairs[touch.pair];
         let pose = &self.measured[bodies[0]];
@@ -167,7 +167,7 @@ impl BodyOnBody {
         })
     }
 
-    /// Notes push and friction of the last solution, for bodies that it moved to poses.
+    /// Stores normal force and friction of the last solution, for bodies that it moved to poses.
     pub fn store_solved(&mut self, pose: impl Fn(usize) -> Pose) {
         self.pairs.iter_mut().for_each(|pair| pair.solved = DVec3::ZERO);
         for place in 0..self.touches.len() {
@@ -179,7 +179,7 @@ impl BodyOnBody {
         }
     }
 
-    /// How far push and friction as measured last are from those of the last solution, and the greatest of them [N].
+    /// Greatest difference between the forces at the trial and those of the last solution, and the greatest force [N].
     pub fn error_n(&self) -> [f64; 2] {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         for (index, pair) in self.pairs.iter().enumerate() {
@@ -191,7 +191,7 @@ impl BodyOnBody {
         [gap, greatest]
     }
 
-    /// Keeps the grips of an accepted step.
+    /// Stores the grips of an accepted step.
     pub fn store_grips(&self, grips: &mut Vec<PairGrip>) {
         grips.clear();
         for (index, pair) in self.pairs.iter().enumerate() {

@@ -1,15 +1,16 @@
 //! Bodies of the rig against each other and against obstacles: traps of a trawl, a buoy and its high-flyer, a trap on a ramp.
 //!
-//! Each part of a body is a core with a surface that lies by its contact distance `h` off it, as against skin (`geometry/core.rs`). Where two cores of
-//! different bodies are nearer than `h₁ + h₂`, the bodies push each other off along the line of least distance, by a law that is linear at first and stiffens as the cores
-//! come near (`contact/law/barrier.rs`), with friction by an elastic grip (`contact/law/elastic_grip.rs`). Boxes whose faces lie along each other bear
-//! where these overlap, so that a trap stands flat on another. The cores never meet: the path of each solver step is proved free (`path.rs`).
+//! Each part of a body is a core with a surface at the contact distance `h` from it, as against skin (`geometry/core.rs`). Where two cores
+//! of different bodies are closer than `h₁ + h₂`, the bodies repel each other along the line of least distance, by a law that is linear at
+//! first and stiffens as the cores approach (`law/barrier.rs`), with friction by an elastic grip (`law/elastic_grip.rs`). Parallel faces of
+//! boxes bear over their common area, so that a trap stands flat on another. The cores never meet: the path of each solver step is proved
+//! free (`path.rs`).
 //!
-//! An obstacle is a body of one part that never moves and has no unknowns; it has its own coefficient of friction. Bodies and their parts come
-//! first in all numbers, then obstacles.
+//! An obstacle is a body of one part that never moves and has no unknowns; it has its own coefficient of friction. Bodies and their
+//! parts come first in all numbers, then obstacles.
 //!
-//! Bodies that overlap as they are placed (a buoy stowed on its trap) are not driven apart: the depth at their first touch is forgiven for as
-//! long as they do not separate.
+//! Bodies that overlap as they are placed (a buoy stowed on its trap) are not driven apart: the depth at their first touch is allowed
+//! until they separate.
 
 mod gather;
 mod kind;
@@ -30,7 +31,7 @@ use crate::state::State;
 
 pub use touching::bodies_touching;
 
-/// Stiffness of a touch of two bodies [N/m]: wire traps and hard floats give way by a millimetre or so under the weight of a man; estimate.
+/// Stiffness of a touch of two bodies [N/m]: wire traps and hard floats yield by about a millimetre under the weight of a man; estimate.
 const STIFFNESS_N_M: f64 = 2e5;
 /// Friction of bodies on each other: coated wire and plastic, wet, 0.2 to 0.4; estimate.
 const FRICTION: f64 = 0.3;
@@ -39,11 +40,11 @@ const FRICTION: f64 = 0.3;
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     parts: [usize; 2],
-    /// What they are parts of.
+    /// The bodies or obstacles to which they belong.
     bodies: [usize; 2],
     /// Distance of the cores where the solver step begins [m].
     gap: f64,
-    /// Depth that is forgiven [m].
+    /// Overlap that is allowed [m].
     forgiven_m: f64,
     /// Push and friction on the first body by the last solution [N].
     solved: DVec3,
@@ -58,7 +59,7 @@ struct Touch {
     place: DVec3,
     /// From the second body to the first.
     normal: DVec3,
-    /// Depth beyond what is forgiven [m].
+    /// Depth beyond the allowed overlap [m].
     depth: f64,
     share: f64,
     /// Push and friction on the first body, and `-d force / d place` of the one relative to the other [N], [N/m].
@@ -68,7 +69,7 @@ struct Touch {
     stretch: DVec3,
 }
 
-/// The name of a body or an obstacle, with what it is.
+/// "body" or "obstacle" with its id.
 pub(crate) fn name_of(model: &Model, thing: usize) -> String {
     let spec = &model.spec;
     match spec.bodies.get(thing) {
@@ -77,7 +78,7 @@ pub(crate) fn name_of(model: &Model, thing: usize) -> String {
     }
 }
 
-/// Scratch of bodies against each other for one model; it keeps nothing that a step depends on.
+/// Bodies against each other in one model. A step depends on nothing that is stored here between steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyOnBody {
     /// Cores of the parts of bodies, then of obstacles.
@@ -87,7 +88,7 @@ pub(crate) struct BodyOnBody {
     count: usize,
     /// Whether bodies touch each other.
     mutual: bool,
-    /// Where the obstacles stand.
+    /// Poses of the obstacles.
     still: Vec<Pose>,
     /// Friction of bodies on each obstacle.
     friction: Vec<f64>,
@@ -99,7 +100,7 @@ pub(crate) struct BodyOnBody {
     /// Passes of the solver step in which shares were measured.
     shared: usize,
     touches: Vec<Touch>,
-    /// The same as measured before.
+    /// Touches of the evaluation before.
     touched: Vec<Touch>,
     /// Where each body was when it was measured last, and each obstacle.
     measured: Vec<Pose>,

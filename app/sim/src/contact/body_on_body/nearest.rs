@@ -87,7 +87,7 @@ impl BodyCore {
         self.nearest_to_shape(pose, mine, &Segment::new(from, to), &Frame::IDENTITY)
     }
 
-    /// Nearest places of this core, which has a curved side, and a rod; one and the same where they meet.
+    /// Nearest places of this core, which has a curved side, and a rod; equal where they meet.
     fn curved_to_rod(&self, pose: &Pose, mine: &impl Convex, rod: [DVec3; 2]) -> [DVec3; 2] {
         let inward = rod.map(|end| pose.inward(end) - self.middle);
         nearest_to_segment(mine, inward).map(|place| pose.outward(place + self.middle))
@@ -132,7 +132,7 @@ impl BodyCore {
         Some([mine, others])
     }
 
-    /// The place of this core that lies lowest over a plane; none of a plane.
+    /// The lowest place of this core over a plane; `None` if it is a plane itself.
     fn lowest_over(&self, pose: &Pose, (plane, plane_pose): (&Self, &Pose)) -> Option<DVec3> {
         let down = pose.orientation.inverse() * (plane_pose.orientation * DVec3::NEG_Z);
         let outward = |place: DVec3| Some(pose.outward(place + self.middle));
@@ -158,7 +158,7 @@ impl BodyCore {
         Frame::from_parts(middle, pose.orientation.inverse() * other_pose.orientation)
     }
 
-    /// Nearest places of this core and another shape that lies in its frame so, in the world; `None` where they meet.
+    /// Nearest places of this core and another shape in its frame, in the world; `None` where they meet.
     fn nearest_to_shape(
         &self,
         pose: &Pose,
@@ -172,7 +172,7 @@ impl BodyCore {
     }
 
     /// Places at which the faces of two boxes that lie along each other bear, up to `reach` apart: number, place on this one and on the other.
-    /// None where either is not a box, or no faces lie along each other.
+    /// Empty if either is not a box, or no faces are parallel.
     pub fn faces_along(
         &self,
         pose: &Pose,
@@ -192,7 +192,7 @@ impl BodyCore {
         }));
     }
 
-    /// Ends of a rod, corners of a box and places round the rims of a cylinder in a pose; none of others.
+    /// Ends of a rod, corners of a box and places round the rims of a cylinder in a pose; empty for others.
     pub fn ends(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
         let rod = matches!(self.core, Core::Rod(_)).then(|| self.axis(pose));
         rod.into_iter().flatten().chain(self.corners(pose))

@@ -6,17 +6,17 @@ use crate::geometry::core::BodyCore;
 use crate::geometry::sweep::walk;
 use crate::state::State;
 
-/// Share of their contact distance by which two cores may come nearer on their way than they are at both of its ends. Bodies that fly past each
-/// other within a step would else be pushed at neither.
+/// Share of their contact distance by which two cores may be closer on their path than at both of its ends. Without this limit, bodies
+/// that pass each other within a step would feel no force at either end.
 const DIP_SHARE: f64 = 0.1;
-/// Share of their contact distance below which a step may not end, and share of a lesser distance that bodies which begin nearer keep.
+/// Least share of their contact distance at the end of a step; bodies that begin closer may approach to this share of their distance.
 const PINCHED_SHARE: f64 = 0.3;
 const STILL_SHARE: f64 = 0.9;
 /// Share of their contact distance by which bodies may move relative to each other in a step in which they touch: a blow takes a few steps.
 const FOLLOWED_SHARE: f64 = 0.5;
 
 impl BodyOnBody {
-    /// Two bodies whose cores come too near on their way from the state to these poses, or too far in one step, if any do.
+    /// The first pair of bodies whose cores come too close on their path to these poses, or that move too far relative to each other.
     pub fn meeting(&self, state: &State, pose: impl Fn(usize) -> Pose) -> Option<[usize; 2]> {
         let refused = |(index, pair): &(usize, &Pair)| {
             let paths =

@@ -6,7 +6,7 @@ use crate::geometry::Pose;
 use crate::geometry::core::BodyCore;
 use crate::model::{Body, Model};
 
-/// Indices of the bodies that touch one, all of them at the places and in the orientations given; none in a model whose bodies do not.
+/// Indices of the bodies that touch a body, all of them at these places and orientations; empty if bodies of the model do not touch.
 #[must_use]
 pub fn bodies_touching(model: &Model, bodies: &[(DVec3, DQuat)], body: usize) -> Vec<usize> {
     let (Some(mine), Some(at)) = (model.spec.bodies.get(body), bodies.get(body)) else {

@@ -11,9 +11,9 @@ use crate::whale::Bounds;
 
 /// How far beyond a body's contact distance and its move skin is gathered [m].
 const MARGIN_M: f64 = 0.03;
-/// Times the expected move of body and skin that is looked beyond the contact distance in a solver step, and a length more [m].
-const LOOK_MOVES: f64 = 1.5;
-const LOOK_M: f64 = 1.5e-3;
+/// Margin of the search of a solver step beyond the contact distance: factor on the expected move of body and skin, and a length [m].
+const SEARCH_MOVES: f64 = 1.5;
+const SEARCH_M: f64 = 1.5e-3;
 
 impl BodyOnSkin {
     /// Gathers skin near bodies over a step of the model, of which a share has passed, by the poses and a box around all skin in it;
@@ -48,7 +48,7 @@ impl BodyOnSkin {
         self.is_near()
     }
 
-    /// The path of a part's body, and how far from it skin is looked for [m].
+    /// The path of a part's body, and the distance from it within which skin is searched for [m].
     fn search_of(&self, part: usize, now: &BodyState, left_s: f64) -> (SweptSegment, f64) {
         let radius = self.cores[part].radius;
         let (from, to) = (now.position, now.position + now.velocity * left_s);
@@ -83,7 +83,7 @@ impl BodyOnSkin {
                 (0..3).map(|k| sweep[0][k].distance_squared(sweep[1][k])).fold(0.0, f64::max);
             let moved = moved.sqrt();
             skin_move = skin_move.max(moved);
-            // Skin that a body begins in is left alone: no push leads out of it.
+            // Skin in which a body begins is ignored: no normal force leads out of it.
             let corners = triangle_at(&sweep, self.fraction);
             let Some(nearest) = core.nearest(&pose, corners) else { continue };
             if nearest.distance - moved <= core.reach + room {
@@ -103,7 +103,7 @@ impl BodyOnSkin {
         }
     }
 
-    /// Takes skin to the end of a solver step of length `dt`, and finds what may touch on the way; whether anything may.
+    /// Moves skin to the end of a solver step of length `dt`, and finds the pairs that may touch; returns whether there are any.
     pub fn find_active_pairs(&mut self, state: &State, goal: f64, dt: f64) -> bool {
         (self.start, self.goal, self.shared) = (self.fraction, goal, 0);
         self.touching = false;
@@ -114,9 +114,9 @@ impl BodyOnSkin {
             let own_m = moves_m(body, core.radius, dt);
             for pair in &mut self.pairs[near.pairs.clone()] {
                 let skin_m = near.skin_move * (goal - self.start);
-                // Without sweeps bodies see only what is near where the step begins.
-                let moves = if self.swept { LOOK_MOVES * (own_m + skin_m) } else { 0.0 };
-                let look = core.reach + LOOK_M + moves;
+                // Without sweeps only what is near at the start of the step is found.
+                let moves = if self.swept { SEARCH_MOVES * (own_m + skin_m) } else { 0.0 };
+                let look = core.reach + SEARCH_M + moves;
                 if pair.gap <= look {
                     let corners = triangle_at(&pair.sweep, self.start);
                     pair.gap = core.nearest(&pose, corners).map_or(0.0, |nearest| nearest.distance);
@@ -129,20 +129,20 @@ impl BodyOnSkin {
         self.touching
     }
 
-    /// Goes back to where a refused solver step began. Distances are measured anew: where the step was refused for one pair, those before it
-    /// had been taken to its end.
+    /// Returns to the start of a rejected solver step. Distances are invalidated: if the step was rejected for one pair, those before it
+    /// belong to its end.
     pub fn go_back(&mut self) {
         self.fraction = self.start;
         self.pairs.iter_mut().for_each(|pair| pair.gap = 0.0);
     }
 }
 
-/// How far the surface of a body moves in a time, at most, as it goes now [m].
+/// Bound of the move of a body's surface in a time with its present velocity [m].
 pub(crate) fn moves_m(body: &BodyState, radius: f64, time_s: f64) -> f64 {
     (body.velocity.length() + body.spin.length() * radius) * time_s
 }
 
-/// How far beyond its contact distance skin is gathered for a body [m].
+/// Distance beyond the contact distance within which skin is gathered for a body [m].
 fn room_of(body: &BodyState, radius: f64, time_s: f64) -> f64 {
-    MARGIN_M + LOOK_MOVES * moves_m(body, radius, time_s)
+    MARGIN_M + SEARCH_MOVES * moves_m(body, radius, time_s)
 }

@@ -135,7 +135,7 @@ impl ContactKind for BodyOnSkin {
 }
 
 impl BodyOnSkin {
-    /// Keeps the grips of an accepted step, and tells where bodies press.
+    /// Stores the grips of an accepted step, and reports contact.
     pub fn advance_friction(
         &mut self,
         friction: &Friction,

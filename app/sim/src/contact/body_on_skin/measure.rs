@@ -1,7 +1,7 @@
-//! Where bodies press on skin where the trial stands, and with what.
+//! Touches of bodies on skin at the trial, with normal force and friction.
 //!
-//! Each triangle nearer to a core than the contact distance is a touch. Triangles of one patch share the push (`shares.rs`). Shares are
-//! measured in the first passes of a solver step and then stay, so that Newton's method can finish.
+//! Each triangle closer to a core than the contact distance is a touch. Triangles of one patch share the normal force
+//! (`law/patch_shares.rs`). Shares are computed in the first iterations of a solver step and then stay, so that Newton can converge.
 
 use glam::DVec3;
 
@@ -15,9 +15,9 @@ use crate::geometry::sweep::triangle_at;
 use crate::model::{Friction, Model};
 use crate::state::{BodyGrips, State};
 
-/// Cosine of the angle of two normals above which a touch goes on as the one beside it that was there before.
+/// Cosine of the angle of two normals above which a touch continues a stored one near it.
 const SAME_FACE: f64 = 0.7;
-/// What a law of friction is told in place of the number of a rope.
+/// Number of the rope in the input of a friction law: no rope.
 const NO_ROPE: u32 = u32::MAX;
 
 /// Why bodies could not be measured.
@@ -30,7 +30,7 @@ pub(crate) enum Unmeasured {
 }
 
 impl BodyOnSkin {
-    /// Measures every touch with bodies in these poses, and asks for its friction.
+    /// Evaluates every touch with bodies in these poses, and its friction.
     pub fn evaluate(
         &mut self,
         model: &Model,
@@ -163,7 +163,7 @@ impl BodyOnSkin {
         })
     }
 
-    /// Notes push and friction of the last solution, for a body that it moved to a pose.
+    /// Stores normal force and friction of the last solution, for bodies that it moved to poses.
     pub fn store_solved(&mut self, pose: impl Fn(usize) -> Pose) {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.iter_mut().for_each(|pair| pair.solved = DVec3::ZERO);
@@ -173,7 +173,7 @@ impl BodyOnSkin {
         self.pairs = pairs;
     }
 
-    /// How far push and friction as measured last are from those of the last solution, and the greatest of them [N].
+    /// Greatest difference between the forces at the trial and those of the last solution, and the greatest force [N].
     pub fn error_n(&self) -> [f64; 2] {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         for (index, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.active) {
@@ -214,7 +214,7 @@ pub(crate) struct BodyForce {
     pub block: glam::DMat3,
 }
 
-/// The kept grip that a touch goes on from: the nearest on the part whose push goes almost its way.
+/// The stored grip that a touch continues: the nearest on the part with almost the same normal.
 fn kept_grip(grips: &BodyGrips, touch: &Touch, inward: DVec3) -> Option<usize> {
     let alike =
         grips.contacts.iter().enumerate().filter(|(_, grip)| {

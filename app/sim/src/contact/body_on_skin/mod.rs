@@ -1,13 +1,13 @@
 //! Bodies of the rig against the whale's skin: traps, buoys and anchors.
 //!
-//! Each part of a body is a core with a surface that lies by `h`, its contact distance, off that core (`core.rs`): a ball is a point, a buoy a
-//! rod, a trap a box with rounded edges, a staff a cylinder. All parts go where their body goes. Where the core is nearer to a triangle of skin than `h`, skin is pressed and
-//! pushes back along the line of least distance (`press.rs`), with friction by the law of its surface. The core itself never
-//! meets skin: the path of each solver step, of body and skin together, is proved free (`path.rs`). So a push never has to be told inside from
-//! outside, and a thin fluke has two sides.
+//! Each part of a body is a core with a surface at the contact distance `h` from that core (`geometry/core.rs`): a ball is a point, a buoy
+//! a rod, a trap a box with rounded edges, a staff a cylinder. All parts move with their body. Where the core is closer to a triangle of
+//! skin than `h`, skin is pressed and repels it along the line of least distance (`press.rs`), with friction by the law of its surface.
+//! The core itself never meets skin: the path of each solver step, of body and skin together, is proved free (`path.rs`). Inside and
+//! outside therefore need not be distinguished, and a thin fluke has two sides.
 //!
-//! Triangles near a body's path are gathered once a step of the model (`gather.rs`); those that may touch are measured in each of Newton's passes
-//! (`measure.rs`). The forces act on the body's place and rotation in the one linear system of rope and bodies (`contact/body_on_skin/kind.rs`).
+//! Triangles near a body's path are gathered once a step of the model (`gather.rs`); those that may touch are evaluated in each iteration
+//! (`measure.rs`). The forces act on the body's place and rotation in the linear system of rope and bodies (`kind.rs`).
 
 pub(crate) mod gather;
 mod kind;
@@ -63,7 +63,7 @@ struct Pair {
     gap: f64,
     /// Whether it may touch in this solver step.
     active: bool,
-    /// Push and friction on the body by the last solution [N].
+    /// Normal force and friction on the body by the last solution [N].
     solved: DVec3,
 }
 
@@ -104,7 +104,7 @@ struct Touch {
     stiffness: f64,
 }
 
-/// Scratch of bodies against skin for one model; it keeps nothing that a step depends on.
+/// Bodies against skin in one model. A step depends on nothing that is stored here between steps.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyOnSkin {
     /// Cores of all parts of bodies.
@@ -118,14 +118,14 @@ pub(crate) struct BodyOnSkin {
     start: f64,
     goal: f64,
     fraction: f64,
-    /// Whether paths are looked at ([`Settings::swept`](crate::model::Settings::swept)).
+    /// Whether paths are checked ([`Settings::swept`](crate::model::Settings::swept)).
     swept: bool,
     /// Whether a body may touch skin in this solver step.
     pub touching: bool,
     /// Passes of the solver step in which shares were measured.
     shared: usize,
     touches: Vec<Touch>,
-    /// The same as measured before.
+    /// Touches of the evaluation before.
     touched: Vec<Touch>,
     arrays: FrictionArrays,
     /// Where each body was when it was measured last.

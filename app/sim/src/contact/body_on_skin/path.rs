@@ -12,7 +12,7 @@ use crate::geometry::placed::on_triangle;
 use crate::geometry::sweep::{SweptSegment, triangle_at, walk};
 use crate::state::State;
 
-/// Share of its contact distance that a core keeps from skin on its way, and below which it is pinched when a step ends.
+/// Share of its contact distance that a core keeps from skin on its path, and below which it is overcompressed at the end of a step.
 const KEPT_SHARE: f64 = 0.1;
 const PINCHED_SHARE: f64 = 0.2;
 /// A body that begins a step pinched may end it this much nearer to skin, as a share.
@@ -107,7 +107,7 @@ impl BodyOnSkin {
         first_meeting(&SweptSegment { a0, b0, a1, b1 }, &triangle).is_some()
     }
 
-    /// A better guess than a pose whose path leads into skin: the body goes along with the skin that it is nearest to, or stays.
+    /// The predictor, or a better one if its path leads into skin: the body moves with the nearest skin, or stays.
     pub fn held_off(&self, state: &State, body: usize, guess: Pose) -> Pose {
         let from = Pose::of(&state.bodies[body]);
         if !self.swept || self.all_may_go(body, &[from, guess]) {

@@ -1,23 +1,23 @@
-//! The push of skin and blubber on a body that is pressed into them.
+//! The normal force of skin and blubber on a body that is pressed into them.
 //!
-//! A ball of radius `R` pressed by `δ` into a half space of modulus `E` that keeps its volume (Hertz 1881; Johnson 1985, Contact Mechanics,
-//! section 4.2), stiffened exponentially as the core comes near, as the push on rope is (`contact/law/barrier.rs`):
+//! A ball of radius `R` pressed by `δ` into an incompressible half space of modulus `E` (Hertz 1881; Johnson 1985, Contact Mechanics,
+//! section 4.2), stiffened exponentially as the core approaches, like the normal force on rope (`law/barrier.rs`):
 //!
 //! ```text
 //! N = (16/9) E √R δ^(3/2) e^(b δ/D)        dN/dδ = N (3/(2δ) + b/D)        D = 3/4 R
 //! ```
 //!
-//! `E` is the modulus by which skin answers rope, `R` the body's contact distance: the radius of a ball or a buoy, the rounding of a
-//! trap's edges. Other triangles of the same patch of skin share the push (`shares.rs`).
+//! `E` is the modulus of skin under rope, `R` the body's contact distance: the radius of a ball or a buoy, the rounding of a
+//! trap's edges. Triangles of one patch of skin share the force (`law/patch_shares.rs`).
 
 /// `b`, by which skin stiffens, as under rope: a trap of 60 kg that is struck at 20 m/s is thrown off before its core is reached.
 const STIFFENING: f64 = 10.0;
 /// `D` as a share of the contact distance.
 const ROOM_SHARE: f64 = 0.75;
-/// `16/9`, of which `4/3` is Hertz's and `4/3 = 1/(1 - ν²)` that of a solid that keeps its volume.
+/// `16/9`, of which `4/3` is Hertz's and `4/3 = 1/(1 - ν²)` that of an incompressible solid.
 const HERTZ: f64 = 16.0 / 9.0;
 
-/// Push [N] and its growth with depth [N/m] at a depth in skin of a modulus [Pa].
+/// Normal force [N] and its derivative by depth [N/m] at a depth in skin of a modulus [Pa].
 pub(crate) fn push(depth: f64, reach: f64, modulus: f64) -> [f64; 2] {
     if depth <= 0.0 {
         return [0.0; 2];

@@ -1,4 +1,4 @@
-//! What bodies did to skin over a step of the model: impulse, greatest push and work of each, over its solver steps.
+//! Forces of bodies on skin over a step of the model: impulse, greatest normal force and work of each, over its solver steps.
 
 use endline_sdk::BodyPart;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use crate::contact::body_on_skin::BodyContact;
 
 const PARTS: usize = BodyPart::ALL.len();
 
-/// What one body did.
+/// Sums of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodySum {
     /// Impulse of the body on the whale [N s].
@@ -28,7 +28,7 @@ pub struct BodySums {
 }
 
 impl BodySums {
-    /// Sums of so many bodies.
+    /// Sums of a number of bodies.
     pub(crate) fn new(bodies: usize) -> Self {
         Self { bodies: vec![BodySum::default(); bodies] }
     }
@@ -37,7 +37,7 @@ impl BodySums {
         self.bodies.fill(BodySum::default());
     }
 
-    /// Takes in the contacts of a solver step of `dt_s`, which lie body by body but for their laws of friction.
+    /// Adds the contacts of a solver step of `dt_s`, in order of body within each friction law.
     pub(crate) fn take(&mut self, contacts: &[BodyContact], dt_s: f64) {
         for contact in contacts {
             let push = contact.normal * contact.normal_force_n;

@@ -62,7 +62,7 @@ impl BarrierForce {
         (depth, Self { force, stiffness: stiffness * (1.0 + stiffened) })
     }
 
-    /// The push linear about the solved one where the law is steep, and what it grows by from there to a distance; else as it is.
+    /// Where the law is steep: the tangent at the solved normal force, and its increment to a distance; else the law itself.
     ///
     /// From a trial that came too near, the law's tangents lead back by `D/b` in each pass; taken at the solved push instead of the
     /// distance, they lead there at once.
@@ -90,7 +90,8 @@ fn room_of(contact_distance: f64) -> f64 {
     contact_distance * (1.0 - LEAST_SHARE)
 }
 
-/// Push and its growth with `u`, in units of `l K D`; beyond the skin itself it goes on as a straight line, so that a bad guess has a finite force.
+/// Normal force and its derivative by `u`, in units of `l K D`; beyond the skin it continues as a straight line, so that a bad predictor
+/// has a finite force.
 fn law(u: f64) -> (f64, f64) {
     let within = u.min(AT_SKIN);
     let growth = libm::exp(STIFFENING * within);

@@ -19,7 +19,7 @@ use crate::model::Model;
 /// Greatest `1 - cos D` of a turn that is corrected for, a right angle; rope that turns more follows nothing that it touches.
 const MOST_TURN: f64 = 1.0;
 
-/// What the coefficient of friction is multiplied by where a segment is pressed at a share of its length.
+/// Factor on the coefficient of friction of a segment that is pressed at a share of its length.
 pub(crate) fn friction_factor(
     model: &Model,
     places: &[DVec3],

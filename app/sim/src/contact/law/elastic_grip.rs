@@ -1,14 +1,14 @@
 //! Friction of an elastic grip that slips at its limit.
 //!
 //! With `z*` the grip stretched by this step's move across the normal, `k` its stiffness and `N` the normal force:
-//! `f = -k z*` while `k|z*| <= μN`, else `f = -μN z*/|z*|`; the grip keeps `f/k`. It holds without creep.
+//! `f = -k z*` while `k|z*| <= μN`, else `f = -μN z*/|z*|`; the grip stores `f/k`. It holds without creep.
 //! Reference: Cundall and Strack 1979 (doi:10.1680/geot.1979.29.1.47).
 
 use glam::{DMat3, DVec3};
 
 use crate::matrix::outer;
 
-/// A normal force.
+/// A normal force and its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Push {
     /// Force [N].
@@ -23,7 +23,7 @@ pub(crate) struct Grip {
     pub force: DVec3,
     /// `-d force / d place` [N/m].
     pub block: DMat3,
-    /// The grip's stretch kept for the next step [m].
+    /// Stretch of the grip that is stored for the next step [m].
     pub kept: DVec3,
     /// Whether it slips.
     pub slips: bool,

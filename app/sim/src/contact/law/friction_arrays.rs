@@ -1,7 +1,13 @@
-//! Arrays for the friction laws: contacts law by law, their floats from step to step, and what the laws answer.
+//! Inputs and outputs of the friction laws: contacts in order of law, and the floats that each stores from step to step.
 //!
-//! Contacts are handed over law by law (`model::Friction`), one call each. With every contact the state keeps, ahead of the law's
-//! own floats, the law that it belongs to and an account of the energy that friction has taken there and given back (`account.rs`).
+//! Each law is called once for all of its contacts (`model::Friction`). The state stores, for every contact, the number of its law, the
+//! energy that friction has taken from rope and returned to it, and the floats of the law.
+//!
+//! A friction law stores energy in its bristles and returns no more than it took: from the first touch of a contact,
+//! `returned <= taken`, with the work `f . s` of the force on the rope over its slip, summed by sign. An allowance is added: where
+//! segments of rope change their length, a bristle is transferred to a longer or shorter sub-segment, and its energy
+//! changes by at most 25 mm over 10 mm, the longest and the shortest sub-segment near an edge. A law that drives the rope exceeds the
+//! allowance within its first strokes.
 
 use crate::matrix::outer;
 use crate::model::{Friction, FrictionLaw};
@@ -9,7 +15,7 @@ use endline_sdk::{Contacts, FrictionResponse};
 use glam::{DMat3, DVec3};
 use std::ops::Range;
 
-/// Floats of the state ahead of the law's own: number of the law, energy taken, energy given.
+/// Number of floats before those of the law: number of the law, energy taken, energy returned.
 const KEPT: usize = 3;
 
 /// Why friction failed, and whose fault it is.
@@ -17,7 +23,7 @@ const KEPT: usize = 3;
 pub(crate) struct Failed {
     /// Id of the plugin.
     pub id: String,
-    /// What went wrong.
+    /// The error message.
     pub message: String,
 }
 
@@ -29,12 +35,12 @@ struct Group {
     floats: Range<usize>,
 }
 
-/// A contact as a law of friction is asked about it.
+/// Input of a friction law for one contact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
     /// Number of the law.
     pub law: usize,
-    /// Push [N], and what its linear course grows by to where it was measured [N].
+    /// Normal force where it is linearised, and its linear increment to the trial [N].
     pub normal_force: f64,
     pub growth_n: f64,
     pub normal: DVec3,
@@ -69,7 +75,7 @@ pub(crate) struct FrictionArrays {
     floats: Vec<f64>,
     floats_at_end: Vec<f64>,
     account: Vec<Account>,
-    /// What the laws answered.
+    /// Results of the laws.
     pub response: Vec<FrictionResponse>,
 }
 
@@ -92,7 +98,7 @@ impl FrictionArrays {
         self.response.clear();
     }
 
-    /// Puts a contact at the end of the arrays, in rising order of law; `kept` are its floats at the end of the last solver step.
+    /// Appends a contact, in rising order of law; `kept` are its floats at the end of the last solver step.
     pub fn put(&mut self, friction: &Friction, asked: Asked, kept: Option<&[f64]>) {
         let place = self.normal_force.len();
         self.normal_force.push(asked.normal_force);
@@ -142,7 +148,7 @@ impl FrictionArrays {
         }
     }
 
-    /// Asks the laws for forces and derivatives.
+    /// Calls the laws for forces and derivatives.
     pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
         let mut response = std::mem::take(&mut self.response);
         response.resize(self.normal_force.len(), FrictionResponse::default());
@@ -162,7 +168,7 @@ impl FrictionArrays {
         answer
     }
 
-    /// Asks the laws for their floats at the end of the step, and books the work of the step.
+    /// Calls the laws for their floats at the end of the step, and adds the work of the step.
     pub fn advance(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
         let mut ends = std::mem::take(&mut self.floats_at_end);
         ends.clear();
@@ -183,7 +189,7 @@ impl FrictionArrays {
         self.settle_accounts(friction)
     }
 
-    /// Books the work of the step, as if each face had no other beside it; a law that gives more than it can have taken ends the run.
+    /// Adds the work of the step, as if each face were alone; a law that returns more than it can have taken ends the run.
     fn settle_accounts(&mut self, friction: &Friction) -> Result<(), Failed> {
         for group in &self.groups {
             for place in group.contacts.clone() {
@@ -196,7 +202,7 @@ impl FrictionArrays {
         Ok(())
     }
 
-    /// Adds the floats of a contact to those kept, as many as every contact has there.
+    /// Appends the floats of a contact to those stored, the same number for every contact.
     pub fn keep(&self, friction: &Friction, place: usize, kept: &mut Vec<f64>) {
         let Some(group) = self.groups.iter().find(|group| group.contacts.contains(&place)) else {
             return;
@@ -210,7 +216,8 @@ impl FrictionArrays {
         kept.resize(end, 0.0);
     }
 
-    /// `-d force / d place` of a contact whose push goes along `normal` and grows with depth by `stiffness`, distance by place `away` [N/m].
+    /// `-d force / d place` of a contact with normal force along `normal`, its derivative `stiffness` by depth, and the gradient `away` of
+    /// distance [N/m].
     pub fn block_of(&self, place: usize, (normal, away): (DVec3, DVec3), stiffness: f64) -> DMat3 {
         let response = &self.response[place];
         let growth = away * stiffness;
@@ -218,18 +225,18 @@ impl FrictionArrays {
             - matrix(&response.by_slip)
     }
 
-    /// Takes what the push grows by from where friction was asked for to where it is now linear [N].
+    /// Sets the normal force where it is linearised; friction stays that of the evaluation [N].
     pub fn set_push(&mut self, place: usize, push_n: f64) {
         self.growth_n[place] = push_n - self.normal_force[place];
     }
 
-    /// Push of a contact, linear about where it was asked for, never negative; as if it had no other beside it [N].
+    /// Normal force of a contact, linear about the evaluation, never negative, as if its face were alone [N].
     pub fn whole_push_n(&self, place: usize) -> f64 {
         let push_n = (self.normal_force[place] + self.growth_n[place]).max(0.0);
         push_n / self.share[place]
     }
 
-    /// Push and friction of a contact together, linear about the push that they were asked for [N].
+    /// Normal force and friction of a contact together, linear about the evaluation [N].
     pub fn force_of(&self, place: usize) -> DVec3 {
         let (response, normal) = (&self.response[place], DVec3::from_array(self.normal[place]));
         normal * self.normal_force[place]
@@ -242,7 +249,7 @@ impl FrictionArrays {
         DVec3::from_array(self.normal[place])
     }
 
-    /// Friction of a contact, as asked for [N].
+    /// Friction of a contact [N].
     pub fn friction_of(&self, place: usize) -> DVec3 {
         DVec3::from_array(self.response[place].force_n)
     }
@@ -270,7 +277,7 @@ impl FrictionArrays {
     }
 }
 
-/// Floats that are kept of a contact, by its place among those kept; `None` where there is no such place.
+/// Stored floats of a contact, by its index among those stored; `None` if there is no such index.
 pub(crate) fn kept_floats<'a>(
     friction: &Friction,
     floats: &'a [f64],
@@ -280,7 +287,7 @@ pub(crate) fn kept_floats<'a>(
     floats.get(place * stride..(place + 1) * stride)
 }
 
-/// Floats that are kept of each contact.
+/// Number of stored floats of each contact.
 fn stride(friction: &Friction) -> usize {
     KEPT + friction.state_len()
 }
@@ -298,17 +305,17 @@ fn is_finite(answer: &FrictionResponse) -> bool {
         .all(|x| x.is_finite())
 }
 
-/// Rows of a plugin's answer as a matrix.
+/// Rows of a plugin's result as a matrix.
 fn matrix(rows: &[[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(rows).transpose()
 }
 
-/// Times what was taken that may be given back.
+/// Largest ratio of energy returned to energy taken.
 const MOST_RETURNED: f64 = 3.0;
-/// What may be given back of nothing, for rounding [J].
+/// Energy that may be returned in addition, for rounding [J].
 const OF_NOTHING_J: f64 = 1e-3;
 
-/// Energy taken from the rope and given to it since first touch.
+/// Energy taken from the rope and returned to it since first touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Account {
     pub taken_j: f64,
@@ -316,7 +323,7 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// Books the work of a step; what is wrong where more has been given than can have been taken.
+    /// Adds the work of a step; the error says that more has been returned than can have been taken.
     pub fn book(&mut self, work_j: f64) -> Result<(), String> {
         if work_j <= 0.0 {
             self.taken_j -= work_j;

@@ -11,7 +11,7 @@
 
 use glam::DVec3;
 
-/// A touch as others of the same patch see it.
+/// A touch, for the comparison with others of its patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Press {
     pub place: DVec3,
@@ -22,7 +22,7 @@ pub(crate) struct Press {
 /// A touch that shares its push with others.
 pub(crate) trait Shared {
     fn press(&self) -> Press;
-    /// What presses: touches of one thing share.
+    /// Number of the thing that presses: touches of one thing share.
     fn thing(&self) -> usize;
     /// Number by which it is known from pass to pass.
     fn number(&self) -> (usize, u64);
@@ -32,7 +32,7 @@ pub(crate) trait Shared {
 /// Passes of a solver step in which shares follow the depths; then they stay.
 const SHARING_PASSES: usize = 3;
 
-/// Gives each touch its share in a pass; `touched` are the touches of the pass before, `reach` the contact distance of a thing.
+/// Sets the share of each touch; `touched` are the touches of the iteration before, `reach` the contact distance of a thing.
 pub(crate) fn share_out<T: Shared>(
     touches: &mut [T],
     touched: &mut [T],

@@ -1,10 +1,10 @@
 //! A direction fixed to the skin at a contact, for friction that knows directions.
 //!
 //! At rest the grain of a triangle runs athwart the whale: `g = n x` crossed, with `n` its normal and `x` the whale's
-//! fore-and-aft axis. Baleen plates stand athwart in a row along the jaw, so on the racks the grain runs along the plates.
+//! fore-and-aft axis. Baleen plates are athwart, in a row along the jaw, so on the racks the direction is along the plates.
 //! A skinned triangle carries the fore-and-aft direction `f` within it: with rest edges `a`, `b` and
 //! `f = alpha a + beta b`, it is `alpha a' + beta b'` on the edges `a'`, `b'` of the moment. At a contact with normal `n`
-//! the grain is the unit vector along `n x f`. Where a triangle faces fore or aft, the dorsal axis stands in for `x`.
+//! the direction is the unit vector along `n x f`. If a triangle faces fore or aft, the dorsal axis replaces `x`.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub(crate) struct Grains(Vec<[Option<Along>; 2]>);
 type Along = [f64; 2];
 
 impl Grains {
-    /// Looks at every triangle of a skin.
+    /// Computes the direction of every triangle of a skin.
     pub fn new(skin: &Skin) -> Self {
         let along = |corners: &[u32; 3]| {
             let rest = corners.map(|corner| skin.vertices[corner as usize]);
@@ -30,7 +30,7 @@ impl Grains {
         Self(skin.triangles.iter().map(along).collect())
     }
 
-    /// Unit vector across `normal` that is fixed to the skin of a triangle whose corners now stand at `now`.
+    /// Unit vector across `normal` that is fixed to the skin of a triangle whose corners are at `now`.
     pub fn at(&self, triangle: usize, now: &[DVec3; 3], normal: DVec3) -> DVec3 {
         let carried = |along: &Option<Along>| {
             let [alpha, beta] = (*along)?;
@@ -44,7 +44,7 @@ impl Grains {
     }
 }
 
-/// The part of an axis within the rest triangle; none where the axis stands across it.
+/// The part of an axis within the rest triangle; `None` if the axis is normal to it.
 fn within(rest: [DVec3; 3], axis: DVec3) -> Option<Along> {
     let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
     let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));

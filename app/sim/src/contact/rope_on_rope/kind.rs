@@ -25,16 +25,16 @@ use crate::system::LinearSystem;
 use crate::system::woodbury::ContactBlock;
 use crate::trial::{StepContext, Trial};
 
-/// What two ropes do to each other at a point.
+/// Contact of two ropes at a point.
 struct Touch {
     fractions: [f64; 2],
     normal: DVec3,
     distance: f64,
-    /// How the first point moved past the second in this step [m].
+    /// Relative move of the first point in this step [m].
     moved: DVec3,
-    /// The push, and its growth with depth, where it is taken as linear.
+    /// Normal force and its derivative where it is linearised.
     barrier: BarrierForce,
-    /// What that linear push grows by from there to this distance [N].
+    /// Increment of that linear force to this distance [N].
     growth_n: f64,
     grip: Grip,
 }
@@ -50,7 +50,7 @@ impl Touch {
     }
 }
 
-/// What happens at a point with nodes at the places given, if it presses.
+/// Contact at a point with nodes at these places; `None` if nothing presses.
 fn touch_at(
     law: &RopeLaw,
     state: &State,

@@ -1,12 +1,12 @@
-//! Rope against rope: other lines, and the same line where it comes back to itself.
+//! Rope against rope: other lines, and the same line where it returns to itself.
 //!
-//! Two segments touch where their centre lines come nearer than the sum `h` of their radii. What presses is a *point*: at
-//! fractions `s`, `t` of the two, pushed apart along the line between them by the law of `barrier.rs`, held by an elastic grip
-//! that slips at `μN` (`contact/law/elastic_grip.rs`). Where ropes cross there is one point, at which they are nearest; where they run
-//! along each other, one at each end of the stretch they share (`points.rs`). A knot touches as a ball with its own radius (`knots.rs`).
+//! Two segments touch where their centre lines are closer than the sum `h` of their radii. They press at *points*: at fractions `s`, `t`
+//! of the two, apart along the line between them by the law of `law/barrier.rs`, held by an elastic grip that slips at `μN`
+//! (`law/elastic_grip.rs`). Where ropes cross there is one point, at which they are closest; where they run along each other, one at each
+//! end of their common length (`points.rs`). A knot touches as a ball with its own radius (`broad_phase/knots.rs`).
 //!
-//! Nothing crosses: every move is cut short by additive continuous collision detection (`sweep.rs`) and checked again by the
-//! exact test of `crossing.rs`. The forces stand in `contact/rope_on_rope/kind.rs`, the linear algebra in `system/woodbury.rs`.
+//! Nothing crosses: every path is checked by additive continuous collision detection (`geometry/segment_pair.rs`) and again by an exact
+//! test (`geometry/crossing.rs`). The forces are in `kind.rs`, the linear algebra in `system/woodbury.rs`.
 
 mod kind;
 pub(crate) mod near;

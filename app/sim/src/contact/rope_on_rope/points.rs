@@ -38,7 +38,7 @@ pub(crate) struct RopeContactPoint {
 /// The one or two points of a pair at these places, for a contact distance `contact_distance`; the second has no length where there is one,
 /// as there always is for an `only` point.
 ///
-/// Near the end of a segment the neighbour bears part of what crosses there: each has as much of the bearing length as lies on it.
+/// Near the end of a segment the neighbour bears part of a crossing: each has the part of the bearing length that is on it.
 pub(crate) fn points_of(
     one: [DVec3; 2],
     other: [DVec3; 2],

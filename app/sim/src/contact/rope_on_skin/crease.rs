@@ -12,8 +12,8 @@
 //! ```
 //!
 //! so that nothing jumps as rope slides into a crease or out of it. Two walls at a right angle each push with all they have. Two facets of
-//! a shallow fold push together with what one of them has: over the few micrometres of way on which `s` grows there, the push only turns.
-//! A face is pressed by so much of the rope's length as its share: push, friction and what friction stores are all in proportion to it.
+//! a shallow fold together have the force of one: over the few micrometres in which `s` grows there, the force only turns.
+//! A face is pressed by its share of the rope's length: normal force, friction and the energy stored by friction are in proportion to it.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ use crate::contact::rope_on_skin::touch::Touch;
 
 /// Most faces touched at once.
 const MOST_FACES: usize = 3;
-/// Most other triangles looked at.
+/// Largest number of other triangles.
 const MOST_LOOKED_AT: usize = 8;
 /// Cosine of the angle of two normals above which they are of one face (0.6°), and below which they are of two (1.1°).
 /// Where a larger angle counted as one face, rope pressed into a fold with 12 kN met a push that turned by 0.2 rad from pass to pass.
@@ -152,7 +152,7 @@ mod tests {
         force_of(faces)
     }
 
-    /// Rope comes to rest where two walls are equally near: were the push to turn there at once, no balance would be found.
+    /// Rope rests where two walls are equally near: if the force turned there at once, there would be no balance.
     #[test]
     fn the_push_turns_gradually_in_a_shallow_crease() {
         for degrees in [3.0_f64, 8.0, 17.0, 40.0] {
@@ -168,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Together the two facets push with what the nearer would have alone: the law is no stiffer in a shallow fold than on flat skin.
+    /// Together the two facets have the force of the nearer alone: the law is no stiffer in a shallow fold than on flat skin.
     #[test]
     fn a_shallow_crease_pushes_as_one_wall() {
         for degrees in [2.0_f64, 5.0] {

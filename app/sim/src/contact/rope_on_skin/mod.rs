@@ -1,4 +1,4 @@
-//! Scratch of a solver step with contact, and what such a step leaves behind.
+//! Rope on the whale's skin: detection that cannot miss, and response inside the solution for rope.
 
 mod crease;
 mod kind;
@@ -28,7 +28,7 @@ use crate::state::State;
 /// Rope that begins a step pinched may end it this much nearer to skin, as a share.
 const STILL_PINCHED: f64 = 0.99;
 
-/// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
+/// Rope on skin in one model with a whale. A step depends on nothing that is stored here between steps.
 #[derive(Clone, Debug)]
 pub(crate) struct RopeOnSkin {
     pub near: Near,
@@ -38,7 +38,7 @@ pub(crate) struct RopeOnSkin {
     pub touching: bool,
     /// Places where contact was measured last.
     before: Vec<DVec3>,
-    /// Where rope goes by its velocities.
+    /// Places of rope by its velocities.
     target: Vec<DVec3>,
     /// Greatest contact distance of any rope [m].
     greatest_contact_distance: f64,
@@ -81,7 +81,7 @@ impl RopeOnSkin {
                 .zip(&rope.velocity)
                 .map(|(place, velocity)| *place + *velocity * dt),
         );
-        self.near.look(&rope.position, &self.target, goal);
+        self.near.find_active(&rope.position, &self.target, goal);
         self.near.may_touch()
     }
 
@@ -103,7 +103,7 @@ impl RopeOnSkin {
         })
     }
 
-    /// The same, linear about where it was measured (`before`), with the rope at other places.
+    /// Contacts with forces linear about the evaluation (`before`), with the rope at other places.
     pub fn contacts_at<'a>(
         &'a self,
         places: &'a [DVec3],
@@ -114,7 +114,7 @@ impl RopeOnSkin {
         })
     }
 
-    /// How far the push of the last solution is from the law's at the places given, with skin as measured last.
+    /// Difference between the normal force of the last solution and the law at these places, with skin as evaluated last.
     fn law_error_at(&self, places: &[DVec3]) -> ContactError {
         let Self { points, friction: touching, before, .. } = self;
         let mut missed = ContactError::default();
@@ -127,7 +127,7 @@ impl RopeOnSkin {
         missed
     }
 
-    /// Takes the push of every contact as linear about what the last solution found.
+    /// Makes the normal force of every contact linear about the last solution.
     pub fn follow_law(&mut self, places: &[DVec3]) {
         let Self { points, friction: touching, before, .. } = self;
         for place in 0..touching.point.len() {
@@ -150,7 +150,7 @@ impl RopeOnSkin {
         }
     }
 
-    /// What push and friction of the last solution miss as measured last.
+    /// Difference between the forces of the last solution and those evaluated last.
     fn solution_error(&mut self) -> ContactError {
         let Self { points, friction: touching, .. } = self;
         let mut greatest = 0.0_f64;

@@ -22,14 +22,14 @@ use crate::geometry::placed::on_triangle;
 use crate::model::Model;
 use crate::state::FrictionState;
 
-/// Longest piece of rope one contact point stands for [m].
+/// Longest sub-segment that one contact point represents [m].
 const PIECE_M: f64 = 0.025;
 /// Pieces a segment is cut into at least.
 const LEAST_PIECES: f64 = 2.0;
 /// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
 const NEARER_BY: f64 = 0.1;
-/// Further contact points are looked for only within this many contact distances.
+/// Further contact points are searched for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
 /// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
 /// piece is looked at.
@@ -59,11 +59,11 @@ pub(crate) struct SkinContactPoint {
     nearest_pair: Option<usize>,
     /// Greatest push on its piece of rope when it was opened beside other contact points [N].
     push_beside_n: Option<f64>,
-    /// What it touches, in `SkinContactPoints::touches`.
+    /// Its touches, in `SkinContactPoints::touches`.
     touches: Range<usize>,
     /// Where the solver step began.
     pub began: Began,
-    /// Push and friction on it as the last solve predicted them, less what they are where the trial stands [N].
+    /// Force on it by the last solution less the force at the trial [N].
     pub missed: DVec3,
 }
 
@@ -74,7 +74,7 @@ pub(crate) struct Began {
     pub place: DVec3,
     /// Its segment, end to end.
     pub along: DVec3,
-    /// What friction there is multiplied by, for rope is a polygon.
+    /// Factor on friction that corrects for the polygon (`law/capstan_correction.rs`).
     pub friction_factor: f64,
 }
 
@@ -82,9 +82,9 @@ pub(crate) struct Began {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SkinContactPoints {
     pub list: Vec<SkinContactPoint>,
-    /// What they touch, point after point.
+    /// Their touches, point after point.
     touches: Vec<Touch>,
-    /// The same as measured before.
+    /// Touches of the evaluation before.
     touched: Vec<Touch>,
     /// Faces that were touched at the end of the last solver step, where passes set out from it.
     kept: Vec<KeptFace>,
@@ -189,7 +189,7 @@ impl SkinContactPoints {
         opened
     }
 
-    /// Measures every contact point at the places given.
+    /// Evaluates every contact point at these places.
     pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
         std::mem::swap(&mut self.touches, &mut self.touched);
         self.touches.clear();
@@ -218,7 +218,7 @@ impl SkinContactPoints {
         touch.solved_n = Some(touch.push_after(step));
     }
 
-    /// Takes the push of a face of a contact point as linear about what a solution found that moves it by `step`.
+    /// Makes the normal force of a face linear about a solution that moves it by `step`.
     pub fn follow_law(&mut self, point: usize, face: usize, step: DVec3) -> &Touch {
         let point = &self.list[point];
         let touch = &mut self.touches[point.touches.start + face];
@@ -233,7 +233,7 @@ impl SkinContactPoints {
         touch.law_missed(step, point.contact_distance, point.stiffness)
     }
 
-    /// What a contact point touches, as measured last.
+    /// Touches of a contact point, as evaluated last.
     pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
         &self.touches[point.touches.clone()]
     }
@@ -245,7 +245,7 @@ impl SkinContactPoint {
         place(self.node).lerp(place(self.node + 1), self.fraction)
     }
 
-    /// Adds what it touches at the places given to `touches`; where it has not moved, from what it touched before.
+    /// Adds its touches at these places to `touches`; copies those of the evaluation before if it has not moved.
     fn measure(
         &mut self,
         near: &Near,
@@ -289,7 +289,8 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// Adds what it touches; distance and pair of the nearest triangle within `most`. The one it was nearest to when measured last is measured first: most others then prove too far by their bounds.
+    /// Adds its touches; returns distance and pair of the nearest triangle within `most`. The nearest triangle of the last evaluation is
+    /// measured first: most others are then excluded by their bounds.
     fn add_touches(
         &self,
         near: &Near,
@@ -340,26 +341,26 @@ impl SkinContactPoint {
         })
     }
 
-    /// Whether it cannot touch, from where it was last measured.
+    /// Whether it cannot touch, by its last evaluation.
     fn out_of_reach(&self, place: DVec3) -> bool {
         self.seen
             .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
     }
 
-    /// Lower bound of its distance from skin at the places given.
+    /// Lower bound of its distance from skin at these places.
     fn at_least(&self, places: &[DVec3]) -> f64 {
         let place = self.on_rope(|node| places[node]);
         self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
     }
 
-    /// Whether no place on its piece of rope can be so near that a further contact point is wanted, where a place of it is `least` from skin.
+    /// Whether its sub-segment is too far from skin for a further contact point, if a place of it is `least` from skin.
     fn is_far(&self, least: f64, places: &[DVec3]) -> bool {
         let segment = places[self.node].distance(places[self.node + 1]);
         let piece = segment * self.length / self.segment_length;
         least - piece > LOOK_WITHIN * self.contact_distance
     }
 
-    /// Where along the segment its piece is nearest to skin, if that is nearer than `most`. Asked of the middle contact point.
+    /// Where along the segment its sub-segment is nearest to skin, if closer than `most`. Called for the middle contact point.
     fn nearer_fraction(&self, near: &Near, places: &[DVec3], most: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);

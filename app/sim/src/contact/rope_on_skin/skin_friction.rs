@@ -50,7 +50,7 @@ impl Touching {
         }
     }
 
-    /// Collects what contact points touch, as measured last.
+    /// Collects the touched faces of contact points, as evaluated last.
     pub fn collect(
         &mut self,
         model: &Model,
@@ -130,7 +130,7 @@ impl Touching {
         self.arrays.put(friction, asked, kept);
     }
 
-    /// Asks the laws for their floats at the end of the step and keeps them for the sites in touch.
+    /// Calls the laws for their floats at the end of the step and stores them for the sites in touch.
     pub fn advance(
         &mut self,
         friction: &Friction,
@@ -150,12 +150,12 @@ impl Touching {
         Ok(())
     }
 
-    /// `-d force / d place` of a contact with what it touches [N/m].
+    /// `-d force / d place` of a contact [N/m].
     pub fn block_of(&self, place: usize, touch: &Touch) -> DMat3 {
         self.arrays.block_of(place, (touch.normal, touch.away), touch.barrier.stiffness)
     }
 
-    /// Takes the push of a contact as linear about another one, where it was measured; friction goes on from the push it was asked for.
+    /// Makes the normal force of a contact linear about another force; friction stays linear about its evaluation.
     pub fn follow_law(&mut self, place: usize, touch: &Touch) {
         self.arrays.set_push(place, touch.barrier.force + touch.growth_n);
         self.block[place] = self.block_of(place, touch);

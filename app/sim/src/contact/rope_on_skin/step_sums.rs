@@ -1,4 +1,4 @@
-//! What rope did to skin over a step of the model: means of forces and sums of work over its solver steps.
+//! Forces of rope on skin over a step of the model: means of forces and sums of work over its solver steps.
 //!
 //! With `h` a solver step, `Δt = Σ h` the step of the model, `N` a normal force, `f` friction on the rope and `s` its slip in the solver step:
 //! mean normal force `Σ N h / Δt`, mean friction `Σ |f| h / Δt`, mean force on the skin `-Σ (N n + f) h / Δt`, work done against friction `-Σ f·s`.
@@ -34,7 +34,7 @@ pub struct StepSums {
     span_s: f64,
 }
 
-/// What a step of the model left of contact with skin: where rope pressed at its end, and the sums over it.
+/// Contact with skin in a step of the model: where rope pressed at its end, and the sums over it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SkinContact<'a> {
     pub contacts: &'a [ContactPoint],
@@ -61,7 +61,7 @@ impl Default for StepSums {
 }
 
 impl StepSums {
-    /// Takes in the contacts of a solver step of `dt_s`, or none.
+    /// Adds the contacts of a solver step of `dt_s`.
     pub(crate) fn take(&mut self, skin: &Skin, contacts: &[ContactPoint], dt_s: f64) {
         self.span_s += dt_s;
         for contact in contacts {

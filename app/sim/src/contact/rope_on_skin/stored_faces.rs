@@ -26,7 +26,7 @@ pub(crate) struct KeptFace {
     normal: DVec3,
 }
 
-/// Takes the faces that were touched at the end of the last solver step from the state, in rising order of site.
+/// Reads the faces that were touched at the end of the last solver step from the state, in rising order of site.
 pub(crate) fn take(state: &FrictionState, kept: &mut Vec<KeptFace>) {
     kept.clear();
     let faces = state.sites.iter().zip(&state.push_n).zip(&state.normals);
@@ -44,8 +44,8 @@ pub(crate) fn of_point(kept: &[KeptFace], site: u64) -> Range<usize> {
     from..from + faces.count()
 }
 
-/// Gives each face touched the kept one of the same contact point, if any, whose push goes nearest to its own. Each kept one is given once;
-/// a face that is left without goes on as the one that goes almost its way, for it takes over a share of its push.
+/// Assigns to each touched face the stored face of its contact point with the nearest normal; each stored face is assigned once.
+/// A face without a stored value inherits the value of the face with the nearest normal, because it takes over part of its normal force.
 pub(crate) fn assign(touches: &mut [Touch], kept: &[KeptFace], of_point: Range<usize>) {
     touches.iter_mut().for_each(|touch| touch.kept = None);
     for _ in 0..touches.len().min(of_point.len()) {
@@ -101,7 +101,7 @@ mod tests {
         }
     }
 
-    /// The kept faces that the faces touched are given at a contact point.
+    /// The stored faces that are assigned to the touched faces of a contact point.
     fn assigned(state: &FrictionState, site: u64, normals: &[DVec3]) -> Vec<Option<usize>> {
         let mut kept = Vec::new();
         take(state, &mut kept);

@@ -17,17 +17,17 @@ pub(crate) struct Touch {
     pub distance: f64,
     /// The push, and its growth with depth, where it is taken as linear.
     pub barrier: BarrierForce,
-    /// What that linear push grows by from there to this distance; nothing where it is the law's at this distance [N].
+    /// Increment of that linear force to this distance; zero if it is evaluated at this distance [N].
     pub growth_n: f64,
     /// Share of the push that this face has beside others, and of the rope's length that lies on it.
     pub share: f64,
-    /// Push found by the last solution, or where there was none yet, expected [N].
+    /// Normal force of the last solution, or expected before the first [N].
     pub solved_n: Option<f64>,
-    /// The same face at the end of the last solver step, in `SkinContactPoints::kept`, which is in the order of `FrictionState`.
+    /// Index of the stored face of the last solver step in `SkinContactPoints::kept`, in the order of `FrictionState`.
     pub kept: Option<usize>,
 }
 
-/// Length of `away` across the rope up to which the push goes along `away`, and from which it goes wholly across the rope.
+/// Length of `away` across the rope up to which the normal force is along `away`, and from which it is wholly across the rope.
 const ACROSS: (f64, f64) = (0.2, 0.4);
 /// Cosine of the angle of two normals above which a face is the one that was touched before.
 pub(crate) const SAME_FACE: f64 = 0.7;
@@ -54,12 +54,12 @@ impl Touch {
         }
     }
 
-    /// Takes the push from the law at this distance, with a contact distance and the stiffness of a face alone.
+    /// Sets the normal force by the law at this distance, with a contact distance and the stiffness of a face alone.
     pub fn take_law(&mut self, (contact_distance, stiffness): (f64, f64)) {
         self.barrier = BarrierForce::new(self.distance, contact_distance, stiffness * self.share);
     }
 
-    /// Turns the push across a rope that goes along `along`.
+    /// Turns the normal force across a rope along `along`.
     ///
     /// Rope that slides over an edge would otherwise be pushed back by each contact point before the edge and drawn on by each
     /// behind it, and the push would turn as the contact point passes.
@@ -70,7 +70,7 @@ impl Touch {
         self.normal = (self.away - ahead * part).normalize_or(self.away);
     }
 
-    /// The push that the last solution found for the same face, as if it had no other beside it, if it is among those touched `before` [N].
+    /// Normal force of the last solution for this face, as if it were alone, if it is among those touched `before` [N].
     pub fn solved_before(&self, before: &[Self]) -> Option<f64> {
         let alike = |other: &&Self| other.normal.dot(self.normal);
         let same = before
@@ -80,20 +80,20 @@ impl Touch {
         same.and_then(|same| Some(same.solved_n? / same.share))
     }
 
-    /// Takes the push as linear about the solved one where the law is steep.
+    /// Makes the normal force linear about the solved one where the law is steep.
     pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
         let law = (self.distance, contact_distance, stiffness * self.share);
         (self.barrier, self.growth_n) = self.barrier.about_solved(self.solved_n, law);
     }
 
-    /// How far the push found by a solution that moves rope by `step` is from the law's there [N].
+    /// Difference between the normal force of a solution that moves rope by `step` and the law there [N].
     pub fn law_missed(&self, step: DVec3, contact_distance: f64, stiffness: f64) -> f64 {
         let distance = self.distance + self.away.dot(step);
         let law = BarrierForce::new(distance, contact_distance, stiffness * self.share);
         (self.push_after(step) - law.force).abs()
     }
 
-    /// Takes the push as linear about what a solution found that moves rope by `step`; where that pulls, about the law's there.
+    /// Makes the normal force linear about a solution that moves rope by `step`; if that force is negative, about the law there.
     pub fn follow_law(&mut self, step: DVec3, contact_distance: f64, stiffness: f64) {
         let (stiffness, solved_n) = (stiffness * self.share, self.push_after(step));
         let depth = contact_distance - self.distance;

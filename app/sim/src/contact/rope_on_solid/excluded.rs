@@ -11,7 +11,7 @@ use crate::model::{JointKind, Model};
 use crate::solids::{Carrier, Solid};
 use crate::state::{RopeWithin, State};
 
-/// Share of a segment next to its nodes that its nodes answer for.
+/// Share of a segment next to its nodes in which contact is evaluated at the nodes.
 const NODES_SHARE: f64 = 0.01;
 /// Length of a line next to its body that does not touch that body [m].
 const SPARED_M: f64 = 0.1;
@@ -97,7 +97,7 @@ impl RopeOnSolid {
         })
     }
 
-    /// Finds what lies within a body where the run begins, and takes it from the state in every later step.
+    /// Finds the rope within bodies at the start of the run, and reads it from the state in every later step.
     pub(crate) fn take_within(&mut self, state: &State) {
         self.within.clear();
         if state.time_s > 0.0 {
@@ -132,7 +132,7 @@ impl RopeOnSolid {
         self.within.iter().any(here)
     }
 
-    /// Writes into a state at the end of a step what still lies within a body there.
+    /// Writes the rope that is still within a body at the end of a step to the state.
     pub fn keep_within(&self, state: &mut State) {
         let mut kept = std::mem::take(&mut state.rope.within);
         kept.clear();

@@ -14,7 +14,7 @@ use crate::state::{Bears, State};
 /// How far beyond its radius rope is gathered in statics, where a pass moves rope far [m].
 const STATIC_MARGIN_M: f64 = 2.0;
 
-/// What rounding may take from a distance [m].
+/// Margin for rounding in a distance [m].
 const ROUNDING_M: f64 = 1e-9;
 
 /// A segment that may come near a solid.
@@ -36,14 +36,14 @@ struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// Whether a segment that goes from two places to two others may come within reach of a solid, which does not turn.
+    /// Whether a moving segment may come within reach of a solid, which does not turn.
     fn may_reach(&self, solid: &Solid, reach: f64) -> bool {
         let Self { places, poses } = self;
         let middles = [0.5 * (places[0] + places[1]), 0.5 * (places[2] + places[3])];
         let half = 0.5 * (places[1] - places[0]).length().max((places[3] - places[2]).length());
         let [from, to] = [0, 1].map(|end| middles[end] - poses[end].place);
         let travel = 0.5 * (to - from).length();
-        // The ball that holds the solid asks less than the solid does, and is nearer.
+        // The distance from the enclosing ball is cheaper than that from the solid, and a lower bound.
         if from.length().min(to.length()) - solid.radius_m - half - travel > reach + ROUNDING_M {
             return false;
         }
@@ -81,7 +81,7 @@ struct Search<'a> {
     dt: f64,
     /// How far beyond its radius rope is gathered [m].
     margin: f64,
-    /// Whether it adds to what was gathered before.
+    /// Whether it adds to the pairs that were gathered before.
     again: bool,
 }
 
@@ -96,11 +96,11 @@ impl RopeOnSolid {
             self.take_within(state);
         }
         let from = &state.rope.position;
-        self.gather_anew(state, &Search { pieces, from, dt, margin: MARGIN_M, again: false });
+        self.gather_all(state, &Search { pieces, from, dt, margin: MARGIN_M, again: false });
     }
 
-    /// Gathers rope near solids for a pass of statics that begins with rope and bodies at these places. What the last pass predicted
-    /// is where this one goes on.
+    /// Gathers rope near solids for an iteration of statics that begins with rope and bodies at these places. It continues from the
+    /// normal forces that the last iteration predicted.
     pub fn gather_at_rest(
         &mut self,
         state: &State,
@@ -119,10 +119,10 @@ impl RopeOnSolid {
             self.take_lengths(pieces, &state.rope.segment_length);
         }
         let margin = STATIC_MARGIN_M;
-        self.gather_anew(state, &Search { pieces, from, dt: 0.0, margin, again: false });
+        self.gather_all(state, &Search { pieces, from, dt: 0.0, margin, again: false });
     }
 
-    fn gather_anew(&mut self, state: &State, search: &Search<'_>) {
+    fn gather_all(&mut self, state: &State, search: &Search<'_>) {
         self.pairs.clear();
         self.nodes.clear();
         self.knots.clear();
@@ -135,8 +135,7 @@ impl RopeOnSolid {
         self.add_pairs(state, search, drift);
     }
 
-    /// Adds pairs that rope has come near to on its way to these places beyond what was gathered, by its pieces on that way; whether there
-    /// are any.
+    /// Adds the pairs that come near each other on the path to these places and were not gathered; returns whether there are any.
     pub fn gather_more(&mut self, state: &State, pieces: &Pieces, to: &[DVec3], dt: f64) -> bool {
         let before = self.pairs.len();
         let from = &state.rope.position;
@@ -164,14 +163,14 @@ impl RopeOnSolid {
                 let near = NearSegment { segment, node, line: piece.line };
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
                 let motion = Motion { places, poses: &poses[solid] };
-                self.look_at(state, solid, &solids[solid], near, &motion, search);
+                self.search_pair(state, solid, &solids[solid], near, &motion, search);
             }
         }
         (self.solids, self.poses, self.neighbours) = (solids, poses, neighbours);
     }
 
-    /// Adds a segment and a solid where they are not yet known and may come near each other.
-    fn look_at(
+    /// Adds a segment and a solid, if the pair is new and may come near each other.
+    fn search_pair(
         &mut self,
         state: &State,
         solid: usize,

@@ -188,7 +188,7 @@ impl ContactKind for RopeOnSolid {
         }
     }
 
-    /// Rope and a body each respond to their own move alone, and so differ by what they did not know of each other's.
+    /// Rope and a body each respond to their own move alone; their forces differ by the effect of the other's move.
     fn error(&mut self, context: &StepContext<'_>, trial: &Trial) -> ContactError {
         let mut error = ContactError::default();
         for point in self.open_points() {

@@ -28,8 +28,8 @@ pub(crate) use points::SolidContactPoint;
 /// How far beyond its radius rope is gathered [m].
 pub(crate) const MARGIN_M: f64 = 0.05;
 
-/// Rope that strayed no farther than this from its drift has come to no solid that it was not gathered for [m]: in the bound by which rope is
-/// gathered, distance and half length change by no more than that, and half the way by half of it, together by less than the margin.
+/// Rope no farther than this from its drift has reached no solid for which it was not gathered [m]: in the bound of the search, distance
+/// and half length change by no more than that, and half the path by half of it, together by less than the margin.
 pub(crate) const UNWATCHED_M: f64 = 0.35 * MARGIN_M;
 
 /// A segment near a solid.
@@ -72,11 +72,11 @@ pub(crate) struct RopeOnSolid {
     passes: usize,
     /// Rope within bodies when the step begins.
     within: Vec<RopeWithin>,
-    /// Stiffness of bodies under rope in statics, by its length; rope passes through them where there is none [N/m²].
+    /// Stiffness of bodies under rope in statics, per length; `None`: rope passes through them [N/m²].
     pub at_rest_n_m2: Option<f64>,
     /// Where bodies are when the step begins.
     bodies: Vec<Pose>,
-    /// What the last pass of statics predicted: solid and node, normal force [N].
+    /// Normal forces predicted by the last iteration of statics: solid and node, force [N].
     predicted: Vec<((usize, usize), f64)>,
     /// Length of the step [s].
     dt: f64,
@@ -103,7 +103,7 @@ impl RopeOnSolid {
         Self { solids, body_of, spared, all_knots, ..sizes }
     }
 
-    /// Takes over the lengths of segments that pieces were measured with, where they are not those there are.
+    /// Copies the lengths of segments for which pieces were measured, if they have changed.
     fn take_lengths(&mut self, pieces: &Pieces, segment_length: &[f64]) {
         if self.lengths_number != pieces.lengths_number {
             self.lengths_number = pieces.lengths_number;
@@ -111,7 +111,7 @@ impl RopeOnSolid {
         }
     }
 
-    /// Takes over the lengths of segments.
+    /// Copies the lengths of segments.
     fn measure_lengths(&mut self, segment_length: &[f64]) {
         self.lengths.clear();
         self.lengths.extend_from_slice(segment_length);

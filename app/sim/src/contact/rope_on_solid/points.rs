@@ -7,14 +7,14 @@ use crate::geometry::Pose;
 use crate::solids::{Carrier, Solid};
 use crate::state::{Bears, SolidGrip, State};
 
-/// Rope that comes this near in a step may touch [m].
+/// Rope that comes this close in a step may touch [m].
 pub(crate) const TOUCH_M: f64 = 2e-3;
 /// Length of rope that bears at a point within a segment, for its stiffness [m].
 const EDGE_M: f64 = 0.05;
 /// How far a grip within a segment may move along the rope in a step [m].
 const FOLLOWED_M: f64 = 0.05;
-/// Greatest stiffness of all that touches a body, as a share of its mass over the step squared: rope and body answer each
-/// other from pass to pass, which closes in on the balance the faster the softer the contact is.
+/// Largest total stiffness of contact on a body, as a share of its mass over the step squared: rope and body respond to each other from
+/// iteration to iteration, which converges faster the softer the contact is.
 const BODY_SHARE: f64 = 0.3;
 
 /// A point of rope that may touch a solid.
@@ -27,7 +27,7 @@ pub(crate) struct SolidContactPoint {
     pub node: usize,
     /// Fraction along the segment; `None` at the node itself.
     pub fraction: Option<f64>,
-    /// What of the rope it is.
+    /// Which part of the rope bears.
     pub bears: Bears,
     /// Half the diameter of the rope, or of the knot [m].
     pub radius_m: f64,
@@ -63,7 +63,7 @@ impl SolidContactPoint {
         self.solved = [rope, relative - rope].map(|step| self.force - self.block * step);
     }
 
-    /// A quantity given at nodes, at this point of the rope.
+    /// The value of a quantity of nodes at this point of the rope.
     pub fn on_rope(&self, at: impl Fn(usize) -> DVec3) -> DVec3 {
         match self.fraction {
             None => at(self.node),
@@ -73,7 +73,7 @@ impl SolidContactPoint {
 }
 
 impl RopeOnSolid {
-    /// Stiffness, grip and first normal force of a contact point whose rope goes from one place to another.
+    /// Stiffness, grip and first normal force of a contact point whose rope moves between two places.
     pub(crate) fn begin_point(
         &mut self,
         state: &State,

@@ -1,4 +1,4 @@
-//! Where a ray meets the surface of a body: what is under the pointer of a picture, by the shapes that contact has.
+//! Intersection of a ray with a body, by the shapes of contact: what is under the pointer in a picture.
 
 use glam::{DQuat, DVec3};
 use parry3d::query::{Ray, RayCast};

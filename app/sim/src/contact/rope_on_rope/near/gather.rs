@@ -11,24 +11,24 @@ use crate::geometry::segment_pair::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::state::State;
 
-/// Ropes that come this near in a step, beyond touching, are gathered [m].
+/// Distance beyond contact within which pairs of ropes are gathered [m].
 const MARGIN_M: f64 = 0.03;
 
-/// Ropes nearer than this share of the contact distance when a step begins run through each other, and are left alone.
+/// Ropes closer than this share of the contact distance at the start of a step pass through each other, and are ignored.
 const THROUGH_SHARE: f64 = 0.01;
 
 /// Rope between two of its points, in contact distances, below which they do not touch: it cannot bend back so sharply.
 const SPARED_CONTACT_DISTANCES: f64 = 3.0;
 
-/// Segments of one line that are farther apart than this share of the rope between them have not come back to each other, and are not gathered
-/// before they may touch.
+/// Segments of one line farther apart than this share of the rope between them have not returned to each other, and are gathered only
+/// when they may touch.
 const RUNS_ON_SHARE: f64 = 0.5;
 
-/// Least separation kept, as a share of the contact distance.
+/// Least separation on a path, as a share of the contact distance.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
 
 impl RopeOnRope {
-    /// Takes over the lengths of segments, where they are not those there are.
+    /// Copies the lengths of segments, if they have changed.
     fn measure_lengths(&mut self, model: &Model, lengths: &[f64], pieces: &Pieces) {
         if self.lengths_number == pieces.lengths_number {
             return;
@@ -67,7 +67,7 @@ impl RopeOnRope {
         self.touching
     }
 
-    /// Gathers rope that came near rope on its way to these places besides, in pieces measured for it; whether there is any.
+    /// Gathers the pairs that come near each other on the path to these places besides; returns whether there are any.
     pub fn gather_more(
         &mut self,
         model: &Model,
@@ -133,12 +133,12 @@ impl RopeOnRope {
         (self.broad, self.found) = (broad, found);
     }
 
-    /// How far apart the widest of what may touch is looked for, by what it is more than touching [m].
+    /// The reach of the search for a margin beyond contact [m].
     fn reach(&self, margin: f64) -> Reach {
         Reach { ropes_m: 2.0 * self.widest_m + margin, knots_m: 2.0 * self.widest_knot_m + margin }
     }
 
-    /// Whether two segments, or a knot on the first and what it meets on the second, are far enough from each other along rope to touch.
+    /// Whether two segments, or a knot on the first and the second or its knots, are far enough apart along rope to touch.
     fn may_touch(&self, segments: [usize; 2], knot: Option<usize>) -> bool {
         let may = |knots| !self.is_spared(segments, self.contact_distance(segments, knots));
         let own = segments[1]..segments[1] + 1;
@@ -175,7 +175,7 @@ impl RopeOnRope {
         }
     }
 
-    /// Adds a pair where it is not among those `known` and may come near.
+    /// Adds a pair, if it is not among those `known` and may come near.
     fn add_pair(
         &mut self,
         (segments, knots): ([usize; 2], [Option<usize>; 2]),
@@ -211,7 +211,7 @@ impl RopeOnRope {
         self.pairs.push(pair);
     }
 
-    /// Rope between two segments of one line; between those of two lines there is none, told as infinite [m].
+    /// Length of rope between two segments of one line; infinite for two lines [m].
     fn between_m(&self, segments: [usize; 2]) -> f64 {
         let [one, other] = [segments[0].min(segments[1]), segments[0].max(segments[1])];
         if self.homes[one].line != self.homes[other].line {

@@ -16,7 +16,7 @@ use crate::geometry::sweep::SweptSegment;
 use crate::model::{Model, RopeOnRope as RopeLaw};
 use crate::state::State;
 
-/// Ropes that come this near in a step, beyond touching, may touch [m].
+/// Distance beyond contact within which ropes may touch in a step [m].
 const TOUCH_M: f64 = 2e-3;
 
 /// Ropes that may touch rest on each other where they move past each other by no more in a step of the model, as a share of their contact
@@ -41,7 +41,7 @@ pub(crate) struct Pair {
     /// First node of each.
     pub nodes: [usize; 2],
     lines: [usize; 2],
-    /// Sum of the radii of what touches [m].
+    /// Sum of the radii of rope or knots that touch [m].
     pub contact_distance: f64,
     min_separation: f64,
     /// Distance when the step began [m].
@@ -51,15 +51,15 @@ pub(crate) struct Pair {
     pub points: [RopeContactPoint; 2],
 }
 
-/// Scratch of rope against rope for one model; it keeps nothing that a step depends on.
+/// Rope against rope in one model. A step depends on nothing that is stored here between steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RopeOnRope {
-    /// `None` where ropes pass through each other.
+    /// `None` if ropes pass through each other.
     pub law: Option<RopeLaw>,
     pub pairs: Vec<Pair>,
     /// Whether ropes may touch in this step.
     pub touching: bool,
-    /// Pairs that run through each other; some may stand here twice.
+    /// Pairs that pass through each other; some may be listed twice.
     through: Vec<[usize; 2]>,
     homes: Vec<Home>,
     /// Joints at the ends of each line, and its unstretched length [m].
@@ -77,7 +77,7 @@ pub(crate) struct RopeOnRope {
     broad: Broad,
     found: Found,
     passes: usize,
-    /// Two segments where so much rope lies together that it is not solved.
+    /// Two segments at which more places are in contact than can be solved.
     pub crowded: Option<[usize; 2]>,
 }
 
@@ -125,18 +125,18 @@ impl RopeOnRope {
 }
 
 impl Pair {
-    /// Ends of both segments by a quantity given at nodes.
+    /// Values of a quantity of nodes at the ends of both segments.
     pub fn places(&self, at: impl Fn(usize) -> DVec3) -> [[DVec3; 2]; 2] {
         self.nodes.map(|node| [at(node), at(node + 1)])
     }
 
-    /// What touches by a quantity given at nodes: a segment by its ends, a knot by its middle twice.
+    /// Values of a quantity of nodes at the parts that touch: a segment by its ends, a knot by its middle twice.
     pub fn shapes(&self, at: impl Fn(usize) -> DVec3) -> [[DVec3; 2]; 2] {
         let [one, other] = self.places(at);
         [shape(one, self.knots_at[0]), shape(other, self.knots_at[1])]
     }
 
-    /// The same over a move.
+    /// The parts that touch, over a move.
     fn sweeps(&self, from: &[DVec3], to: impl Fn(usize) -> DVec3) -> [SweptSegment; 2] {
         let ([one, other], [one_to, other_to]) = (self.shapes(|node| from[node]), self.shapes(to));
         [(one, one_to), (other, other_to)].map(|([a0, b0], [a1, b1])| SweptSegment {
@@ -152,7 +152,7 @@ impl Pair {
         self.knots[0].is_some()
     }
 
-    /// What it is known by.
+    /// Its key.
     fn key(&self) -> ([usize; 2], [Option<usize>; 2]) {
         (self.segments, self.knots)
     }

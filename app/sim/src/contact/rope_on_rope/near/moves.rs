@@ -1,4 +1,4 @@
-//! How far rope may move without crossing rope, and what a move does to the bounds of distance.
+//! How far rope may move without crossing rope, and what a move changes in the bounds of distance.
 
 use glam::DVec3;
 
@@ -10,22 +10,21 @@ use crate::geometry::sweep::{SweptSegment, walk};
 use crate::model::Model;
 use crate::state::State;
 
-/// Rope that moved less than this from its drift has met nothing but what was gathered: two ropes less than the margin [m].
+/// Rope closer than this to its drift has reached nothing that was not gathered: two ropes together stay within the margin [m].
 const UNWATCHED_M: f64 = 0.014;
 
 /// That move as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
 
-/// Share of their contact distance to which ropes may come by their velocities before the guess is held off.
+/// Share of their contact distance to which ropes may approach by their velocities before the predictor is projected.
 const HELD_OFF_SHARE: f64 = 0.3;
 
-/// Share of their contact distance by which a knot and what it meets may move relative to each other in a step: a knot that flies past
-/// rope within a step would else be pushed at neither end of it.
+/// Largest relative move of a knot and rope in a step, as a share of their contact distance: a knot that passes rope within a step would
+/// feel no force at either end of it.
 const FOLLOWED_SHARE: f64 = 0.5;
 
 impl RopeOnRope {
-    /// Ends a step on the straight path from where it began; the number of crossings that an exact test finds on it, or `None` where
-    /// ropes may cross on it.
+    /// Checks the straight path of a step; returns the number of crossings that an exact test finds, `None` if ropes may cross.
     pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let mut crossings = 0;
         for pair in &self.pairs {
@@ -44,7 +43,7 @@ impl RopeOnRope {
         Some(crossings)
     }
 
-    /// Takes from the move `from` -> `target` what brings ropes nearer to each other than they may touch, or than they are.
+    /// Removes from the move `from` -> `target` the part that brings ropes closer than their contact distance, or than they are.
     pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
         for pair in &self.pairs {
             let [one, other] = pair.sweeps(from, |node| target[node]);
@@ -77,7 +76,7 @@ impl RopeOnRope {
         self.touching
     }
 
-    /// The same among what was gathered, where rope strayed too little to have met anything else.
+    /// Whether gathered pairs may touch, if rope is too close to its drift to have reached others.
     pub fn met_known(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
         self.touching = self.met_gathered(from, to);
         self.touching

@@ -7,7 +7,7 @@ use crate::contact::rope_on_rope::points::{RopeContactPoint, point_of_ball, poin
 use crate::geometry::segment_pair::nearest;
 use crate::state::{RopeGrip, State};
 
-/// How far a point may have moved along either rope in a step and be the same grip [m].
+/// Largest move of a point along either rope in a step with which it continues a grip [m].
 const FOLLOWED_M: f64 = 0.05;
 
 /// Passes in which points follow the ropes; then they stay, so that Newton can finish.
@@ -38,7 +38,7 @@ impl RopeOnRope {
             let along = self.along_of(pair, point);
             match grip_at(&state.rope.rope_grips, pair, along) {
                 Some(grip) => (point.kept, point.forgiven_m) = (grip.stretch, grip.forgiven_m),
-                // What touches already and holds no grip lay so when the run began.
+                // Ropes that touch without a stored grip did so at the start of the run.
                 None => point.forgiven_m = (pair.contact_distance - pair.first).max(0.0),
             }
         }
@@ -78,7 +78,7 @@ impl RopeOnRope {
         }
     }
 
-    /// Opens points anew where ropes have come nearer than at those they have; whether there were any.
+    /// Opens points again where ropes are closer than at their points; returns whether there were any.
     pub fn open_nearer_points(&mut self, state: &State, places: &[DVec3]) -> bool {
         let mut opened = false;
         for index in 0..self.pairs.len() {

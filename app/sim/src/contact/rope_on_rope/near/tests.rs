@@ -1,4 +1,4 @@
-//! What is found with a list of neighbours kept for steps against what is found anew, and against all pairs looked at one by one.
+//! The search with a list of neighbours for several steps against a new search in each step, and against all pairs.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::model::Joint;
 use crate::random::unit;
 use crate::whale::Bounds;
 
-/// Steps looked at, and their length [s].
+/// Number of steps, and their length [s].
 const STEPS: u64 = 400;
 const DT_S: f64 = 0.01;
 /// Segments of each of three lines, not a multiple of those in a piece, and their length [m].
@@ -70,7 +70,7 @@ fn pairs_of(work: &RopeOnRope) -> Vec<Told> {
     work.pairs.iter().map(told).collect()
 }
 
-/// To the bit; the list holds for more than one step where rope goes slowly.
+/// To the bit; the list holds for more than one step if rope is slow.
 #[test]
 fn a_kept_list_gathers_what_a_new_one_gathers() {
     let model = three_lines();
@@ -127,7 +127,7 @@ fn is_left_out([one, other]: [&Piece; 2], may_touch: bool) -> bool {
     }
 }
 
-/// With some segments left out, as what never touches.
+/// With some segments excluded, as those that never touch.
 #[test]
 fn what_is_found_is_all_that_comes_within_reach() {
     let model = three_lines();

@@ -1,9 +1,9 @@
-//! The pairs of one segment of rope, and how far it moves relative to their skin.
+//! The pairs of one segment of rope, and its travel relative to their skin.
 //!
-//! With `d` the mean move of the skin's corners over a step of the model and `e` the greatest departure of any corner from it, a
-//! segment whose ends move by `u` while the skin makes a share `s` of its step comes no nearer to any of its triangles than by
-//! `max |u - s d| + s e`. What it has moved so far is a debt of every distance measured before, so that pairs are
-//! measured anew only where that debt leaves room for a touch.
+//! With `d` the mean move of the skin's corners over a step of the model and `e` the greatest deviation of any corner from it, a
+//! segment whose ends move by `u` while the skin makes a share `s` of its step approaches any of its triangles by at most
+//! `max |u - s d| + s e`. The sum of these bounds since a distance was measured is subtracted from it; pairs are measured again only
+//! where the remainder leaves room for a touch.
 
 use std::ops::Range;
 
@@ -30,11 +30,11 @@ pub(crate) struct Group {
     spread: f64,
     /// Lower bound of the distance of all its pairs before it had moved at all [m].
     pub clear: f64,
-    /// The same of those that are not active, where the solver step begins [m].
+    /// Lower bound of the distance of its pairs that are not active, at the start of the solver step [m].
     pub far: f64,
-    /// How far it has moved relative to its skin in the solver steps so far [m].
+    /// Its travel relative to its skin in the solver steps so far [m].
     pub moved: f64,
-    /// How far it moves in this one, to where the trial stands [m].
+    /// Its move relative to its skin in this solver step, to the trial [m].
     pub moving: f64,
 }
 
@@ -57,7 +57,7 @@ impl Group {
         }
     }
 
-    /// Takes the mean and the spread of the moves of its skin.
+    /// Sets the mean and the spread of the moves of its skin.
     pub fn follow_skin<'a>(&mut self, skin: impl Iterator<Item = &'a Placed> + Clone) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for corner_move in skin.clone().flat_map(Placed::corner_moves) {

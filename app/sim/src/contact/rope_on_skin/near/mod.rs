@@ -21,10 +21,10 @@ use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
 
-/// Rope within this distance of the path of skin is looked at [m].
+/// Distance from the path of skin within which rope is gathered [m].
 pub(crate) const MARGIN_M: f64 = 0.04;
 
-/// Least separation kept, as a share of the rope's radius.
+/// Least separation on a path, as a share of the rope's radius.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
 
 /// A segment and a triangle that may touch.
@@ -39,13 +39,13 @@ pub(crate) struct Pair {
     exact: bool,
     /// How far the group had moved relative to its skin by then [m].
     measured_at: f64,
-    /// Separation kept [m].
+    /// Least separation on a path [m].
     min_separation: f64,
 }
 
-/// All pairs of a step of the model, in rising order of segment, with the surface they come from.
+/// All pairs of a step of the model, in rising order of segment, with their surface.
 ///
-/// Skin goes straight from where the model's step begins to where it ends; a solver step takes it from `start` to `goal`.
+/// Skin moves straight from the start of the model's step to its end; a solver step moves it from the share `start` to `goal`.
 #[derive(Clone, Debug)]
 pub(crate) struct Near {
     surface: Surface,
@@ -118,7 +118,7 @@ impl Near {
         self.surface.is_any_near(&self.sweeps, margin)
     }
 
-    /// The box around all skin over the step that was looked at last.
+    /// The box around all skin over the step of the last search.
     pub fn whole(&mut self) -> Bounds {
         self.surface.whole()
     }
@@ -203,7 +203,7 @@ impl Near {
         &self.skin[self.pairs[pair].skin]
     }
 
-    /// Lower bound of the distance of a group's pair where the trial stands [m].
+    /// Lower bound of the distance of a group's pair at the trial [m].
     pub fn bound(&self, pair: usize, group: &Group) -> f64 {
         let pair = &self.pairs[pair];
         pair.gap_bound - (group.moved - pair.measured_at) - group.moving
@@ -216,7 +216,7 @@ impl Near {
         crossed.next().map(|pair| pair.segment)
     }
 
-    /// Goes back to where a refused solver step began; where its path had been ended, everything is to be measured anew.
+    /// Returns to the start of a rejected solver step; if its path had been ended, all distances are invalidated.
     #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
     pub fn go_back(&mut self) {
         if self.fraction == self.start {

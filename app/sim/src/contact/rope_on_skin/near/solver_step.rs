@@ -1,8 +1,8 @@
-//! One solver step of rope near skin: which pairs may touch in it, and whether its path is free.
+//! One solver step of rope near skin: the pairs that may touch in it, and the check of its path.
 //!
-//! Newton goes where it likes; what counts is the straight path from where the step began to where it ended. It is proved free
-//! by how far a segment moved relative to its skin, else by additive continuous collision detection (`sweep.rs`), and checked by an exact
-//! test (`crossing.rs`).
+//! The iterations are free to move anywhere; what is checked is the straight path from the start of the step to its end. It is proved
+//! free by the bound of the move of a segment relative to its skin, else by additive continuous collision detection (`geometry/sweep.rs`),
+//! and checked by an exact test (`geometry/crossing.rs`).
 
 use glam::DVec3;
 
@@ -12,16 +12,16 @@ use crate::geometry::distance::{Nearest, segment_triangle};
 use crate::geometry::placed::on_triangle;
 use crate::geometry::sweep::{SweptSegment, safe_fraction_from, triangle_at};
 
-/// How far beyond its reach and its move rope looks for skin [m].
-const LOOK_M: f64 = 1.5e-3;
-/// Times the predicted move that it looks.
-const LOOK_MOVES: f64 = 1.5;
-/// Longest predicted move that it looks along [m].
+/// Margin of the search beyond the reach of rope and its move [m].
+const SEARCH_M: f64 = 1.5e-3;
+/// Factor on the predicted move in the search.
+const SEARCH_MOVES: f64 = 1.5;
+/// Longest predicted move in the search [m].
 const LONGEST_MOVE_M: f64 = 0.02;
-/// Debt of a distance beyond which it is measured anew [m].
+/// Travel since a distance was measured beyond which it is measured again [m].
 const STALE_M: f64 = 5e-4;
 
-/// Share of its radius to which rope may come to skin by its velocity before its guess is held off.
+/// Share of its radius to which rope may approach skin by its velocity before its predictor is projected.
 const HELD_OFF_SHARE: f64 = 0.3;
 
 /// How far a place lies from the straight path between two others [m].
@@ -32,15 +32,15 @@ fn away(from: DVec3, to: DVec3, place: DVec3) -> f64 {
 }
 
 impl Near {
-    /// Takes skin to the end of a solver step, and finds what may touch on the way from where rope is to where it is guessed to go.
-    pub fn look(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
+    /// Moves skin to the end of a solver step, and finds the pairs that may touch on the path of rope to its predictor.
+    pub fn find_active(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
         (self.start, self.goal) = (self.fraction, goal);
         self.active.clear();
         let share = goal - self.start;
         for group in &mut self.groups {
-            // Without sweeps rope sees only what is near where the step begins.
+            // Without sweeps only what is near at the start of the step is found.
             group.moving = if self.swept { group.relative_move(from, to, share) } else { 0.0 };
-            let look = group.reach + LOOK_M + LOOK_MOVES * group.moving.min(LONGEST_MOVE_M);
+            let look = group.reach + SEARCH_M + SEARCH_MOVES * group.moving.min(LONGEST_MOVE_M);
             let first = self.active.len();
             (group.active, group.far) = (first..first, group.clear - group.moved);
             if group.far > look {
@@ -76,12 +76,12 @@ impl Near {
         }
     }
 
-    /// Whether anything may touch in the solver step looked at.
+    /// Whether anything may touch in the solver step.
     pub fn may_touch(&self) -> bool {
         !self.active.is_empty()
     }
 
-    /// Takes in where the trial stands.
+    /// Updates the moves of segments to the trial.
     pub fn follow(&mut self, from: &[DVec3], to: &[DVec3]) {
         let share = self.goal - self.start;
         for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
@@ -89,8 +89,8 @@ impl Near {
         }
     }
 
-    /// Ends the solver step where its path is free; gives the number of crossings that an exact test finds on it. `None` where it
-    /// may lead through skin, or came near skin that was not looked at.
+    /// Ends the solver step if its path is free; returns the number of crossings that an exact test finds. `None` if it may lead
+    /// through skin, or came near skin that is not active.
     pub fn end(&mut self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let share = self.goal - self.start;
         let mut crossings = 0;
@@ -164,7 +164,7 @@ impl Near {
         };
         let mut last = None;
         for (sweep, node) in self.sweeps.iter().zip(&self.segment_node) {
-            // Where the segment before ends at its first node, that node has been looked at.
+            // If the segment before ends at its first node, that node has been tested.
             let begins = last != Some(*node);
             if (begins && strays(sweep.a0, sweep.a1, places[*node]))
                 || strays(sweep.b0, sweep.b1, places[*node + 1])
@@ -176,7 +176,7 @@ impl Near {
         false
     }
 
-    /// Takes from the move `from` → `target` of a solver step what brings rope nearer to skin than its radius, or than it is.
+    /// Removes from the move `from` → `target` of a solver step the part that brings rope closer to skin than its radius, or than it is.
     pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
         if !self.swept {
             return;

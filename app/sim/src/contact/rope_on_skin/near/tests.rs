@@ -1,4 +1,4 @@
-//! Short cuts against what they cut short.
+//! Bounds that avoid work, against the full computation.
 
 use glam::{DQuat, DVec3};
 
@@ -50,7 +50,7 @@ fn a_single_node_that_strays_is_found() {
     }
 }
 
-/// What the boxes around pieces of rope tell is what the search through its segments tells.
+/// The boxes around pieces of rope give the result of the search through all segments.
 #[test]
 fn rope_clear_of_the_whole_skin_is_near_none_of_it() {
     let model = two_lines();
