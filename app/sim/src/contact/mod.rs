@@ -398,7 +398,11 @@ impl Contacts {
 
     /// Opens contact points where rope is closer now than at its contact points; returns whether there were any.
     pub fn open_more(&mut self, context: &StepContext<'_>, trial: &Trial) -> bool {
-        self.kinds_mut().fold(false, |opened, kind| kind.open_more(context, trial) || opened)
+        let mut opened = false;
+        for kind in self.kinds_mut() {
+            opened |= kind.open_more(context, trial);
+        }
+        opened
     }
 
     /// Evaluates contact at the trial.

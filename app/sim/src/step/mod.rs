@@ -26,7 +26,7 @@ pub use workspace::Workspace;
 /// Advances `state` by the model's step.
 ///
 /// # Errors
-/// With the part and the reason, where the run cannot go on; `state` is then as it was before the step.
+/// With the part and the reason, if the run cannot continue; `state` is then as it was before the step.
 pub fn step(
     model: &Model,
     input: &Input,
@@ -110,7 +110,7 @@ pub struct Input {
     pub controls: Controls,
 }
 
-/// Why a run cannot go on.
+/// Why a run cannot continue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
     /// Time at which it stopped [s].

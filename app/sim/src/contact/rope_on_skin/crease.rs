@@ -1,17 +1,17 @@
-//! Faces of skin that a place on rope touches at once.
+//! Faces of skin that a place on rope touches at the same time.
 //!
-//! Rope in a crease, where skin is concave, is pressed by both walls. Were it pressed by the nearer alone, the push would jump from
-//! wall to wall where they are equally near, which is just where rope comes to rest: no balance is there to be found, and rope is
-//! driven into the fold until it is crushed. Seen from a place at distances `d ≤ d'` along normals `n`, `n'` from two triangles,
-//! the closest point of the second lies `d - d' n·n'` above the plane of the first: nothing where both are one flat or one convex face,
-//! `d (1 - n·n')` at most, where skin is concave between them. How far that height has grown, `s` from 0 to 1, says how much of a wall of
-//! its own the second is. Of the push that each had alone, it has the share
+//! Rope in a crease, where skin is concave, is pressed by both walls. If only the nearer pressed, the force would jump from
+//! wall to wall where they are equally near, which is where rope rests: there would be no balance, and rope would be
+//! driven into the fold until it is overcompressed. From a place at distances `d ≤ d'` along normals `n`, `n'` from two triangles,
+//! the closest point of the second is `d - d' n·n'` above the plane of the first: zero if both belong to one flat or convex face,
+//! at most `d (1 - n·n')` if skin is concave between them. That height, scaled to `s` from 0 to 1, measures how far the second is a wall
+//! of its own. Of the force that each would have alone, it has the share
 //!
 //! ```text
 //! w_i = s_i / (1 + sum over j of max(0, n_i·n_j) min(s_i, s_j))        s = 1 for the nearest
 //! ```
 //!
-//! so that nothing jumps as rope slides into a crease or out of it. Two walls at a right angle each push with all they have. Two facets of
+//! so that nothing jumps as rope slides into a crease or out of it. Two walls at a right angle each press in full. Two facets of
 //! a shallow fold together have the force of one: over the few micrometres in which `s` grows there, the force only turns.
 //! A face is pressed by its share of the rope's length: normal force, friction and the energy stored by friction are in proportion to it.
 

@@ -84,6 +84,29 @@ pub(crate) fn points_beside(kept: &[KeptFace], piece: u64) -> usize {
     numbers.max().unwrap_or(0)
 }
 
+/// Bits below the segment.
+pub(crate) const SEGMENT_BITS: u32 = 20;
+/// Bits that name the face.
+pub(crate) const FACE_BITS: u32 = 2;
+/// Bits that name the contact point within its piece, and the face.
+pub(crate) const PIECE_BITS: u32 = 3 + FACE_BITS;
+/// Most contact points of a piece.
+pub(crate) const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
+
+/// The segment a site lies on.
+pub(crate) fn segment_of(site: u64) -> usize {
+    (site >> SEGMENT_BITS) as usize
+}
+
+/// A site whose segment, where it is among these, has moved by one place up or down.
+pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
+    if segments.contains(&segment_of(site)) {
+        site.wrapping_add_signed(by << SEGMENT_BITS)
+    } else {
+        site
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,28 +153,5 @@ mod tests {
         let others =
             state(&[(point - (1 << FACE_BITS), DVec3::Z), (point + (1 << FACE_BITS), DVec3::Z)]);
         assert_eq!(assigned(&others, point, &[DVec3::Z]), [None]);
-    }
-}
-
-/// Bits below the segment.
-pub(crate) const SEGMENT_BITS: u32 = 20;
-/// Bits that name the face.
-pub(crate) const FACE_BITS: u32 = 2;
-/// Bits that name the contact point within its piece, and the face.
-pub(crate) const PIECE_BITS: u32 = 3 + FACE_BITS;
-/// Most contact points of a piece.
-pub(crate) const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
-
-/// The segment a site lies on.
-pub(crate) fn segment_of(site: u64) -> usize {
-    (site >> SEGMENT_BITS) as usize
-}
-
-/// A site whose segment, where it is among these, has moved by one place up or down.
-pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
-    if segments.contains(&segment_of(site)) {
-        site.wrapping_add_signed(by << SEGMENT_BITS)
-    } else {
-        site
     }
 }

@@ -167,7 +167,7 @@ fn depth_of(state: &State, solid: &Solid, node: usize, (low, high): (f64, f64)) 
     -least_distance(solid, &pose, from.lerp(to, low), from.lerp(to, high))
 }
 
-/// Adds a length of rope to a list in which it may go on from the last.
+/// Adds a length of rope to a list, as an extension of the last if they are adjacent.
 fn add(list: &mut Vec<RopeWithin>, next: RopeWithin) {
     match list.last_mut() {
         Some(last)

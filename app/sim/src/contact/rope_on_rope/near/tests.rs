@@ -63,11 +63,11 @@ fn drift(state: &State, node: usize) -> DVec3 {
 }
 
 /// Segments and knots of a pair, bits of its distance, and whether it may touch.
-type Told = ([usize; 2], [Option<usize>; 2], u64, bool);
+type FoundPair = ([usize; 2], [Option<usize>; 2], u64, bool);
 
-fn pairs_of(work: &RopeOnRope) -> Vec<Told> {
-    let told = |pair: &Pair| (pair.segments, pair.knots, pair.first.to_bits(), pair.may_touch);
-    work.pairs.iter().map(told).collect()
+fn pairs_of(work: &RopeOnRope) -> Vec<FoundPair> {
+    let found = |pair: &Pair| (pair.segments, pair.knots, pair.first.to_bits(), pair.may_touch);
+    work.pairs.iter().map(found).collect()
 }
 
 /// To the bit; the list holds for more than one step if rope is slow.
