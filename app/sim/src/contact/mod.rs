@@ -185,6 +185,16 @@ pub(crate) trait ContactKind {
     /// Whether anything may touch in the solver step.
     fn is_touching(&self) -> bool;
 
+    /// Whether it may add forces on rope in the solver step, other than couplings of rope on rope.
+    fn adds_on_rope(&self) -> bool {
+        false
+    }
+
+    /// Whether [`check_path`](Self::check_path) reads the places of rope; rope held as lanes is then copied to the trial.
+    fn checks_path_of_rope(&self) -> bool {
+        false
+    }
+
     /// Adds the pairs of bodies that the linear system must couple.
     fn add_couplings(&self, _coupled: &mut Vec<[usize; 2]>) {}
 
@@ -372,9 +382,14 @@ impl Contacts {
         self.kinds().any(|kind| kind.kind() != Kind::RopeOnRope && kind.is_touching())
     }
 
-    /// Whether skin, obstacles or bodies may touch rope in the solver step.
-    pub fn is_touching_rope(&self) -> bool {
-        self.rope_on_solid.touching || self.rope_on_skin.as_ref().is_some_and(|kind| kind.touching)
+    /// Whether any kind may add forces on rope in the solver step, other than couplings of rope on rope.
+    pub fn add_on_rope(&self) -> bool {
+        self.kinds().any(ContactKind::adds_on_rope)
+    }
+
+    /// Whether the check of paths reads the places of rope.
+    pub fn check_path_of_rope(&self) -> bool {
+        self.kinds().any(ContactKind::checks_path_of_rope)
     }
 
     /// Pairs of bodies that the linear system must couple in the solver step.

@@ -135,7 +135,7 @@ impl Solver {
         if !self.system.in_lanes() {
             return self.solve_lines(context, share);
         }
-        if self.contacts.is_touching_rope() {
+        if self.contacts.add_on_rope() {
             return self.solve_in_lanes(context, rules, share);
         }
         let passed = self.pass_in_lanes(context, share);
@@ -182,10 +182,8 @@ impl Solver {
             let settled = passed.flipped_n <= rules.tension_n(passed.greatest_n);
             if settled || !passed.finite || solved == MOST_ACTIVE_SETS {
                 self.take_places();
-                if self.contacts.rope_on_solid.touching {
-                    let (rope, bodies) = (&self.before[..], &self.bodies_before[..]);
-                    self.contacts.store_solution(&self.trial, &Solution::Moved { rope, bodies });
-                }
+                let (rope, bodies) = (&self.before[..], &self.bodies_before[..]);
+                self.contacts.store_solution(&self.trial, &Solution::Moved { rope, bodies });
                 return self.pass_done(&passed);
             }
             solved += 1;

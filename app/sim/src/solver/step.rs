@@ -200,7 +200,7 @@ impl Solver {
         context: &StepContext<'_>,
         crossings: &mut [u64; Kind::COUNT],
     ) -> Result<(), ContactFailure> {
-        if self.contacts.rope_is_near_whale() || !self.contacts.rope_on_rope.pairs.is_empty() {
+        if self.contacts.check_path_of_rope() {
             self.take_places();
         }
         self.contacts.check_path(context, &self.trial, crossings)

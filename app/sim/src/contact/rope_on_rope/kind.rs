@@ -100,6 +100,10 @@ impl ContactKind for RopeOnRope {
         self.touching
     }
 
+    fn checks_path_of_rope(&self) -> bool {
+        !self.pairs.is_empty()
+    }
+
     fn project_guess(&self, state: &State, trial: &mut Trial) {
         if self.touching {
             self.hold_off(&state.rope.position, &mut trial.place);

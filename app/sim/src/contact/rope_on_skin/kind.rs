@@ -30,6 +30,14 @@ impl ContactKind for RopeOnSkin {
         self.touching
     }
 
+    fn adds_on_rope(&self) -> bool {
+        self.touching
+    }
+
+    fn checks_path_of_rope(&self) -> bool {
+        self.is_near()
+    }
+
     fn project_guess(&self, state: &State, trial: &mut Trial) {
         if self.touching {
             self.near.hold_off(&state.rope.position, &mut trial.place);

@@ -131,6 +131,10 @@ impl ContactKind for RopeOnSolid {
         self.touching
     }
 
+    fn adds_on_rope(&self) -> bool {
+        self.touching
+    }
+
     fn assemble_on_rope(
         &mut self,
         order: Order,
@@ -164,6 +168,9 @@ impl ContactKind for RopeOnSolid {
     }
 
     fn store_solution(&mut self, trial: &Trial, solution: &Solution<'_>) {
+        if matches!(solution, Solution::Moved { .. }) && !self.touching {
+            return;
+        }
         for (solids, point) in self.open_points_mut() {
             let solid = &solids[point.solid];
             let (rope, relative) = match *solution {
