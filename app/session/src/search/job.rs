@@ -1,6 +1,6 @@
-//! A search at work behind a window: opened, run and reported on threads of its own, paused, cancelled and gone on with.
+//! A search behind a window: opened, run and reported on threads of its own, paused, cancelled and resumed.
 //!
-//! Its rounds lie in a folder named after the observation and the hash of the search. An edited observation therefore begins a
+//! Its rounds are stored in a folder named after the observation and the hash of the search. An edited observation therefore begins a
 //! folder of its own, and a cancelled search continues from its folder.
 
 use std::path::{Path, PathBuf};

@@ -27,7 +27,7 @@ pub struct StudyRequest {
     pub file: PathBuf,
     /// The study's name.
     pub name: String,
-    /// The text that is run, whatever the file holds.
+    /// The text that is run, which may differ from the file.
     pub text: String,
     /// The library and the open scenario.
     pub files: Files,

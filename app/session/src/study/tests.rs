@@ -163,7 +163,7 @@ fn a_paused_study_stands_still_and_its_table_is_that_of_one_never_paused() {
         let done = control.progress().encounters.done;
         std::thread::sleep(Duration::from_millis(300));
         assert!(control.is_paused() && !run.is_finished());
-        assert_eq!(control.progress().encounters.done, done, "a paused study stands still");
+        assert_eq!(control.progress().encounters.done, done, "a paused study does not advance");
         assert!(done < 24, "the study was over before it was paused");
         control.resume();
         run.join().unwrap().unwrap();
@@ -257,7 +257,7 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     queue.add(job(place.study()));
     queue.add(job(second.clone()));
     queue.add(job(second.clone()));
-    assert_eq!(queue.jobs.len(), 2, "a study stands in the queue once");
+    assert_eq!(queue.jobs.len(), 2, "a study is in the queue once");
     queue.begin_next(&host);
     queue.begin_next(&host);
     assert_eq!(queue.jobs[1].state(), State::Waiting, "one study at a time");

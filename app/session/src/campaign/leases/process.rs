@@ -86,7 +86,7 @@ impl Process {
         file.sync_all()
     }
 
-    /// Whether another process has ended: its file is gone, its lock is free, or it has been silent for too long.
+    /// Whether another process has ended: its file is removed, its lock is free, or it has been silent for too long.
     ///
     /// # Errors
     /// A file that cannot be read.

@@ -69,7 +69,7 @@ pub(super) fn bands(findings: &Findings) -> Table {
     )
 }
 
-/// `0.2 to 3.1 %` with the levels that it goes between, and what chance would do.
+/// `0.2 to 3.1 %` with the levels of both ends, and the band of random levels.
 fn assumed(band: &AssumedBand) -> Cell {
     let by_chance = percent_interval(band.by_chance);
     if band.is_chance() {

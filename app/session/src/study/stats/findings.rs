@@ -68,13 +68,13 @@ pub struct OptionFinding {
     pub id: String,
     /// Name.
     pub name: String,
-    /// Strength it stands for [N].
+    /// Strength that it represents [N].
     pub strength_n: Option<f64>,
     /// Which curve of break-away against strength it belongs to.
     pub curve: Option<String>,
     /// Runs that do not count.
     pub invalid: u64,
-    /// Runs that were too short for their outcome to stand; they count.
+    /// Valid runs that were too short for a final outcome; they count.
     pub undecided: u64,
     /// Checks of segment lengths near the whale in all runs, and those that left a segment longer than requested by a quarter or more.
     pub resolution: Looks,
