@@ -1,6 +1,6 @@
 //! Several gears beside each other on one page: the data of `assets/report/comparison.html`.
 //!
-//! Each column says of a gear what its own sheet says, in the same words.
+//! Each column has the contents of a gear's own sheet, in the same words.
 
 use askama::Template;
 
@@ -15,7 +15,7 @@ use crate::units::N_PER_LBF;
 use super::page::{bodies, command, force, probability, threat, unknown, where_and_when};
 use super::{ComplianceSheet, drawing};
 
-/// Height over the seabed above which a whale that swims along it meets rope [m].
+/// Height above the seabed of rope that a whale near the seabed meets [m].
 const CLEAR_M: f64 = 1.0;
 
 /// All that the page shows. The template escapes texts; `style` and figures are markup.
@@ -74,7 +74,7 @@ fn gear(sheet: &ComplianceSheet) -> Gear<'_> {
     }
 }
 
-/// What a row tells of a gear.
+/// The cell of a row for a gear.
 type Tell = fn(&ComplianceSheet) -> Cell;
 
 /// A row for each question, a column for each gear.
@@ -133,7 +133,7 @@ fn binding_rules(sheet: &ComplianceSheet) -> Cell {
     Cell::lines(lines)
 }
 
-/// The part that delivers least at running tide.
+/// The part of least delivered strength at running tide.
 fn weakest_of(sheet: &ComplianceSheet) -> Option<&PartStrength> {
     let parts = sheet.rest[1].shape.strengths.iter();
     parts.min_by(|one, other| one.delivered_N.total_cmp(&other.delivered_N))
@@ -176,7 +176,7 @@ fn held_fast(sheet: &ComplianceSheet) -> Cell {
     ])
 }
 
-/// Where the figures are from.
+/// Sources of the figures.
 fn sources(sheets: &[ComplianceSheet]) -> Vec<String> {
     let mut lines = Vec::new();
     for sheet in sheets {
@@ -195,7 +195,7 @@ fn sources(sheets: &[ComplianceSheet]) -> Vec<String> {
     lines
 }
 
-/// What a reader must not take from the page, each once.
+/// Limits of the page, each once.
 fn not_known(sheets: &[ComplianceSheet]) -> Vec<String> {
     let mut lines = Vec::new();
     for line in sheets.iter().flat_map(unknown) {

@@ -1,9 +1,9 @@
 //! The compliance sheet: one page on a gear for a hearing, readable in black and white.
 //!
-//! It shows the gear at slack and at running tide (`drawing.rs`), what it is made of and what each part delivers, the verdict on every
-//! rule, what hauling it takes, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of everything the
-//! model at running tide is made from, so that the same command makes the same page. The page is HTML (`page.rs`); an
-//! installed browser prints it as PDF (`pdf.rs`). Several gears stand beside each other on a page of their own (`comparison.rs`).
+//! It shows the gear at slack and at running tide (`drawing.rs`), its parts with their delivered strengths, the verdict on every
+//! rule, the loads of hauling, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of
+//! all sources of the model at running tide, so that the same command makes the same page. The page is HTML (`page.rs`); an
+//! installed browser prints it as PDF (`pdf.rs`). A page of its own compares several gears (`comparison.rs`).
 
 mod comparison;
 mod drawing;
@@ -28,14 +28,14 @@ use crate::statics::preview::{TrialGear, TrialSea, alone};
 pub use comparison::comparison;
 use threat::ThreatOfGear;
 
-/// The sea that a preview is laid into: whatever the site, depth and current are the request's.
+/// The sea of a preview; depth and current are the request's.
 const SEA: &str = "format = 1\nkind = \"scenario\"\nname = \"compliance sheet\"\nduration = \"1 s\"\nstrength_scatter = false\n\
     [current]\nspeed = \"0 m/s\"\ntoward = \"90 deg\"\n";
 
-/// Speed of the running tide where none is given [m/s]: a shallow bay at its strongest, as the preview of an assembly begins.
+/// Default speed of the running tide [m/s]: a shallow bay at its strongest, as the preview of an assembly begins.
 pub const USUAL_TIDE_M_S: f64 = 0.25;
 
-/// What a sheet is asked for.
+/// The request for a sheet.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
     /// Id of the assembly.
@@ -62,7 +62,7 @@ pub struct ComplianceSheet {
     rules: RuleSheet,
     /// At slack and at running tide.
     rest: [AtRest; 2],
-    /// What hauling it takes, or why it cannot be hauled.
+    /// Loads of hauling, or why it cannot be hauled.
     haul: Result<HaulSheet, Error>,
     threat: Option<ThreatOfGear>,
 }

@@ -14,10 +14,10 @@ use super::threat::ThreatOfGear;
 use super::{ComplianceSheet, drawing};
 use crate::page::Citations;
 
-/// Parts listed of a gear with many alike; a sentence names the others.
+/// Greatest number of parts in a list; a sentence names the others.
 const MOST_PARTS: usize = 14;
 
-/// Tension below which a line lies slack [N].
+/// Tension below which a line is slack [N].
 const SLACK_N: f64 = 0.5;
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
@@ -48,7 +48,7 @@ struct Page<'a> {
     hash: String,
 }
 
-/// What a threat table says, in words.
+/// The row of a threat table, in words.
 pub(super) struct Threat {
     says: String,
     pub(super) source: String,
@@ -98,7 +98,7 @@ pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {
     )
 }
 
-/// What a reader wants to know first.
+/// The verdict in a sentence.
 fn verdict(sheet: &ComplianceSheet) -> String {
     let binds = |rule: &&RuleResult| rule.binding;
     let ids = |verdict: Verdict| -> Vec<&str> {
@@ -124,7 +124,7 @@ pub(super) fn force(newtons: f64) -> String {
     format!("{:.0} lbf ({:.2} kN)", newtons / N_PER_LBF, newtons / 1000.0)
 }
 
-/// Lines at slack and at running tide that bear something in one of these seas.
+/// Lines at slack and at running tide that are taut in one of these seas.
 fn taut(sheet: &ComplianceSheet) -> Vec<[&LineShape; 2]> {
     let [slack, running] = sheet.rest.each_ref().map(|rest| &rest.shape.lines);
     let bears = |line: &LineShape| line.end_a_tension_N.max(line.end_b_tension_N) >= SLACK_N;
@@ -155,7 +155,7 @@ fn slack_lines(sheet: &ComplianceSheet) -> String {
     }
 }
 
-/// What hangs on the lines, in one sentence.
+/// The bodies on the lines, in one sentence.
 pub(super) fn bodies(sheet: &ComplianceSheet) -> String {
     let bodies = &sheet.rest[0].prepared.model.spec.bodies;
     let mut counted: Vec<(&str, BodyRole, usize)> = Vec::new();
@@ -200,7 +200,7 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
     ]
 }
 
-/// Rules that apply and cannot be checked, with why.
+/// Rules that apply and cannot be checked, with the reason.
 fn not_checked(sheet: &ComplianceSheet, citations: &mut Citations) -> Vec<(String, String)> {
     let told = |rule: &RuleResult| {
         let asks = rule.asks.trim_end_matches('.');
@@ -216,7 +216,7 @@ fn not_applicable(sheet: &ComplianceSheet) -> String {
     )
 }
 
-/// Parts alike are told once.
+/// One entry for each kind of part.
 fn distinct(strengths: &[PartStrength]) -> Vec<(&PartStrength, usize)> {
     let mut found: Vec<(&PartStrength, usize)> = Vec::new();
     for part in strengths {
@@ -267,7 +267,7 @@ fn left_out(strengths: &[PartStrength]) -> String {
     }
 }
 
-/// What hauling takes, and what is left to parting.
+/// Loads of hauling, and the margin to parting.
 fn haul(sheet: &ComplianceSheet) -> String {
     let haul = match &sheet.haul {
         Ok(haul) => haul,
@@ -294,7 +294,7 @@ pub(super) fn probability(share: f64) -> String {
     if share < 1e-4 { "below 0.0001".to_owned() } else { format!("{share:.4}") }
 }
 
-/// How it was hauled.
+/// Conditions of the haul.
 fn haul_source(sheet: &ComplianceSheet) -> String {
     let Ok(haul) = &sheet.haul else { return String::new() };
     format!(
@@ -330,7 +330,7 @@ pub(super) fn threat(found: &ThreatOfGear) -> Threat {
     }
 }
 
-/// What a reader must not take from the page.
+/// Limits of the page.
 pub(super) fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
     let estimates = sheet
         .rules
@@ -358,7 +358,7 @@ pub(super) fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
     lines
 }
 
-/// The command that makes the page again.
+/// The command that reproduces the page.
 pub(super) fn command(sheet: &ComplianceSheet) -> String {
     let fishing = &sheet.fishing;
     let mut words = format!(

@@ -1,4 +1,4 @@
-//! The row of a threat table that stands for a gear: nearest in diameter of its endline, then in traps, with its device.
+//! The row of a threat table for a gear: nearest in diameter of its endline, then in traps, with its device.
 
 use serde::Deserialize;
 
@@ -13,7 +13,7 @@ const DEVICES: [&str; 2] = ["SSS_Regular", "NA"];
 /// The name of rope of at most 1,700 lbf in the table, and that strength [N].
 const WEAK: (&str, f64) = ("1,700", 1700.0 * N_PER_LBF);
 
-/// What rounding may add to a strength [N].
+/// Rounding error of a strength [N].
 const ROUNDING_N: f64 = 1e-6;
 
 /// A row of a threat table with bands.
@@ -42,11 +42,11 @@ pub(super) struct Row {
     pub how: String,
 }
 
-/// What a table says of a gear.
+/// The row of a table for a gear.
 pub(super) struct ThreatOfGear {
     /// The table's file.
     pub file: String,
-    /// The row taken for the gear.
+    /// The row for the gear.
     pub row: Row,
     /// The greatest risk of the table, for comparison.
     pub greatest: f64,

@@ -55,17 +55,17 @@ pub fn write(
 ) -> Result<Vec<(&'static str, usize)>, String> {
     std::fs::create_dir_all(folder)
         .map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
-    let told = [
+    let tables = [
         nodes(model, frames),
         segments(model, frames),
         bodies(model, frames),
         whale(frames),
         contacts(model, frames),
     ];
-    let columns = ("columns", columns(&told), about.to_vec());
-    let told = told.into_iter().map(|table| table.with_tags(about));
+    let columns = ("columns", columns(&tables), about.to_vec());
+    let tables = tables.into_iter().map(|table| table.with_tags(about));
     let mut rows = Vec::new();
-    for (name, table, tags) in told.chain([columns]) {
+    for (name, table, tags) in tables.chain([columns]) {
         let (ending, bytes) = match format {
             TableFormat::Csv => ("csv", table.csv().into_bytes()),
             TableFormat::Parquet => {
@@ -86,7 +86,7 @@ pub fn write(
 }
 
 impl RunTable {
-    /// Name, table, and what is told of it in the file's own metadata: the run, and the units and meanings of its columns.
+    /// Name, table, and the file's metadata: the run, and the units and meanings of its columns.
     fn with_tags(self, about: &[(String, String)]) -> (&'static str, Table, Vec<(String, String)>) {
         let (mut columns, mut tags) = (Vec::new(), about.to_vec());
         for (name, unit, meaning, column) in self.columns {
