@@ -1,4 +1,4 @@
-//! What finding contacts costs in a step: the search of the tree, distances of what is near, and sweeps, made once more and timed.
+//! Cost of contact detection in a step: the search of the tree, distances of near pairs, and sweeps, repeated and timed.
 
 use cpu_time::ThreadTime;
 use endline_sim::geometry::distance::segment_triangle;

@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::linked::{Linked, library, told};
+use crate::linked::{Linked, library, report};
 use endline_gear::{Hooks, Options, Scenario, assemble};
 use endline_sdk::{
     Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput,
@@ -123,9 +123,9 @@ speed = 1.0
 
 fn read(pilot: &str) -> Result<Model, String> {
     let scenario =
-        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| told(&problems))?;
+        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| report(&problems))?;
     let spec = assemble(&scenario, &library(), &WithPlain, &Options::default())
-        .map_err(|problems| told(&problems))?;
+        .map_err(|problems| report(&problems))?;
     Model::new(spec).map_err(|errors| format!("{errors:?}"))
 }
 

@@ -1,8 +1,8 @@
-//! Tide, waves and slope as scenarios have them: read, told where wrong, and run with shipped gear.
+//! Tide, waves and slope of scenarios: reading, diagnostics with places, and runs with shipped gear.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, scenario_text, spec_of, told};
+use crate::linked::{Linked, library, report, scenario_text, spec_of};
 use endline_gear::{Options, Scenario, assemble};
 use endline_sim::water::profile::Profile;
 use endline_sim::water::tide::Tide;
@@ -211,7 +211,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
 
 /// Each mistake is reported at its line, with how to fix it.
 #[test]
-fn mistakes_in_the_sea_are_told_with_their_place() {
+fn mistakes_in_the_sea_are_reported_with_their_place() {
     for (site, tables, line, parts) in MISTAKES {
         let whole = single(site, tables);
         let problems = match Scenario::read("test.toml", &whole) {
@@ -220,7 +220,7 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
                 .err()
                 .unwrap_or_default(),
         };
-        let message = told(&problems);
+        let message = report(&problems);
         let first = problems.first().unwrap_or_else(|| panic!("this assembles:\n{whole}"));
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
         assert!(whole.lines().nth(first.line - 1).unwrap().starts_with(line), "{message}");

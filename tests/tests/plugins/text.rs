@@ -74,12 +74,12 @@ fn a_change_of_the_text_changes_its_hash() {
 }
 
 #[test]
-fn what_is_wrong_in_a_text_is_told_with_its_place() {
+fn a_mistake_in_a_text_is_reported_with_its_place() {
     let place = folder("text-wrong");
     let project = written(&place, PluginKind::Gear, "my-gear");
     let file = project.library.join("gear-types/simple.toml");
     let good = fs::read_to_string(&file).unwrap();
-    for (old, new, told) in [
+    for (old, new, part) in [
         (
             "length = \"scope * depth\"",
             "length = \"scope\"",
@@ -102,11 +102,14 @@ fn what_is_wrong_in_a_text_is_told_with_its_place() {
         let problem = try_here(&project.library, &|_, _| ()).unwrap_err();
         let line = 1 + bad.lines().position(|line| line.contains(new.trim_end())).unwrap();
         assert!(
-            problem.contains(told) && problem.contains(&format!("gear-types/simple.toml:{line}:")),
+            problem.contains(part) && problem.contains(&format!("gear-types/simple.toml:{line}:")),
             "{new}: {problem}"
         );
         let (host, problems) = PluginHost::discover(std::slice::from_ref(&place));
-        assert!(host.list().is_empty() && problems.len() == 1, "left out, and the program goes on");
+        assert!(
+            host.list().is_empty() && problems.len() == 1,
+            "omitted, and the program continues"
+        );
     }
     // A row that the attributes make endless ends with a message.
     fs::write(&file, good.replace("repeat = \"traps - 1\"", "repeat = \"1 / (traps - traps)\""))

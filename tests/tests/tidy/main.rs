@@ -12,7 +12,6 @@ mod code_mark;
 mod documents;
 mod figure_docs;
 mod gear_docs;
-mod headings;
 mod language;
 mod rules_docs;
 mod text;
