@@ -274,6 +274,7 @@ impl Lanes {
 
     /// Adds a force and its block `-dF/dx` at a fraction of a segment.
     pub fn add_contact(&mut self, segment: usize, fraction: f64, force: DVec3, block: &DMat3) {
+        debug_assert_eq!(self.contact.len(), self.nodes.len(), "contact in the layout of nodes");
         let piece = &self.pieces[self.piece_of[segment]];
         let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
         let (lane, first, second) = (piece.lane, 1.0 - fraction, fraction);
