@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use endline_sdk::Posture;
 use endline_sim::DVec3;
-use endline_sim::whale::kinetic::added::{fins, spheroid};
+use endline_sim::whale::kinetic::hull::{fins, spheroid};
 use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
 use endline_sim::whale::{JawStrength, Measures, Skin};
 

@@ -2,7 +2,7 @@
 
 use endline_sim::DVec3;
 use endline_sim::model::Seabed;
-use endline_sim::water::profile::{Profile, ProfileRow};
+use endline_sim::water::current::{Profile, ProfileRow};
 use endline_sim::water::waves::breaking_height;
 use endline_sim::water::{Current, Water};
 

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use endline_sim::DVec3;
-use endline_sim::water::tide::Tide;
+use endline_sim::water::current::Tide;
 
 use crate::compass::direction;
 use crate::diagnostic::{At, Place};

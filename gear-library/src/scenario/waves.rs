@@ -1,6 +1,6 @@
 //! The waves of a scenario.
 
-use endline_sim::water::jonswap::Spectrum;
+use endline_sim::water::waves::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
 
 use crate::compass::direction;

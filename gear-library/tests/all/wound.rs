@@ -167,7 +167,7 @@ fn turned(spec: &ModelSpec, part: BodyPart) -> f64 {
     let rest = axes_of(&whale.skin)[part as usize].clone().unwrap();
     rest.pose(&bones, &mut axis);
     let nodes = &spec.lines[0].start_m;
-    let along = axis.see(nodes[nodes.len() / 2]).unwrap().along();
+    let along = axis.locate(nodes[nodes.len() / 2]).unwrap().along();
     let flat = |way: DVec3| (way - along * way.dot(along)).normalize();
     let ways: Vec<DVec3> = nodes.windows(2).map(|pair| flat(pair[1] - pair[0])).collect();
     let bend = |pair: &[DVec3]| pair[0].cross(pair[1]).dot(along).atan2(pair[0].dot(pair[1]));

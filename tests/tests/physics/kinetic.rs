@@ -148,7 +148,7 @@ fn the_books_of_a_whale_close() {
         step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
         metrics.fold_step(&model, &state, &workspace);
     }
-    let books = metrics.summary(&model, &state).whale.unwrap().kinetic.unwrap().books;
+    let books = metrics.summary(&model, &state).whale.unwrap().kinetic.unwrap().balance;
     let whale = state.whale.as_ref().unwrap();
     let ahead = whale.orientation * DVec3::X;
     let gear = workspace.balance.summary(&model, &state).unwrap();

@@ -130,7 +130,7 @@ fn every_shipped_assembly_settles_in_every_current() {
                 }
                 Outcome::Drags(_) if speed > 0.0 => {}
                 Outcome::NotFound(_) if open => {
-                    assert!(settled.why().contains(" N is left at "), "{what}")
+                    assert!(settled.why().contains("the residual is "), "{what}")
                 }
                 _ => wrong.push(what),
             }

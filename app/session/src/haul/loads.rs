@@ -1,7 +1,7 @@
 //! Loads of a haul as it goes on: the greatest tension of every part, by stage and in all, and samples along the endline.
 
 use endline_sdk::LineEnd;
-use endline_sim::haul::{Came, Haul, LIFTED_M};
+use endline_sim::haul::{Haul, HaulEvent, LIFTED_M};
 use endline_sim::model::{BodyRole, JointKind, Link};
 use endline_sim::parting::link_segment;
 
@@ -139,9 +139,9 @@ impl Loads {
         for greatest in [&mut self.greatest, &mut self.stage] {
             greatest.take(haul, hanging, &self.parts, &self.tension_n);
         }
-        self.work_j += haul.felt().work_j;
+        self.work_j += haul.last_step().work_j;
         self.sample(haul);
-        let came = haul.felt().came.clone();
+        let came = haul.last_step().events.clone();
         came.into_iter().for_each(|came| self.came(came, haul, made));
     }
 
@@ -152,8 +152,8 @@ impl Loads {
 
     /// Ends the last stage.
     pub fn finish(&mut self, haul: &Haul, made: &Made) {
-        for came in haul.felt().came.clone() {
-            if matches!(came, Came::Aboard(_)) && haul.model().spec.lines.is_empty() {
+        for came in haul.last_step().events.clone() {
+            if matches!(came, HaulEvent::Aboard(_)) && haul.model().spec.lines.is_empty() {
                 self.came(came, haul, made);
             }
         }
@@ -162,17 +162,17 @@ impl Loads {
         }
     }
 
-    fn came(&mut self, came: Came, haul: &Haul, made: &Made) {
+    fn came(&mut self, came: HaulEvent, haul: &Haul, made: &Made) {
         let body = |body: usize| &made.model.spec.bodies[body];
         match came {
-            Came::OffSeabed(index) if self.stages.is_empty() => {
+            HaulEvent::OffSeabed(index) if self.stages.is_empty() => {
                 self.end_stage(format!("{} off the seabed", body(index).id), haul);
             }
-            Came::Aboard(index) => {
+            HaulEvent::Aboard(index) => {
                 self.aboard += usize::from(body(index).role == BodyRole::Trap);
                 self.end_stage(format!("{} aboard", body(index).id), haul);
             }
-            Came::OffSeabed(_) | Came::Line(_) => {}
+            HaulEvent::OffSeabed(_) | HaulEvent::Line(_) => {}
         }
     }
 
@@ -194,14 +194,14 @@ impl Loads {
         let at = |(segment, _): &(usize, f64)| is_out[*segment].then_some(self.tension_n[*segment]);
         let tension_n = self.along.iter().map(at).collect();
         let (hauled_m, load_n, lead_rad) =
-            (haul.hauled_m(), haul.felt().load_n, haul.felt().lead_rad);
+            (haul.hauled_m(), haul.last_step().load_n, haul.last_step().lead_rad);
         self.samples.push(Sample { time_s, hauled_m, load_n, lead_rad, tension_n });
     }
 }
 
 impl Greatest {
     fn take(&mut self, haul: &Haul, hanging: usize, parts: &[Part], tension_n: &[f64]) {
-        let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.felt());
+        let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.last_step());
         if felt.load_n > self.load_n {
             (self.load_n, self.time_s, self.hauled_m) = (felt.load_n, time_s, hauled_m);
         }

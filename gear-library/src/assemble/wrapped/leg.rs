@@ -35,7 +35,7 @@ pub(super) fn way(skin: &PosedSkin, [from, to]: [DVec3; 2], each_m: f64) -> Vec<
 /// A place, moved straight out from the trunk's axis where it lies within the trunk.
 fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
     let trunk = Limb::Trunk.parts().find_map(|part| skin.axis(part));
-    let Some(spot) = trunk.and_then(|(axis, _)| axis.see(place)) else { return place };
+    let Some(spot) = trunk.and_then(|(axis, _)| axis.locate(place)) else { return place };
     let toward = place - spot.middle;
     if toward.length() > WIDEST * libm::hypot(spot.half_m[0], spot.half_m[1]) + skin.off_m {
         return place;

@@ -1,9 +1,9 @@
 //! Exchange between lanes and the rest of the solver: lengths, places, the seabed, contact and the ends of lines go in; places,
 //! tensions and ends of lines come out.
 
+use crate::bits::same_bits;
 use crate::forces::rope::Lengths;
 use crate::model::Model;
-use crate::same_bits::same_bits;
 use crate::state::RopeState;
 use crate::system::lanes::Lanes;
 use crate::system::lanes::layout::Piece;
