@@ -155,12 +155,12 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
             "wav.gltf",
             ["there is no file `acts/wav.gltf`", "did you mean `acts/wave.gltf`?"],
         ),
-        ("wave.gltf", "wave.fbx", ["`wave.fbx` is no name of an animation", ".glb or .gltf"]),
+        ("wave.gltf", "wave.fbx", ["`wave.fbx` is not the name of a glTF file", ".glb or .gltf"]),
         ("fade", "clip = \"Wav\"\nfade", ["has no animation `Wav`", "did you mean `Wave`?"]),
         (
             "fade",
             "after = \"repeat\"\nfade",
-            ["ends elsewhere than it begins", "the pose of the first"],
+            ["has different values at the start and the end", "the pose of the first"],
         ),
         (
             "animation",
@@ -185,7 +185,7 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
     let message = told(ACT, &twisted);
     assert!(
         message.contains("turns `jaw`")
-            && message.contains("axis that it does not have")
+            && message.contains("axis that the bone does not have")
             && message.contains("lock"),
         "{message}"
     );
@@ -195,7 +195,7 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
         .unwrap()
         .iter_mut()
         .for_each(|node| node["name"] = json!("bone"));
-    assert!(told(ACT, &strange).contains("turns no bone of the whale"));
+    assert!(told(ACT, &strange).contains("rotates no bone of the whale"));
     let mut two = good.clone();
     let again = two["animations"][0].clone();
     two["animations"].as_array_mut().unwrap().push(again);

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use endline_gear::whale::edges::smallest_radius;
+use endline_gear::whale::fin::smallest_radius;
 use endline_gear::whale::{Station, WhaleForm, build_skin};
 use endline_gear::{Library, Sources, WhaleItem};
 use endline_sdk::{BodyPart, Region};

@@ -182,7 +182,7 @@ fn a_site_has_one_law_of_its_current() {
         (
             &height,
             height.replace("1.5 m", "31 m"),
-            ["out of the water, which is 30 m deep", "above the seabed"],
+            ["above the surface: the water is 30 m deep", "above the seabed"],
         ),
     ] {
         let problems = Library::check_file("sites/test.toml", &shipped.replace(from.as_str(), &to));

@@ -238,7 +238,7 @@ fn bones_and_regions_are_asked_for_by_name() {
     told(&renamed("nodes", "jaw", "jaww"), &["has no bone `jaw`", "did you mean `jaww`"]);
     told(
         &renamed("materials", "lips", "lipps"),
-        &["has a material `lipps`, which is no region", "did you mean `lips`", "left_fluke_tr"],
+        &["has a material `lipps`, which is not a region", "did you mean `lips`", "left_fluke_tr"],
     );
     let nameless = changed(|file| {
         file["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
@@ -268,17 +268,17 @@ fn the_mesh_must_be_whole_and_of_the_whales_size() {
     open.triangles.pop();
     open.regions.pop();
     told(&file(&open), &["is not closed: 3 edges", "in the region `", "Fill Holes"]);
-    told(&file(&scaled(&skin, 0.01)), &["is 0.1", "m was expected", "metres"]);
+    told(&file(&scaled(&skin, 0.01)), &["is 0.1", "expected", "metres"]);
     let mut moved = skin.clone();
     moved.vertices.iter_mut().for_each(|place| place.y += 4.0);
-    told(&file(&moved), &["lies 4.00 m from where the whale lies"]);
+    told(&file(&moved), &["is 4.00 m away from the whale's place"]);
     // On its side it is as long, and its middle moves by little.
     let mut rolled = skin.clone();
     rolled.vertices.iter_mut().for_each(|place| *place = DVec3::new(place.x, -place.z, place.y));
-    told(&file(&rolled), &["is turned: the region `", "lies 4.26 m", "the back is up"]);
+    told(&file(&rolled), &["is rotated: the region `", "is 4.26 m away", "the back up"]);
     let mut rolled = skin.clone();
     rolled.bones.iter_mut().for_each(|bone| bone.origin.y = -bone.origin.y);
-    told(&file(&rolled), &["is turned: the bone `", "lies 4.46 m", "the back is up"]);
+    told(&file(&rolled), &["is rotated: the bone `", "is 4.46 m away", "the back up"]);
     let mut inward = skin.clone();
     inward.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     told(&file(&inward), &["faces inward", "Recalculate Outside"]);
@@ -312,7 +312,7 @@ fn weights_must_be_there_and_be_four_at_most() {
     });
     told(&unskinned, &["has a mesh without a skin, `skin`", "parent the mesh to the armature"]);
     let elsewhere = changed(|file| file["buffers"][0]["uri"] = json!("whale.bin"));
-    told(&elsewhere, &["keeps its numbers in another file, `whale.bin`", ".glb"]);
+    told(&elsewhere, &["has its data in another file, `whale.bin`", ".glb"]);
 }
 
 #[test]
@@ -330,7 +330,7 @@ fn a_file_that_is_not_sound_is_told_in_a_few_words() {
         }
     });
     let faults = faults(&astray, &skin());
-    assert!(faults.contains("is not sound glTF 2.0") && faults.contains("and 26 more"), "{faults}");
+    assert!(faults.contains("is not valid glTF 2.0") && faults.contains("and 26 more"), "{faults}");
     assert!(faults.len() < 500, "{faults}");
 }
 
@@ -350,7 +350,10 @@ fn a_file_alone_is_checked_with_its_mesh() {
     };
     assert!(told(None).contains("there is no file `whales/my.glb`"));
     assert_eq!(told(Some(&written(&skin(), Form::Binary))), "");
-    assert!(told(Some(&written(&scaled(&skin(), 0.01), Form::Binary))).contains("m was expected"));
+    assert!(
+        told(Some(&written(&scaled(&skin(), 0.01), Form::Binary)))
+            .contains("long from snout to fluke tips, expected")
+    );
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -413,7 +416,7 @@ fn a_whales_file_may_name_a_mesh() {
     assert!(
         told(&sources)
             .iter()
-            .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not sound glTF"))
+            .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not valid glTF"))
     );
 
     let mut mine = skin();
@@ -437,9 +440,7 @@ fn a_whales_file_may_name_a_mesh() {
     );
 
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"../mine.obj\"\nlength =", 1));
-    assert!(
-        told(&sources)
-            .iter()
-            .any(|one| one.message.contains("no name of a mesh") && one.help.contains(".glb"))
-    );
+    assert!(told(&sources).iter().any(
+        |one| one.message.contains("not the name of a glTF file") && one.help.contains(".glb")
+    ));
 }

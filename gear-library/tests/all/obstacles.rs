@@ -111,7 +111,7 @@ fn mistakes_are_told_with_their_place() {
         "\"0.5 m\", \"-2 m\", \"-10.01 m\"",
         "\"0.3 m\", \"0 m\", \"-10.01 m\"",
         "around = \"drum\"",
-        &["lies within `drum`"],
+        &["is inside `drum`"],
     );
     refused(
         "force = [",

@@ -73,11 +73,11 @@ const REFUSED: &[(&str, Q, &[&str])] = &[
         Q::Force,
         &["`lb` is a unit of a mass, not of a force", "did you mean `1700 lbf`?"],
     ),
-    ("1,5 m", Q::Length, &["`1,5` does not read as a number", "decimals with a point"]),
-    ("3/0 in", Q::Length, &["`3/0` does not read"]),
-    ("1 2 3 m", Q::Length, &["`1 2 3` does not read"]),
+    ("1,5 m", Q::Length, &["`1,5` is not a number", "decimals with a point"]),
+    ("3/0 in", Q::Length, &["`3/0` is not a number"]),
+    ("1 2 3 m", Q::Length, &["`1 2 3` is not a number"]),
     ("0.3 m", Q::Ratio, &["pure number"]),
-    ("1e999 m", Q::Length, &["does not read as a number"]),
+    ("1e999 m", Q::Length, &["is not a number"]),
 ];
 
 #[test]

@@ -265,7 +265,7 @@ fn what_cannot_be_wound_is_told_with_its_place() {
     };
     let with = |from: &str, to: &str| scenario(ends, 50.0, &good.replace(from, to));
     refused(&with("peduncle", "pedunkle"), "part =", "did you mean `peduncle`");
-    refused(&with("turns = 2", "turns = 0"), "turns =", "next to nothing");
+    refused(&with("turns = 2", "turns = 0"), "turns =", "almost zero");
     refused(&with("turns = 2", "turns = 2\nstation = 1.2"), "station =", "between 0 and 1");
     refused(
         &with("turns = 2", "turns = 2\nslack = 0.1\npretension = \"5 N\""),
@@ -274,11 +274,15 @@ fn what_cannot_be_wound_is_told_with_its_place() {
     );
     refused(&with("turns = 2", "turns = 2\nloops = 3"), "loops =", "unknown field `loops`");
     refused(&scenario(ends, 50.0, ""), "[[line]]", "`wrap` is missing");
-    refused(&scenario(ends, 12.0, good), "id = \"rope\"", "its way round the whale takes");
+    refused(&scenario(ends, 12.0, good), "id = \"rope\"", "its path needs");
     refused(
         &scenario(ends, 50.0, good).replace("start = \"placed\"\n", ""),
         "id = \"rope\"",
         "starts where it is laid",
     );
-    refused(&with("turns = 2", "turns = 20\npitch = \"2 m\""), "[[line.wrap]]", "to lie on");
+    refused(
+        &with("turns = 2", "turns = 20\npitch = \"2 m\""),
+        "[[line.wrap]]",
+        "there is no skin of the",
+    );
 }

@@ -291,7 +291,7 @@ fn what_is_wrong_with_a_line_is_told_where_it_stands() {
         (
             "",
             "condition = \"old\"",
-            vec!["`old` is no value of `condition`", "secant, new, worked"],
+            vec!["`old` is not a value of `condition`", "secant, new, worked"],
         ),
         (
             "",
@@ -312,7 +312,7 @@ fn what_is_wrong_with_a_line_is_told_where_it_stands() {
         (
             "",
             "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nevery = \"2 ft\"\n",
-            vec!["inserts lie apart"],
+            vec!["inserts do not overlap"],
         ),
         (
             "",
@@ -322,7 +322,7 @@ fn what_is_wrong_with_a_line_is_told_where_it_stands() {
         (
             "",
             "start = \"catenary\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
-            vec!["takes no inserts"],
+            vec!["cannot have inserts"],
         ),
     ] {
         let problems = refused(&pulled(head, line));

@@ -1,34 +1,37 @@
-//! The vertices and triangles of a glTF file: put into rest place, with bones by the whale's numbers.
+//! Reads vertices and triangles of a glTF file at rest, joins split vertices, and checks the skin.
+//!
+//! Programs split vertices at borders of materials, normals or textures. Vertices with equal place and weights are joined to
+//! close the skin; touching lips on different bones remain separate. A closed skin is not changed.
+//! A valid skin is closed, faces outward and has the size and place of the whale.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use endline_sdk::Region;
-use endline_sim::whale::{Mark, Skin};
+use endline_sim::whale::{Bounds, Mark, Skin};
 use glam::DVec3;
 use gltf::mesh::Mode;
 use gltf::{Primitive, Semantic};
 
-use super::accessor::rows;
-use super::file::File;
-use super::joints::Joints;
-use super::marks;
-use super::{Fault, from_gltf};
+use crate::diagnostic::{hint, nearest};
 use crate::limits::MESH_CORNERS;
-use crate::nearest::{hint, nearest};
 
-/// Weights that sum to 1 by less than this are scaled to do so.
+use super::file::{File, rows};
+use super::joints::Joints;
+use super::{Fault, from_gltf, mark_of};
+
+/// Greatest deviation of a sum of weights from 1; smaller ones are corrected.
 const SUM_OFF: f64 = 0.01;
-/// A weight below this moves nothing.
+/// Smallest weight.
 const NOTHING: f64 = 1e-6;
 
-/// Vertices, triangles and what belongs to each.
+/// Vertices and triangles with their attributes.
 #[derive(Default)]
 pub(super) struct Mesh {
     /// Places in the whale's frame [m].
     pub vertices: Vec<DVec3>,
     /// Bones of each vertex, with weights that sum to 1.
     pub weights: Vec<[(u16, f64); 4]>,
-    /// What is seen at each vertex.
+    /// Mark of each vertex.
     pub marks: Vec<Mark>,
     /// Corners of each triangle.
     pub triangles: Vec<[u32; 3]>,
@@ -36,7 +39,7 @@ pub(super) struct Mesh {
     pub regions: Vec<Region>,
 }
 
-/// Reads every primitive of every mesh.
+/// Reads all primitives of all meshes.
 pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Vec<Fault>> {
     let mut reading = Reading {
         file,
@@ -62,7 +65,7 @@ pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Ve
     if reading.faults.is_empty() { Ok(reading.mesh) } else { Err(reading.faults) }
 }
 
-/// Refuses more corners than are read, counted before any is made: a mesh may stand at many nodes.
+/// Checks the number of corners before memory is allocated: a mesh may occur at many nodes.
 fn check_size(file: &File) -> Result<(), Fault> {
     let corners = |primitive: Primitive<'_>| {
         let counted = primitive.indices().or_else(|| primitive.get(&Semantic::Positions));
@@ -73,7 +76,7 @@ fn check_size(file: &File) -> Result<(), Fault> {
     for primitive in meshes.flat_map(|mesh| mesh.primitives()) {
         all = all.saturating_add(corners(primitive));
         if all > MESH_CORNERS {
-            let help = "make the mesh coarser, and put each mesh at one node";
+            let help = "use a coarser mesh, and use each mesh at one node";
             let message = format!("has more than {MESH_CORNERS} corners of triangles");
             return Err(Fault::new(message, help));
         }
@@ -85,9 +88,9 @@ struct Reading<'a> {
     file: &'a File,
     joints: &'a Joints,
     mesh: Mesh,
-    /// Vertices of the mesh by the accessors they were read from: one set serves many primitives.
+    /// Vertices by their accessors, which primitives may share.
     read: BTreeMap<[usize; 3], Vec<u32>>,
-    /// Names of joints that move vertices and are no bones of the whale.
+    /// Names of joints with vertices that are not bones of the whale.
     strangers: BTreeSet<String>,
     faults: Vec<Fault>,
 }
@@ -107,14 +110,14 @@ impl Reading<'_> {
         }
     }
 
-    /// The region a material is named after; a copy's number, as in `lips.001`, is left off.
+    /// The region of a material's name; the number of a copy, as in `lips.001`, is ignored.
     fn region(&mut self, material: Option<&str>) -> Option<Region> {
         let regions = || Region::ALL.into_iter().map(Region::name);
         let Some(name) = material else {
             let all = regions().collect::<Vec<_>>().join(", ");
             self.fault(Fault::new(
-                "has triangles without a material, so without a region",
-                format!("name a material of each by its region: {all}"),
+                "has triangles without a material, and therefore without a region",
+                format!("add materials named after regions: {all}"),
             ));
             return None;
         };
@@ -128,7 +131,7 @@ impl Reading<'_> {
                 .map_or_else(String::new, |meant| format!("did you mean `{meant}`? "));
             let all = regions().collect::<Vec<_>>().join(", ");
             self.fault(Fault::new(
-                format!("has a material `{name}`, which is no region"),
+                format!("has a material `{name}`, which is not a region"),
                 format!("{meant}regions are {all}"),
             ));
         }
@@ -140,7 +143,7 @@ impl Reading<'_> {
         if primitive.mode() != Mode::Triangles {
             return Err(Fault::new(
                 "has lines or points among its triangles",
-                "export triangles alone",
+                "export triangles only",
             ));
         }
         let need = |semantic, what| {
@@ -166,8 +169,8 @@ impl Reading<'_> {
         );
         if places.len() != bones.len() || places.len() != weights.len() {
             return Err(Fault::new(
-                "has vertices with and without bones in one list",
-                "write the file anew",
+                "has vertices with and without bones in one primitive",
+                "export it again",
             ));
         }
         let seen = self.marks(primitive, places.len())?;
@@ -179,20 +182,16 @@ impl Reading<'_> {
         Ok(vertices)
     }
 
-    /// What is seen at each vertex: the mark nearest to its colour, plain skin where it has none.
+    /// Mark of each vertex: that of the nearest colour; plain skin without a colour.
     fn marks(&self, primitive: &Primitive<'_>, count: usize) -> Result<Vec<Mark>, Fault> {
         let mut seen: Vec<Mark> = match primitive.get(&Semantic::Colors(0)) {
             None => Vec::new(),
             Some(colours) if colours.dimensions().multiplicity() == 4 => {
-                rows::<4>(self.file, &colours)?
-                    .iter()
-                    .map(|colour| marks::nearest(&colour[..3]))
-                    .collect()
+                rows::<4>(self.file, &colours)?.iter().map(|colour| mark_of(&colour[..3])).collect()
             }
-            Some(colours) => rows::<3>(self.file, &colours)?
-                .iter()
-                .map(|colour| marks::nearest(colour))
-                .collect(),
+            Some(colours) => {
+                rows::<3>(self.file, &colours)?.iter().map(|colour| mark_of(colour)).collect()
+            }
         };
         seen.resize(count, Mark::default());
         Ok(seen)
@@ -208,7 +207,7 @@ impl Reading<'_> {
         Err(Fault::new(format!("has {count} vertices on more than four bones"), help))
     }
 
-    /// Adds a vertex; its number.
+    /// Adds a vertex; returns its number.
     fn vertex(
         &mut self,
         place: [f64; 3],
@@ -224,7 +223,7 @@ impl Reading<'_> {
         Ok(number)
     }
 
-    /// Where the joints at rest put a vertex, in the whale's frame, and its weights by bone.
+    /// Rest place of a vertex in the whale's frame, and its weights by bone.
     fn at_rest(
         &mut self,
         place: DVec3,
@@ -255,7 +254,7 @@ impl Reading<'_> {
             else {
                 return Err(Fault::new(
                     format!("has a vertex on joint {joint}, which its skin does not have"),
-                    "write the file anew",
+                    "export it again",
                 ));
             };
             rest += weight / sum * bind.transform_point3(place);
@@ -293,10 +292,7 @@ fn indices(file: &File, primitive: &Primitive<'_>, count: usize) -> Result<Vec<u
     let indices: Vec<usize> =
         rows::<1>(file, &accessor)?.into_iter().map(|[index]| index as usize).collect();
     if indices.iter().any(|index| *index >= count) {
-        return Err(Fault::new(
-            "has a triangle on a vertex that is not there",
-            "write the file anew",
-        ));
+        return Err(Fault::new("has a triangle with a missing vertex", "export it again"));
     }
     Ok(indices)
 }
@@ -304,4 +300,131 @@ fn indices(file: &File, primitive: &Primitive<'_>, count: usize) -> Result<Vec<u
 /// A place for a message: three coordinates in the whale's frame.
 pub(super) fn shown(place: DVec3) -> String {
     format!("({:.2} m, {:.2} m, {:.2} m)", place.x, place.y, place.z)
+}
+
+/// Key of equal vertices: bits of place and weights.
+type Key = ([u64; 3], [(u16, u64); 4]);
+
+/// The skin with split vertices joined, without triangles of zero area.
+pub(super) fn weld(skin: &Skin) -> Skin {
+    // -0 equals 0.
+    let bits = |number: f64| (number + 0.0).to_bits();
+    let mut known: BTreeMap<Key, u32> = BTreeMap::new();
+    let mut welded = Skin { bones: skin.bones.clone(), ..Skin::default() };
+    let mut numbers = Vec::with_capacity(skin.vertices.len());
+    for ((place, weights), mark) in skin.vertices.iter().zip(&skin.weights).zip(&skin.marks) {
+        let key = (place.to_array().map(bits), weights.map(|(bone, weight)| (bone, bits(weight))));
+        numbers.push(*known.entry(key).or_insert_with(|| {
+            welded.vertices.push(*place);
+            welded.weights.push(*weights);
+            welded.marks.push(*mark);
+            u32::try_from(welded.vertices.len() - 1).unwrap_or(u32::MAX)
+        }));
+    }
+    for (triangle, region) in skin.triangles.iter().zip(&skin.regions) {
+        let [a, b, c] = triangle.map(|corner| numbers[corner as usize]);
+        if a != b && b != c && c != a {
+            welded.triangles.push([a, b, c]);
+            welded.regions.push(*region);
+        }
+    }
+    welded
+}
+
+/// Tolerance of length and place of a skin, as a share of length.
+const ROOM: f64 = 0.1;
+
+/// Checks the whole skin.
+pub(super) fn whole(skin: &Skin, like: &Skin) -> Result<(), Vec<Fault>> {
+    let faults: Vec<Fault> =
+        [scale(skin, like), closed(skin), outside_out(skin)].into_iter().flatten().collect();
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
+}
+
+/// Checks length and place of the skin.
+fn scale(skin: &Skin, like: &Skin) -> Option<Fault> {
+    let [own, wanted] = [skin, like].map(|skin| Bounds::around(&skin.vertices));
+    let [long, want] = [own, wanted].map(|bounds| bounds.high.x - bounds.low.x);
+    let ratio = long / want;
+    if !(ratio - 1.0).abs().is_finite() || (ratio - 1.0).abs() > ROOM {
+        let help = "a file is in metres with the whale at its own `length`; in Blender, apply the scale (Ctrl+A) of mesh and armature";
+        return Some(Fault::new(
+            format!("is {long:.3} m long from snout to fluke tips, expected {want:.2} m"),
+            help,
+        ));
+    }
+    let off = (own.low + own.high - wanted.low - wanted.high) / 2.0;
+    if off.length() > ROOM * want {
+        return Some(Fault::new(
+            format!("is {:.2} m away from the whale's place, or rotated", off.length()),
+            LIES,
+        ));
+    }
+    let (part, off) = farthest(skin, like)?;
+    (off > ROOM * want)
+        .then(|| Fault::new(format!("is rotated: {part} is {off:.2} m away from its place"), LIES))
+}
+
+/// Help on the place of a whale in a file.
+const LIES: &str = "the snout points along +x and the back up; the origin is at mid-body at the height of the snout's tip; in Blender, orient the whale this way, then apply the rotation (Ctrl+A) of mesh and armature";
+
+/// The region or bone with the greatest distance from its place, and the distance [m].
+fn farthest(skin: &Skin, like: &Skin) -> Option<(String, f64)> {
+    let region = |region: Region| {
+        let off = centre(skin, region)?.distance(centre(like, region)?);
+        Some((format!("the region `{}`", region.name()), off))
+    };
+    let bones = skin.bones.iter().zip(&like.bones);
+    let bones = bones
+        .map(|(own, like)| (format!("the bone `{}`", own.name), own.origin.distance(like.origin)));
+    let all = Region::ALL.into_iter().filter_map(region).chain(bones);
+    all.max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
+/// Centre of a region's skin [m]; `None` without skin.
+fn centre(skin: &Skin, region: Region) -> Option<DVec3> {
+    let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region);
+    let (moment, area) = own.fold((DVec3::ZERO, 0.0), |(moment, area), (triangle, _)| {
+        let [a, b, c] = triangle.map(|corner| skin.vertices[corner as usize]);
+        let own = (b - a).cross(c - a).length();
+        (moment + own * (a + b + c) / 3.0, area + own)
+    });
+    (area > 0.0).then(|| moment / area)
+}
+
+/// Checks that each edge has two triangles in opposite directions.
+pub(super) fn closed(skin: &Skin) -> Option<Fault> {
+    let mut edges: BTreeMap<(u32, u32), (u32, usize)> = BTreeMap::new();
+    for (triangle, &[a, b, c]) in skin.triangles.iter().enumerate() {
+        for edge in [(a, b), (b, c), (c, a)] {
+            edges.entry(edge).or_insert((0, triangle)).0 += 1;
+        }
+    }
+    let bad = |&(&(from, to), &(count, _)): &(&(u32, u32), &(u32, usize))| {
+        count > 1 || !edges.contains_key(&(to, from))
+    };
+    let open: Vec<_> = edges.iter().filter(bad).collect();
+    let &(&(from, _), &(_, triangle)) = open.first()?;
+    let message = format!(
+        "is not closed: {} edges do not have two triangles, one at {} in the region `{}`",
+        open.len(),
+        shown(skin.vertices[from as usize]),
+        skin.regions[triangle].name(),
+    );
+    Some(Fault::new(
+        message,
+        "in Blender, Mesh > Merge > By Distance, then Clean Up > Fill Holes; Select > All by Trait > Non Manifold shows where",
+    ))
+}
+
+/// Checks that the enclosed volume is positive.
+fn outside_out(skin: &Skin) -> Option<Fault> {
+    let corner = |index: u32| skin.vertices[index as usize];
+    let volume: f64 = skin
+        .triangles
+        .iter()
+        .map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c))) / 6.0)
+        .sum();
+    let help = "in Blender, Mesh > Normals > Recalculate Outside";
+    (volume <= 0.0).then(|| Fault::new("has no skin, or its skin faces inward", help))
 }
