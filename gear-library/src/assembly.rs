@@ -261,8 +261,8 @@ impl Attributes {
 
     /// These attributes, which override others.
     pub(crate) fn over(&self, other: &Self) -> Self {
-        let kept =
+        let others =
             other.0.iter().filter(|(key, _, _)| !self.0.iter().any(|(own, _, _)| own == key));
-        Self(kept.chain(&self.0).cloned().collect())
+        Self(others.chain(&self.0).cloned().collect())
     }
 }

@@ -115,14 +115,14 @@ pub fn assemble_traced(
 
 /// Checks the settings of the caller against the limits of files.
 fn check_options(scenario: &Scenario, options: &Options) -> Result<(), Vec<Diagnostic>> {
-    let asked = [
+    let settings = [
         ("step", options.step_s, &limits::STEP),
         ("contact_step", options.contact_step_s, &limits::STEP),
         ("duration", options.duration_s, &limits::DURATION),
         ("rope_nodes", options.rope_nodes.map(|nodes| nodes as f64), &limits::ROPE_NODES),
         ("seed", options.seed.map(|seed| seed as f64), &limits::SEED),
     ];
-    let beyond = asked.into_iter().filter_map(|(field, value, limit)| {
+    let beyond = settings.into_iter().filter_map(|(field, value, limit)| {
         limit.check(field, value?).err().map(|beyond| beyond.at(&scenario.place))
     });
     let problems: Vec<Diagnostic> = beyond.collect();

@@ -283,21 +283,21 @@ fn words_of(lengths: &[usize]) -> String {
 /// Problems found while reading: the first [`DIAGNOSTICS`], and the number of the others.
 #[derive(Debug, Default)]
 pub struct Problems {
-    kept: RefCell<Vec<Diagnostic>>,
+    stored: RefCell<Vec<Diagnostic>>,
     more: Cell<usize>,
 }
 
 impl Problems {
     /// Adds one.
     pub fn push(&self, problem: Diagnostic) {
-        let mut kept = self.kept.borrow_mut();
-        if kept.len() < DIAGNOSTICS {
-            return kept.push(problem);
+        let mut stored = self.stored.borrow_mut();
+        if stored.len() < DIAGNOSTICS {
+            return stored.push(problem);
         }
         self.more.set(self.more.get() + 1);
         // An error replaces a stored warning.
         if problem.is_error()
-            && let Some(warning) = kept.iter_mut().find(|known| !known.is_error())
+            && let Some(warning) = stored.iter_mut().find(|known| !known.is_error())
         {
             *warning = problem;
         }
@@ -315,12 +315,12 @@ impl Problems {
 
     /// Whether there is an error.
     pub fn any_error(&self) -> bool {
-        self.kept.borrow().iter().any(Diagnostic::is_error)
+        self.stored.borrow().iter().any(Diagnostic::is_error)
     }
 
     /// All problems, sorted by file and place.
     pub fn into_sorted(self) -> Vec<Diagnostic> {
-        let mut all = self.kept.into_inner();
+        let mut all = self.stored.into_inner();
         all.sort_by(|a, b| (&a.file, a.line, a.column).cmp(&(&b.file, b.line, b.column)));
         all.dedup();
         if let (more @ 1.., Some(last)) = (self.more.get(), all.last()) {

@@ -371,7 +371,7 @@ impl ActAnimation {
         let animation = gltf_beside(fields, "animation")?;
         if let Some(key) = fields.get("key") {
             fields.problems().push(
-                key.place.error("both `animation` and [[key]] are given", "leave one of them out"),
+                key.place.error("both `animation` and [[key]] are present", "remove one of them"),
             );
         }
         Some(Self {

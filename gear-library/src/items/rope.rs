@@ -204,7 +204,7 @@ fn check_damping(entry: &Entry, problems: &Problems) {
             problems.push(place.error("`damping` is missing", help));
         }
         (Some(_), Some(ratio)) => {
-            problems.push(ratio.place.error("both `damping` and `damping_ratio` are given", help))
+            problems.push(ratio.place.error("both `damping` and `damping_ratio` are present", help))
         }
         _ => {}
     }

@@ -71,7 +71,7 @@ fn check_law(entry: &Entry, problems: &Problems) {
             problems.push(
                 roughness
                     .place
-                    .error("both `current_exponent` and `current_roughness` are given", help),
+                    .error("both `current_exponent` and `current_roughness` are present", help),
             );
         }
         _ => {}

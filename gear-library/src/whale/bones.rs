@@ -103,11 +103,11 @@ impl Skeleton {
         if share <= 0.0 {
             return weights;
         }
-        let mut kept = weights.map(|(mover, weight)| (mover, weight * (1.0 - share)));
-        kept.sort_by(|left, right| right.1.total_cmp(&left.1));
-        kept[3] = (bone, share);
-        let sum: f64 = kept.iter().map(|(_, weight)| weight).sum();
-        kept.map(|(mover, weight)| (mover, weight / sum))
+        let mut moved = weights.map(|(mover, weight)| (mover, weight * (1.0 - share)));
+        moved.sort_by(|left, right| right.1.total_cmp(&left.1));
+        moved[3] = (bone, share);
+        let sum: f64 = moved.iter().map(|(_, weight)| weight).sum();
+        moved.map(|(mover, weight)| (mover, weight / sum))
     }
 
     fn push(

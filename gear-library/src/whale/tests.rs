@@ -61,7 +61,7 @@ fn weights_are_shares_of_known_bones() {
     for (index, bone) in skin.bones.iter().enumerate() {
         assert!(
             bone.parent.is_none_or(|parent| parent < index),
-            "{} stands before its parent",
+            "{} is before its parent",
             bone.name
         );
         assert!(bone.turns.iter().all(|(_, axis)| (axis.length() - 1.0).abs() < 1e-12));

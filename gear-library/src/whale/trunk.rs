@@ -298,14 +298,14 @@ pub struct MonotoneCubic {
 impl MonotoneCubic {
     /// A curve through points in rising order of their first number; other points are ignored.
     pub fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        let mut kept: Vec<[f64; 2]> = Vec::new();
+        let mut rising: Vec<[f64; 2]> = Vec::new();
         for point in points {
-            if kept.last().is_none_or(|last| point[0] > last[0]) {
-                kept.push(point);
+            if rising.last().is_none_or(|last| point[0] > last[0]) {
+                rising.push(point);
             }
         }
-        let slopes = slopes(&kept);
-        Self { points: kept, slopes }
+        let slopes = slopes(&rising);
+        Self { points: rising, slopes }
     }
 
     /// The value of the curve, constant beyond its ends; 0 for a curve without points.

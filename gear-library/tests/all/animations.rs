@@ -1,4 +1,4 @@
-//! Acts as glTF animations: what comes back is what the bones were keyed to, however they lie along themselves; and what is told of a bad file.
+//! Acts as glTF animations: the angles that are read equal those of the keys for any local axes of the bones; problems of files.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -54,14 +54,14 @@ fn keys() -> Vec<(f64, Posture)> {
     [0.0, 0.5, 1.25, 2.0].map(at).to_vec()
 }
 
-/// A bone's own turn, as `pose` has it.
+/// The rotation of a bone, as in `pose`.
 fn turn(bone: &Bone, posture: &Posture) -> DQuat {
     bone.turns.iter().fold(DQuat::IDENTITY, |before, (channel, axis)| {
         DQuat::from_axis_angle(*axis, channel.share * angle_of(posture, channel.angle)) * before
     })
 }
 
-/// A file of bones alone, each lying along itself by `lie`, keyed to those postures.
+/// A file of bones with the local rotation `lie`, and keys of those postures.
 fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     let (mut data, mut views, mut accessors) = (Vec::new(), Vec::new(), Vec::new());
     let mut store = |numbers: Vec<f64>, kind: &str, count: usize| {
@@ -101,7 +101,7 @@ fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     })
 }
 
-/// The act `wave` of a library that has this file; or what is told of it.
+/// The act `wave` of a library with this file, or its problems.
 fn read(act: &str, file: &Value) -> Result<ActItem, String> {
     let mut sources = sources();
     sources.set("acts/wave.toml", act);
@@ -144,7 +144,7 @@ fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
 }
 
 #[test]
-fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
+fn problems_of_an_animation_have_a_place_and_a_correction() {
     let (bones, keys) = (skin().bones, keys());
     let good = file(&bones, DQuat::IDENTITY, &keys);
     let told =

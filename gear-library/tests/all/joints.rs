@@ -1,4 +1,4 @@
-//! Joint ranges as a whale's file gives them.
+//! Joint ranges of a whale's file.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -14,7 +14,7 @@ fn text() -> String {
     sources.get(FILE).unwrap().to_owned()
 }
 
-/// Every range is there, holds the rest posture, and comes from somewhere.
+/// Every range exists, includes the rest posture and has a source.
 #[test]
 fn the_right_whale_has_ranges_with_sources() {
     let sources = Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap();
@@ -51,7 +51,7 @@ fn the_right_whale_bends_as_far_as_is_written_of_it() {
     assert!((ranges.of(Angle::FlukePitch)[1].to_degrees() - 45.0).abs() < 1e-9);
 }
 
-/// What is wrong with a file after a change, and where.
+/// The problems of a changed file with their places.
 #[track_caller]
 fn refused(from: &str, to: &str, message: &str, help: &str) {
     let good = text();
@@ -68,7 +68,7 @@ fn refused(from: &str, to: &str, message: &str, help: &str) {
 }
 
 #[test]
-fn wrong_ranges_are_told_with_their_place() {
+fn invalid_ranges_are_reported_with_their_places() {
     assert!(Library::check_file(FILE, &text()).is_empty());
     refused("jaw = { least = \"0 deg\"", "jaw = { least = \"5 deg\"", "`least` is", "between");
     refused(

@@ -1,4 +1,4 @@
-//! Numbers far beyond sense are refused where they stand, before memory is taken for them.
+//! Extreme numbers are rejected with their places before memory is allocated.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -21,7 +21,7 @@ fn problems(text: &str, options: &Options) -> Vec<Diagnostic> {
     made.err().unwrap_or_default()
 }
 
-/// The scenario with one text in place of another is refused on the line of that text, with these words.
+/// The scenario with a replaced text is rejected at the line of that text, with these words.
 fn refused(from: &str, to: &str, words: &[&str]) {
     let text = WRAPPED.replacen(from, to, 1);
     let line = 1 + text[..text.find(to).unwrap()].matches('\n').count();

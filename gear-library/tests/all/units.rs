@@ -1,4 +1,4 @@
-//! Values with units: what reads, what does not, and why.
+//! Values with units: valid and invalid texts.
 
 use endline_gear::units::{self, Quantity as Q, Unit};
 
@@ -97,7 +97,7 @@ fn every_unit() -> impl Iterator<Item = (Q, &'static Unit)> {
 }
 
 #[test]
-fn every_unit_comes_back_as_it_went_out() {
+fn every_unit_survives_a_round_trip() {
     for (quantity, unit) in every_unit() {
         for number in [1.0, 0.375, -2.5, 1234.5678, 3e-7, 4.25e9] {
             let value = number * unit.factor();
@@ -113,7 +113,7 @@ fn every_unit_comes_back_as_it_went_out() {
     }
 }
 
-/// No name stands for two units of one quantity, and the SI unit of each is its first, of factor 1.
+/// Names of the units of a quantity are unique, and its first unit is SI with the factor 1.
 #[test]
 fn names_are_not_shared_within_a_quantity() {
     for quantity in Q::ALL {

@@ -1,4 +1,4 @@
-//! Wraps on the right whale's own mesh: a rope laid once round a part, wherever and however tilted, is one wrap.
+//! Wraps on the right whale's mesh: a rope laid once round a part, at any place and tilt, is one wrap.
 #![allow(clippy::panic, reason = "a test fails by panicking, in its helpers too")]
 
 use std::sync::Arc;

@@ -195,7 +195,7 @@ fn along([least, most]: [f64; 2], part: BodyPart, station: f64) -> f64 {
 /// Azimuths tried for each wrap.
 const TRIED: u32 = 24;
 /// Width of the beam, and number of returned lines.
-const KEPT: usize = 12;
+const BEAM: usize = 12;
 /// Distance of sample places on path sections [m].
 const EACH_M: f64 = 0.1;
 /// Cost of a path section through the whale [m].
@@ -249,7 +249,7 @@ pub(super) fn azimuths(
 
 fn best(mut lines: Vec<Line>) -> Vec<Line> {
     lines.sort_by(|one, other| one.cost_m.total_cmp(&other.cost_m));
-    lines.truncate(KEPT);
+    lines.truncate(BEAM);
     lines
 }
 

@@ -30,7 +30,8 @@ impl File {
         let root: Root =
             gltf::json::deserialize::from_slice(text).map_err(|error| not_gltf(&error))?;
         uncompressed(&root)?;
-        let document = Document::from_json(root).map_err(|error| not_gltf(&told(&error)))?;
+        let document =
+            Document::from_json(root).map_err(|error| not_gltf(&first_errors(&error)))?;
         let buffers = document
             .buffers()
             .map(|buffer| load(&buffer.source(), binary, buffer.length()))
@@ -56,7 +57,7 @@ fn uncompressed(root: &Root) -> Result<(), Fault> {
 }
 
 /// The first few errors of the validation, which may repeat for many meshes.
-fn told(error: &gltf::Error) -> String {
+fn first_errors(error: &gltf::Error) -> String {
     let gltf::Error::Validation(faults) = error else { return error.to_string() };
     let first: Vec<String> =
         faults.iter().take(3).map(|(path, fault)| format!("{path}: {fault}")).collect();

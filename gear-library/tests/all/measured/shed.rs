@@ -1,4 +1,4 @@
-//! A loop drawn off a flipper's tip: its wraps go level by level, contact ends, and the rope counts as shed; all told in order of time.
+//! A loop pulled off a flipper's tip: its wraps decrease by levels, contact ends, and the rope counts as shed; events are in order.
 
 use endline_sdk::MotionOutput;
 use endline_sim::metrics::{EventKind, Outcome};
@@ -6,7 +6,7 @@ use endline_sim::metrics::{EventKind, Outcome};
 use super::{Hands, Run, scenario, spec};
 
 #[test]
-fn a_loop_drawn_off_a_flipper_is_told_step_by_step() {
+fn a_loop_pulled_off_a_flipper_gives_events_in_order() {
     // Both ends are drawn away to port, which is to the west of a whale that heads north; without friction the loop follows.
     let end = |id: &str, y: f64, z: f64| {
         format!(

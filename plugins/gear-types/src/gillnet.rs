@@ -10,17 +10,13 @@
 //!  anchor                                                   far-anchor
 //! ```
 //!
-//! The netting is not modelled mesh by mesh. Headline and leadline each carry half of its drag, weight
-//! and water, as the figures of those ropes say (`gear-library/ropes/gillnet-headline.toml`). That is
-//! right for a current across the string; the small drag along it is that of the ropes. Netting lines
-//! stand between the two, each for a stretch of net, and hold them no further apart than the net is
-//! high. So the net leans, sinks and bags in the current and pulls on its anchors as a whole. A whale
-//! meets headline, leadline and netting lines, not meshes.
+//! Meshes are not modelled. The figures of headline and leadline each include half of the drag, weight and water of the netting
+//! (`gear-library/ropes/gillnet-headline.toml`). This is correct for a current across the string; the small drag along it is
+//! that of the ropes. Netting lines between the two limit their distance to the height of the net, so that the net leans,
+//! sinks and bags in the current and loads its anchors. A whale touches headline, leadline and netting lines, not meshes.
 //!
 //! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline follow practice and rules of the
 //! northeast United States.
-
-mod net;
 
 use endline_sdk::{
     Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigEnd,
@@ -28,7 +24,6 @@ use endline_sdk::{
 };
 
 use crate::lay::{Endline, FAR, Foot, Lay, Values, depth_of};
-use net::Net;
 
 /// The gear type of an anchored string of gillnet panels.
 #[derive(Clone, Debug)]
@@ -69,12 +64,12 @@ impl GearType for Gillnet {
 }
 
 impl Net<'_> {
-    /// Puts the string on the seabed; answers its anchors, near and far.
+    /// Lays the string on the seabed; returns its anchors, near and far.
     fn lay(&self, into: &mut Lay, site: &Site) -> Result<[Foot; 2], HookError> {
         let bed_m = -depth_of(site)?;
         if self.height_m > -0.9 * bed_m {
             let message = format!(
-                "attribute `net_height`: {} m in water of {} m; it must stay below the surface",
+                "attribute `net_height`: {} m in water of {} m; it must be below the surface",
                 self.height_m, -bed_m
             );
             return Err(HookError::new(message));
@@ -100,7 +95,7 @@ impl Net<'_> {
                 self.lay_end(into, "", near, [0.0, -1.0], bed_m),
                 self.lay_end(into, FAR, far, [-length_m, 1.0], bed_m),
             ]),
-            _ => Err(HookError::new("attribute `panels`: a string has one panel at least")),
+            _ => Err(HookError::new("attribute `panels`: a string has at least one panel")),
         }
     }
 
@@ -209,4 +204,146 @@ fn descriptor() -> Descriptor {
         state_len: 0,
         acts: Vec::new(),
     }
+}
+
+/// The string without its endlines.
+struct Net<'a> {
+    /// Number of panels.
+    panels: u32,
+    /// Length of a panel's headline [m].
+    panel_m: f64,
+    /// Height of the net, taut [m].
+    height_m: f64,
+    /// Rope of the headline.
+    headline: &'a str,
+    /// Rope of the leadline.
+    leadline: &'a str,
+    /// Rope of a netting line.
+    netting: &'a str,
+    /// Number of netting lines of a panel.
+    lines_a_panel: u32,
+    /// Excess length of headline and leadline over their distance, as a share [1].
+    slack: f64,
+    /// Weak link at each panel; empty for none.
+    panel_link: &'a str,
+    /// Length of each bridle leg [m].
+    bridle_m: f64,
+    /// Rope of bridles and anchor lines.
+    bridle_rope: &'a str,
+    /// Anchor at each end.
+    anchor: &'a str,
+    /// Length of each anchor line [m].
+    anchor_line_m: f64,
+}
+
+impl<'a> Net<'a> {
+    /// The attributes of panels, bridles and anchors, in the order in which a file lists them.
+    fn attributes() -> Vec<Attribute> {
+        let mut attributes = panel_attributes();
+        attributes.extend(anchoring_attributes());
+        attributes
+    }
+
+    /// The string of the attribute values.
+    ///
+    /// # Errors
+    /// With a message that names the attribute to fix.
+    fn read(values: &Values<'a>) -> Result<Self, HookError> {
+        let net = Self {
+            panels: values.count("panels")?,
+            panel_m: values.number("panel_length")?,
+            height_m: values.number("net_height")?,
+            headline: values.needed("headline")?,
+            leadline: values.needed("leadline")?,
+            netting: values.needed("netting")?,
+            lines_a_panel: values.count("netting_lines")?,
+            slack: values.number("slack")?,
+            panel_link: values.item("panel_link")?,
+            bridle_m: values.number("bridle")?,
+            bridle_rope: values.needed("bridle_rope")?,
+            anchor: values.needed("anchor")?,
+            anchor_line_m: values.number("anchor_line")?,
+        };
+        if net.bridle_m < 0.6 * net.height_m {
+            let (bridle, height) = (net.bridle_m, net.height_m);
+            return Err(HookError::new(format!(
+                "attribute `bridle`: legs of {bridle} m do not reach up a net of {height} m; write at least 0.6 times `net_height`"
+            )));
+        }
+        Ok(net)
+    }
+}
+
+/// Attributes of panels: number, size and ropes.
+fn panel_attributes() -> Vec<Attribute> {
+    vec![
+        Attribute::count("panels", [1, 40], 3, "Number of panels of netting."),
+        Attribute::number(
+            "panel_length",
+            "m",
+            [5.0, 500.0],
+            91.44,
+            "Length of a panel's headline; 300 ft by default.",
+        ),
+        Attribute::number(
+            "net_height",
+            "m",
+            [0.5, 30.0],
+            3.0,
+            "Height of the net from leadline to headline, the netting taut.",
+        ),
+        Attribute::item(
+            "headline",
+            "ropes",
+            "gillnet-headline",
+            "Headline with its floats and half of the netting.",
+        ),
+        Attribute::item(
+            "leadline",
+            "ropes",
+            "gillnet-leadline",
+            "Leadline with the other half of the netting.",
+        ),
+        Attribute::item(
+            "netting",
+            "ropes",
+            "gillnet-netting",
+            "The twine of a section of net, gathered in one line.",
+        ),
+        Attribute::count(
+            "netting_lines",
+            [1, 100],
+            6,
+            "Number of netting lines that represent a panel.",
+        ),
+        Attribute::number(
+            "slack",
+            "1",
+            [0.0, 0.5],
+            0.01,
+            "Excess length of headline and leadline over the distance that they span, as a share.",
+        ),
+    ]
+}
+
+/// Weak links between panels, bridles and anchors.
+fn anchoring_attributes() -> Vec<Attribute> {
+    vec![
+        Attribute::item(
+            "panel_link",
+            "weak-links",
+            "wl-1100",
+            "Weak link in the headline at each panel; empty for none.",
+        ),
+        Attribute::number(
+            "bridle",
+            "m",
+            [1.0, 50.0],
+            4.0,
+            "Length of each bridle leg from headline and leadline to the anchor line.",
+        ),
+        Attribute::item("bridle_rope", "ropes", "sink-7-16", "Rope of bridles and anchor lines."),
+        Attribute::item("anchor", "anchors", "danforth-22lb", "Anchor at each end."),
+        Attribute::number("anchor_line", "m", [1.0, 500.0], 20.0, "Length of each anchor line."),
+    ]
 }
