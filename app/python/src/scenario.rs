@@ -79,9 +79,9 @@ impl Scenario {
     fn run(&self, python: Python<'_>, frames_hz: f64, unsettled: bool) -> PyResult<Result> {
         let options = RunOptions { unsettled, frames_hz };
         let prepared = self.prepared.clone();
-        interruptible(python, move |goes_on| {
+        interruptible(python, move |running| {
             let mut run = Run::new(prepared, options).map_err(raised)?;
-            run.to_end_until(|_| !goes_on.load(Relaxed));
+            run.to_end_until(|_| !running.load(Relaxed));
             Result::of(&run)
         })
     }
@@ -107,9 +107,9 @@ pub fn replay(
     other_plugins: bool,
 ) -> PyResult<(Result, Option<Difference>)> {
     let options = ReplayOptions { other_plugins, frames_hz };
-    interruptible(python, move |goes_on| {
+    interruptible(python, move |running| {
         let recording = Recording::load(&recording).map_err(raised)?;
-        let progress = |_, _| goes_on.load(Relaxed);
+        let progress = |_, _| running.load(Relaxed);
         let (run, verdict) =
             again::verify(&recording, host(), options, progress).map_err(raised)?;
         let differs = match verdict {

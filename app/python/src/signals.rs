@@ -24,7 +24,7 @@ impl Signals {
     }
 
     /// Whether to continue; false after Ctrl+C or another signal, whose exception is stored.
-    pub fn go_on(&mut self) -> bool {
+    pub fn should_continue(&mut self) -> bool {
         if self.checked.elapsed() >= Self::PAUSE {
             self.raised = Python::attach(|python| python.check_signals()).err();
             self.checked = Instant::now();
@@ -44,14 +44,14 @@ pub fn interruptible<T: Send + 'static>(
     python: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
-    let goes_on = Arc::new(AtomicBool::new(true));
+    let running = Arc::new(AtomicBool::new(true));
     let (done, waited) = channel();
-    let its = Arc::clone(&goes_on);
+    let its = Arc::clone(&running);
     // The result of the thread is dropped if there is no receiver.
     std::thread::spawn(move || drop(done.send(work(&its))));
     python.detach(move || {
         let mut signals = Signals::new();
-        while signals.go_on() {
+        while signals.should_continue() {
             match waited.recv_timeout(Signals::PAUSE) {
                 Ok(result) => return result,
                 Err(RecvTimeoutError::Timeout) => {}
@@ -60,7 +60,7 @@ pub fn interruptible<T: Send + 'static>(
                 }
             }
         }
-        goes_on.store(false, Ordering::Relaxed);
+        running.store(false, Ordering::Relaxed);
         signals.outcome()?;
         Err(failed("the run was interrupted".into()))
     })

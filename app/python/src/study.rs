@@ -131,7 +131,7 @@ fn watched<T: Send>(
         let mut signals = Signals::new();
         while !worker.is_finished() {
             std::thread::sleep(std::time::Duration::from_millis(20));
-            if !signals.go_on() {
+            if !signals.should_continue() {
                 control.cancel();
                 break;
             }

@@ -221,7 +221,7 @@ pub(super) struct Piece<'a> {
 }
 
 /// Starts of the inserts from end A, in order [m]: all that lie entirely within their share of the line.
-/// `Err` is their number if a scenario cannot have so many parts.
+/// `Err` is their number if it exceeds the limit of a scenario.
 fn insert_starts(inserts: &Inserts, line_m: f64) -> Result<Vec<f64>, f64> {
     let own_m = insert_length(inserts);
     let last_m = (inserts.within * line_m).min(line_m - LEAST_PIECE_M) - own_m + 1e-9;

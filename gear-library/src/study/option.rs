@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_axes_is_told_where_it_stands() {
+    fn an_error_of_an_axis_has_its_place() {
         for (from, to, expected) in [
             ("id = \"12\"", "id = \"3\"", "there are two values `3`"),
             ("\"line.0.rope\" = \"pp-1-2\"", "rope_nodes = 3", "two axes set `rope_nodes`"),

@@ -107,8 +107,8 @@ fn read(act: &str, file: &Value) -> Result<ActItem, String> {
     sources.set("acts/wave.toml", act);
     sources.set_mesh("acts/wave.gltf", file.to_string().into_bytes());
     let (library, problems) = Library::read(&sources);
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    library.acts.into_iter().find(|act| act.entry.id == "wave").ok_or(told.join("\n"))
+    let reported: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    library.acts.into_iter().find(|act| act.entry.id == "wave").ok_or(reported.join("\n"))
 }
 
 fn clip(act: &ActItem) -> &Clip {
@@ -119,7 +119,8 @@ fn clip(act: &ActItem) -> &Clip {
 fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
     let (bones, keys) = (skin().bones, keys());
     for lie in [DQuat::IDENTITY, DQuat::from_scaled_axis(glam::DVec3::new(0.4, -1.1, 2.0))] {
-        let act = read(ACT, &file(&bones, lie, &keys)).unwrap_or_else(|told| panic!("{told}"));
+        let act =
+            read(ACT, &file(&bones, lie, &keys)).unwrap_or_else(|reported| panic!("{reported}"));
         assert!((clip(&act).length_s - 2.0).abs() < 1e-12);
         for (time_s, asked) in &keys {
             let shown = clip(&act).posture(*time_s, false, &Posture::default());
@@ -147,7 +148,7 @@ fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
 fn problems_of_an_animation_have_a_place_and_a_correction() {
     let (bones, keys) = (skin().bones, keys());
     let good = file(&bones, DQuat::IDENTITY, &keys);
-    let told =
+    let reported =
         |act: &str, file: &Value| read(act, file).err().unwrap_or_else(|| panic!("it is taken"));
     for (from, to, parts) in [
         (
@@ -168,7 +169,7 @@ fn problems_of_an_animation_have_a_place_and_a_correction() {
             ["both `animation` and [[key]]", "leave one of them out"],
         ),
     ] {
-        let message = told(&ACT.replacen(from, to, 1), &good);
+        let message = reported(&ACT.replacen(from, to, 1), &good);
         assert!(
             parts.iter().all(|part| message.contains(part)) && message.contains("acts/wave.toml:"),
             "{to}: {message}"
@@ -182,7 +183,7 @@ fn problems_of_an_animation_have_a_place_and_a_correction() {
             channel["target"]["node"] = json!(jaw);
         }
     }
-    let message = told(ACT, &twisted);
+    let message = reported(ACT, &twisted);
     assert!(
         message.contains("turns `jaw`")
             && message.contains("axis that the bone does not have")
@@ -195,12 +196,13 @@ fn problems_of_an_animation_have_a_place_and_a_correction() {
         .unwrap()
         .iter_mut()
         .for_each(|node| node["name"] = json!("bone"));
-    assert!(told(ACT, &strange).contains("rotates no bone of the whale"));
+    assert!(reported(ACT, &strange).contains("rotates no bone of the whale"));
     let mut two = good.clone();
     let again = two["animations"][0].clone();
     two["animations"].as_array_mut().unwrap().push(again);
     assert!(
-        told(ACT, &two).contains("has 2 animations")
-            && told(ACT, &json!({ "asset": { "version": "2.0" } })).contains("has no animation")
+        reported(ACT, &two).contains("has 2 animations")
+            && reported(ACT, &json!({ "asset": { "version": "2.0" } }))
+                .contains("has no animation")
     );
 }

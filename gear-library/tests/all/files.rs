@@ -109,9 +109,15 @@ fn a_number_without_unit_is_refused() {
 fn a_figure_needs_source_and_confidence() {
     let text =
         ROPE.replace("source = \"mill sheet 7\"\n", "").replace("3/8 in\"   # nominal", "3/8 in\"");
-    let told: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
-    assert!(told.iter().any(|told| told.contains("`diameter` has no source")), "{told:?}");
-    assert!(!told.iter().any(|told| told.contains("`density` has no source")), "{told:?}");
+    let reported: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
+    assert!(
+        reported.iter().any(|reported| reported.contains("`diameter` has no source")),
+        "{reported:?}"
+    );
+    assert!(
+        !reported.iter().any(|reported| reported.contains("`density` has no source")),
+        "{reported:?}"
+    );
     only(
         &ROPE.replace("\"estimate\"", "\"hearsay\""),
         11,

@@ -57,14 +57,14 @@ fn refused(from: &str, to: &str, message: &str, help: &str) {
     let good = text();
     assert!(good.contains(from), "`{from}` is no longer in {FILE}");
     let problems = Library::check_file(FILE, &good.replacen(from, to, 1));
-    let told: Vec<String> = problems
+    let reported: Vec<String> = problems
         .iter()
         .map(|problem| format!("{} | {} | {}", problem.line, problem.message, problem.help))
         .collect();
     let found = problems.iter().any(|problem| {
         problem.line > 0 && problem.message.contains(message) && problem.help.contains(help)
     });
-    assert!(found, "wanted `{message}` and `{help}`, got {told:#?}");
+    assert!(found, "wanted `{message}` and `{help}`, got {reported:#?}");
 }
 
 #[test]

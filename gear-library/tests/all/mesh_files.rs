@@ -350,7 +350,7 @@ fn a_file_alone_is_checked_with_its_mesh() {
     std::fs::create_dir_all(folder.join("whales")).unwrap();
     let text = sources().get(FILE).unwrap().replacen("name =", "mesh = \"my.glb\"\nname =", 1);
     std::fs::write(&file, &text).unwrap();
-    let told = |bytes: Option<&[u8]>| {
+    let reported = |bytes: Option<&[u8]>| {
         if let Some(bytes) = bytes {
             std::fs::write(folder.join("whales/my.glb"), bytes).unwrap();
         }
@@ -408,7 +408,7 @@ fn damaged_files_are_faults() {
 fn a_whales_file_may_name_a_mesh() {
     let mut sources = sources();
     let own = sources.get(FILE).unwrap().to_owned();
-    let told = |sources: &Sources| {
+    let reported = |sources: &Sources| {
         Library::read(sources)
             .1
             .into_iter()

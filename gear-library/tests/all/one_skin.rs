@@ -37,7 +37,7 @@ fn no_skin_passes_through_itself_at_rest() {
                 found.is_empty(),
                 "{} of {length_m} m: {}",
                 whale.entry.id,
-                tell(&skin, &found)
+                describe(&skin, &found)
             );
         }
     }
@@ -48,7 +48,7 @@ fn nor_in_any_posture_its_joints_allow() {
     for whale in whales() {
         for length_m in [4.2, 13.7] {
             let skin = build_skin(&whale.form_at(length_m));
-            let (mut bad, mut told) = (0, String::new());
+            let (mut bad, mut reported) = (0, String::new());
             for seed in 0..POSTURES {
                 let posture = drawn(&whale.joints.ranges, seed);
                 let found = meetings(&posed(&skin, &posture), &skin.triangles);
@@ -61,12 +61,15 @@ fn nor_in_any_posture_its_joints_allow() {
                         posture.lips,
                         [posture.jaw; 2],
                     ];
-                    told = format!("{told}seed {seed}: {limbs:.2?}: {}\n", tell(&skin, &found));
+                    reported = format!(
+                        "{reported}seed {seed}: {limbs:.2?}: {}\n",
+                        describe(&skin, &found)
+                    );
                 }
             }
             assert_eq!(
                 bad, 0,
-                "{} of {length_m} m in {bad} of {POSTURES} postures:\n{told}",
+                "{} of {length_m} m in {bad} of {POSTURES} postures:\n{reported}",
                 whale.entry.id
             );
         }
@@ -112,7 +115,7 @@ fn a_fin_in_the_body_is_found() {
     assert!(meetings(&posed(&skin, &posture), &skin.triangles).len() > 20);
 }
 
-fn tell(skin: &Skin, found: &[[usize; 2]]) -> String {
+fn describe(skin: &Skin, found: &[[usize; 2]]) -> String {
     let mut pairs: Vec<String> = found
         .iter()
         .map(|pair| format!("{:?}", pair.map(|triangle| skin.regions[triangle])))

@@ -110,7 +110,7 @@ fn a_swim_keeps_the_volume() {
     }
 }
 
-/// The same limit applies to any posture within the joint ranges, with the mouth closed.
+/// This limit applies to any posture within the joint ranges, with the mouth closed.
 #[test]
 fn no_posture_within_the_ranges_costs_much_volume() {
     for whale in whales() {

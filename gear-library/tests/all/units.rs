@@ -83,9 +83,9 @@ const REFUSED: &[(&str, Q, &[&str])] = &[
 #[test]
 fn what_does_not_read_says_what_was_expected() {
     for (text, quantity, parts) in REFUSED {
-        let told = units::parse(text, *quantity).expect_err(text).to_string();
+        let reported = units::parse(text, *quantity).expect_err(text).to_string();
         for part in *parts {
-            assert!(told.contains(part), "{text}: `{told}` lacks `{part}`");
+            assert!(reported.contains(part), "{text}: `{reported}` lacks `{part}`");
         }
     }
 }
@@ -143,7 +143,7 @@ fn rope_sizes_are_written_as_fractions() {
     }
 }
 
-/// The units plugins declare their attributes in.
+/// Units of attributes of plugins.
 #[test]
 fn plugin_units_are_known() {
     for (unit, quantity) in [

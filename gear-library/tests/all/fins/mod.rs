@@ -35,7 +35,7 @@ const PIECES: usize = 256;
 const THROUGH_M: f64 = 0.04;
 /// Smallest number of steps of the model.
 const LEAST_STEPS: f64 = 1.0;
-/// Places on edges that are met pass the rope within this [m].
+/// Largest distance from the rope at which a struck place of an edge passes [m].
 const BESIDE_M: f64 = 0.02;
 const ROPE_M: f64 = 0.8;
 /// Shortest and longest segments [m].
@@ -116,7 +116,7 @@ impl Fins {
         Encounter { speed_m_s, pull_n, steps, spec: rope.rig(whale, friction, settings) }
     }
 
-    /// Draws pieces and ways until an edge strikes. The rope points so that the piece drifts away from where it is held.
+    /// Draws pieces and paths until an edge strikes. The rope is directed so that the piece drifts away from its fixture.
     fn meeting(&self, dice: &mut Dice) -> Meeting {
         loop {
             let piece = &self.0[(dice.share() * self.0.len() as f64) as usize % self.0.len()];

@@ -24,7 +24,7 @@ pub struct Tally {
     pub passes: u64,
     pub unconverged: u64,
     /// Numbers of the first that crossed or ended, with the message.
-    pub told: Vec<String>,
+    pub reported: Vec<String>,
 }
 
 impl Tally {
@@ -39,7 +39,7 @@ impl Tally {
         self.solver_steps += other.solver_steps;
         self.passes += other.passes;
         self.unconverged += other.unconverged;
-        self.told.extend(other.told);
+        self.reported.extend(other.reported);
         self
     }
 
@@ -66,8 +66,8 @@ impl Tally {
         self.solver_steps += workspace.audit.solver_steps;
         self.passes += workspace.audit.passes;
         self.unconverged += workspace.audit.unconverged;
-        if (crossed || ropes_crossed || ended.is_some()) && self.told.len() < 10 {
-            self.told.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, rope {ropes_crossed}, {ended:?}"));
+        if (crossed || ropes_crossed || ended.is_some()) && self.reported.len() < 10 {
+            self.reported.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, rope {ropes_crossed}, {ended:?}"));
         }
     }
 }
@@ -78,7 +78,7 @@ fn is_between(workspace: &Workspace) -> bool {
     pressed && workspace.rope_touches.iter().any(|touch| touch.normal_force_n > 0.0)
 }
 
-/// Whether any segment passes through any triangle where they stand.
+/// Whether any segment passes through any triangle at their present places.
 pub fn is_pierced(model: &Model, state: &State) -> bool {
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return false };
     let (mut bones, mut places) = (Vec::new(), Vec::new());

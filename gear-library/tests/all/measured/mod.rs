@@ -18,7 +18,7 @@ use endline_sdk::{
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, step};
 
-/// What a whale does at a time [s].
+/// Controls of a whale at a time [s].
 type Timetable = Box<dyn Fn(f64) -> MotionOutput + Send + Sync>;
 
 /// A whale with a timetable, and rope with Coulomb friction on it, or none.
@@ -119,7 +119,7 @@ fn ramp(time_s: f64, from_s: f64, to_s: f64) -> f64 {
     ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0)
 }
 
-/// A whale 20 m down that heads north, in still water; what follows adds lines to it.
+/// A whale 20 m down that heads north, in still water; the tests add lines.
 fn scenario(more: &str) -> String {
     format!(
         "format = 1\nkind = \"scenario\"\nname = \"measured\"\nsource = \"test\"\nconfidence = \"estimate\"\nduration = \"60 s\"\n\
