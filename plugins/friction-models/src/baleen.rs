@@ -58,7 +58,7 @@ fn descriptor() -> Descriptor {
             "N/m",
             [0.0, 1e6],
             500.0,
-            "Normal force by length of rope above which a rope that lies along the plates goes in between.",
+            "Normal force by length of rope above which a rope that lies along the plates enters between them.",
         ),
         Attribute::number(
             "wedge_coefficient",

@@ -36,7 +36,7 @@ friction_model!(Tissue, Drawn);
 
 fn descriptor() -> Descriptor {
     let help =
-        "Skin goes with the rope over an elastic range, then the rope breaks loose and slips.";
+        "Skin moves with the rope over an elastic range, then the rope breaks loose and slips.";
     let own = vec![
         Attribute::number(
             "stiffness",
@@ -50,7 +50,7 @@ fn descriptor() -> Descriptor {
             "m",
             [1e-4, 0.5],
             0.05,
-            "Elastic range: how far skin goes with the rope before it is taut.",
+            "Elastic range: distance that skin moves with the rope before it is taut.",
         ),
         Attribute::number(
             "taut_ratio",

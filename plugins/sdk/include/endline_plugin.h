@@ -570,7 +570,7 @@ typedef struct {
 
 #endif  /* ENDLINE_PLUGIN_H */
 
-/* Define this in the plugin: it is what the program looks for. */
+/* Define this in the plugin: the program loads this symbol. */
 #ifdef __cplusplus
 extern "C"
 #endif

@@ -65,7 +65,7 @@ class Scenario:
         """Settles the gear and runs to the end of the scenario.
 
         ``frames_hz``: stored moments per simulated second [Hz]; 0 for none. ``unsettled``: start even if statics do not
-        come to rest. Other threads of Python continue; Ctrl+C stops the run with ``KeyboardInterrupt``. A run that could
+        settle. Other threads of Python continue; Ctrl+C stops the run with ``KeyboardInterrupt``. A run that could
         not go on is no exception: ``figures["stopped"]`` says why.
         """
         return Result(self._inner.run(frames_hz, unsettled))

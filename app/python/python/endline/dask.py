@@ -28,7 +28,7 @@ def run_study(
     """Runs a study on the workers of ``client`` (``distributed.Client``), merges it, and returns the file of the table.
 
     The table has the same bytes as that of one machine. A worker that dies costs its tasks alone: they run again elsewhere, and
-    blocks that were written are kept. Blocks that are in ``out`` before are not run again.
+    completed blocks remain in ``out``. Blocks that exist in ``out`` are not run again.
 
     ``out``: folder of results, ``results/<id>`` where None. ``encounters``: how many of a task. ``retries``: how often a task that
     fails is tried again; a task whose worker dies is moved by Dask itself. ``shared``: workers see ``out`` and write there;

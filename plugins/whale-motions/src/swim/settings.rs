@@ -151,7 +151,7 @@ const NUMBERS: [Number; 17] = [
         "Hz",
         [0.02, 3.0],
         0.6,
-        "Fastest beat of a whale of 13.7 m; it goes with length to the power -0.53.",
+        "Fastest beat of a whale of 13.7 m; it scales with length to the power -0.53.",
     ),
     number("fluke_attack", "rad", [0.0, 0.6], 0.26, "Angle of attack of the flukes at mid-stroke."),
     number(

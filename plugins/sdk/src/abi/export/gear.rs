@@ -133,7 +133,7 @@ fn taken(status: Option<i32>) -> Result<(), HookError> {
     if status == Some(STATUS_OK) {
         Ok(())
     } else {
-        Err(HookError::new("the program did not take what the gear type gave"))
+        Err(HookError::new("the program rejected the data of the gear type"))
     }
 }
 

@@ -8,8 +8,8 @@
 //! called by several runs at once and therefore writes only to its arguments.
 //!
 //! A later minor version may add fields at the end of a struct that has `struct_size`, never
-//! change or remove one; each side reads of the other's struct what `struct_size` reaches, and takes the rest
-//! for zero. A struct without `struct_size` stays as it is.
+//! change or remove one; each side reads the other's struct up to `struct_size`, and uses zero
+//! for the rest. A struct without `struct_size` stays as it is.
 
 mod friction;
 mod gear;
@@ -180,7 +180,7 @@ pub const ENTRY_NAME: &str = "endline_plugin_entry";
 pub const FACTORY_ID: &str = "endline.plugins/3";
 
 impl AbiText {
-    /// Text that lives as long as what it was made from.
+    /// Text with the lifetime of its source.
     #[must_use]
     pub const fn of(text: &str) -> Self {
         Self { text: text.as_ptr().cast(), length: text.len() }
