@@ -168,7 +168,7 @@ fn ballast_and_pieces_that_are_impossible_are_reported() {
             trap,
             "\"6.6 kg\"",
             "\"11 kg\"",
-            "ballast and foam displace 5.50 L, more than the 4.77 L of the whole",
+            "ballast and foam displace 5.50 L, more than the 4.77 L of the body",
         ),
         (trap, "\"0.03 m\"", "\"0.4 m\"", "`ballast_height` 0.4 m is above the box"),
         (
@@ -178,7 +178,7 @@ fn ballast_and_pieces_that_are_impossible_are_reported() {
             "`kg` is a unit of a mass, not of a length",
         ),
         (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L is more than the whole cylinder's 1.18 L"),
-        (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry its own mass"),
+        (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry the mass"),
     ] {
         let message = message_of(path, from, to);
         assert!(message.contains(part), "{message}");

@@ -32,14 +32,14 @@ fn mistakes_in_a_scenario_are_reported_with_their_place() {
             "org.endline.motion.swim",
             "org.endline.motion.swin",
             vec![
-                "no whale motion `org.endline.motion.swin`",
+                "no plugin with the whale motion `org.endline.motion.swin`",
                 "did you mean `org.endline.motion.swim`?",
             ],
         ),
         (
             "org.endline.friction.coulomb",
             "org.endline.friction.colomb",
-            vec!["no friction model", "did you mean"],
+            vec!["no plugin with the friction model", "did you mean"],
         ),
         (
             "cruise_speed = \"1.3 m/s\"",
@@ -96,11 +96,11 @@ fn mistakes_in_segments_and_probes_are_reported_with_their_place() {
     for (changed, line, parts) in [
         (segments("endlin", "10 cm"), "line = \"endlin\"", ["no line `endlin`", "endline"]),
         (segments("endline*", "0.1 mm"), "longest =", ["`longest` is 0.0001 m", "between"]),
-        (without_segment, "line = \"endline*\"", ["no `segment` for the other lines", "1 m"]),
+        (without_segment, "line = \"endline*\"", ["needs a `segment` for the other lines", "1 m"]),
         (
             text.replacen("[site]", probe, 1),
             "figure = \"thrust\"",
-            ["this whale has no effort", "dynamics = \"kinetic\""],
+            ["a kinematic whale has no thrust", "dynamics = \"kinetic\""],
         ),
     ] {
         let problems = refused(&changed);

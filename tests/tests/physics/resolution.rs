@@ -43,7 +43,7 @@ fn resolution_follows_the_whale_by_lengths_in_order() {
     }
     let whaleless =
         scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
-    assert!(refused(&whaleless)[0].to_string().contains("no whale for the resolution to follow"));
+    assert!(refused(&whaleless)[0].to_string().contains("the resolution needs a whale"));
 }
 
 /// With the lengths of `[resolution]` and no count, nodes come from lengths and whale alone, whatever a strength.

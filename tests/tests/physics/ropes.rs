@@ -291,7 +291,7 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
         (
             "",
             "condition = \"old\"",
-            vec!["`old` is no value of `condition`", "secant, new, worked"],
+            vec!["`old` is not a value of `condition`", "secant, new, worked"],
         ),
         (
             "",
@@ -312,7 +312,7 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
         (
             "",
             "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nevery = \"2 ft\"\n",
-            vec!["inserts lie apart"],
+            vec!["inserts do not overlap"],
         ),
         (
             "",
@@ -322,7 +322,7 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
         (
             "",
             "start = \"catenary\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
-            vec!["takes no inserts"],
+            vec!["cannot have inserts"],
         ),
     ] {
         let problems = refused(&pulled(head, line));

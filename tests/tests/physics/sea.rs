@@ -113,13 +113,13 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[current]\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"0 s\"\nspeed = \"1 m/s\"",
         "speed",
-        ["beside a tide in rows", "take this out"],
+        ["beside a tide in rows", "remove this"],
     ),
     (
         "",
         "[current]\nexponent = 0.1\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
         "exponent",
-        ["beside a profile in rows", "take this out"],
+        ["beside a profile in rows", "remove this"],
     ),
     (
         "",
@@ -128,17 +128,12 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         ["both `exponent` and `roughness`", "keep"],
     ),
     ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
-    (
-        "",
-        "[current]\nspeed_height = \"2 m\"",
-        "speed_height",
-        ["without a `speed`", "take this out"],
-    ),
+    ("", "[current]\nspeed_height = \"2 m\"", "speed_height", ["without a `speed`", "remove this"]),
     (
         "",
         "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"",
         "speed_height",
-        ["out of the water", "25 m deep"],
+        ["outside the water", "25 m deep"],
     ),
     (
         "",
@@ -162,7 +157,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"",
         "height",
-        ["out of the water", "25 m deep"],
+        ["outside the water", "25 m deep"],
     ),
     (
         "",
@@ -199,7 +194,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[waves]\nspectrum = \"jonswop\"\nheight = \"1 m\"\nperiod = \"5 s\"",
         "spectrum",
-        ["no value of `spectrum`", "did you mean `jonswap`?"],
+        ["not a value of `spectrum`", "did you mean `jonswap`?"],
     ),
     (
         "",

@@ -85,15 +85,11 @@ fn a_mistake_in_a_text_is_reported_with_its_place() {
             "length = \"scope\"",
             "this is a pure number; expected a length",
         ),
-        (
-            "length = \"scope * depth\"",
-            "length = \"scop * depth\"",
-            "nothing is called `scop` here",
-        ),
-        ("rope = \"{rope}\"", "rope = \"{rop}\"", "nothing is called `rop` here"),
+        ("length = \"scope * depth\"", "length = \"scop * depth\"", "unknown name `scop`"),
+        ("rope = \"{rope}\"", "rope = \"{rop}\"", "unknown name `rop`"),
         ("key = \"spacing\"", "key = \"depth\"", "`depth` cannot be the key of an attribute"),
-        ("default = 3\n", "default = 90\n", "the default lies outside the range"),
-        ("items = \"ropes\"", "items = \"roops\"", "`roops` is no folder of items for gear"),
+        ("default = 3\n", "default = 90\n", "the default is outside the range"),
+        ("items = \"ropes\"", "items = \"roops\"", "`roops` is not a folder of items for gear"),
         ("height = 1\n", "hight = 1\n", "unknown field `hight`"),
     ] {
         let bad = good.replacen(old, new, 1);

@@ -79,16 +79,16 @@ fn a_mistake_in_an_act_is_reported_with_its_place_and_correction() {
             ["`flipper_raise` has 1 values", "left, right"],
         ),
         ("spine_yaw = \"40 deg\"", "spine_yaw = 40", ["without a unit", "deg"]),
-        ("at = \"0.8 s\"", "", ["`at` is missing", "time of the key"]),
+        ("at = \"0.8 s\"", "", ["`at` is missing", "time since the start of the act"]),
         (
             "blend = \"add\"",
             "blend = \"ad\"",
-            ["`ad` is no value of `blend`", "did you mean `add`?"],
+            ["`ad` is not a value of `blend`", "did you mean `add`?"],
         ),
         (
             "side = \"touched\"",
             "after = \"repeat\"\nside = \"touched\"\nends_at_touch = [\"hed\"]",
-            ["`hed` is no part", "did you mean `head`?"],
+            ["`hed` is not a part", "did you mean `head`?"],
         ),
         ("fade = \"0.6 s\"", "", ["`fade` is missing", "expected a time"]),
         ("source = ", "notes2 = ", ["has no source", "source ="]),
@@ -105,10 +105,14 @@ fn an_act_that_repeats_must_close() {
     let problems = |text: &str| report(&Library::check_file("acts/wave.toml", text));
     assert_eq!(problems(closed), "", "a turn may continue to grow");
     let open = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"\njaw = \"3 deg\"");
-    assert!(problems(&open).contains("`jaw` ends elsewhere than it begins"), "{}", problems(&open));
+    assert!(
+        problems(&open).contains("`jaw` has different values at the start and the end"),
+        "{}",
+        problems(&open)
+    );
     let short = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"");
     assert!(
-        problems(&short).contains("`jaw` does not reach from the start to the end"),
+        problems(&short).contains("`jaw` does not cover a repeated act from start to end"),
         "{}",
         problems(&short)
     );
@@ -174,7 +178,7 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_reported() {
             "acts = [\"barel-roll\"]",
             ["no act `barel-roll` in acts/", "did you mean `barrel-roll`?"],
         ),
-        ("acts = [\"flinch\", \"flinch\"]", ["two acts are called `flinch`", "each act once"]),
+        ("acts = [\"flinch\", \"flinch\"]", ["two acts have the id `flinch`", "each act once"]),
         ("acts = \"flinch\"", ["`acts` is a text, not a list", "[\"roll-away\", \"flinch\"]"]),
         (
             "answer_to_touch = \"flich\"",

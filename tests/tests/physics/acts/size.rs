@@ -49,7 +49,7 @@ fn an_impossible_size_is_reported_with_its_place() {
     for (size, parts) in [
         (
             "length = \"11 m\"\nage = \"2 yr\"",
-            ["both `length` and `age` are given", "leave one of them out"],
+            ["both `length` and `age` are present", "remove one of them"],
         ),
         ("length = \"60 m\"", ["`length` is 60", "between 1 m and 35 m"]),
         ("age = \"300 yr\"", ["`age` is", "between"]),
@@ -89,8 +89,7 @@ fn a_whale_without_a_law_of_age_has_no_age() {
     assert!(made("length = \"11 m\"", &library).is_ok());
     let message = made("age = \"2 yr\"", &library).err().unwrap();
     assert!(
-        message.contains("does not say how long a whale of some age is")
-            && message.contains("[age] with `birth`"),
+        message.contains("has no law of length by age") && message.contains("[age] with `birth`"),
         "{message}"
     );
 }
@@ -101,7 +100,7 @@ fn a_whales_file_says_how_wide_it_is() {
     let law = &text[text.find("[mass]").unwrap()..text.find("[age]").unwrap()];
     let (_, problems) = changed(law, "");
     assert!(
-        problems.contains("neither `mass` nor `breadth_scale` is there")
+        problems.contains("both `mass` and `breadth_scale` are missing")
             && problems.contains("write [mass]"),
         "{problems}"
     );
@@ -133,8 +132,8 @@ fn a_mesh_has_the_condition_it_was_made_with() {
     for size in ["condition = 0.8", "pregnant = true"] {
         let message = made(size, &library).err().unwrap_or_else(|| panic!("{size} is taken"));
         assert!(
-            message.contains("brings its own mesh")
-                && message.contains("leave out `condition` and `pregnant`"),
+            message.contains("has its own mesh")
+                && message.contains("remove `condition` and `pregnant`"),
             "{message}"
         );
     }
