@@ -46,8 +46,17 @@ pub use preferences::Preferences;
 pub use project::Project;
 pub use rules::{RuleAnswer, RuleChecks, RuleQuestion};
 pub use run::{CurrentRun, Direction, SPEEDS, Speed};
-pub use searches::Searches;
+pub use searches::{SearchEffort, Searches};
 pub use studies::Studies;
+
+/// What is on screen and is to be checked as it is edited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shown {
+    /// The open study.
+    pub study: bool,
+    /// An assembly under rules.
+    pub rules: bool,
+}
 
 /// What a user has open and does.
 pub struct Workbench {
@@ -109,6 +118,17 @@ impl Workbench {
         self.keep_finished_run();
         self.take_program();
         self.refresh_comparison();
+    }
+
+    /// Starts the checks of what is on screen, where it has changed since it was checked. A window calls it once a frame, a
+    /// script once after its edits.
+    pub fn check(&mut self, shown: Shown) {
+        if shown.study {
+            self.check_study();
+        }
+        if shown.rules {
+            self.ask_for_rules();
+        }
     }
 
     /// What came about since the last call.

@@ -115,9 +115,12 @@ fn menus_right(ui: &mut Ui, shared: &mut Shared) {
     if room < UNITS {
         return;
     }
+    let now = shared.workbench.preferences.units;
     for units in Units::ALL.into_iter().rev() {
-        ui.selectable_value(&mut shared.workbench.preferences.units, units, units.name())
-            .on_hover_text(units.help());
+        let label = ui.selectable_label(units == now, units.name()).on_hover_text(units.help());
+        if label.clicked() {
+            shared.give(WindowAction::Units(units));
+        }
     }
     if room < UNITS + LAYOUTS {
         return;

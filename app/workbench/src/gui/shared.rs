@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use endline_gear::{Document, Kind};
 use endline_session::PluginHost;
-use endline_session::command::Command;
+use endline_session::command::{Command, EditAction};
 use endline_session::edit::Documents;
 use endline_session::live::engine::Launch;
 use endline_session::task::Waker;
@@ -42,6 +42,8 @@ pub struct Shared {
     pub thumbnail: Thumbnail,
     /// Folder for documents as HTML pages; `None` if the system has no data folder.
     pub pages: Option<PathBuf>,
+    /// Panels drawn in this frame.
+    pub drawn: Vec<PanelId>,
     /// Commands of the panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
@@ -100,6 +102,7 @@ impl Shared {
             film: None,
             thumbnail: Thumbnail::default(),
             pages: None,
+            drawn: Vec::new(),
             commands: Vec::new(),
         }
     }
@@ -130,6 +133,26 @@ impl Shared {
     pub fn perform(&mut self, command: impl Into<Command>) {
         // The notice has the reason.
         let _ = self.workbench.perform(command.into());
+    }
+
+    /// Sets a field of a text; the notice says what else changed, or why it failed.
+    pub fn set(&mut self, path: &str, field: &str, value: &str) {
+        let [path, field, value] = [path, field, value].map(str::to_owned);
+        self.perform(EditAction::Set { path, field, value });
+    }
+
+    /// Sets a field while a slider is moved.
+    pub fn set_held(&mut self, path: &str, field: &str, value: &str) {
+        let [path, field, value] = [path, field, value].map(str::to_owned);
+        self.perform(EditAction::SetHeld { path, field, value });
+    }
+
+    /// Replaces a text by what a change makes of it; the notice says why it failed.
+    pub fn alter(&mut self, path: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) {
+        match self.workbench.project.documents.altered(path, change) {
+            Ok(text) => self.perform(EditAction::Replace { path: path.to_owned(), text }),
+            Err(reason) => self.fault(reason),
+        }
     }
 
     /// Processes a finished film and a finished thumbnail.

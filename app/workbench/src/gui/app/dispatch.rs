@@ -9,6 +9,7 @@ use endline_session::command::{
     Command, EditAction, FileQuestion, RuleAction, RunAction, SearchAction, StudyAction,
 };
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
 use endline_session::workbench::{Event, Notice};
 
 use super::App;
@@ -327,7 +328,18 @@ impl App {
                         self.shared.thumbnail.begin(view, &recording, waker);
                     }
                 }
-                Event::Duplicated { from, to } => self.panels.library.compare(from, to),
+                Event::AssemblyAdded(path) => {
+                    self.panels.assembly.choose(&self.shared, id_of(&path).to_owned());
+                }
+                Event::Duplicated { from, to } => {
+                    let id = id_of(&from);
+                    if from.starts_with("assemblies/")
+                        && self.panels.assembly.shows(&self.shared, id)
+                    {
+                        self.panels.assembly.choose(&self.shared, id_of(&to).to_owned());
+                    }
+                    self.panels.library.compare(from, to);
+                }
             }
         }
     }

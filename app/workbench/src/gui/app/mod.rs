@@ -6,6 +6,7 @@ mod tabs;
 use crate::gui::command::action::FlightAction;
 use crate::gui::command::keys;
 use endline_session::command::{EditAction, RunAction};
+use endline_session::workbench::Shown;
 use std::sync::{Arc, Mutex};
 
 use eframe::{CreationContext, Storage};
@@ -197,6 +198,13 @@ impl App {
         }
     }
 
+    /// Checks what the panels drawn show.
+    fn check_shown(&mut self) {
+        let drawn = std::mem::take(&mut self.shared.drawn);
+        let [study, rules] = [PanelId::STUDY, PanelId::RULES].map(|panel| drawn.contains(&panel));
+        self.shared.workbench.check(Shown { study, rules });
+    }
+
     /// Keeps unsaved edits where it is time.
     fn keep(&mut self, context: &Context) {
         let now_s = context.input(|input| input.time);
@@ -248,6 +256,7 @@ impl eframe::App for App {
             self.panels_in_place(ui);
         }
         self.over_all(ui);
+        self.check_shown();
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {

@@ -321,13 +321,9 @@ fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
     for (field, value) in edits {
         // The table of attributes may not be there yet.
         let value = Setting::plain(&value);
-        if let Err(error) =
-            shared.workbench.project.documents.alter(Documents::SCENARIO, |scenario| {
-                scenario.put(&field, &value).map_err(|error| error.to_string())
-            })
-        {
-            shared.fault(error);
-        }
+        shared.alter(Documents::SCENARIO, |scenario| {
+            scenario.put(&field, &value).map_err(|error| error.to_string())
+        });
     }
 }
 

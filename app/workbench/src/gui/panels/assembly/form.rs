@@ -4,6 +4,7 @@ use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::statics::TrialGear;
 
@@ -67,17 +68,11 @@ fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attrib
         .text("scope");
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
-    if response.changed()
-        && let Err(error) = shared.workbench.project.documents.set_held(
-            file,
-            "attributes.scope",
-            &super::written(scope),
-        )
-    {
-        shared.fault(error);
+    if response.changed() {
+        shared.set_held(file, "attributes.scope", &super::written(scope));
     }
     if response.drag_stopped() || response.lost_focus() {
-        shared.workbench.project.documents.let_go();
+        shared.perform(EditAction::LetGo);
     }
 }
 
@@ -100,7 +95,7 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
                 &choices,
                 width,
             ) {
-                shared.workbench.set(file, &field, &taken);
+                shared.set(file, &field, &taken);
             }
         }
         AttributeKind::Number { .. } | AttributeKind::Count { .. } => {
@@ -113,7 +108,7 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
                 width,
                 fields::Said { hint: &hint, help: &help },
             ) {
-                shared.workbench.set(file, &field, &typed);
+                shared.set(file, &field, &typed);
             }
         }
     }

@@ -104,9 +104,7 @@ fn alter(
     file: &str,
     change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>,
 ) {
-    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
-        shared.fault(error);
-    }
+    shared.alter(file, change);
 }
 
 fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
@@ -137,7 +135,7 @@ fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
                     width,
                     super::said(help),
                 ) {
-                    shared.workbench.set(file, &field, &typed);
+                    shared.set(file, &field, &typed);
                 }
                 ui.end_row();
             }

@@ -143,6 +143,12 @@ impl AssemblyPanel {
         (self.chosen, self.selecting) = (Some((scenario, id)), false);
     }
 
+    /// Whether the assembly of an id is shown.
+    #[must_use]
+    pub fn shows(&self, shared: &Shared, id: &str) -> bool {
+        self.shown(shared).is_some_and(|gear| gear == TrialGear::Assembly(id.to_owned()))
+    }
+
     /// Writes the gear shown, at rest in running tide, as a 3-D model in the format of the file's ending.
     pub fn export_model(&self, shared: &mut Shared, path: &Path) {
         let rest = self.answers()[1].and_then(|answer| answer.as_ref().ok());
@@ -221,7 +227,7 @@ impl AssemblyPanel {
             ui.available_width() - 8.0,
             said("Name shown to the user"),
         ) {
-            shared.workbench.set(&file, "name", &name);
+            shared.set(&file, "name", &name);
         }
         match shared.workbench.project.documents.field(&file, "gear_type") {
             Some(gear_type) => form::show(ui, self, shared, gear, &gear_type),
@@ -312,6 +318,6 @@ fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, n
     if let Some(taken) =
         fields::choose(ui, &shared.workbench.project.documents, file, field, &choices, width)
     {
-        shared.workbench.set(file, field, &taken);
+        shared.set(file, field, &taken);
     }
 }

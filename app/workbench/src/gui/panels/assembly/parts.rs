@@ -6,6 +6,7 @@
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
+use endline_session::command::EditAction;
 use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
@@ -81,9 +82,7 @@ fn change(
     file: &str,
     change: impl FnOnce(&mut Document) -> Result<(), String>,
 ) {
-    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
-        shared.fault(error);
-    }
+    shared.alter(file, change);
 }
 
 /// The menu of what can be added.
@@ -157,7 +156,7 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &str, name: &str, field: &str, he
     if let Some(typed) =
         fields::edit(ui, &shared.workbench.project.documents, file, field, width, said(help))
     {
-        shared.workbench.set(file, field, &typed);
+        shared.set(file, field, &typed);
     }
     ui.end_row();
 }
@@ -354,17 +353,12 @@ fn length_slider(ui: &mut Ui, shared: &mut Shared, file: &str, at: &str) {
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
-    if response.changed()
-        && let Err(error) = shared.workbench.project.documents.set_held(
-            file,
-            &field,
-            &format!("{} {}", super::written(shown), units.length_symbol()),
-        )
-    {
-        shared.fault(error);
+    if response.changed() {
+        let value = format!("{} {}", super::written(shown), units.length_symbol());
+        shared.set_held(file, &field, &value);
     }
     if response.drag_stopped() || response.lost_focus() {
         ui.data_mut(|data| data.remove_temp::<f64>(scale));
-        shared.workbench.project.documents.let_go();
+        shared.perform(EditAction::LetGo);
     }
 }

@@ -3,8 +3,8 @@
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command;
 use egui::{RichText, Slider, SliderClamping, Ui};
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
-use endline_session::edit::library_table::id_of;
 use endline_session::statics::TrialGear;
 
 use super::{AssemblyPanel, assemblies, has_own, path_of, side, surface_m_s};
@@ -19,7 +19,7 @@ impl AssemblyPanel {
     pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
         ui.horizontal_wrapped(|ui| {
             self.choose_gear(ui, shared, gear);
-            ui.menu_button("New ⏷", |ui| self.new_gear(ui, shared));
+            ui.menu_button("New ⏷", |ui| new_gear(ui, shared));
             if let TrialGear::Assembly(id) = gear {
                 self.of_assembly(ui, shared, id);
             }
@@ -34,16 +34,13 @@ impl AssemblyPanel {
     /// What can be done with an assembly.
     fn of_assembly(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
         if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-            match shared.workbench.project.documents.duplicate(&path_of(id)) {
-                Ok(fresh) => self.choose(shared, id_of(&fresh).to_owned()),
-                Err(error) => shared.fault(error),
-            }
+            shared.give(EditAction::Duplicate(path_of(id)));
         }
         let placed =
             shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
         let other = placed.is_some_and(|placed| placed != id);
         if other && primary(ui, true, "Use in scenario").clicked() {
-            shared.workbench.set(Documents::SCENARIO, "gear.0.assembly", id);
+            shared.set(Documents::SCENARIO, "gear.0.assembly", id);
         }
     }
 
@@ -101,27 +98,15 @@ impl AssemblyPanel {
             }
         });
     }
+}
 
-    /// Gear types as starting points.
-    fn new_gear(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        for gear in shared.workbench.gear_types() {
-            let descriptor = gear.descriptor();
-            if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
-                let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
-                let fresh = shared
-                    .workbench
-                    .project
-                    .documents
-                    .fresh_path("assemblies", &format!("my-{stem}"));
-                let text = format!(
-                    "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
-                    descriptor.name.to_lowercase(),
-                    descriptor.id
-                );
-                shared.workbench.project.documents.put_all(vec![(fresh.clone(), text)]);
-                self.choose(shared, id_of(&fresh).to_owned());
-                ui.close();
-            }
+/// Gear types as starting points.
+fn new_gear(ui: &mut Ui, shared: &mut Shared) {
+    for gear in shared.workbench.gear_types() {
+        let descriptor = gear.descriptor();
+        if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
+            shared.give(EditAction::NewAssembly(descriptor.id.to_string()));
+            ui.close();
         }
     }
 }

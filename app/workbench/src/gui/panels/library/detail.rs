@@ -117,7 +117,7 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
                 width,
                 fields::Said { hint: "", help },
             ) {
-                shared.workbench.set(path, key, &typed);
+                shared.set(path, key, &typed);
             }
             ui.end_row();
         }

@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, kind: Kind, path: &str) {
         }
     });
     for (field, text) in edits {
-        shared.workbench.set(path, &field, &text);
+        shared.set(path, &field, &text);
     }
 }
 

@@ -1,9 +1,8 @@
 //! Cells taken from the clipboard into the table.
 
 use egui::{Event, Ui};
+use endline_session::command::EditAction;
 use endline_session::edit::library_table;
-
-use endline_session::workbench::Notice;
 
 use super::LibraryPanel;
 use crate::gui::fields;
@@ -29,30 +28,18 @@ impl LibraryPanel {
         let head = library_table::cells(&text).is_ok_and(|cells| {
             cells.first().is_some_and(|row| library_table::is_head(self.kind, row))
         });
-        let taken = match at {
-            _ if head => {
-                library_table::import(&mut shared.workbench.project.documents, self.kind, &text)
-            }
+        let at = match at {
+            _ if head => None,
             Some((row, column)) => {
                 fields::forget(ui, &paths[row], keys[column]);
-                library_table::cells(&text).and_then(|cells| {
-                    library_table::spread(
-                        &mut shared.workbench.project.documents,
-                        &paths[row..],
-                        &keys[column..],
-                        &cells,
-                    )
-                })
+                Some((paths[row..].to_vec(), keys[column..].to_vec()))
             }
             None => {
-                Err("click the cell the table begins in, or copy it with its head row".to_owned())
+                let how = "click the cell the table begins in, or copy it with its head row";
+                return shared.fault(format!("not pasted: {how}"));
             }
         };
-        shared.workbench.notice = Some(match taken {
-            Ok(taken) if taken.left_out.is_empty() => Notice::done(taken.sentence()),
-            Ok(taken) => Notice::hint(taken.sentence()),
-            Err(why) => Notice::fault(format!("not pasted: {why}")),
-        });
+        shared.perform(EditAction::Paste { kind: self.kind, cells: text, at });
     }
 
     /// Keys of the table's columns after the name, in their order.

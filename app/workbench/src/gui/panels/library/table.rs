@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
         });
     });
     for (path, field, value) in edits {
-        shared.workbench.set(&path, field, &value);
+        shared.set(&path, field, &value);
     }
     if let Some((row, key)) = went {
         panel.go_to = Some(row);

@@ -116,7 +116,5 @@ impl Panel for PilotPanel {
 
 /// Changes the program; one undo takes it back; what prevents it is shown in the status bar.
 fn change(shared: &mut Shared, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = shared.workbench.project.documents.alter(Documents::SCENARIO, change) {
-        shared.fault(error);
-    }
+    shared.alter(Documents::SCENARIO, change);
 }

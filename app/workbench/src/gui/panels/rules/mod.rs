@@ -45,7 +45,6 @@ impl Panel for RulesPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         asked::show(ui, &mut self.typed, shared);
-        shared.workbench.ask_for_rules();
         ui.separator();
         let why = &shared.workbench.rules.why;
         if !why.is_empty() {

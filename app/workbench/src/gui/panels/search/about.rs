@@ -2,6 +2,7 @@
 
 use egui::{CollapsingHeader, TextEdit, Ui};
 use endline_gear::Setting;
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::observation;
 
@@ -90,8 +91,7 @@ fn as_text(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared) {
         let editor = TextEdit::multiline(&mut text).code_editor().desired_width(f32::INFINITY);
         let response = ui.add(editor);
         if response.lost_focus() && text != stored {
-            let texts = vec![(Documents::OBSERVATION.to_owned(), text)];
-            shared.workbench.project.documents.put_all(texts);
+            shared.perform(EditAction::Replace { path: Documents::OBSERVATION.to_owned(), text });
         } else if response.has_focus() {
             typed.0 = Some(text);
         }

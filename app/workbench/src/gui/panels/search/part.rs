@@ -2,6 +2,7 @@
 
 use egui::{RichText, Slider, Ui};
 use endline_gear::{Setting, Site};
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::observation::{self, Range, Told};
 
@@ -96,7 +97,7 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
         let slider =
             Slider::new(&mut percent, 51.0..=100.0).suffix(" %").step_by(1.0).max_decimals(0);
         let response = ui.add(slider);
-        let documents = &mut shared.workbench.project.documents;
+        let documents = &shared.workbench.project.documents;
         if response.changed() {
             let present = if has_rope { percent / 100.0 } else { 1.0 - percent / 100.0 };
             let field = observation::path(documents, site, "present");
@@ -104,16 +105,14 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
             match known {
                 Some(field) => {
                     let text = format!("{}", (100.0 * present).round() / 100.0);
-                    if let Err(error) = documents.set_held(Documents::OBSERVATION, &field, &text) {
-                        shared.fault(error);
-                    }
+                    shared.set_held(Documents::OBSERVATION, &field, &text);
                 }
                 None => edits.push(Box::new(move |document| {
                     observation::tell(document, site, Told::Seen(present))
                 })),
             }
         } else if response.drag_stopped() {
-            documents.let_go();
+            shared.perform(EditAction::LetGo);
         }
     });
 }

@@ -13,7 +13,7 @@ use egui::{
 use endline_session::command::{EditAction, SearchAction, StudyAction};
 use endline_session::units::Units;
 
-use crate::gui::command::action::PanelAction;
+use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::files;
 use crate::gui::layout::Layout;
 use crate::gui::panel::{Panel, PanelId};
@@ -68,9 +68,11 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     ui.label("Fishing gear, and whales that get out of it alive.");
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
+        let now = shared.workbench.preferences.units;
         for units in Units::ALL {
-            ui.radio_value(&mut shared.workbench.preferences.units, units, units.name())
-                .on_hover_text(units.help());
+            if ui.radio(units == now, units.name()).on_hover_text(units.help()).clicked() {
+                shared.give(WindowAction::Units(units));
+            }
         }
     });
     ui.add_space(6.0);

@@ -111,7 +111,6 @@ fn pick(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the buttons that run the study and open results.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    shared.workbench.check_study();
     let ready = shared.workbench.study_is_sound() && shared.workbench.studies.check.is_clean();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
@@ -123,7 +122,10 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
         command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
         command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
         let help = "Runs at normal priority instead of low; the window may respond more slowly";
-        ui.checkbox(&mut shared.workbench.studies.queue.normal_priority, "Full speed").on_hover_text(help);
+        let mut full_speed = shared.workbench.studies.queue.normal_priority;
+        if ui.checkbox(&mut full_speed, "Full speed").on_hover_text(help).changed() {
+            shared.perform(StudyAction::FullSpeed(full_speed));
+        }
         if !ready {
             ui.label(RichText::new("has errors: see below or in Problems").color(faint));
         }
@@ -185,7 +187,7 @@ fn text(ui: &mut Ui, shared: &mut Shared, name: &str, field: &str, help: &str) {
             width,
             Said { hint: "", help },
         ) {
-            shared.workbench.set(Documents::STUDY, field, &typed);
+            shared.set(Documents::STUDY, field, &typed);
         }
     });
 }
