@@ -14,6 +14,7 @@ mod figure_docs;
 mod gear_docs;
 mod headings;
 mod language;
+mod panels;
 mod rules_docs;
 mod text;
 

@@ -21,7 +21,7 @@ pub struct Project {
     /// Every open text.
     pub documents: Documents,
     /// Keeps unsaved edits for the case of a crash.
-    pub autosave: Autosave,
+    pub(super) autosave: Autosave,
     /// Problems found in making the model last.
     pub(super) model_problems: Vec<Diagnostic>,
     /// The texts they were found in.

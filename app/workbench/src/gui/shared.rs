@@ -109,14 +109,7 @@ impl Shared {
 
     /// The open files.
     pub fn documents(&self) -> &Documents {
-        &self.workbench.project.documents
-    }
-
-    /// Edits an open file as one step of undo, and reports a failure in the notice.
-    pub fn alter(&mut self, path: &str, edit: impl FnOnce(&mut Document) -> Result<(), String>) {
-        if let Err(error) = self.workbench.project.documents.alter(path, edit) {
-            self.fault(error);
-        }
+        &self.workbench.project().documents
     }
 
     /// Whether only the 3-D view is shown.
@@ -147,11 +140,21 @@ impl Shared {
         self.perform(EditAction::SetHeld { path, field, value });
     }
 
-    /// Replaces a text by what a change makes of it; the notice says why it failed.
-    pub fn alter(&mut self, path: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-        match self.workbench.project.documents.altered(path, change) {
-            Ok(text) => self.perform(EditAction::Replace { path: path.to_owned(), text }),
-            Err(reason) => self.fault(reason),
+    /// Replaces a text by what a change makes of it. Returns whether it did; the notice has the reason if not.
+    pub fn alter(
+        &mut self,
+        path: &str,
+        change: impl FnOnce(&mut Document) -> Result<(), String>,
+    ) -> bool {
+        match self.workbench.project().documents.altered(path, change) {
+            Ok(text) => {
+                self.perform(EditAction::Replace { path: path.to_owned(), text });
+                true
+            }
+            Err(reason) => {
+                self.fault(reason);
+                false
+            }
         }
     }
 
@@ -161,18 +164,19 @@ impl Shared {
             self.workbench.recordings_changed();
         }
         if let Some(notice) = self.film.as_mut().and_then(FilmJob::ended) {
-            (self.film, self.workbench.notice) = (None, Some(notice));
+            self.film = None;
+            self.workbench.say(notice);
         }
     }
 
     /// Reports a failure and its reason in the notice.
     pub fn fault(&mut self, text: impl Into<String>) {
-        self.workbench.notice = Some(Notice::fault(text));
+        self.workbench.say(Notice::fault(text));
     }
 
     /// Reports in the notice that a file was written, or why not.
     pub fn notice_saved(&mut self, path: &std::path::Path, written: Result<(), String>) {
-        self.workbench.notice = Some(match written {
+        self.workbench.say(match written {
             Ok(()) => Notice::done(format!("saved {}", path.display())),
             Err(error) => Notice::fault(format!("{}: {error}", path.display())),
         });

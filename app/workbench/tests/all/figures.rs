@@ -19,7 +19,7 @@ use crate::common::{Folder, Reach as _, Window, flown, give, only, opened, wait}
 
 /// Checks that the figures of a view are on screen, and that figures without a value are not; returns their number.
 fn count_figures<S>(harness: &Window, figures: &[Figure<S>], sources: &[S], view: View) -> usize {
-    let units = harness.workbench().preferences.units;
+    let units = harness.workbench().preferences().units;
     let check = |figure: &Figure<S>, source: &S| {
         let value = figure.quantity.text(&(figure.read)(source), units);
         for text in [capital(figure.label), value] {
@@ -113,7 +113,7 @@ fn the_comparison_shows_every_figure_that_is_declared_for_it() {
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     only(&mut harness, PanelId::COMPARE);
     let (a, b) = (harness.view(), harness.workbench().compared_view().unwrap());
-    let all = groups(&a, &b, harness.workbench().preferences.units);
+    let all = groups(&a, &b, harness.workbench().preferences().units);
     let whale = &all.iter().find(|(head, _)| *head == "Whale").unwrap().1;
     assert_eq!(whale.len(), shown(WHALE, View::Compare).count());
     let lines = &all.iter().find(|(head, _)| *head == "Lines").unwrap().1;

@@ -19,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let rows = [
         ("Version", VERSION.to_owned()),
         ("Licence", format!("{}, whichever you prefer", env!("CARGO_PKG_LICENSE"))),
-        ("Library", shared.workbench.project.documents.root().display().to_string()),
+        ("Library", shared.workbench.project().documents.root().display().to_string()),
     ];
     widgets::numbers(ui, "about", &rows);
     ui.horizontal_wrapped(|ui| {

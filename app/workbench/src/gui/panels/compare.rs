@@ -46,7 +46,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        for group in groups(&a, &b, shared.workbench.preferences.units) {
+        for group in groups(&a, &b, shared.workbench.preferences().units) {
             table(ui, &group);
         }
     });

@@ -38,7 +38,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
             "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
         );
     }
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let mut wanted = None;
     ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
         for event in view.events.iter() {

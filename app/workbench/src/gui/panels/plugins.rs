@@ -37,7 +37,7 @@ impl Panel for PluginsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let plugins = shared.workbench.plugins.every();
+        let plugins = shared.workbench.plugins().every();
         if !plugins.iter().any(|plugin| self.chosen.as_ref() == Some(&plugin.info.id)) {
             self.chosen = plugins.first().map(|plugin| plugin.info.id.clone());
         }
@@ -75,7 +75,7 @@ impl PluginsPanel {
             }
             self.row(ui, shared, info, *on);
         }
-        let problems = shared.workbench.plugins.problems.clone();
+        let problems = shared.workbench.plugins().problems.clone();
         if !problems.is_empty() {
             widgets::caption(ui, "Left out");
             problems.iter().for_each(|problem| left_out(ui, shared, problem));
@@ -109,7 +109,7 @@ impl PluginsPanel {
 
 fn toolbar(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let busy = shared.workbench.plugins.busy();
+        let busy = shared.workbench.plugins().busy();
         if primary(ui, !busy, "Reload")
             .on_hover_text("Load what was built anew; the next run uses it")
             .clicked()
@@ -118,7 +118,7 @@ fn toolbar(ui: &mut Ui, shared: &mut Shared) {
         }
         let folders: Vec<_> = shared
             .workbench
-            .plugins
+            .plugins()
             .folders()
             .into_iter()
             .filter(|folder| folder.is_dir())
@@ -217,7 +217,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
         }
         let Some(file) = &info.file else { return };
         if ui
-            .add_enabled(!shared.workbench.plugins.busy(), Button::new("Check"))
+            .add_enabled(!shared.workbench.plugins().busy(), Button::new("Check"))
             .on_hover_text("Try it in a process of its own")
             .clicked()
         {
@@ -253,7 +253,7 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
         ui.label(RichText::new("It runs in a process of its own.").size(12.0).color(faint))
             .on_hover_text("A crash or a hang of it ends the run, not the program");
     }
-    if shared.workbench.plugins.reports.contains_key(file) {
+    if shared.workbench.plugins().reports.contains_key(file) {
         report(ui, shared, file);
     } else {
         ui.label(
@@ -265,7 +265,7 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
 /// What the last check of a file said, line by line.
 fn report(ui: &mut Ui, shared: &Shared, file: &Path) {
     let palette = Theme::palette_of(ui);
-    let Some(report) = shared.workbench.plugins.reports.get(file) else { return };
+    let Some(report) = shared.workbench.plugins().reports.get(file) else { return };
     for line in report.text.lines() {
         let fault = line.contains("  FAULT  ");
         let colour = if fault { palette.error } else { palette.faint };
@@ -298,7 +298,7 @@ fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
                     );
                     let said = fields::Said { hint: &hint, help: &help };
                     let place = fields::Field {
-                        documents: &shared.workbench.project.documents,
+                        documents: &shared.workbench.project().documents,
                         path: Documents::SCENARIO,
                         field: &field,
                     };

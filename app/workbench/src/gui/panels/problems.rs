@@ -28,8 +28,8 @@ impl Panel for ProblemsPanel {
 
 /// Draws the list of problems.
 fn show(ui: &mut Ui, shared: &mut Shared) {
-    let problems: Vec<Diagnostic> = shared.workbench.project.problems().cloned().collect();
-    if problems.is_empty() && shared.workbench.plugins.problems.is_empty() {
+    let problems: Vec<Diagnostic> = shared.workbench.project().problems().cloned().collect();
+    if problems.is_empty() && shared.workbench.plugins().problems.is_empty() {
         widgets::nothing(
             ui,
             "No problems: every file of the library and the scenario can be read.",
@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
                 go_to(shared, problem);
             }
         }
-        for problem in &shared.workbench.plugins.problems {
+        for problem in &shared.workbench.plugins().problems {
             let warning = Theme::palette_of(ui).warning;
             ui.add(Label::new(RichText::new(format!("plugin: {problem}")).color(warning)).wrap());
         }
@@ -51,7 +51,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 
 /// Opens the panel where a problem can be fixed.
 fn go_to(shared: &mut Shared, problem: &Diagnostic) {
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     for (key, panel) in
         [(Documents::STUDY, PanelId::STUDY), (Documents::OBSERVATION, PanelId::SEARCH)]
     {

@@ -3,7 +3,7 @@
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command;
 use endline_session::command::RunAction;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use egui::{
@@ -46,7 +46,7 @@ impl Panel for RecordingsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let Some(folder) = shared.workbench.recordings.clone() else {
+        let Some(folder) = shared.workbench.recordings().map(Path::to_owned) else {
             return widgets::nothing(
                 ui,
                 "No folder to keep recordings in: there is no user data folder here.",
@@ -156,7 +156,7 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
         let (words, help, colour) = words::outcome(outcome, palette);
         ui.label(RichText::new(words).color(colour)).on_hover_text(help);
     }
-    let force = shared.workbench.preferences.units.force().text(kept.greatest_tension_n);
+    let force = shared.workbench.preferences().units.force().text(kept.greatest_tension_n);
     let facts = format!("peak {force}, {:.0} s, {}", kept.simulated_s, file.age);
     ui.add(Label::new(RichText::new(facts).color(palette.faint)).extend())
         .on_hover_text(format!("of {}", kept.of));

@@ -71,7 +71,7 @@ fn stale(ui: &mut Ui, shared: &mut Shared) {
             ui.spinner();
             ui.label(RichText::new("assembling the model").color(palette.faint));
         });
-    } else if shared.workbench.project.documents.any_error() {
+    } else if shared.workbench.project().documents.any_error() {
         let text = "The gear has errors. The run shown is from before them.";
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {

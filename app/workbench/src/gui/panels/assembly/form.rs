@@ -36,7 +36,7 @@ pub(super) fn show(
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
         scope_slider(ui, shared, file, scope);
     }
-    let placed = shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+    let placed = shared.workbench.project().documents.field(Documents::SCENARIO, "gear.0.assembly");
     let is_placed = placed.is_some_and(|id| *shown == TrialGear::Assembly(id));
     inserts::of_built(ui, panel, shared, (shown, is_placed));
     widgets::caption(ui, "Attributes");
@@ -56,7 +56,7 @@ fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attrib
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = shared
         .workbench
-        .project
+        .project()
         .documents
         .field(file, "attributes.scope")
         .and_then(|text| text.parse::<f64>().ok());
@@ -89,7 +89,7 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
                 words.iter().map(|word| (word.to_string(), word.to_string())).collect();
             if let Some(taken) = fields::choose(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 file,
                 &field,
                 &choices,
@@ -102,7 +102,7 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
             let (hint, help) = (usual(attribute), help(attribute));
             if let Some(typed) = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 file,
                 &field,
                 width,

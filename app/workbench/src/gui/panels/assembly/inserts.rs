@@ -26,7 +26,7 @@ pub(super) fn of_built(
     whole(ui, shared, gear);
     for line in built_lines(panel) {
         let (own, placed) = (format!("lines.{line}"), format!("gear.0.lines.{line}"));
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         let has_own = documents.has(file, &format!("{own}.inserts"))
             && !documents.has(Documents::SCENARIO, &format!("{placed}.inserts"));
         if is_placed && !has_own {
@@ -70,7 +70,7 @@ pub(super) fn one(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, nam
     let inserts = format!("{field}.inserts");
     let there = shared
         .workbench
-        .project
+        .project()
         .documents
         .document(file)
         .is_ok_and(|document| document.has(&inserts));
@@ -129,7 +129,7 @@ fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
                 let (field, width) = (format!("{inserts}.{key}"), ui.available_width() - 8.0);
                 if let Some(typed) = fields::edit(
                     ui,
-                    &shared.workbench.project.documents,
+                    &shared.workbench.project().documents,
                     file,
                     &field,
                     width,

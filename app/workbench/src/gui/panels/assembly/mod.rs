@@ -139,7 +139,7 @@ impl Panel for AssemblyPanel {
 impl AssemblyPanel {
     /// Shows an assembly, until another scenario is opened.
     pub fn choose(&mut self, shared: &Shared, id: String) {
-        let scenario = shared.workbench.project.documents.scenario_path().to_owned();
+        let scenario = shared.workbench.project().documents.scenario_path().to_owned();
         (self.chosen, self.selecting) = (Some((scenario, id)), false);
     }
 
@@ -165,14 +165,14 @@ impl AssemblyPanel {
         if self.sweep {
             sweep::show(ui, self, shared, gear);
         } else {
-            table::show(ui, self, shared.workbench.preferences.units);
+            table::show(ui, self, shared.workbench.preferences().units);
         }
     }
 
     /// The gear shown: the assembly that was chosen, or the scenario's gear; without either the first assembly.
     #[must_use]
     pub fn shown(&self, shared: &Shared) -> Option<TrialGear> {
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         let there = |id: &String| documents.text(&path_of(id)).is_some();
         let open = documents.scenario_path();
         let chosen = self.chosen.as_ref().filter(|(scenario, _)| scenario.as_path() == open);
@@ -200,17 +200,19 @@ impl AssemblyPanel {
             trials.extend([at(&other, Some(0.0)), at(&other, running)]);
         }
         self.statics.poll();
-        let wanted = (shared.workbench.project.documents.version(), trials);
+        let wanted = (shared.workbench.project().documents.version(), trials);
         if self.asked.as_ref() != Some(&wanted) {
             let scenario = shared
                 .workbench
-                .project
+                .project()
                 .documents
                 .text(Documents::SCENARIO)
                 .unwrap_or_default()
                 .to_owned();
-            let (library, (host, waker)) =
-                (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
+            let (library, (host, waker)) = (
+                shared.workbench.project().documents.library().clone(),
+                shared.workbench.helpers(),
+            );
             self.statics.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
             self.asked = Some(wanted);
         }
@@ -221,7 +223,7 @@ impl AssemblyPanel {
         let file = path(gear);
         if let Some(name) = fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            &shared.workbench.project().documents,
             &file,
             "name",
             ui.available_width() - 8.0,
@@ -229,13 +231,13 @@ impl AssemblyPanel {
         ) {
             shared.set(&file, "name", &name);
         }
-        match shared.workbench.project.documents.field(&file, "gear_type") {
+        match shared.workbench.project().documents.field(&file, "gear_type") {
             Some(gear_type) => form::show(ui, self, shared, gear, &gear_type),
             None => parts::show(ui, shared, gear),
         }
         let problems: Vec<_> = shared
             .workbench
-            .project
+            .project()
             .documents
             .problems()
             .iter()
@@ -263,7 +265,7 @@ fn path(gear: &TrialGear) -> String {
 
 /// Whether the open scenario is made of parts of its own.
 fn has_own(shared: &Shared) -> bool {
-    let has = |field| shared.workbench.project.documents.has(Documents::SCENARIO, field);
+    let has = |field| shared.workbench.project().documents.has(Documents::SCENARIO, field);
     has("line.0") && !has("gear.0")
 }
 
@@ -296,10 +298,10 @@ fn assemblies(shared: &Shared) -> Vec<(String, String)> {
     let named = |path: &str| {
         (
             id(path),
-            shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| id(path)),
+            shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| id(path)),
         )
     };
-    shared.workbench.project.documents.files("assemblies").map(named).collect()
+    shared.workbench.project().documents.files("assemblies").map(named).collect()
 }
 
 fn said(help: &str) -> fields::Said<'_> {
@@ -308,7 +310,7 @@ fn said(help: &str) -> fields::Said<'_> {
 
 /// A choice of a library item for a field of a file; with `none` it may be empty.
 fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, none: bool) {
-    let library = shared.workbench.project.documents.library();
+    let library = shared.workbench.project().documents.library();
     let mut choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     if none {
@@ -316,7 +318,7 @@ fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, n
     }
     let width = ui.available_width() - 8.0;
     if let Some(taken) =
-        fields::choose(ui, &shared.workbench.project.documents, file, field, &choices, width)
+        fields::choose(ui, &shared.workbench.project().documents, file, field, &choices, width)
     {
         shared.set(file, field, &taken);
     }

@@ -63,7 +63,12 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
 fn count(shared: &Shared, file: &str, list: &str) -> usize {
     (0..)
         .take_while(|index| {
-            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id")).is_some()
+            shared
+                .workbench
+                .project()
+                .documents
+                .field(file, &format!("{list}.{index}.id"))
+                .is_some()
         })
         .count()
 }
@@ -72,7 +77,7 @@ fn count(shared: &Shared, file: &str, list: &str) -> usize {
 fn ids(shared: &Shared, file: &str, list: &str) -> Vec<String> {
     (0..)
         .map_while(|index| {
-            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id"))
+            shared.workbench.project().documents.field(file, &format!("{list}.{index}.id"))
         })
         .collect()
 }
@@ -110,7 +115,7 @@ fn add(ui: &mut Ui, shared: &mut Shared, file: &str) {
 
 /// Id of the library's first item of a kind.
 fn first_item(shared: &Shared, kind: Kind) -> String {
-    let ids = shared.workbench.project.documents.library().ids(kind);
+    let ids = shared.workbench.project().documents.library().ids(kind);
     ids.first().map(|id| (*id).to_owned()).unwrap_or_default()
 }
 
@@ -154,7 +159,7 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &str, name: &str, field: &str, he
     ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help);
     let width = ui.available_width() - 8.0;
     if let Some(typed) =
-        fields::edit(ui, &shared.workbench.project.documents, file, field, width, said(help))
+        fields::edit(ui, &shared.workbench.project().documents, file, field, width, said(help))
     {
         shared.set(file, field, &typed);
     }
@@ -280,7 +285,7 @@ fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
 }
 
 fn text(shared: &Shared, file: &str, field: &str) -> String {
-    shared.workbench.project.documents.field(file, field).unwrap_or_default()
+    shared.workbench.project().documents.field(file, field).unwrap_or_default()
 }
 
 fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
@@ -341,7 +346,7 @@ fn length_slider(ui: &mut Ui, shared: &mut Shared, file: &str, at: &str) {
     // The end of the scale stays while the slider is held.
     let scale = ui.make_persistent_id(("longest", file, at));
     let longest_m = ui.data(|data| data.get_temp::<f64>(scale)).unwrap_or(length_m * LONGEST);
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let mut shown = units.of_metres(length_m);
     ui.spacing_mut().slider_width = 130.0;
     let slider =

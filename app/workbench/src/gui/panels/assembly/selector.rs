@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> O
 /// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
 fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
     panel.pictured.poll();
-    let version = shared.workbench.project.documents.version();
+    let version = shared.workbench.project().documents.version();
     if panel.pictured_for == Some(version) {
         return;
     }
@@ -55,10 +55,15 @@ fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
         sea: TrialSea { depth: None, current_m_s: None },
     };
     let trials = all.iter().map(trial).collect();
-    let scenario =
-        shared.workbench.project.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let scenario = shared
+        .workbench
+        .project()
+        .documents
+        .text(Documents::SCENARIO)
+        .unwrap_or_default()
+        .to_owned();
     let (library, (host, waker)) =
-        (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
+        (shared.workbench.project().documents.library().clone(), shared.workbench.helpers());
     panel.pictured.ask(&scenario, &library, trials, &host, &waker);
     panel.pictured_for = Some(version);
 }

@@ -51,7 +51,7 @@ impl Gear {
 /// Draws both tides.
 pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, shared: &Shared) {
     let drawn = panel.drawn();
-    let flat = Flat { axis: axis(&drawn), units: shared.workbench.preferences.units };
+    let flat = Flat { axis: axis(&drawn), units: shared.workbench.preferences().units };
     let size = vec2((ui.available_width() - 8.0) / 2.0, ui.available_height());
     let bounds = bounds(&drawn, &flat, f64::from((size.x - 60.0) / (size.y - 70.0).max(1.0)));
     ui.horizontal_top(|ui| {

@@ -20,7 +20,7 @@ const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, gear: &TrialGear) {
     panel.swept.poll();
-    let wanted = (shared.workbench.project.documents.version(), gear.clone());
+    let wanted = (shared.workbench.project().documents.version(), gear.clone());
     let (done, all) = panel.swept.progress();
     ui.horizontal(|ui| {
         let fresh = panel.swept_for.as_ref() == Some(&wanted);
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, gear
         );
     });
     if all > 0 {
-        table(ui, panel, shared.workbench.preferences.units);
+        table(ui, panel, shared.workbench.preferences().units);
     }
 }
 
@@ -69,12 +69,17 @@ fn start(panel: &mut AssemblyPanel, shared: &Shared, gear: &TrialGear) {
         .iter()
         .flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current)))
         .collect();
-    let scenario =
-        shared.workbench.project.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let scenario = shared
+        .workbench
+        .project()
+        .documents
+        .text(Documents::SCENARIO)
+        .unwrap_or_default()
+        .to_owned();
     let (library, (host, waker)) =
-        (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
+        (shared.workbench.project().documents.library().clone(), shared.workbench.helpers());
     panel.swept.ask(&scenario, &library, trials, &host, &waker);
-    panel.swept_for = Some((shared.workbench.project.documents.version(), gear.clone()));
+    panel.swept_for = Some((shared.workbench.project().documents.version(), gear.clone()));
 }
 
 fn table(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {

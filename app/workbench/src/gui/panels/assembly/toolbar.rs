@@ -37,7 +37,7 @@ impl AssemblyPanel {
             shared.give(EditAction::Duplicate(path_of(id)));
         }
         let placed =
-            shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+            shared.workbench.project().documents.field(Documents::SCENARIO, "gear.0.assembly");
         let other = placed.is_some_and(|placed| placed != id);
         if other && primary(ui, true, "Use in scenario").clicked() {
             shared.set(Documents::SCENARIO, "gear.0.assembly", id);
@@ -71,7 +71,7 @@ impl AssemblyPanel {
 
     /// The slider of the running tide.
     fn tide(&mut self, ui: &mut Ui, shared: &Shared) {
-        let units = shared.workbench.preferences.units;
+        let units = shared.workbench.preferences().units;
         let of_scenario_m_s =
             self.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
         ui.horizontal(|ui| {

@@ -36,7 +36,7 @@ impl Panel for EntanglementPanel {
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return widgets::nothing(ui, "No whale in this run.");
         };
-        let style = Style { view: View::Entanglement, units: shared.workbench.preferences.units };
+        let style = Style { view: View::Entanglement, units: shared.workbench.preferences().units };
         let parts = parts(whale, &view.frame.contacts);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let first = outcome(ui, whale, style);

@@ -70,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, p
         if super::picture::has(kind) {
             super::picture::show(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 kind,
                 path,
                 egui::vec2(190.0, 120.0),
@@ -111,7 +111,7 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
             let width = ui.available_width() - 8.0;
             if let Some(typed) = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 path,
                 key,
                 width,
@@ -125,9 +125,9 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
 }
 
 fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
-    let version = shared.workbench.project.documents.version();
+    let version = shared.workbench.project().documents.version();
     if panel.uses.path != path || panel.uses.version != version {
-        panel.uses = Uses { version, ..uses(&shared.workbench.project.documents, path) };
+        panel.uses = Uses { version, ..uses(&shared.workbench.project().documents, path) };
     }
     widgets::caption(ui, "Used in");
     let uses = panel.uses.clone();
@@ -177,11 +177,11 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
     let kind = panel.kind;
     choose(ui, panel, shared, path, kind);
     let other = match &panel.against {
-        Against::Saved => shared.workbench.project.documents.saved_text(path),
-        Against::Entry(other) => shared.workbench.project.documents.text(other),
+        Against::Saved => shared.workbench.project().documents.saved_text(path),
+        Against::Entry(other) => shared.workbench.project().documents.text(other),
     };
     let rows = other.and_then(|other| {
-        panel.compared.rows(&shared.workbench.project.documents, path, other, kind)
+        panel.compared.rows(&shared.workbench.project().documents, path, other, kind)
     });
     let Some(rows) = rows else {
         ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
@@ -209,7 +209,7 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
 
 fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str, kind: Kind) {
     let name = |path: &str| {
-        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned())
+        shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| path.to_owned())
     };
     let shown = match &panel.against {
         Against::Saved => "its file on disk".to_owned(),
@@ -222,7 +222,7 @@ fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
             ui.selectable_value(&mut panel.against, Against::Saved, "its file on disk");
             for other in shared
                 .workbench
-                .project
+                .project()
                 .documents
                 .files(kind.folder())
                 .filter(|other| *other != path)

@@ -19,7 +19,8 @@ type Edit = (String, String);
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, kind: Kind, path: &str) {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "Figures, with confidence and source");
-    let Some(entry) = shared.workbench.project.documents.library().entry(kind, id_of(path)) else {
+    let Some(entry) = shared.workbench.project().documents.library().entry(kind, id_of(path))
+    else {
         ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
         return;
     };
@@ -81,7 +82,7 @@ fn source(
     figure: &Figure,
 ) -> Option<Edit> {
     let own = format!("{}.source", field.key);
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     let said = fields::Said { hint: &figure.source, help: &figure.source };
     let width = ui.available_width().max(80.0) - 8.0;
     fields::edit(ui, documents, path, &own, width, said).map(|typed| (own, typed))

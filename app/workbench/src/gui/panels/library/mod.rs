@@ -80,7 +80,7 @@ impl Panel for LibraryPanel {
         let folder = self.kind.folder();
         let chosen = self.chosen.clone();
         let shown = |path: &String| {
-            path.starts_with(folder) && shared.workbench.project.documents.text(path).is_some()
+            path.starts_with(folder) && shared.workbench.project().documents.text(path).is_some()
         };
         if let Some(path) = chosen.filter(shown) {
             let width = (whole.width() * 0.3).clamp(220.0, 380.0);
@@ -175,7 +175,7 @@ impl LibraryPanel {
         }
         if ui.button("Copy for a spreadsheet").clicked() {
             let text = library_table::to_tabs(
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 self.kind,
                 &self.rows(shared),
             );
@@ -195,12 +195,12 @@ impl LibraryPanel {
     fn problems(&self, shared: &Shared) -> Vec<Diagnostic> {
         let folder = format!("{}/", self.kind.folder());
         let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
-        shared.workbench.project.documents.problems().iter().filter(own).cloned().collect()
+        shared.workbench.project().documents.problems().iter().filter(own).cloned().collect()
     }
 }
 
 fn save(ui: &mut Ui, shared: &mut Shared) {
-    let unsaved = shared.workbench.project.documents.unsaved().len();
+    let unsaved = shared.workbench.project().documents.unsaved().len();
     let help = "Ctrl+S: write every changed file; comments stay";
     if primary(ui, unsaved > 0, "Save").on_hover_text(help).clicked() {
         shared.give(EditAction::Save);

@@ -34,15 +34,16 @@ impl LibraryPanel {
     pub(super) fn rows(&self, shared: &Shared) -> Vec<String> {
         let words: Vec<String> =
             self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
-        let name =
-            |path: &str| shared.workbench.project.documents.field(path, "name").unwrap_or_default();
+        let name = |path: &str| {
+            shared.workbench.project().documents.field(path, "name").unwrap_or_default()
+        };
         let matches = |path: &&str| {
             let text = format!("{path} {}", name(path)).to_lowercase();
             words.iter().all(|word| text.contains(word))
         };
         let mut rows: Vec<String> = shared
             .workbench
-            .project
+            .project()
             .documents
             .files(self.kind.folder())
             .filter(matches)
@@ -50,7 +51,7 @@ impl LibraryPanel {
             .collect();
         // What this scenario is made of comes first.
         rows.sort_by_cached_key(|path| {
-            (!shared.workbench.project.documents.in_use(path), name(path).to_lowercase())
+            (!shared.workbench.project().documents.in_use(path), name(path).to_lowercase())
         });
         if let Some((key, down)) = self.sort {
             let field = self.kind.fields().iter().find(|field| field.key == key);
@@ -68,8 +69,8 @@ impl LibraryPanel {
     /// The rows as the table shows them, found anew where texts or choices have changed.
     pub(super) fn shown_rows(&mut self, shared: &Shared) -> Arc<Vec<Row>> {
         let wanted = Wanted {
-            version: shared.workbench.project.documents.version(),
-            scenario: shared.workbench.project.documents.scenario_path().to_owned(),
+            version: shared.workbench.project().documents.version(),
+            scenario: shared.workbench.project().documents.scenario_path().to_owned(),
             kind: self.kind,
             search: self.search.clone(),
             sort: self.sort,
@@ -79,7 +80,7 @@ impl LibraryPanel {
         }
         let row = |path: String| Row {
             problem: cell_problem(shared, self.kind, &path).is_some(),
-            used: shared.workbench.project.documents.in_use(&path),
+            used: shared.workbench.project().documents.in_use(&path),
             path,
         };
         let rows: Arc<Vec<Row>> = Arc::new(self.rows(shared).into_iter().map(row).collect());
@@ -90,12 +91,12 @@ impl LibraryPanel {
 
 /// The SI value of a cell, where it can be read.
 fn si_value(shared: &Shared, path: &str, field: &Field) -> Option<f64> {
-    units::parse(&shared.workbench.project.documents.field(path, field.key)?, field.quantity).ok()
+    units::parse(&shared.workbench.project().documents.field(path, field.key)?, field.quantity).ok()
 }
 
 /// Any problem at a cell of a row.
 fn cell_problem<'a>(shared: &'a Shared, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
     let keys =
         kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
-    keys.filter_map(|key| shared.workbench.project.documents.problem_at(path, key)).next()
+    keys.filter_map(|key| shared.workbench.project().documents.problem_at(path, key)).next()
 }

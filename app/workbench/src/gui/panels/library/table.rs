@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
     }
     if let Some((row, key)) = went {
         panel.go_to = Some(row);
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         fields::go_to(ui.ctx(), documents, &shown[row].path, key);
     }
 }
@@ -150,10 +150,11 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &R
     let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
     let name =
-        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
-    let mark = if shared.workbench.project.documents.is_unsaved(path) { "• " } else { "" };
+        shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if shared.workbench.project().documents.is_unsaved(path) { "• " } else { "" };
     let chosen = panel.chosen.as_deref() == Some(path);
-    let colour = match (shared.workbench.project.documents.file_has_error(path), used && !chosen) {
+    let colour = match (shared.workbench.project().documents.file_has_error(path), used && !chosen)
+    {
         (true, _) => palette.error,
         (false, true) => palette.accent,
         (false, false) => palette.text,
@@ -182,7 +183,7 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &R
     if response.contains_pointer() {
         let notes = shared
             .workbench
-            .project
+            .project()
             .documents
             .field(path, "notes")
             .map_or(String::new(), |notes| format!("\n\n{notes}"));
@@ -200,13 +201,13 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
             ui.add_space(1.0);
             let committed = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 path,
                 key,
                 width,
                 fields::Said { hint: "", help },
             );
-            if let Some(problem) = shared.workbench.project.documents.problem_at(path, key) {
+            if let Some(problem) = shared.workbench.project().documents.problem_at(path, key) {
                 let error =
                     RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());
@@ -221,7 +222,7 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
 /// and nobody said where it comes from.
 fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
     let entry =
-        shared.workbench.project.documents.library().entry(kind, library_table::id_of(path));
+        shared.workbench.project().documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let palette = Theme::palette_of(ui);
     let (letter, colour) = if figure.is_unsourced() {
@@ -244,7 +245,7 @@ fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
 fn provenance(shared: &Shared, kind: Kind, path: &str, field: &Field) -> String {
     let figure = shared
         .workbench
-        .project
+        .project()
         .documents
         .library()
         .entry(kind, library_table::id_of(path))

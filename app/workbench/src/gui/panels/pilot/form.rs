@@ -99,7 +99,7 @@ fn trigger(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
 /// Id of the nearest entry above that has one.
 fn above(shared: &Shared, index: usize) -> Option<String> {
     (0..index).rev().find_map(|above| {
-        shared.workbench.project.documents.field(Documents::SCENARIO, &path(above, "id"))
+        shared.workbench.project().documents.field(Documents::SCENARIO, &path(above, "id"))
     })
 }
 
@@ -114,7 +114,7 @@ fn word(
     let width = (ui.available_width() - 12.0).max(60.0);
     let typed = fields::edit(
         ui,
-        &shared.workbench.project.documents,
+        &shared.workbench.project().documents,
         Documents::SCENARIO,
         &field,
         width,
@@ -136,7 +136,7 @@ fn number(
         ui.set_min_width(62.0);
         fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            &shared.workbench.project().documents,
             Documents::SCENARIO,
             &field,
             58.0,

@@ -58,7 +58,7 @@ impl PilotPanel {
             }
             let text = format!("Rerun from {shown_s:.2} s");
             let help = "The same inputs up to the moment shown, then this program as it stands now";
-            if ui.add_enabled(run && !shared.workbench.project.documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
+            if ui.add_enabled(run && !shared.workbench.project().documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
                 shared.give(RunAction::Rerun);
             }
             let count = if all.len() == 1 { "1 entry".to_owned() } else { format!("{} entries", all.len()) };
@@ -89,10 +89,10 @@ impl Panel for PilotPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        if shared.workbench.project.documents.field(Documents::SCENARIO, "whale.item").is_none() {
+        if shared.workbench.project().documents.field(Documents::SCENARIO, "whale.item").is_none() {
             return widgets::nothing(ui, "This scenario has no whale to pilot.");
         }
-        let all = self.entries(&shared.workbench.project.documents);
+        let all = self.entries(&shared.workbench.project().documents);
         self.chosen = self.chosen.filter(|chosen| *chosen < all.len());
         self.toolbar(ui, shared, &all);
         let whole = ui.available_rect_before_wrap();

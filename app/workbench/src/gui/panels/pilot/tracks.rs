@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, shared: &mut Shared, all
         Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
     let duration_s = shared
         .workbench
-        .project
+        .project()
         .documents
         .field(Documents::SCENARIO, "duration")
         .and_then(|text| parse(&text, Quantity::Time).ok())

@@ -81,8 +81,8 @@ impl Panel for ResultsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let Some(shown) = shared.workbench.studies.results.shown().cloned() else {
-            return missing(ui, &shared.workbench.studies.results);
+        let Some(shown) = shared.workbench.studies().results.shown().cloned() else {
+            return missing(ui, &shared.workbench.studies().results);
         };
         self.begin(&shown);
         self.head(ui, shared, &shown);
@@ -205,7 +205,7 @@ fn report_line(shared: &Shared, shown: &StudyResults) -> String {
     let study = shell::word(&shown.opened.study.place.source.path);
     format!(
         "endline study report {study} --library {} --out {}",
-        shell::path(shared.workbench.project.documents.root()),
+        shell::path(shared.workbench.project().documents.root()),
         shell::path(&shown.folder)
     )
 }

@@ -65,7 +65,7 @@ pub(super) fn show(
 ) {
     filter(ui, panel, shown);
     let rows = listed(panel, shown);
-    let unit = shared.workbench.preferences.units.force();
+    let unit = shared.workbench.preferences().units.force();
     let replayed = panel.replayed;
     let mut wanted = None;
     let mut sort = panel.sort;

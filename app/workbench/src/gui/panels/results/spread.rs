@@ -44,7 +44,7 @@ pub(super) fn show(
     shared: &mut Shared,
     shown: &Arc<StudyResults>,
 ) {
-    let unit = shared.workbench.preferences.units.force();
+    let unit = shared.workbench.preferences().units.force();
     let dots = placed(panel, shown, unit);
     if dots.is_empty() {
         return widgets::nothing(ui, "No run has a tension yet.");

@@ -81,9 +81,9 @@ fn name(ui: &mut Ui, text: &str) {
 }
 
 fn assembly(ui: &mut Ui, shared: &mut Shared) {
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     let named = |id: &str| documents.field(&format!("assemblies/{id}.toml"), "name");
-    let question = &shared.workbench.rules.question;
+    let question = &shared.workbench.rules().question;
     let mut chosen = None;
     let shown = named(&question.assembly).unwrap_or_else(|| question.assembly.clone());
     let combo = ComboBox::from_id_salt("rules assembly").width(190.0).truncate();
@@ -103,7 +103,7 @@ fn assembly(ui: &mut Ui, shared: &mut Shared) {
 }
 
 fn area(ui: &mut Ui, shared: &mut Shared) {
-    let checks = &shared.workbench.rules;
+    let checks = &shared.workbench.rules();
     let mut chosen = None;
     let Some(packs) = checks.packs.clone() else { return };
     let named = |id: &str| {
@@ -130,7 +130,7 @@ fn area(ui: &mut Ui, shared: &mut Shared) {
 /// A field for typing, taken over on Enter or when it is left.
 fn one(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared, field: &Field) {
     name(ui, field.name);
-    let mut question = shared.workbench.rules.question.clone();
+    let mut question = shared.workbench.rules().question.clone();
     let stored = (field.of)(&mut question);
     let own = typed.now.as_ref().filter(|(name, _)| *name == field.name);
     let mut text = own.map_or_else(|| stored.clone(), |(_, text)| text.clone());

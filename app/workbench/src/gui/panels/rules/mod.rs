@@ -46,13 +46,13 @@ impl Panel for RulesPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         asked::show(ui, &mut self.typed, shared);
         ui.separator();
-        let why = &shared.workbench.rules.why;
+        let why = &shared.workbench.rules().why;
         if !why.is_empty() {
             let colour = Theme::palette_of(ui).error;
             ui.add(Label::new(RichText::new(why).color(colour)).wrap());
             return;
         }
-        let Some(answer) = shared.workbench.rules.answer.clone() else {
+        let Some(answer) = shared.workbench.rules().answer.clone() else {
             return widgets::nothing(ui, "Reading the rules …");
         };
         self.head(ui, shared, &answer);
@@ -85,7 +85,7 @@ impl RulesPanel {
             command(ui, shared, "Take all edits", RuleAction::TakeAll);
             self.compare(ui, shared, palette);
             sheet(ui, shared, palette);
-            if shared.workbench.rules.busy() {
+            if shared.workbench.rules().busy() {
                 ui.spinner();
             }
         });
@@ -100,7 +100,7 @@ impl RulesPanel {
                 .on_disabled_hover_text(hint);
             return;
         }
-        if shared.workbench.rules.comparing() {
+        if shared.workbench.rules().comparing() {
             ui.label(RichText::new("making the study …").color(palette.faint));
             return;
         }
@@ -140,12 +140,12 @@ impl RulesPanel {
 
 /// The button that writes the compliance sheet, and the one that opens the sheet written last and says whether it is outdated.
 fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
-    if shared.workbench.rules.writing() {
+    if shared.workbench.rules().writing() {
         ui.label(RichText::new("hauling the gear for its sheet …").color(palette.faint));
         return;
     }
     command(ui, shared, "Compliance sheet", RuleAction::Sheet);
-    let Some(page) = shared.workbench.rules.page().map(Path::to_owned) else { return };
+    let Some(page) = shared.workbench.rules().page().map(Path::to_owned) else { return };
     let file = page.display();
     let (text, help) = if shared.workbench.sheet_is_outdated() {
         let why = "The gear, its place or the rules have changed since this sheet was written. Compliance sheet writes it again.";

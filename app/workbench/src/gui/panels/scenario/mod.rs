@@ -291,7 +291,7 @@ fn rows(ui: &mut Ui, shared: &Shared, id: &str, rows: &[Row<'_>], edits: &mut Ve
 
 /// Draws the problem of a field, in its text or in the last model.
 fn problem(ui: &mut Ui, shared: &Shared, field: &str) {
-    if let Some(problem) = shared.workbench.project.problem_at(Documents::SCENARIO, field) {
+    if let Some(problem) = shared.workbench.project().problem_at(Documents::SCENARIO, field) {
         let error = RichText::new(message(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
     }

@@ -97,7 +97,7 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
         let slider =
             Slider::new(&mut percent, 51.0..=100.0).suffix(" %").step_by(1.0).max_decimals(0);
         let response = ui.add(slider);
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         if response.changed() {
             let present = if has_rope { percent / 100.0 } else { 1.0 - percent / 100.0 };
             let field = observation::path(documents, site, "present");

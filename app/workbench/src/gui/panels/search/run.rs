@@ -18,7 +18,7 @@ use crate::gui::widgets::words::time_left;
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     start(ui, shared);
     effort(ui, shared);
-    let Some(job) = &shared.workbench.searches.job else { return };
+    let Some(job) = &shared.workbench.searches().job else { return };
     let (state, found) = (job.state(), job.found());
     let stale = shared.workbench.stories_are_of_another();
     if job.is_unfinished() {
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the buttons that start, pause and cancel the search.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let searches = &shared.workbench.searches;
+        let searches = &shared.workbench.searches();
         let at_work = searches.at_work().map(SearchJob::state);
         let trials = searches.job.as_ref().map_or(0, |job| job.found().trials);
         let at_most = searches.effort.trials;
@@ -69,7 +69,7 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the limits of the search.
 fn effort(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    let now = shared.workbench.searches.effort;
+    let now = shared.workbench.searches().effort;
     let mut effort = now;
     ui.horizontal_wrapped(|ui| {
         let label = |ui: &mut Ui, words: &str| ui.label(RichText::new(words).color(faint));

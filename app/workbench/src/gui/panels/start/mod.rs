@@ -68,7 +68,7 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     ui.label("Fishing gear, and whales that get out of it alive.");
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
-        let now = shared.workbench.preferences.units;
+        let now = shared.workbench.preferences().units;
         for units in Units::ALL {
             if ui.radio(units == now, units.name()).on_hover_text(units.help()).clicked() {
                 shared.give(WindowAction::Units(units));
@@ -79,8 +79,14 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
 }
 
 fn recent(ui: &mut Ui, shared: &mut Shared) {
-    let recent: Vec<PathBuf> =
-        shared.workbench.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+    let recent: Vec<PathBuf> = shared
+        .workbench
+        .preferences()
+        .recent
+        .iter()
+        .filter(|path| path.exists())
+        .cloned()
+        .collect();
     if recent.is_empty() {
         return;
     }

@@ -33,7 +33,7 @@ impl Panel for StoriesPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let job = shared.workbench.searches.job.as_ref();
+        let job = shared.workbench.searches().job.as_ref();
         let Some(found) = job.and_then(|job| job.found().stories) else {
             return missing(ui, job);
         };
@@ -84,7 +84,7 @@ fn missing(ui: &mut Ui, job: Option<&SearchJob>) {
 /// Draws the result in a sentence, and a button for the report.
 fn head(ui: &mut Ui, shared: &mut Shared, found: &Stories) {
     let palette = Theme::palette_of(ui);
-    let Some(job) = &shared.workbench.searches.job else { return };
+    let Some(job) = &shared.workbench.searches().job else { return };
     let name = job.found().question.map(|question| question.observation.name.clone());
     let so_far = if job.is_unfinished() { "Still searching. " } else { "" };
     let report = job.report();

@@ -16,11 +16,11 @@ use crate::gui::widgets::words::time_left;
 /// Draws the queue.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let mut actions = Vec::new();
-    for job in &shared.workbench.studies.queue.jobs {
+    for job in &shared.workbench.studies().queue.jobs {
         ui.add_space(3.0);
         row(ui, job, &mut actions);
     }
-    if shared.workbench.studies.queue.jobs.iter().any(Job::at_work) {
+    if shared.workbench.studies().queue.jobs.iter().any(Job::at_work) {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
     }
     actions.into_iter().for_each(|action| shared.give(action));
@@ -98,10 +98,10 @@ fn button(ui: &mut Ui, text: &str, action: StudyAction, actions: &mut Vec<StudyA
 
 /// Draws the list of results of earlier studies.
 fn ready(ui: &mut Ui, shared: &mut Shared) {
-    let root = shared.workbench.studies.root();
+    let root = shared.workbench.studies().root();
     let id = egui::Id::new("ready studies");
     let count =
-        shared.workbench.studies.queue.jobs.iter().filter(|job| !job.is_unfinished()).count();
+        shared.workbench.studies().queue.jobs.iter().filter(|job| !job.is_unfinished()).count();
     let known = ui
         .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
         .filter(|(seen, _)| *seen == count);

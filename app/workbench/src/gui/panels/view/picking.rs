@@ -114,7 +114,7 @@ pub(super) fn show_cards(
     view: &LiveView,
     rect: Rect,
 ) -> Vec<Rect> {
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let readings =
         [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
     let mut place = Rect::from_min_size(

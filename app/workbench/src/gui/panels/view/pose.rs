@@ -191,7 +191,7 @@ pub(super) fn show(
         sheet.handle(handle, at, active);
         if active {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
-            sheet.label_start(&start, at, shared.workbench.preferences.units);
+            sheet.label_start(&start, at, shared.workbench.preferences().units);
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
@@ -208,13 +208,7 @@ pub(super) fn show(
 
 /// Writes the start as one edit; applies it immediately if the run has not started.
 fn write_start(shared: &mut Shared, start: &Start) {
-    if let Err(error) = shared
-        .workbench
-        .project
-        .documents
-        .alter(Documents::SCENARIO, |document| start.write(document))
-    {
-        shared.fault(error);
+    if !shared.alter(Documents::SCENARIO, |document| start.write(document)) {
         return;
     }
     if shared.workbench.view().is_some_and(|view| view.newest_s <= 0.0) {

@@ -243,7 +243,7 @@ impl ViewPanel {
             show: self.show,
             water: water(shared),
             caption: caption(shared),
-            units: shared.workbench.preferences.units,
+            units: shared.workbench.preferences().units,
             out,
         };
         FilmJob::begin(order, shared.workbench.helpers().1)
@@ -259,7 +259,7 @@ impl ViewPanel {
         let show = Show { scale_n: Some(self.scale_n), ..self.show };
         let camera = self.eye().camera.clone();
         let (water, caption) = (water(shared), caption(shared));
-        let (units, file) = (shared.workbench.preferences.units, PathBuf::from(file));
+        let (units, file) = (shared.workbench.preferences().units, PathBuf::from(file));
         // On a separate thread, because the OpenGL of the window is current on this one.
         let drawing = std::thread::spawn(move || {
             let request = RenderRequest {
