@@ -9,7 +9,7 @@ use endline_sdk::LineEnd;
 use endline_session::statics::RigAtRest;
 use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole, Rope};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{AssemblyPanel, Drawn, Rig, strength, surface_m_s};
 use crate::gui::shared::Shared;
@@ -275,11 +275,4 @@ fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Col
             .filled(!gear.dashed)
             .color(color),
     );
-}
-
-/// Height of a body's highest point above the calm surface [m].
-pub(super) fn top_m(body: &Body, at: &endline_session::settled::BodyShape) -> f64 {
-    let turn = endline_sim::DQuat::from_array(at.orientation);
-    let heights = body.corners().map(|corner| (turn * corner).z);
-    DVec3::from_array(at.position_m).z + heights.fold(f64::NEG_INFINITY, f64::max)
 }

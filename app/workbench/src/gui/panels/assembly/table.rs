@@ -2,10 +2,11 @@
 
 use egui::{Color32, Grid, RichText, Ui};
 use endline_session::statics::RigAtRest;
+use endline_session::statics::sweep::top_m;
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
-use super::side::{A, B, top_m};
+use super::side::{A, B};
 use super::strength;
 use super::{AssemblyPanel, Rig, surface_m_s};
 use crate::gui::theme::Theme;
