@@ -40,7 +40,7 @@ impl RuleAction {
 pub static COMMANDS: &[Info] = &[
     Info::new(
         "rules.take-all",
-        "Take all edits that rules ask for",
+        "Apply all edits that rules require",
         "Edits the assembly checked so that it complies with the rules that bind; one undo takes it back.",
         Make::Plain(|| Command::Rules(RuleAction::TakeAll)),
     )

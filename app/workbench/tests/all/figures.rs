@@ -68,7 +68,7 @@ fn the_run_panel_shows_the_largest_share_of_computing_time() {
     only(&mut harness, PanelId::RUN);
     let shown = harness.view();
     let (greatest, share) = shares(&shown.cost)[0];
-    let text = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
+    let text = format!("Computing time: {} {:.0} %", greatest.label, 100.0 * share);
     harness.get_by_label_contains(&text);
 }
 
@@ -99,7 +99,7 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     let mut harness = opened(folder.documents(), launch, Pilot::default());
     only(&mut harness, PanelId::RUN);
     harness.get_by_label_contains("Not valid: 30 % of the solver steps in touch did not converge");
-    harness.get_by_label_contains("Resolution near the whale not kept for 25 % of the time");
+    harness.get_by_label_contains("Resolution near the whale insufficient for 25 % of the time");
 }
 
 #[test]

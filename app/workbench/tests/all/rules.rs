@@ -86,7 +86,7 @@ fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
         let documents = harness.documents();
         documents.text(ASSEMBLY).unwrap().to_owned()
     };
-    harness.get_all_by_label("Take this edit").next().unwrap().click();
+    harness.get_all_by_label("Apply this edit").next().unwrap().click();
     harness.run_steps(3);
     assert_eq!(text(&harness), edits[0].text);
     wait_for_edits(&mut harness);

@@ -53,7 +53,6 @@ pub struct Row {
 }
 
 /// The keys that hold at a time.
-#[must_use]
 pub fn keys(when: When) -> Vec<Row> {
     let steering = STEERING.iter().filter(|_| when == When::Flying);
     let mut rows: Vec<Row> = steering
@@ -78,7 +77,6 @@ pub fn keys(when: When) -> Vec<Row> {
 }
 
 /// Every command with its keys, and every key, as Markdown: what `docs/workbench.md` has.
-#[must_use]
 pub fn markdown() -> String {
     let mut text = String::new();
     // Writing to a text cannot fail.

@@ -22,7 +22,6 @@ pub mod start;
 pub mod stories;
 pub mod study;
 pub mod summary;
-pub mod tension;
 pub mod view;
 
 use super::panel::{Panel, PanelId};
@@ -41,7 +40,7 @@ pub struct Panels {
     /// Controls of the run.
     pub run: run::RunPanel,
     /// Tension over time.
-    pub tension: tension::TensionPanel,
+    pub tension: plots::TensionPanel,
     /// Plots of the run.
     pub plots: plots::PlotsPanel,
     /// Rope on the whale's body.

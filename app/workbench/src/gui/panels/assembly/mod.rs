@@ -78,14 +78,12 @@ impl AssemblyPanel {
     }
 
     /// Whether every rig asked for is there.
-    #[must_use]
     pub fn settled(&self) -> bool {
         let (done, all) = self.statics.progress();
         all > 0 && done == all
     }
 
     /// What came of the gear shown: at slack tide, then at running tide.
-    #[must_use]
     pub fn answers(&self) -> [Option<&Answer>; 2] {
         [self.statics.newest(0), self.statics.newest(1)]
     }
@@ -144,7 +142,6 @@ impl AssemblyPanel {
     }
 
     /// Whether the assembly of an id is shown.
-    #[must_use]
     pub fn shows(&self, shared: &Shared, id: &str) -> bool {
         self.shown(shared).is_some_and(|gear| gear == TrialGear::Assembly(id.to_owned()))
     }
@@ -170,7 +167,6 @@ impl AssemblyPanel {
     }
 
     /// The gear shown: the assembly that was chosen, or the scenario's gear; without either the first assembly.
-    #[must_use]
     pub fn shown(&self, shared: &Shared) -> Option<TrialGear> {
         let documents = &shared.workbench.project().documents;
         let there = |id: &String| documents.text(&path_of(id)).is_some();

@@ -104,7 +104,6 @@ impl Panel for LibraryPanel {
 
 impl LibraryPanel {
     /// The table shown.
-    #[must_use]
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -186,7 +185,6 @@ impl LibraryPanel {
     }
 
     /// The command that writes the table as it is shown.
-    #[must_use]
     pub fn export(&self, shared: &Shared, file: PathBuf) -> ExportAction {
         ExportAction::Table { kind: self.kind, rows: Some(self.rows(shared).to_vec()), file }
     }

@@ -10,7 +10,6 @@ use crate::gui::theme::{Palette, Theme};
 const WIDE_M: f32 = 1.6;
 
 /// Whether entries of a kind have a picture.
-#[must_use]
 pub(in super::super) fn has(kind: Kind) -> bool {
     matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor)
 }

@@ -1,7 +1,6 @@
 //! The scenario of a run as a form: gear, sea, whale, friction, weak links, run.
 
 mod attributes;
-mod friction;
 mod links;
 
 use crate::gui::command::action::{PanelAction, ViewAction};
@@ -153,7 +152,7 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
         shared.give(PanelAction::Show(PanelId::VIEW));
         shared.give(ViewAction::Pose);
     }
-    friction::show(ui, shared, edits);
+    attributes::show_friction(ui, shared, edits);
 }
 
 /// Draws animal, state and motion.

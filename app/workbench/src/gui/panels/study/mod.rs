@@ -3,7 +3,6 @@
 mod options;
 mod priors;
 mod queue;
-mod settable;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command;

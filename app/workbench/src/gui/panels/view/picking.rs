@@ -57,7 +57,6 @@ impl Picks {
     }
 
     /// Whether a reading or the ruler is shown.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.read.is_some() || self.ruler
     }
