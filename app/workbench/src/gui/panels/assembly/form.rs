@@ -1,4 +1,4 @@
-//! A gear type's attributes as a form, from what the plugin declares.
+//! Attributes of a gear type as a form, from the declarations of its plugin.
 
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
@@ -51,7 +51,7 @@ pub(super) fn show(
     });
 }
 
-/// Scope under the hand: rope over depth, the gear follows while it moves.
+/// Draws a slider of the scope; the gear follows while it moves.
 fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = shared
@@ -67,7 +67,7 @@ fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attrib
         .max_decimals(4)
         .text("scope");
     ui.spacing_mut().slider_width = 110.0;
-    let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
+    let response = ui.add(slider).on_hover_text("Length of the endline divided by water depth");
     if response.changed() {
         shared.set_held(file, "attributes.scope", &super::written(scope));
     }
@@ -114,7 +114,7 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     }
 }
 
-/// What is taken where the file names nothing.
+/// Default value.
 fn usual(attribute: &Attribute) -> String {
     let text = match &attribute.kind {
         AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),
@@ -126,7 +126,7 @@ fn usual(attribute: &Attribute) -> String {
     format!("{text} (usual)")
 }
 
-/// Help, range and what is usual.
+/// Help with the range.
 fn help(attribute: &Attribute) -> String {
     let range = match &attribute.kind {
         AttributeKind::Number { min, max, .. } => {

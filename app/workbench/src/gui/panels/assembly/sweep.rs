@@ -1,4 +1,4 @@
-//! Tension and float height of the gear over depths and currents.
+//! Table of tension and float height for depths and currents.
 
 use egui::{Grid, ProgressBar, RichText, Ui};
 use endline_session::edit::Documents;
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, gear
         } else {
             let text = if fresh { "Compute again" } else { "Compute" };
             if primary(ui, true, text)
-                .on_hover_text("Settle the gear in every depth and current")
+                .on_hover_text("Solves the statics for every depth and current")
                 .clicked()
             {
                 start(panel, shared, gear);

@@ -1,4 +1,4 @@
-//! Which gear is shown, which it is compared with, and the tide it stands in.
+//! Tool bar of the assembly: gear shown, gear to compare with, running tide, and actions.
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command;
@@ -11,11 +11,11 @@ use super::{AssemblyPanel, assemblies, has_own, path_of, side, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
-/// Fastest current of the slider [m/s]: 2 knots.
+/// Greatest current of the slider, 2 knots [m/s].
 const FASTEST_M_S: f64 = 1.03;
 
 impl AssemblyPanel {
-    /// Which gear is shown, and what can be done with it.
+    /// Draws the tool bar.
     pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
         ui.horizontal_wrapped(|ui| {
             self.choose_gear(ui, shared, gear);
@@ -31,9 +31,9 @@ impl AssemblyPanel {
         self.tide(ui, shared);
     }
 
-    /// What can be done with an assembly.
+    /// Draws the actions on an assembly.
     fn of_assembly(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
-        if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
+        if ui.button("Duplicate").on_hover_text("Copies A to a new file").clicked() {
             shared.give(EditAction::Duplicate(path_of(id)));
         }
         let placed =
@@ -44,7 +44,7 @@ impl AssemblyPanel {
         }
     }
 
-    /// The gear shown, A, and the gear it is compared with, B.
+    /// Draws the choice of the gear shown, A, and the gear to compare with, B.
     fn choose_gear(&mut self, ui: &mut Ui, shared: &Shared, gear: &TrialGear) {
         let choices = assemblies(shared);
         let own = has_own(shared).then_some("The scenario's own gear");
@@ -65,11 +65,11 @@ impl AssemblyPanel {
             self.other = taken;
         }
         ui.toggle_value(&mut self.selecting, "Pictures").on_hover_text(
-            "Choose A by its picture: every assembly at rest in this scenario's sea",
+            "Select A by its picture: the statics of every assembly in this scenario's sea",
         );
     }
 
-    /// The slider of the running tide.
+    /// Draws the slider of the running tide.
     fn tide(&mut self, ui: &mut Ui, shared: &Shared) {
         let units = shared.workbench.preferences().units;
         let of_scenario_m_s =
@@ -100,7 +100,7 @@ impl AssemblyPanel {
     }
 }
 
-/// Gear types as starting points.
+/// Draws the menu of gear types for a new assembly.
 fn new_gear(ui: &mut Ui, shared: &mut Shared) {
     for gear in shared.workbench.gear_types() {
         let descriptor = gear.descriptor();
@@ -120,8 +120,7 @@ fn model_menu(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// A choice among assemblies, or none of them: what is shown where it is, and its name in the list. The outer answer says whether
-/// something was taken, the inner one what.
+/// Draws a choice among assemblies, or none. The outer result is `None` if nothing was selected, the inner one if none was.
 fn pick(
     ui: &mut Ui,
     salt: &str,

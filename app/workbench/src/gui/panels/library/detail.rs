@@ -1,4 +1,4 @@
-//! The chosen entry beside its table: what it is, where it is used, how it differs from another.
+//! The selected entry: its texts, its uses, and its differences from another.
 
 use crate::gui::command::action::PanelAction;
 use endline_session::command::EditAction;
@@ -17,17 +17,17 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
-/// What the chosen entry is compared with.
+/// What the selected entry is compared with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Against {
-    /// Itself as its file on disk has it.
+    /// Its file on disk.
     #[default]
     Saved,
     /// Another entry, by its path.
     Entry(String),
 }
 
-/// Who uses an entry; looked up when it is chosen.
+/// Uses of an entry, found when it is selected.
 #[derive(Clone, Debug, Default)]
 pub struct Uses {
     path: String,
@@ -36,7 +36,7 @@ pub struct Uses {
     scenarios: Vec<std::path::PathBuf>,
 }
 
-/// How an entry differs from another, found once as long as both texts stay the same.
+/// Differences between two entries, reused until a text changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Compared {
     texts: Option<[String; 2]>,
@@ -44,7 +44,7 @@ pub(super) struct Compared {
 }
 
 impl Compared {
-    /// Fields that differ; `None` where the other text is no document.
+    /// Fields that differ; `None` if the other text is invalid.
     fn rows(
         &mut self,
         documents: &Documents,
@@ -63,7 +63,7 @@ impl Compared {
     }
 }
 
-/// Draws what there is to say of an entry.
+/// Draws the details of an entry.
 pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
         let kind = panel.kind;
@@ -75,7 +75,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, p
                 path,
                 egui::vec2(190.0, 120.0),
             )
-            .on_hover_text("From its figures; all to one scale");
+            .on_hover_text("Drawn from its figures, at a common scale");
         }
         naming(ui, panel, shared, path);
         used_in(ui, panel, shared, path);
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, p
     });
 }
 
-/// Name, remarks, source and confidence, for editing.
+/// Draws name, remarks, source and confidence.
 fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.horizontal(|ui| {
@@ -96,13 +96,13 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
         });
     });
     let rows = [
-        ("Name", "name", "Name shown to the user"),
-        ("Remarks", "notes", "What a reader should know"),
-        ("Source", "source", "Where the figures come from that name no source of their own"),
+        ("Name", "name", "Name on screen"),
+        ("Remarks", "notes", "Remarks for readers"),
+        ("Source", "source", "Source of figures without their own source"),
         (
             "Confidence",
             "confidence",
-            "measured, derived or estimate; of figures that name none of their own",
+            "measured, derived or estimate; for figures without their own confidence",
         ),
     ];
     Grid::new("entry-words").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
@@ -153,7 +153,7 @@ fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
     });
 }
 
-/// Assemblies and scenarios whose text names an entry by its id.
+/// Assemblies and scenarios that contain the id of an entry.
 fn uses(documents: &Documents, path: &str) -> Uses {
     let named = format!("\"{}\"", id_of(path));
     let names = |text: &str| text.contains(&named);
@@ -184,7 +184,7 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
         panel.compared.rows(&shared.workbench.project().documents, path, other, kind)
     });
     let Some(rows) = rows else {
-        ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
+        ui.label(RichText::new("new, not saved yet").color(Theme::palette_of(ui).faint));
         return;
     };
     if rows.is_empty() {
@@ -237,7 +237,7 @@ fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
     );
 }
 
-/// Fields that differ: name, here, there, by how much.
+/// Draws fields that differ: name, both values, difference.
 fn differences(
     documents: &Documents,
     path: &str,
@@ -255,7 +255,7 @@ fn differences(
     words.chain(figures).filter_map(row).collect()
 }
 
-/// How much more a figure is here than there.
+/// Relative difference of two values.
 fn by(here: &str, there: &str, quantity: Option<Quantity>) -> String {
     let si = |text: &str| quantity.and_then(|quantity| units::parse(text, quantity).ok());
     match (si(here), si(there)) {

@@ -1,4 +1,4 @@
-//! The gear library as tables: edit in place with units, located errors, save.
+//! The gear library as tables that are edited in place.
 
 mod detail;
 mod figures;
@@ -30,20 +30,20 @@ use rows::{Row, Wanted};
 /// Tables of the gear library.
 #[derive(Clone, Debug)]
 pub struct LibraryPanel {
-    /// Which table.
+    /// Table shown.
     kind: Kind,
-    /// Words that a row's id or name must hold.
+    /// Search words for id and name.
     pub search: String,
-    /// Key of the column it is sorted by, and whether downwards; by name where `None`.
+    /// Key of the sort column, and whether in descending order; `None` sorts by name.
     sort: Option<(&'static str, bool)>,
-    /// The row chosen, by its file's path.
+    /// Path of the selected entry.
     pub chosen: Option<String>,
-    /// What the chosen row is compared with.
+    /// What the selected entry is compared with.
     against: Against,
     uses: Uses,
     compared: detail::Compared,
     found: Option<(Wanted, Arc<Vec<Row>>)>,
-    /// The row to be brought into sight.
+    /// Entry to scroll to.
     go_to: Option<usize>,
 }
 
@@ -63,7 +63,7 @@ impl Default for LibraryPanel {
     }
 }
 
-/// Breadth at which the names of the tables, the search and the buttons fit beside one another, in points.
+/// Least width for tabs, search and buttons in one row [points].
 const TOOLBAR: f32 = 1130.0;
 
 impl Panel for LibraryPanel {
@@ -103,17 +103,17 @@ impl Panel for LibraryPanel {
 }
 
 impl LibraryPanel {
-    /// The table shown.
+    /// Kind of the table shown.
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// Another table; what is searched for stays.
+    /// Changes the table; the search stays.
     pub fn turn_to(&mut self, kind: Kind) {
         *self = Self { kind, search: std::mem::take(&mut self.search), ..Self::default() };
     }
 
-    /// The table of an entry, with that entry chosen.
+    /// Shows the table of an entry and selects it.
     pub fn choose(&mut self, path: String) {
         let folder = path.split_once('/').map_or("", |(folder, _)| folder);
         if let Some(kind) = Kind::in_folder(folder) {
@@ -140,7 +140,7 @@ impl LibraryPanel {
         }
     }
 
-    /// What is done with the files, in this order on the screen whichever end the layout begins at.
+    /// Draws the buttons for files, in this order for either direction of the layout.
     fn buttons(&self, ui: &mut Ui, shared: &mut Shared) {
         let mut buttons: [fn(&Self, &mut Ui, &mut Shared); 6] = [
             |_, ui, shared| drop(command(ui, shared, "Duplicate", PanelAction::Duplicate)),
@@ -158,15 +158,15 @@ impl LibraryPanel {
         buttons.iter().for_each(|button| button(self, ui, shared));
     }
 
-    /// Chooses the copy of an entry and compares the two.
+    /// Selects the copy of an entry and compares both.
     pub fn compare(&mut self, entry: String, copy: String) {
         (self.against, self.chosen) = (Against::Entry(entry), Some(copy));
     }
 
-    /// The table as a whole, out and in.
+    /// Draws the menu for export and import of the table.
     fn table_menu(&self, ui: &mut Ui, shared: &mut Shared) {
         for (text, id) in
-            [("Save as CSV …", "panel.export-table"), ("Take in CSV …", "panel.import-table")]
+            [("Save as CSV …", "panel.export-table"), ("Import CSV …", "panel.import-table")]
         {
             if command(ui, shared, text, WindowAction::Ask(id)).clicked() {
                 ui.close();
@@ -181,15 +181,15 @@ impl LibraryPanel {
             ui.ctx().copy_text(text);
             ui.close();
         }
-        ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a head row, anywhere here.").small());
+        ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a header row, anywhere here.").small());
     }
 
-    /// The command that writes the table as it is shown.
+    /// Command that exports the table as shown.
     pub fn export(&self, shared: &Shared, file: PathBuf) -> ExportAction {
         ExportAction::Table { kind: self.kind, rows: Some(self.rows(shared).to_vec()), file }
     }
 
-    /// Problems of the files of the shown table.
+    /// Problems of the files of the table shown.
     fn problems(&self, shared: &Shared) -> Vec<Diagnostic> {
         let folder = format!("{}/", self.kind.folder());
         let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
@@ -199,13 +199,13 @@ impl LibraryPanel {
 
 fn save(ui: &mut Ui, shared: &mut Shared) {
     let unsaved = shared.workbench.project().documents.unsaved().len();
-    let help = "Ctrl+S: write every changed file; comments stay";
+    let help = "Saves all changed files (Ctrl+S); comments are kept";
     if primary(ui, unsaved > 0, "Save").on_hover_text(help).clicked() {
         shared.give(EditAction::Save);
     }
 }
 
-/// What is wrong in the table, below it: place, reason, how to fix it.
+/// Draws the problems of the table: place, reason, help.
 fn reasons(ui: &mut Ui, problems: &[Diagnostic]) {
     ui.separator();
     ScrollArea::vertical().id_salt("reasons").auto_shrink(false).show(ui, |ui| {

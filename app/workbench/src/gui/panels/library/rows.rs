@@ -1,4 +1,4 @@
-//! Which rows the table shows, and in which order.
+//! Rows of the table, filtered and sorted.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use endline_gear::{Diagnostic, Field, Kind, units};
 use super::LibraryPanel;
 use crate::gui::shared::Shared;
 
-/// What the rows shown were found for.
+/// Selection that the rows were made for.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Wanted {
     version: u64,
@@ -25,12 +25,12 @@ pub(super) struct Row {
     pub(super) path: String,
     /// Whether one of its cells has a problem.
     pub(super) problem: bool,
-    /// Whether the scenario is made of it.
+    /// Whether the scenario uses it.
     pub(super) used: bool,
 }
 
 impl LibraryPanel {
-    /// Files of the shown table that the search lets through, in the order chosen.
+    /// Files of the table that match the search, sorted.
     pub(super) fn rows(&self, shared: &Shared) -> Vec<String> {
         let words: Vec<String> =
             self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
@@ -49,7 +49,7 @@ impl LibraryPanel {
             .filter(matches)
             .map(str::to_owned)
             .collect();
-        // What this scenario is made of comes first.
+        // Entries used by the scenario first.
         rows.sort_by_cached_key(|path| {
             (!shared.workbench.project().documents.in_use(path), name(path).to_lowercase())
         });
@@ -66,7 +66,7 @@ impl LibraryPanel {
         rows
     }
 
-    /// The rows as the table shows them, found anew where texts or choices have changed.
+    /// Rows, made again if files or the selection have changed.
     pub(super) fn shown_rows(&mut self, shared: &Shared) -> Arc<Vec<Row>> {
         let wanted = Wanted {
             version: shared.workbench.project().documents.version(),
@@ -89,12 +89,12 @@ impl LibraryPanel {
     }
 }
 
-/// The SI value of a cell, where it can be read.
+/// SI value of a cell, if valid.
 fn si_value(shared: &Shared, path: &str, field: &Field) -> Option<f64> {
     units::parse(&shared.workbench.project().documents.field(path, field.key)?, field.quantity).ok()
 }
 
-/// Any problem at a cell of a row.
+/// First problem at a cell of a row.
 fn cell_problem<'a>(shared: &'a Shared, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
     let keys =
         kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
