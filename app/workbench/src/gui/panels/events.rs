@@ -67,14 +67,14 @@ fn row(ui: &mut Ui, event: &Event, units: Units, now: bool) -> bool {
             RichText::new(words::event(event.kind)).color(words::event_colour(event.kind, palette)),
         );
         ui.label(event.subject.replace('_', " "));
-        let told = value(event, units);
+        let text = value(event, units);
         let font = TextStyle::Body.resolve(ui.style());
-        let breadth = ui.painter().layout_no_wrap(told.clone(), font, palette.text).size().x;
+        let breadth = ui.painter().layout_no_wrap(text.clone(), font, palette.text).size().x;
         // Wraps in a narrow panel.
         if breadth < ui.available_size_before_wrap().x {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(told));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(text));
         } else {
-            ui.label(told);
+            ui.label(text);
         }
     });
     line.response.interact(Sense::click()).on_hover_text("Click to show this moment").clicked()

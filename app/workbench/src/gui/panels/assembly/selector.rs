@@ -102,11 +102,11 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
     let text = ui.painter().layout_job(job);
     painter.with_clip_rect(below).galley(below.left_top() + vec2(2.0, 3.0), text, palette.text);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
-    let told = match answer {
+    let text = match answer {
         Some(Err(why)) => format!("{name}\nno statics in this scenario's sea: {why}"),
         _ => name.to_owned(),
     };
-    response.on_hover_text(RichText::new(told)).clicked()
+    response.on_hover_text(RichText::new(text)).clicked()
 }
 
 /// Draws lines and bodies from the side, scaled to fit.

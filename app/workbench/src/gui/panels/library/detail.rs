@@ -271,7 +271,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_is_told_over_units() {
+    fn a_difference_is_stated_across_units() {
         assert_eq!(by("1,700 lbf", "3400 lbf", Some(Quantity::Force)), "-50.0 %");
         assert_eq!(by("1 in", "25.4 mm", Some(Quantity::Length)), "+0.0 %");
         assert_eq!(by("pp", "sink", None), "");
