@@ -13,6 +13,7 @@ mod documents;
 mod figure_docs;
 mod gear_docs;
 mod language;
+mod panels;
 mod rules_docs;
 mod text;
 

@@ -3,9 +3,11 @@
 //! | module | what |
 //! |---|---|
 //! | [`preview`] | one gear alone in a chosen sea, settled |
+//! | [`sweep`] | one gear over depths of water and currents |
 //! | [`worker`] | previews on a thread of their own |
 
 pub mod preview;
+pub mod sweep;
 pub mod worker;
 
 pub use preview::{RigAtRest, TrialGear, TrialSea};
