@@ -264,6 +264,8 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     queue.jobs[0].pause();
     wait("the pause", || queue.jobs[0].state() == State::Paused);
     queue.jobs[0].cancel();
+    assert!(queue.unfinished(&place.study()).is_none(), "a cancelled study can be queued again");
+    assert_eq!(queue.current().unwrap().request.file, second, "the next study is current");
     wait("the end of its threads", || !queue.jobs[0].is_unfinished());
     assert_eq!(queue.jobs[0].state(), State::Cancelled);
     queue.begin_next(&host);
