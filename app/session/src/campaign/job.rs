@@ -140,6 +140,12 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
         )
     }
 
+    /// Whether it is unfinished and was not cancelled.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        self.is_unfinished() && self.state() != State::Cancelling
+    }
+
     /// Whether it waits, is at work or is paused.
     #[must_use]
     pub fn is_unfinished(&self) -> bool {
@@ -210,6 +216,6 @@ mod tests {
         assert_eq!(job.state(), State::Paused);
         job.cancel();
         assert_eq!(job.state(), State::Cancelling);
-        assert!(job.at_work() && job.is_unfinished());
+        assert!(job.at_work() && job.is_unfinished() && !job.is_wanted());
     }
 }

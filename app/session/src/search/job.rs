@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_is_paused_stands_still_and_one_that_is_cancelled_goes_on_later() {
+    fn a_paused_search_does_not_advance_and_a_cancelled_one_continues_later() {
         let place = place("job-paused");
         let job = begin(request(&place, 96));
         job.pause();
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_an_observation_is_told() {
+    fn an_error_of_an_observation_names_its_file() {
         let place = place("job-wrong");
         let wrong = SearchRequest { text: "format = 1\n".into(), ..request(&place, 32) };
         let State::Failed(why) = ended(&begin(wrong)) else { panic!() };

@@ -3,7 +3,8 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{
-    AssumedBand, Bands, Change, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
+    AssumedBand, Bands, Change, Findings, LevelFinding, OptionFinding, ResolutionChecks,
+    SegmentBand,
 };
 
 use super::words::{
@@ -98,7 +99,7 @@ fn segments(band: &SegmentBand) -> Cell {
 }
 
 /// Share of the checks of segment lengths near the whale that left one longer than requested.
-fn missed(checks: &Looks) -> String {
+fn missed(checks: &ResolutionChecks) -> String {
     if checks.all == 0 {
         return "none requested".to_owned();
     }

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn an_option_that_is_told_apart_comes_first_with_its_interval() {
+    fn an_option_that_differs_comes_first_with_its_interval() {
         // Of 400 encounters 100 are held with the baseline, 60 of these with the option.
         let (this, other) =
             (indicators((0..400).map(|n| n < 60)), indicators((0..400).map(|n| n < 100)));
