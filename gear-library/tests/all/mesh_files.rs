@@ -357,10 +357,10 @@ fn a_file_alone_is_checked_with_its_mesh() {
         let found = Library::check_file_with(FILE, &text, &Sources::beside(&file).0);
         found.iter().map(ToString::to_string).collect::<String>()
     };
-    assert!(assert_problems(None).contains("there is no file `whales/my.glb`"));
-    assert_eq!(assert_problems(Some(&written(&skin(), Form::Binary))), "");
+    assert!(reported(None).contains("there is no file `whales/my.glb`"));
+    assert_eq!(reported(Some(&written(&skin(), Form::Binary))), "");
     assert!(
-        assert_problems(Some(&written(&scaled(&skin(), 0.01), Form::Binary)))
+        reported(Some(&written(&scaled(&skin(), 0.01), Form::Binary)))
             .contains("long from snout to fluke tips, expected")
     );
     std::fs::remove_dir_all(folder).unwrap();
@@ -417,13 +417,13 @@ fn a_whales_file_may_name_a_mesh() {
     };
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1));
     sources.set_mesh("whales/mien.glb", Vec::new());
-    let missing = assert_problems(&sources);
+    let missing = reported(&sources);
     assert!(missing.iter().any(|one| one.line > 5
         && one.message == "there is no file `whales/mine.glb`"
         && one.help.contains("mien.glb")));
     sources.set_mesh("whales/mine.glb", b"nothing of the kind".to_vec());
     assert!(
-        assert_problems(&sources)
+        reported(&sources)
             .iter()
             .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not valid glTF"))
     );
@@ -431,7 +431,7 @@ fn a_whales_file_may_name_a_mesh() {
     let mut mine = skin();
     mine.vertices.iter_mut().for_each(|place| place.z *= 1.05);
     sources.set_mesh("whales/mine.glb", written(&mine, Form::Binary));
-    assert!(assert_problems(&sources).is_empty(), "{:?}", assert_problems(&sources));
+    assert!(reported(&sources).is_empty(), "{:?}", reported(&sources));
     let whale = Library::read(&sources)
         .0
         .whales
@@ -449,7 +449,7 @@ fn a_whales_file_may_name_a_mesh() {
     );
 
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"../mine.obj\"\nlength =", 1));
-    assert!(assert_problems(&sources).iter().any(|one| {
+    assert!(reported(&sources).iter().any(|one| {
         one.message.contains("not the name of a glTF file") && one.help.contains(".glb")
     }));
 }

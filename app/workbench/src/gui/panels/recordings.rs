@@ -163,7 +163,7 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
         .on_hover_text(format!("of {}", kept.of));
 }
 
-fn list(folder: &std::path::Path) -> Vec<Recorded> {
+fn list(folder: &Path) -> Vec<Recorded> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut found: Vec<(SystemTime, PathBuf)> = files
         .filter(|path| path.extension().is_some_and(|ending| ending == recording::EXTENSION))

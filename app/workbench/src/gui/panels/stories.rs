@@ -47,7 +47,7 @@ impl Panel for StoriesPanel {
         let number = self.number(&found);
         if ui.available_width() < WIDE {
             let height = 0.45 * ui.available_height();
-            ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+            ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
                 self.table(ui, shared, &found, number);
             });
             ui.separator();

@@ -14,7 +14,6 @@ use item::{Group, Item, What};
 use crate::gui::command::action::{FlightAction, PanelAction, WindowAction};
 use crate::gui::layout::Layout;
 use crate::gui::panel::{Panel, PanelId};
-use crate::gui::panels::start::item::What;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::{files, widgets};

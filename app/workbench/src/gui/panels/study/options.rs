@@ -190,7 +190,7 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
             edits.push((format!("{table}.\"{path}\""), Some(Setting::plain(&now))));
         }
         let width = (ui.available_size_before_wrap().x - 70.0).max(60.0);
-        let editor = egui::TextEdit::singleline(&mut typed)
+        let editor = TextEdit::singleline(&mut typed)
             .desired_width(width)
             .hint_text("or its path, such as current.speed");
         let response = ui.add(editor).on_hover_text(EXAMPLES);
@@ -257,7 +257,7 @@ fn copy(shared: &mut Shared, index: usize) {
             ))
         })
         .collect();
-    let change = |document: &mut endline_gear::Document| {
+    let change = |document: &mut Document| {
         let quoted = |text: &str| format!("{text:?}");
         let mut fields = vec![("id", quoted(&id))];
         fields.extend(name.as_deref().map(|name| ("name", quoted(name))));
