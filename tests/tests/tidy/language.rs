@@ -28,16 +28,16 @@ const BANNED: [&str; 12] = [
 /// that its path begins with.
 const UNCLEAN: [(&str, usize); 13] = [
     ("app/python/", 17),
-    ("app/session/", 762),
-    ("app/sim/src/", 183),
-    ("app/sim/", 90),
-    ("app/workbench/src/", 415),
-    ("app/workbench/", 144),
+    ("app/session/", 500),
+    ("app/sim/src/", 105),
+    ("app/sim/", 89),
+    ("app/workbench/src/", 266),
+    ("app/workbench/", 6),
     ("docs/", 21),
     ("gear-library/tests/", 113),
-    ("gear-library/", 166),
+    ("gear-library/", 165),
     ("plugins/", 25),
-    ("tests/", 321),
+    ("tests/", 117),
     ("CHANGELOG.md", 1),
     ("README.md", 1),
 ];
