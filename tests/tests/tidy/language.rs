@@ -26,30 +26,15 @@ const BANNED: [&str; 12] = [
 
 /// Folders and files with banned language, and the breaches allowed in each. A file counts to the first entry
 /// that its path begins with.
-<<<<<<< HEAD
 const UNCLEAN: [(&str, usize); 10] = [
-    ("app/session/", 762),
-    ("app/sim/src/", 183),
-    ("app/sim/", 90),
-    ("app/workbench/src/", 415),
-    ("app/workbench/", 144),
-    ("docs/", 21),
-    ("gear-library/", 48),
-    ("tests/", 321),
-=======
-const UNCLEAN: [(&str, usize); 13] = [
-    ("app/python/", 17),
-    ("app/session/", 500),
-    ("app/sim/src/", 105),
+    ("app/session/", 493),
+    ("app/sim/src/", 4),
     ("app/sim/", 89),
-    ("app/workbench/src/", 266),
+    ("app/workbench/src/", 212),
     ("app/workbench/", 6),
     ("docs/", 21),
-    ("gear-library/tests/", 113),
-    ("gear-library/", 165),
-    ("plugins/", 25),
+    ("gear-library/", 48),
     ("tests/", 117),
->>>>>>> hub/main
     ("CHANGELOG.md", 1),
     ("README.md", 1),
 ];
