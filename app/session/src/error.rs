@@ -27,8 +27,8 @@ pub enum Error {
     },
     /// The run cannot go on.
     Stopped(Stop),
-    /// A recording that cannot be run again here.
-    Replay(String),
+    /// Anything else, in words.
+    Message(String),
 }
 
 impl Error {
@@ -60,7 +60,7 @@ impl fmt::Display for Error {
             Self::Stopped(stop) => {
                 write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason)
             }
-            Self::Replay(message) => f.write_str(message),
+            Self::Message(message) => f.write_str(message),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::mill::StrengthLaw;
 use crate::report::Report;
 use crate::rules::RuleSheet;
 use crate::rules::listing::Listing;
-use crate::rules::mend::Mends;
+use crate::rules::remedy::Remedies;
 use crate::search::Stories;
 use crate::settled::SettledShape;
 use crate::study::prepared::Plan;
@@ -67,7 +67,7 @@ pub static FORMS: &[Form] = &[
         commands: &["rules list"],
         schema: schema_of::<Listing<'static>>,
     },
-    Form { name: "endline.rules.mend/1", commands: &["rules mend"], schema: schema_of::<Mends> },
+    Form { name: "endline.rules.fix/1", commands: &["rules fix"], schema: schema_of::<Remedies> },
     Form { name: "endline.haul/1", commands: &["haul"], schema: schema_of::<HaulSheet> },
     Form {
         name: "endline.haul_sweep/1",

@@ -152,7 +152,7 @@ const TAKING: [(&str, &str); 33] = [
     ("toml", "sheet FILE --area maine --on 2024-06-01 --to OUT.html"),
     ("toml", "rules check FILE --area maine --on 2024-06-01"),
     ("toml", "rules check pair --area maine --on 2024-06-01 --pack FILE"),
-    ("toml", "rules mend FILE --area maine --on 2024-06-01"),
+    ("toml", "rules fix FILE --area maine --on 2024-06-01"),
     ("toml", "rules study pair --option us.weak --option us.traps --out OUT.toml --like FILE"),
     ("toml", "rules list --pack FILE"),
     ("csv", "mill FILE"),

@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn a_job_ends_as_its_work_does_and_a_panic_is_a_failure() {
         assert_eq!(end(|_| Ok(State::Done)), State::Done);
-        let failed = end(|_| Err(Error::Replay("no such file".into())));
+        let failed = end(|_| Err(Error::Message("no such file".into())));
         assert_eq!(failed, State::Failed("no such file".into()));
         let State::Failed(why) = end(|_| panic!("on purpose")) else { panic!() };
         assert!(why.starts_with("the test ended by a fault inside the program"), "{why}");

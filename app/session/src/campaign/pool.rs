@@ -123,7 +123,7 @@ mod tests {
 
         fn run(&self, number: u32) -> Result<bool, Error> {
             if number == self.fails {
-                return Err(Error::Replay(format!("number {number}")));
+                return Err(Error::Message(format!("number {number}")));
             }
             self.sum.fetch_add(number, Ordering::SeqCst);
             Ok(true)
@@ -147,7 +147,7 @@ mod tests {
     fn the_first_failure_ends_the_pool() {
         assert_eq!(sum(3, 7).unwrap_err().to_string(), "number 7");
         let numbers = Numbers { next: AtomicU32::new(0), sum: AtomicU32::new(0), fails: u32::MAX };
-        let collect = |_: &Failure| Err::<(), _>(Error::Replay("the folder".into()));
+        let collect = |_: &Failure| Err::<(), _>(Error::Message("the folder".into()));
         let error = run(&numbers, 2, &Control::default(), collect).unwrap_err();
         assert_eq!(error.to_string(), "the folder");
     }

@@ -60,7 +60,7 @@ impl Cases {
     /// # Errors
     /// No library, or a file of it that cannot be read.
     pub fn open(library: Option<&Path>) -> Result<Self, Error> {
-        let root = locate::library(None, library).map_err(Error::Replay)?;
+        let root = locate::library(None, library).map_err(Error::Message)?;
         let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
         Ok(Self { root, sources })
     }

@@ -86,16 +86,16 @@ pub(super) fn has_verdicts(workbench: &Workbench) -> Condition {
 /// Edits were proposed by which the assembly checked would comply.
 pub(super) fn has_edits(workbench: &Workbench) -> Condition {
     has_verdicts(workbench)?;
-    let mends = workbench.rules.answer.as_ref().and_then(|answer| answer.mends.as_ref());
-    let any = mends.is_some_and(|mends| mends.numbered().next().is_some());
+    let remedies = workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+    let any = remedies.is_some_and(|remedies| remedies.numbered().next().is_some());
     require(any, "no edit is proposed")
 }
 
-/// Edits mend rules that bind.
+/// Edits exist by which the gear meets rules that bind.
 pub(super) fn has_edit_of_all(workbench: &Workbench) -> Condition {
     has_verdicts(workbench)?;
-    let mends = workbench.rules.answer.as_ref().and_then(|answer| answer.mends.as_ref());
-    let any = mends.is_some_and(|mends| mends.all.is_some());
+    let remedies = workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+    let any = remedies.is_some_and(|remedies| remedies.all.is_some());
     require(any, "no edit is proposed for a rule that binds")
 }
 

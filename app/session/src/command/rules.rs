@@ -12,9 +12,9 @@ use crate::workbench::Workbench;
 pub enum RuleAction {
     /// Make a proposed edit of the assembly checked, by its place among all proposals, from 0.
     Take(usize),
-    /// Make all edits that mend the rules that bind.
+    /// Make all edits by which the assembly meets the rules that bind.
     TakeAll,
-    /// Make a study of the assembly mended for each of these rules.
+    /// Make a study of the assembly edited for each of these rules.
     Compare(Vec<String>),
     /// Write the compliance sheet of the assembly checked.
     Sheet,
@@ -52,7 +52,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "rules.compare",
         "Compare options of rules",
-        "Writes a study to a new file and opens it: the assembly checked, mended for each of the chosen rules, in the same encounters.",
+        "Writes a study to a new file and opens it: the assembly checked, edited for each of the chosen rules, in the same encounters.",
         Make::Values("rules"),
     )
     .only_if(has_verdicts),

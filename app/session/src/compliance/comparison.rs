@@ -47,7 +47,7 @@ struct Gear<'a> {
 /// Fewer than two sheets; a page that cannot be written.
 pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
     let [first, _, ..] = sheets else {
-        return Err(Error::Replay("a comparison needs two gears or more".to_owned()));
+        return Err(Error::Message("a comparison needs two gears or more".to_owned()));
     };
     let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
     Page {
@@ -61,7 +61,7 @@ pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
         version: crate::VERSION,
     }
     .render()
-    .map_err(|error| Error::Replay(format!("the comparison: {error}")))
+    .map_err(|error| Error::Message(format!("the comparison: {error}")))
 }
 
 fn gear(sheet: &ComplianceSheet) -> Gear<'_> {

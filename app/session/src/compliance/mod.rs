@@ -127,7 +127,7 @@ impl ComplianceSheet {
     /// # Errors
     /// Where it cannot be written.
     pub fn html(&self) -> Result<String, Error> {
-        page::html(self).map_err(|error| Error::Replay(format!("the sheet: {error}")))
+        page::html(self).map_err(|error| Error::Message(format!("the sheet: {error}")))
     }
 
     /// BLAKE3 of everything the model at running tide is made from, hexadecimal.

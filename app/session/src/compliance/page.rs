@@ -189,13 +189,13 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
             .collect::<Vec<_>>()
             .join(": ")
     });
-    let mend = (rule.verdict == Verdict::Fail).then(|| format!("Mend: {}", rule.mend));
+    let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.mend));
     let name = [rule.rule.clone(), standing].into_iter().filter(|line| !line.is_empty());
     vec![
         Cell::lines(name),
         rule.asks.clone().into(),
         rule.verdict.words().to_uppercase().into(),
-        Cell::lines(said.take(4).chain(mend)),
+        Cell::lines(said.take(4).chain(fix)),
         citations.cell(&rule.cite, rule.confidence),
     ]
 }

@@ -63,7 +63,7 @@ impl ThreatOfGear {
         let help = "give the file with bands that `endline study threat STUDY --to FILE.csv` writes: FILE-bands.csv";
         let rows =
             rows.map_err(|error| Error::from(Box::new(at_line(file, text, &error, help))))?;
-        let failed = |message: String| Error::Replay(format!("{file}: {message}"));
+        let failed = |message: String| Error::Message(format!("{file}: {message}"));
         let endline = gear
             .endline()
             .ok_or_else(|| failed(format!("{} has no endline to look up", gear.assembly)))?;

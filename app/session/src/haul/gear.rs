@@ -40,7 +40,11 @@ impl Made {
             library.sites.iter().find(|site| site.entry.id == request.site).ok_or_else(|| {
                 let known: Vec<&str> =
                     library.sites.iter().map(|site| site.entry.id.as_str()).collect();
-                Error::Replay(format!("no site `{}`; there are {}", request.site, known.join(", ")))
+                Error::Message(format!(
+                    "no site `{}`; there are {}",
+                    request.site,
+                    known.join(", ")
+                ))
             })?;
         let depth_m = request.depth_m.unwrap_or(site.depth_m);
         let period_s = request

@@ -124,7 +124,7 @@ pub fn haul_of(
     let settled = settle(&made.model);
     let from = start(&made, request)?;
     let mut haul =
-        Haul::begin(&made.model, &settled.state, from, request.how).map_err(Error::Replay)?;
+        Haul::begin(&made.model, &settled.state, from, request.how).map_err(Error::Message)?;
     let mut loads = Loads::new(&made, from);
     let most_s = MOST_TIMES * made.rope_m() / request.how.speed_m_s;
     while haul.advance().map_err(|stop| stopped(&stop))? {
@@ -138,7 +138,10 @@ pub fn haul_of(
 }
 
 fn stopped(stop: &endline_sim::Stop) -> Error {
-    Error::Replay(format!("the haul stops at {:.2} s: {}: {}", stop.time_s, stop.part, stop.reason))
+    Error::Message(format!(
+        "the haul stops at {:.2} s: {}: {}",
+        stop.time_s, stop.part, stop.reason
+    ))
 }
 
 /// The line's end at which the haul begins.
@@ -150,12 +153,12 @@ fn start(
     let id = |body: usize| made.model.spec.bodies[body].id.as_str();
     let Some(asked) = &request.buoy else {
         return ends.first().copied().ok_or_else(|| {
-            Error::Replay("this gear has no endline from a buoy at the surface to haul".to_owned())
+            Error::Message("this gear has no endline from a buoy at the surface to haul".to_owned())
         });
     };
     let found = ends.iter().find(|end| id(end.0) == asked);
     found.copied().ok_or_else(|| {
         let known: Vec<&str> = ends.iter().map(|end| id(end.0)).collect();
-        Error::Replay(format!("no endline begins at `{asked}`; there are {}", known.join(", ")))
+        Error::Message(format!("no endline begins at `{asked}`; there are {}", known.join(", ")))
     })
 }

@@ -48,7 +48,7 @@ impl Maker {
     /// The model, once, when it is made.
     pub fn poll(&mut self) -> Option<Result<Prepared, Error>> {
         Some(self.task.poll()?.unwrap_or_else(|Fault| {
-            Err(Error::Replay("making the model ended by a fault inside the program".into()))
+            Err(Error::Message("making the model ended by a fault inside the program".into()))
         }))
     }
 }

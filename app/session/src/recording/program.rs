@@ -29,11 +29,11 @@ pub struct Program {
 /// A recording whose inputs were changed, whose model cannot be made here, or that has no whale.
 pub fn program(recording: &Recording, host: &PluginHost, thin: f64) -> Result<Program, Error> {
     if let Some(damage) = &recording.damage {
-        return Err(Error::Replay(damage.clone()));
+        return Err(Error::Message(damage.clone()));
     }
     let prepared = recording.source.clone().prepare(host)?;
     let Some(whale) = &prepared.model.spec.whale else {
-        return Err(Error::Replay(
+        return Err(Error::Message(
             "the recorded scenario has no whale, so nothing was flown".into(),
         ));
     };
@@ -75,7 +75,7 @@ fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
 }
 
 fn not_edited(error: EditError) -> Error {
-    Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
+    Error::Message(format!("the recorded scenario cannot be edited: {error}"))
 }
 
 /// The recorded scenario, as long as the recording, without its own pilot program. A comment at its

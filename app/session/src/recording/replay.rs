@@ -72,7 +72,7 @@ fn check_header(recording: &Recording, prepared: &Prepared) -> Result<(), Error>
     if wrong.is_empty() {
         return Ok(());
     }
-    Err(Error::Replay(format!(
+    Err(Error::Message(format!(
         "the recording contradicts itself: its {} is not that of the scenario and library in it; it was altered",
         wrong.join(", its ")
     )))
@@ -196,7 +196,7 @@ pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error
     let last_s = recording.duration_s();
     // Half a step of grace, so that the last moment may be named rounded.
     if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
-        return Err(Error::Replay(format!(
+        return Err(Error::Message(format!(
             "{time_s} s is outside the recording; expected 0 to {last_s} s"
         )));
     }
@@ -205,7 +205,7 @@ pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error
 
 pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
     match &recording.damage {
-        Some(damage) => Err(Error::Replay(format!(
+        Some(damage) => Err(Error::Message(format!(
             "{damage}; `endline replay --verify` names the first step that differs"
         ))),
         None => Ok(()),
@@ -244,7 +244,7 @@ pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(),
         return Ok(());
     }
     problems.push("put the recorded plugins back, or go on regardless with --other-plugins".into());
-    Err(Error::Replay(problems.join("\n")))
+    Err(Error::Message(problems.join("\n")))
 }
 
 /// The start of a file's hash, enough to tell two apart; files linked in have none.

@@ -25,7 +25,7 @@ pub fn take_over(
     let steps = step_at(recording, time_s)?;
     let (recorded_s, here_s) = (recording.header.dt_s, prepared.model.spec.settings.step_s);
     if recorded_s.to_bits() != here_s.to_bits() {
-        return Err(Error::Replay(format!(
+        return Err(Error::Message(format!(
             "the recording has a step of {recorded_s} s, the scenario one of {here_s} s; give --dt {recorded_s}s"
         )));
     }
@@ -36,7 +36,7 @@ pub fn take_over(
     };
     match compare(recording, &mut run, steps, &mut tell) {
         Verdict::Same { .. } => Ok(run),
-        Verdict::Differs { step, time_s, part } => Err(Error::Replay(format!(
+        Verdict::Differs { step, time_s, part } => Err(Error::Message(format!(
             "the scenario is not the one recorded: at step {step} ({time_s:.3} s) its {part} differs from the recording\n\
              up to the moment taken over, nothing but [[whale.pilot]] may differ"
         ))),

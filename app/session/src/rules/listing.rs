@@ -86,7 +86,7 @@ struct RuleOf<'a> {
     check: &'a str,
     /// Numbers of the expressions.
     parameters: Vec<ParameterOf<'a>>,
-    /// How gear is mended, in words.
+    /// How gear comes to meet the rule, in words.
     mend: &'a str,
     /// Notes.
     notes: &'a str,

@@ -8,9 +8,9 @@
 //! | `expression`, `operators`, [`value`], `makeup` | expressions over values with units, on the library `exmex` |
 //! | [`packs`] | packs read, with every mistake at its place |
 //! | `listing` | rules and areas as JSON |
-//! | [`mend`] | edits by which gear comes to comply, each tried |
+//! | [`remedy`] | edits by which gear comes to comply, each tried |
 //! | `verdict` | one rule on one assembly |
-//! | [`study`] | an assembly mended for each of several rules, as a study |
+//! | [`study`] | a study of an assembly edited for each of several rules |
 //! | [`sheet`] | an assembly with the verdict on every rule |
 //!
 //! The format is described in `docs/rules.md`.
@@ -22,9 +22,9 @@ mod gear;
 pub(crate) mod listing;
 mod makeup;
 mod measure;
-pub mod mend;
 mod operators;
 pub mod packs;
+pub mod remedy;
 pub mod sheet;
 pub mod study;
 #[cfg(test)]

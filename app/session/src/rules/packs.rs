@@ -27,7 +27,7 @@ impl Packs {
     /// # Errors
     /// A file that cannot be read, no library, or every mistake in the packs.
     pub fn open(library: Option<&Path>, others: &[PathBuf]) -> Result<Self, Error> {
-        let root = locate::library(None, library).map_err(Error::Replay)?;
+        let root = locate::library(None, library).map_err(Error::Message)?;
         let mut files = locate::toml_files(&root.join(FOLDER));
         files.extend(others.iter().cloned());
         Self::read(&files)

@@ -190,7 +190,7 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
 /// # Errors
 /// An area that no pack declares, or mistakes in expressions.
 pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
-    let around = packs.around(&fishing.area).map_err(Error::Replay)?;
+    let around = packs.around(&fishing.area).map_err(Error::Message)?;
     let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
     let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?;
     Ok(RuleSheet {

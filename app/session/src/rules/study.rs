@@ -1,4 +1,4 @@
-//! A study of what rules buy: one assembly, mended to comply with each of several rules, in the same encounters.
+//! A study of what rules buy: one assembly, edited to comply with each of several rules, in the same encounters.
 //!
 //! How encounters are drawn, when a run ends and the sea are those of a study that is there; its options give way to one for
 //! each rule. An option says what its edit changes in the assembly, so that the study needs no other file.
@@ -9,8 +9,8 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 
 use super::fishing::Fishing;
-use super::mend::{Asked, Proposal, least_added};
 use super::packs::Packs;
+use super::remedy::{Asked, Proposal, least_added};
 
 /// The study whose encounters are taken where nobody names another.
 pub const USUAL_LIKE: &str = "gear-types";
@@ -36,7 +36,7 @@ pub struct RuleOption {
 /// The options for rules: the least edit for each that an option of a study can say.
 ///
 /// # Errors
-/// Fewer than two rules, an unknown one, one that no edit mends, or two rules that the same gear meets.
+/// Fewer than two rules, an unknown one, one that no edit meets, or two rules that the same gear meets.
 pub fn options(
     asked: Asked<'_>,
     rules: &[String],
@@ -45,10 +45,10 @@ pub fn options(
     host: &PluginHost,
 ) -> Result<Vec<RuleOption>, Error> {
     if rules.len() < 2 {
-        return Err(Error::Replay("name two rules or more, each by --option".to_owned()));
+        return Err(Error::Message("name two rules or more, each by --option".to_owned()));
     }
     let one = |id: &String| {
-        let rule = packs.rule(id).map_err(Error::Replay)?;
+        let rule = packs.rule(id).map_err(Error::Message)?;
         let fishing = Fishing { depth_m, ..packs.where_applies(rule)? };
         let edit = least_added(asked, id, packs, &fishing, host)?;
         Ok(RuleOption { rule: id.clone(), asks: rule.asks.clone(), edit })
@@ -61,7 +61,7 @@ pub fn options(
                 "the same gear meets `{}` and `{}`: there is nothing to compare",
                 same.rule, option.rule
             );
-            return Err(Error::Replay(message));
+            return Err(Error::Message(message));
         }
     }
     Ok(options)
@@ -77,13 +77,13 @@ pub fn text(
     like: &str,
     depth_m: Option<f64>,
 ) -> Result<String, Error> {
-    let fault = |error: EditError| Error::Replay(error.message);
+    let fault = |error: EditError| Error::Message(error.message);
     let mut study = Document::parse(like).map_err(fault)?;
     for list in OF_OPTIONS.into_iter().filter(|list| study.has(list)).collect::<Vec<_>>() {
         study.remove(list).map_err(fault)?;
     }
     let rules: Vec<&str> = options.iter().map(|option| option.rule.as_str()).collect();
-    let name = format!("{assembly}, mended for {}", rules.join(" and "));
+    let name = format!("{assembly}, edited for {}", rules.join(" and "));
     let head =
         [("name", name), ("notes", notes(assembly, options)), ("baseline", rules[0].to_owned())];
     for (field, value) in head {
@@ -136,12 +136,12 @@ impl Packs {
 
     /// Somewhere and some day where a rule applies: its first area, its first day, its least distance.
     fn where_applies(&self, rule: &Rule) -> Result<Fishing, Error> {
-        let nowhere = || Error::Replay("no pack declares an area".to_owned());
+        let nowhere = || Error::Message("no pack declares an area".to_owned());
         let first = || self.areas().next().map(|area| area.id.value.clone());
         let area = rule.areas.first().map(|area| area.value.clone()).or_else(first);
         let day = rule
             .day_in_force()
-            .ok_or_else(|| Error::Replay(format!("`{}` applies on no day", rule.id.value)))?;
+            .ok_or_else(|| Error::Message(format!("`{}` applies on no day", rule.id.value)))?;
         Ok(Fishing {
             area: area.ok_or_else(nowhere)?,
             on: day,

@@ -57,7 +57,7 @@ pub struct RuleResult {
     pub why: String,
     /// What was measured, beside the limit.
     pub measured: Vec<Measured>,
-    /// How to mend gear that fails; empty otherwise.
+    /// How gear that fails comes to meet it; empty otherwise.
     pub mend: String,
 }
 

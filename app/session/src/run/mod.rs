@@ -383,7 +383,7 @@ impl Run {
 
 /// The older steps of a long run are in a file without a name.
 fn lost(error: &io::Error) -> Error {
-    Error::Replay(format!("the steps of the run cannot be read again: {error}"))
+    Error::Message(format!("the steps of the run cannot be read again: {error}"))
 }
 
 /// The parts where they are placed, taken as they are.

@@ -25,8 +25,8 @@ impl AssemblyFile {
     /// # Errors
     /// A file that cannot be read, or no library.
     pub fn open(named: &str, library: Option<&Path>) -> Result<Self, Error> {
-        let path = locate::named(named, "assemblies", library).map_err(Error::Replay)?;
-        let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
+        let path = locate::named(named, "assemblies", library).map_err(Error::Message)?;
+        let root = locate::library(Some(&path), library).map_err(Error::Message)?;
         let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
         let text = endline_gear::read::text(&path)
             .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;

@@ -113,7 +113,7 @@ fn with_clips(mut source: Source, host: &PluginHost) -> Result<Prepared, Error> 
 }
 
 fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, Error> {
-    let root: PathBuf = locate::library(scenario, given).map_err(Error::Replay)?;
+    let root: PathBuf = locate::library(scenario, given).map_err(Error::Message)?;
     Sources::from_folder(&root).map_err(Error::Diagnostics)
 }
 
@@ -131,7 +131,7 @@ impl Source {
             true => None,
             false => {
                 let id = scenario.to_string_lossy();
-                Some(locate::named(&id, "scenarios", library).map_err(Error::Replay)?)
+                Some(locate::named(&id, "scenarios", library).map_err(Error::Message)?)
             }
         };
         let scenario = by_id.as_deref().unwrap_or(scenario);
@@ -209,7 +209,7 @@ impl Source {
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
         if let Some(step_s) = step_s {
             let beyond =
-                |beyond: Beyond| Error::Replay(format!("{}; {}", beyond.message, beyond.help));
+                |beyond: Beyond| Error::Message(format!("{}; {}", beyond.message, beyond.help));
             STEP.check("the step asked for", step_s).map_err(beyond)?;
         }
         let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };

@@ -24,7 +24,7 @@ season = [300, 60]
 subject = "every endline"
 when = "traps >= 1"
 check = "least_rated <= strength && longest_gap(weak_places(line, strength)) <= spacing"
-mend = "Mend it."
+mend = "Change it."
 [rule.parameters]
 strength = "1,700 lbf"
 spacing = { value = "60 ft", source = "another page", confidence = "estimate" }

@@ -2,8 +2,8 @@
 
 mod args;
 mod check;
+mod fix;
 mod list;
-mod mend;
 mod study;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub(super) use args::{FishedArgs, RulesCommand};
 pub(super) fn rules(what: &RulesCommand, library: Option<&Path>) -> Result<ExitCode, Failure> {
     match what {
         RulesCommand::Check(args) => check::check_rules(args, library),
-        RulesCommand::Mend(args) => mend::mend(args, library),
+        RulesCommand::Fix(args) => fix::fix(args, library),
         RulesCommand::Study(args) => study::study(args, library),
         RulesCommand::List(args) => list::list(args, library),
     }

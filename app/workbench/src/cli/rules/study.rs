@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use endline_session::locate;
 use endline_session::rules::Packs;
-use endline_session::rules::mend::Asked;
+use endline_session::rules::remedy::Asked;
 use endline_session::rules::study::{RuleOption, options, text};
 use endline_session::source::AssemblyFile;
 

@@ -96,7 +96,7 @@ impl RulesPanel {
     fn compare(&mut self, ui: &mut Ui, shared: &mut Shared, palette: Palette) {
         let ticked = self.compared.len();
         if ticked < 2 {
-            let hint = "Tick two rules or more at the left of the table, such as one insert and two: a study then meets the gear mended for each with the same whales";
+            let hint = "Tick two rules or more at the left of the table, such as one insert and two: the study then compares the gear edited for each in the same encounters";
             ui.add_enabled(false, egui::Button::new("Compare options …"))
                 .on_disabled_hover_text(hint);
             return;

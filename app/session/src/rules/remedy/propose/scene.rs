@@ -11,8 +11,8 @@ use crate::edit::assembly::ids;
 use super::super::super::fishing::Fishing;
 use super::super::super::gear::{Endline, Gear, Piece};
 use super::super::super::verdict::RuleResult;
-use super::super::bench::{Bench, Tried};
 use super::super::demand::{self, Demand};
+use super::super::trials::{CandidateTrials, Tried};
 
 /// Gear type of a row of traps, to which gear with fewer goes over.
 const TRAWL: &str = "org.endline.gear.trawl";
@@ -56,19 +56,19 @@ impl<'a> Scene<'a> {
     pub fn new(
         document: &'a Document,
         tried: &'a Tried,
-        bench: &Bench<'a>,
+        trials: &CandidateTrials<'a>,
         rule: &'a Rule,
         result: &'a RuleResult,
     ) -> Self {
-        let gear_type = document.get("gear_type").and_then(|id| bench.host.gear(&id));
+        let gear_type = document.get("gear_type").and_then(|id| trials.host.gear(&id));
         Self {
             document,
             gear: &tried.gear,
             library: &tried.library,
-            fishing: bench.fishing,
+            fishing: trials.fishing,
             demands: demand::of(rule),
             gear_type,
-            trawl: bench.host.gear(TRAWL),
+            trawl: trials.host.gear(TRAWL),
             rule,
             failing: result.measured.iter().map(|one| one.line.as_str()).collect(),
         }

@@ -1,4 +1,4 @@
-//! Mends of gear by hand: what is proposed meets its rule on a copy assembled anew, and what it breaks is told.
+//! Remedies of gear: each proposal meets its rule on a copy assembled from its text alone, and names the rules that it breaks.
 
 use endline_gear::Sources;
 
@@ -12,14 +12,15 @@ fn sources() -> Sources {
     Sources::from_folder(&library()).unwrap()
 }
 
-fn mended(text: &str, place: &str) -> Mends {
+fn found(text: &str, place: &str) -> Remedies {
     let (packs, fishing) = (packs(), fishing(place));
     let asked = Asked { id: "test", text, sources: &sources() };
-    mends(asked, &packs, &fishing, &PluginHost::empty()).unwrap_or_else(|error| panic!("{error}"))
+    remedies(asked, &packs, &fishing, &PluginHost::empty())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn of<'a>(mends: &'a Mends, rule: &str) -> &'a RuleMend {
-    mends.rules.iter().find(|one| one.rule == rule).unwrap_or_else(|| panic!("{rule}: {mends:?}"))
+fn of<'a>(all: &'a Remedies, rule: &str) -> &'a Remedy {
+    all.rules.iter().find(|one| one.rule == rule).unwrap_or_else(|| panic!("{rule}: {all:?}"))
 }
 
 /// A rule, where gear that fails it is fished, that gear, and what an edit says.
@@ -143,12 +144,15 @@ fn of_inserts_links_and_lengths() -> Vec<Case> {
 fn each_kind_of_edit_is_proposed_for_the_rule_that_asks_for_it() {
     let cases = of_endlines_and_traps().into_iter().chain(of_inserts_links_and_lengths());
     for (rule, place, gear, says) in cases {
-        let mends = mended(&gear, place);
-        let mend = of(&mends, rule);
-        let all: Vec<&str> = mend.proposals.iter().map(|edit| edit.says.as_str()).collect();
-        assert!(all.iter().any(|one| one.contains(says)), "{rule}: {all:?}, {}", mend.why_none);
-        assert!(mend.why_none.is_empty() && mend.binding == (rule != "ma.surface"), "{mend:?}");
-        for edit in &mend.proposals {
+        let remedies = found(&gear, place);
+        let remedy = of(&remedies, rule);
+        let all: Vec<&str> = remedy.proposals.iter().map(|edit| edit.says.as_str()).collect();
+        assert!(all.iter().any(|one| one.contains(says)), "{rule}: {all:?}, {}", remedy.why_none);
+        assert!(
+            remedy.why_none.is_empty() && remedy.binding == (rule != "ma.surface"),
+            "{remedy:?}"
+        );
+        for edit in &remedy.proposals {
             // The same from the text alone, by another way: the check of a user.
             let anew = super::super::tests::gear::assembled(&edit.text);
             let sheet = super::super::check(&anew, &packs(), &fishing(place)).unwrap();
@@ -162,8 +166,8 @@ fn each_kind_of_edit_is_proposed_for_the_rule_that_asks_for_it() {
 #[test]
 fn proposals_stand_by_how_little_they_change_and_tell_what_they_break() {
     let strong = line("sink-3-8", "40 m");
-    let mends = mended(&rig(1, "sink-3-8", "20 m", &[strong]), "me-b, 2024-06-01, 5 nmi");
-    let edits = &of(&mends, "me.inserts.3-12.two").proposals;
+    let remedies = found(&rig(1, "sink-3-8", "20 m", &[strong]), "me-b, 2024-06-01, 5 nmi");
+    let edits = &of(&remedies, "me.inserts.3-12.two").proposals;
     // Sleeves add no rope; two inserts of 3 ft are 4.6 % of 40 m; the whole line is all of it.
     let shares: Vec<f64> = edits.iter().map(|edit| edit.rope_share).collect();
     assert!(shares.is_sorted() && shares[0].abs() < 1e-12, "{shares:?}");
@@ -186,7 +190,7 @@ fn proposals_stand_by_how_little_they_change_and_tell_what_they_break() {
         rules.iter().find(|one| one.rule == "ma.strength").unwrap().verdict == Verdict::Pass
     };
     assert!(passes(&text));
-    let maine = mended(&text, "me-f, 2024-06-01, 5 nmi");
+    let maine = found(&text, "me-f, 2024-06-01, 5 nmi");
     let edits = &of(&maine, "me.inserts.3-12.one").proposals;
     let one = edits.iter().find(|edit| edit.says.contains("at 33 %")).unwrap();
     assert!(!passes(&one.text), "{}", one.text);
@@ -223,9 +227,9 @@ fn the_usual_inserts_lie_every_sixty_feet_through_all_lines_of_an_endline() {
 }
 
 #[test]
-fn a_rule_that_no_edit_mends_says_why() {
+fn a_rule_that_no_edit_meets_says_why() {
     let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS]);
-    let by_call = mended(&single, "me-b, 2024-06-01, 5 nmi, 1");
+    let by_call = found(&single, "me-b, 2024-06-01, 5 nmi, 1");
     let singles = of(&by_call, "me.singles");
     assert!(
         singles.proposals.is_empty() && singles.why_none.contains("given by the call"),
@@ -234,24 +238,24 @@ fn a_rule_that_no_edit_mends_says_why() {
     let marks = of(&by_call, "me.marks");
     assert_eq!(marks.verdict, Verdict::CannotBeChecked);
     assert!(marks.proposals.is_empty() && marks.why_none.contains("does not say"), "{marks:?}");
-    let needs = of(&mended(&single, "me-b, 2024-06-01"), "me.singles").why_none.clone();
+    let needs = of(&found(&single, "me-b, 2024-06-01"), "me.singles").why_none.clone();
     assert!(needs.contains("--distance"), "{needs}");
     // Nothing fails on gear without an endline.
-    let stowed = mended(&(rig(2, "sink-3-8", "20 m", &[]) + STOWED), "lma-1, 2024-06-01");
+    let stowed = found(&(rig(2, "sink-3-8", "20 m", &[]) + STOWED), "lma-1, 2024-06-01");
     assert!(stowed.all.is_none() && stowed.rules.iter().all(|one| one.verdict != Verdict::Fail));
 }
 
 #[test]
-fn all_edits_together_mend_every_rule_that_binds() {
+fn all_edits_together_meet_every_rule_that_binds() {
     let text = rig(1, "sink-3-8", "20 m", &[line("sink-1-2", "40 m")]);
-    let mends = mended(&text, "me-b, 2024-06-01, 5 nmi");
-    let all = mends.all.as_ref().unwrap();
+    let remedies = found(&text, "me-b, 2024-06-01, 5 nmi");
+    let all = remedies.all.as_ref().unwrap();
     assert!(all.still_fails.is_empty() && all.breaks.is_empty(), "{all:?}");
     let anew = super::super::tests::gear::assembled(&all.text);
     let sheet = super::super::check(&anew, &packs(), &fishing("me-b, 2024-06-01, 5 nmi")).unwrap();
     assert!(!sheet.fails_binding(), "{}\n{}", all.text, sheet.json());
     // Eight traps in the place of one.
     assert_eq!(sheet.traps, 8);
-    let weak = mended(&rig(2, "sink-3-8", "20 m", &[line(WEAK, "40 m")]), "lma-1, 2024-06-01");
+    let weak = found(&rig(2, "sink-3-8", "20 m", &[line(WEAK, "40 m")]), "lma-1, 2024-06-01");
     assert!(weak.all.is_none(), "gear that passes needs no edit: {:?}", weak.all);
 }

@@ -11,15 +11,15 @@
 //! | `demand` | what a check asks, read from its expression |
 //! | `propose` | edits that may meet a demand |
 //! | `candidate` | an edit as steps on the file |
-//! | `bench` | copies assembled, checked and measured |
+//! | `trials` | copies assembled, checked and measured |
 //! | `usual` | the usual weak inserts, asked by no rule |
 
-mod bench;
 mod candidate;
 mod demand;
 mod propose;
 #[cfg(test)]
 mod tests;
+mod trials;
 mod usual;
 
 use endline_gear::{Document, Rule, Sources};
@@ -33,42 +33,42 @@ use super::fishing::Fishing;
 use super::packs::Packs;
 use super::sheet::RuleSheet;
 use super::verdict::{RuleResult, Verdict};
-use bench::{Bench, Tried, size};
 use candidate::Candidate;
 use propose::Scene;
+use trials::{CandidateTrials, Tried, size};
 
 pub use candidate::Change;
 pub use usual::{Edited, usual_inserts, usual_inserts_of_own};
 
 /// Name and version of the JSON.
-const SCHEMA: &str = "endline.rules.mend/1";
+const SCHEMA: &str = "endline.rules.fix/1";
 
 /// Proposals told of one rule.
 const MOST_PROPOSALS: usize = 6;
 
-/// Edits made one after another to mend every rule.
+/// Edits made one after another to meet every rule.
 const MOST_ROUNDS: usize = 16;
 
-/// Times that one rule is mended among them: edits that undo each other end here.
+/// Edits for one rule among them: edits that undo each other end here.
 const MOST_TIMES: usize = 2;
 
 /// What would bring an assembly to comply.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub struct Mends {
+pub struct Remedies {
     /// Name and version of this form.
     #[schemars(extend("const" = SCHEMA))]
     pub schema: &'static str,
     /// Verdicts before any edit, without the rules that do not apply.
     pub before: RuleSheet,
     /// Every rule that the assembly does not pass, with its proposals.
-    pub rules: Vec<RuleMend>,
-    /// One edit after another, each the least one, for the rules that bind; none where no edit mends any.
+    pub rules: Vec<Remedy>,
+    /// One edit after another, each the least one, for the rules that bind; none where no edit helps.
     pub all: Option<Proposal>,
 }
 
 /// A rule that an assembly does not pass, and edits that bring it to pass.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub struct RuleMend {
+pub struct Remedy {
     /// Id of the rule.
     pub rule: String,
     /// Whether people are bound to it.
@@ -103,7 +103,7 @@ pub struct Proposal {
     pub text: String,
 }
 
-/// An assembly whose mends are asked for.
+/// An assembly and its library.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     /// Id of the assembly.
@@ -114,7 +114,7 @@ pub struct Asked<'a> {
     pub sources: &'a Sources,
 }
 
-impl Mends {
+impl Remedies {
     /// As one JSON object.
     #[must_use]
     pub fn json(&self) -> String {
@@ -123,7 +123,7 @@ impl Mends {
     }
 
     /// Every proposal with its rule, in the order in which they are numbered from 1.
-    pub fn numbered(&self) -> impl Iterator<Item = (&RuleMend, &Proposal)> {
+    pub fn numbered(&self) -> impl Iterator<Item = (&Remedy, &Proposal)> {
         self.rules.iter().flat_map(|rule| rule.proposals.iter().map(move |edit| (rule, edit)))
     }
 }
@@ -142,48 +142,48 @@ impl Proposal {
 /// The verdicts on an assembly as it stands.
 ///
 /// # Errors
-/// As [`mends`].
+/// As [`remedies`].
 pub fn checked(
     asked: Asked<'_>,
     packs: &Packs,
     fishing: &Fishing,
     host: &PluginHost,
 ) -> Result<RuleSheet, Error> {
-    let bench = Bench::new(asked.id, asked.sources, host, packs, fishing);
-    Ok(bench.tried(asked.text)?.sheet)
+    let trials = CandidateTrials::new(asked.id, asked.sources, host, packs, fishing);
+    Ok(trials.tried(asked.text)?.sheet)
 }
 
 /// What would bring an assembly to comply where and when it is fished.
 ///
 /// # Errors
 /// An area that no pack declares, or every located error of the assembly as it stands.
-pub fn mends(
+pub fn remedies(
     asked: Asked<'_>,
     packs: &Packs,
     fishing: &Fishing,
     host: &PluginHost,
-) -> Result<Mends, Error> {
-    let bench = Bench::new(asked.id, asked.sources, host, packs, fishing);
-    let base = bench.tried(asked.text)?;
+) -> Result<Remedies, Error> {
+    let trials = CandidateTrials::new(asked.id, asked.sources, host, packs, fishing);
+    let base = trials.tried(asked.text)?;
     let mut rules = Vec::new();
     for result in &base.sheet.rules {
         match result.verdict {
-            Verdict::Fail => rules.push(of_failing(&bench, &base, asked.text, result)?),
-            Verdict::CannotBeChecked => rules.push(RuleMend::without(result, result.why.clone())),
+            Verdict::Fail => rules.push(of_failing(&trials, &base, asked.text, result)?),
+            Verdict::CannotBeChecked => rules.push(Remedy::without(result, result.why.clone())),
             Verdict::Pass | Verdict::NotApplicable => {}
         }
     }
-    let all = all(&bench, &base, asked.text)?;
+    let all = all(&trials, &base, asked.text)?;
     let mut before = base.sheet;
     before.rules.retain(|rule| rule.verdict != Verdict::NotApplicable);
-    Ok(Mends { schema: SCHEMA, before, rules, all })
+    Ok(Remedies { schema: SCHEMA, before, rules, all })
 }
 
 /// The least edit by fields set and parts added that brings one rule to pass where it applies: one that an option of a study
 /// can say. None where the gear passes the rule as it stands.
 ///
 /// # Errors
-/// An assembly that cannot be assembled, a rule that does not apply to it, or one that no such edit mends, with the reason.
+/// An assembly that cannot be assembled, a rule that does not apply to it, or one that no such edit meets, with the reason.
 pub fn least_added(
     asked: Asked<'_>,
     rule: &str,
@@ -191,29 +191,29 @@ pub fn least_added(
     fishing: &Fishing,
     host: &PluginHost,
 ) -> Result<Option<Proposal>, Error> {
-    let bench = Bench::new(asked.id, asked.sources, host, packs, fishing);
-    let base = bench.tried(asked.text)?;
+    let trials = CandidateTrials::new(asked.id, asked.sources, host, packs, fishing);
+    let base = trials.tried(asked.text)?;
     let result = base.sheet.rules.iter().find(|one| one.rule == rule);
-    let result = result.ok_or_else(|| Error::Replay(format!("there is no rule `{rule}`")))?;
-    let refused = |why: &str| Error::Replay(format!("`{rule}` gives no option: {why}"));
+    let result = result.ok_or_else(|| Error::Message(format!("there is no rule `{rule}`")))?;
+    let refused = |why: &str| Error::Message(format!("`{rule}` gives no option: {why}"));
     match result.verdict {
         Verdict::Pass => Ok(None),
         Verdict::Fail => {
-            let mend = of_failing(&bench, &base, asked.text, result)?;
-            let why = if mend.why_none.is_empty() {
-                "each edit takes something out of the file, which an option cannot; write the mended assembly by `endline rules mend --write` and name it"
+            let remedy = of_failing(&trials, &base, asked.text, result)?;
+            let why = if remedy.why_none.is_empty() {
+                "each edit takes something out of the file, which an option cannot; write the edited assembly by `endline rules fix --write` and name it"
             } else {
-                &mend.why_none
+                &remedy.why_none
             };
             let is_added = |edit: &Proposal| edit.changes.iter().all(|one| one.after.is_some());
-            let least = mend.proposals.iter().find(|edit| is_added(edit));
+            let least = remedy.proposals.iter().find(|edit| is_added(edit));
             least.cloned().map(Some).ok_or_else(|| refused(why))
         }
         Verdict::NotApplicable | Verdict::CannotBeChecked => Err(refused(&result.why)),
     }
 }
 
-impl RuleMend {
+impl Remedy {
     fn without(result: &RuleResult, why_none: String) -> Self {
         Self {
             rule: result.rule.clone(),
@@ -227,21 +227,22 @@ impl RuleMend {
 
 /// The proposals for a rule that fails.
 fn of_failing(
-    bench: &Bench<'_>,
+    trials: &CandidateTrials<'_>,
     base: &Tried,
     text: &str,
     result: &RuleResult,
-) -> Result<RuleMend, Error> {
-    let Some((_, rule)) = bench.packs.rules().find(|(_, rule)| rule.id.value == result.rule) else {
-        return Ok(RuleMend::without(result, "no pack has it".to_owned()));
+) -> Result<Remedy, Error> {
+    let Some((_, rule)) = trials.packs.rules().find(|(_, rule)| rule.id.value == result.rule)
+    else {
+        return Ok(Remedy::without(result, "no pack has it".to_owned()));
     };
     let document = parsed(text)?;
-    let scene = Scene::new(&document, base, bench, rule, result);
+    let scene = Scene::new(&document, base, trials, rule, result);
     let (mut proposals, mut tried) = (Vec::<Proposal>::new(), 0);
     for lever in propose::levers(&scene) {
         for tier in lever {
             let found: Vec<Proposal> =
-                tier.iter().filter_map(|one| verified(bench, base, text, rule, one)).collect();
+                tier.iter().filter_map(|one| verified(trials, base, text, rule, one)).collect();
             tried += tier.len();
             let is_met = !found.is_empty();
             let fresh = found
@@ -263,16 +264,16 @@ fn of_failing(
         (0, tried) => format!("{tried} edits were tried, and the rule fails with each"),
         _ => String::new(),
     };
-    Ok(RuleMend { proposals, ..RuleMend::without(result, why_none) })
+    Ok(Remedy { proposals, ..Remedy::without(result, why_none) })
 }
 
 fn parsed(text: &str) -> Result<Document, Error> {
-    Document::parse(text).map_err(|error| Error::Replay(error.to_string()))
+    Document::parse(text).map_err(|error| Error::Message(error.to_string()))
 }
 
 /// A candidate tried on a copy: a proposal where its rule passes then.
 fn verified(
-    bench: &Bench<'_>,
+    trials: &CandidateTrials<'_>,
     base: &Tried,
     text: &str,
     rule: &Rule,
@@ -281,7 +282,7 @@ fn verified(
     let mut document = Document::parse(text).ok()?;
     let changes = candidate.apply(&mut document).ok()?;
     let text = document.text();
-    let tried = bench.tried(&text).ok()?;
+    let tried = trials.tried(&text).ok()?;
     let proposal = proposal(base, &tried, candidate.says.clone(), changes, text);
     proposal.passes.contains(&rule.id.value).then_some(proposal)
 }
@@ -332,13 +333,13 @@ impl Made {
 
 /// The least edit for each rule that binds and fails, one after another, up to where the fewest of them fail.
 ///
-/// An edit may break a rule that a later one mends: more traps ask for a radar reflector.
-fn all(bench: &Bench<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, Error> {
+/// An edit may break a rule that a later edit meets: more traps ask for a radar reflector.
+fn all(trials: &CandidateTrials<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, Error> {
     let mut now = Made { text: text.to_owned(), ..Made::default() };
     let mut best = (base.sheet.counts.fail_binding, now.clone());
     let mut asked: Vec<String> = Vec::new();
     for _ in 0..MOST_ROUNDS {
-        let tried = bench.tried(&now.text)?;
+        let tried = trials.tried(&now.text)?;
         if tried.sheet.counts.fail_binding < best.0 {
             best = (tried.sheet.counts.fail_binding, now.clone());
         }
@@ -350,9 +351,9 @@ fn all(bench: &Bench<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, 
         let mut failing: Vec<&RuleResult> = tried.sheet.rules.iter().filter(open).collect();
         failing.sort_by_key(|rule| !rule.measured.iter().all(|one| one.line.is_empty()));
         let Some(result) = failing.first() else { break };
-        let mend = of_failing(bench, &tried, &now.text, result)?;
+        let remedy = of_failing(trials, &tried, &now.text, result)?;
         asked.push(result.rule.clone());
-        if let Some(edit) = mend.proposals.into_iter().next() {
+        if let Some(edit) = remedy.proposals.into_iter().next() {
             now.says.push(edit.says);
             edit.changes.into_iter().for_each(|change| now.change(change));
             now.text = edit.text;
@@ -362,6 +363,6 @@ fn all(bench: &Bench<'_>, base: &Tried, text: &str) -> Result<Option<Proposal>, 
     if says.is_empty() {
         return Ok(None);
     }
-    let tried = bench.tried(&text)?;
+    let tried = trials.tried(&text)?;
     Ok(Some(proposal(base, &tried, says.join(" "), changes, text)))
 }

@@ -15,7 +15,7 @@ const FOLDERS: [&str; 8] =
     ["ropes/", "traps/", "buoys/", "weak-links/", "knots/", "anchors/", "sites/", "friction/"];
 
 /// Where edited copies of an assembly are tried.
-pub(super) struct Bench<'a> {
+pub(super) struct CandidateTrials<'a> {
     pub id: &'a str,
     pub host: &'a PluginHost,
     pub packs: &'a Packs,
@@ -30,7 +30,7 @@ pub(super) struct Tried {
     pub library: Library,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> CandidateTrials<'a> {
     pub fn new(
         id: &'a str,
         sources: &Sources,

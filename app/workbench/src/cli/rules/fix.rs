@@ -1,14 +1,14 @@
-//! `endline rules mend`: what would bring an assembly to comply.
+//! `endline rules fix`: what would bring an assembly to comply.
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use endline_gear::{Document, Setting};
 use endline_session::rules::Verdict;
-use endline_session::rules::mend::{Asked, Mends, Proposal, RuleMend, mends};
+use endline_session::rules::remedy::{Asked, Proposal, Remedies, Remedy, remedies};
 use endline_session::source::AssemblyFile;
 
-use super::args::MendArgs;
+use super::args::FixArgs;
 use super::check::head;
 use super::write_new;
 use crate::cli::{Failure, host, output};
@@ -17,14 +17,14 @@ use crate::cli::{Failure, host, output};
 const MOST_SHOWN: usize = 8;
 
 /// Exit code 0 wherever the proposals could be found: whether a rule fails is what `check` says.
-pub(super) fn mend(args: &MendArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+pub(super) fn fix(args: &FixArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let (packs, fishing) = args.fished.open(library)?;
     let file = AssemblyFile::open(&args.fished.assembly, library)?;
     let asked = Asked { id: &file.id, text: &file.text, sources: &file.sources };
-    let mends = mends(asked, &packs, &fishing, &host::load())?;
-    output::print(&if args.json { mends.json() + "\n" } else { words(&mends) })?;
+    let remedies = remedies(asked, &packs, &fishing, &host::load())?;
+    output::print(&if args.json { remedies.json() + "\n" } else { words(&remedies) })?;
     if let Some(named) = &args.write {
-        let edit = chosen(&mends, args.take)?;
+        let edit = chosen(&remedies, args.take)?;
         let path = write_new(named, &file.root, "assemblies", &renamed(edit)?)?;
         output::note(&format!("written to {}", path.display()));
     }
@@ -32,13 +32,13 @@ pub(super) fn mend(args: &MendArgs, library: Option<&Path>) -> Result<ExitCode, 
 }
 
 /// The proposal of a number, or all edits together.
-fn chosen(mends: &Mends, number: Option<usize>) -> Result<&Proposal, Failure> {
+fn chosen(remedies: &Remedies, number: Option<usize>) -> Result<&Proposal, Failure> {
     let Some(number) = number else {
-        let none = "nothing is written: no edit mends a rule that binds";
-        return mends.all.as_ref().ok_or_else(|| Failure::failed(none));
+        let none = "nothing is written: no edit meets a rule that binds";
+        return remedies.all.as_ref().ok_or_else(|| Failure::failed(none));
     };
-    let count = mends.numbered().count();
-    let found = number.checked_sub(1).and_then(|index| mends.numbered().nth(index));
+    let count = remedies.numbered().count();
+    let found = number.checked_sub(1).and_then(|index| remedies.numbered().nth(index));
     found.map(|(_, edit)| edit).ok_or_else(|| {
         Failure::usage(format!("--take {number}: the proposals have the numbers 1 to {count}"))
     })
@@ -48,33 +48,33 @@ fn chosen(mends: &Mends, number: Option<usize>) -> Result<&Proposal, Failure> {
 fn renamed(edit: &Proposal) -> Result<String, Failure> {
     let mut document = Document::parse(&edit.text).map_err(Failure::failed)?;
     let name = document.get("name").unwrap_or_default();
-    document.put("name", &Setting::text(&format!("{name} (mended)"))).map_err(Failure::failed)?;
+    document.put("name", &Setting::text(&format!("{name} (fixed)"))).map_err(Failure::failed)?;
     Ok(document.text())
 }
 
-fn words(mends: &Mends) -> String {
-    let mut text = head(&mends.before);
+fn words(remedies: &Remedies) -> String {
+    let mut text = head(&remedies.before);
     let mut number = 0;
-    for rule in &mends.rules {
-        text += &of_rule(mends, rule);
+    for rule in &remedies.rules {
+        text += &of_rule(remedies, rule);
         for edit in &rule.proposals {
             number += 1;
             text += &of_edit(&format!("{number:>3}."), edit);
         }
         text.push('\n');
     }
-    if mends.rules.iter().all(|rule| rule.verdict != Verdict::Fail) {
+    if remedies.rules.iter().all(|rule| rule.verdict != Verdict::Fail) {
         return text + "Nothing fails.\n";
     }
-    match &mends.all {
+    match &remedies.all {
         Some(all) => text + &of_edit("All rules that bind, one edit after another:\n    ", all),
-        None => text + "No edit mends a rule that binds.\n",
+        None => text + "No edit meets a rule that binds.\n",
     }
 }
 
 /// The rule, what was measured, and why there is no edit.
-fn of_rule(mends: &Mends, rule: &RuleMend) -> String {
-    let Some(result) = mends.before.rules.iter().find(|one| one.rule == rule.rule) else {
+fn of_rule(remedies: &Remedies, rule: &Remedy) -> String {
+    let Some(result) = remedies.before.rules.iter().find(|one| one.rule == rule.rule) else {
         return String::new();
     };
     let advice = if rule.binding { String::new() } else { format!(" ({})", result.standing) };
@@ -86,7 +86,7 @@ fn of_rule(mends: &Mends, rule: &RuleMend) -> String {
         text += &format!("{:19}{part}{}, which does not hold\n", "", one.says);
     }
     if !rule.why_none.is_empty() {
-        text += &format!("{:19}no edit mends it: {}\n", "", rule.why_none);
+        text += &format!("{:19}no edit meets it: {}\n", "", rule.why_none);
     }
     text
 }

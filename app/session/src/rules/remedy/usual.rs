@@ -9,7 +9,7 @@ use crate::statics::preview::{TrialGear, TrialSea, alone};
 use super::super::gear::Gear;
 use super::super::sheet::of_library;
 use super::super::walk::gear_of;
-use super::bench::library_with;
+use super::trials::library_with;
 use super::{Asked, propose};
 
 /// A file of gear after an edit.
@@ -52,7 +52,7 @@ pub fn usual_inserts_of_own(
 
 /// A file of gear with the usual inserts.
 fn put_into(text: &str, gear: &Gear) -> Result<Edited, Error> {
-    let failed = |error: String| Error::Replay(error);
+    let failed = |error: String| Error::Message(error);
     let mut document = Document::parse(text).map_err(|error| failed(error.to_string()))?;
     let edit = propose::usual_inserts(&document, gear)
         .ok_or_else(|| failed("the gear has no endline that takes inserts".to_owned()))?;
