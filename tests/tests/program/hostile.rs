@@ -62,7 +62,7 @@ fn a_file_with_thousands_of_mistakes_tells_the_first_and_counts_the_rest() {
     called.fails(1, &["unknown0", "more problems, which are not shown"]);
     assert!(called.stdout.len() + called.stderr.len() < 200_000, "{}", called.stdout.len());
 
-    // One line of 100 kB is not told whole with each of its mistakes.
+    // One line of 100 kB is not printed whole with each of its mistakes.
     let keys: Vec<String> =
         (0..2000).map(|key| format!("{{ time = \"{key} furlong\", pitch = 1 }}")).collect();
     let act = place.write(
@@ -82,10 +82,10 @@ fn nothing_of_a_file_steers_the_terminal() {
     edit(&rope, "strength", "strength = \"12 \u{1b}[31mfurlong\"");
     let called = place.endline(&["check", rope.to_str().unwrap()]);
     assert_ne!(called.code, Some(0), "{called}");
-    let told = called.stdout + &called.stderr;
+    let printed = called.stdout + &called.stderr;
     assert!(
-        !told.contains('\u{1b}') && !told.contains('\u{202e}') && told.contains("\\u001b"),
-        "{told}"
+        !printed.contains('\u{1b}') && !printed.contains('\u{202e}') && printed.contains("\\u001b"),
+        "{printed}"
     );
 }
 
@@ -110,8 +110,8 @@ fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it
     let written_over = "--out would write over";
     called.fails(2, &[written_over]);
     place.endline(&["pilot", file, "--out", file]).fails(2, &[written_over]);
-    let go_on = ["run", &scenario, "--from", file, "--at", "0.05s", "--out", "out"];
-    place.endline(&go_on).fails(2, &[written_over]);
+    let from = ["run", &scenario, "--from", file, "--at", "0.05s", "--out", "out"];
+    place.endline(&from).fails(2, &[written_over]);
     assert_eq!(fs::read(&path).unwrap(), sound, "the recording is as it was");
 
     let mut recording = endline_session::Recording::load(&path).unwrap();

@@ -49,8 +49,8 @@ fn an_assembly_passes_fails_or_leaves_a_rule_open_and_the_exit_code_says_whether
     place.write("assemblies/floating.toml", &assembly.replace("\"sink-3-8\"", "\"pp-3-8\""));
     let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
     // What is proposed or voluntary is advice: it fails, and the call does not.
-    let told = ["fail", "bay.sinking", "fix: Use sinking rope.", "0 >= 0.5", "(proposed)"];
-    fails.fails(0, &[&told[..], &["1 fail (1 of them advice that does not bind)"]].concat());
+    let printed = ["fail", "bay.sinking", "fix: Use sinking rope.", "0 >= 0.5", "(proposed)"];
+    fails.fails(0, &[&printed[..], &["1 fail (1 of them advice that does not bind)"]].concat());
     for (standing, code) in [("law", 1), ("voluntary", 0)] {
         place.write("bay.toml", &PACK.replace("\"proposed\"", &format!("\"{standing}\"")));
         let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
@@ -93,13 +93,13 @@ fn mistakes_in_a_pack_stand_at_their_lines_and_the_packs_that_ship_have_none() {
         .replace("least = 0.5", "least = \"1 m\"");
     place.write("bay.toml", &pack);
     let called = place.endline(&["--library", library().to_str().unwrap(), "check", "bay.toml"]);
-    let told = [
+    let printed = [
         "bay.toml:15:8",
         "unknown field `mened`",
         "bay.toml:19:9",
         "compares a plain number and a length",
     ];
-    called.fails(1, &told);
+    called.fails(1, &printed);
     place.write("bay.toml", &PACK.replace("areas = [\"my-bay\"]", "areas = [\"my-by\"]"));
     let called = place.endline(&["--library", library().to_str().unwrap(), "check", "bay.toml"]);
     called.fails(1, &["no pack declares the area `my-by`", "did you mean `my-bay`?"]);
@@ -198,9 +198,9 @@ fn edits_that_meet_rules_are_proposed_and_written_to_a_new_assembly_that_complie
         assert!(!edit["changes"].as_array().unwrap().is_empty(), "{edit}");
     }
     assert!(of("us.soak")["why_none"].as_str().unwrap().contains("does not say"));
-    let told =
+    let printed =
         ["single in me-b", "25 % and 50 % of endline-top", "still fails", "no edit meets it"];
-    fix(&[]).fails(0, &told);
+    fix(&[]).fails(0, &printed);
 
     // All edits together: the assembly written complies with every rule that binds.
     fix(&["--write", "single-fixed"]).done();

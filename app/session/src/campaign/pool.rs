@@ -17,15 +17,9 @@ pub(crate) trait Work: Sync {
     type Piece;
 
     /// The next piece to run in this process.
-    ///
-    /// # Errors
-    /// A folder that cannot be read or written.
     fn next(&self) -> Result<Next<Self::Piece>, Error>;
 
     /// Runs a piece and stores its result; false if the control cancelled it.
-    ///
-    /// # Errors
-    /// A folder that cannot be written.
     fn run(&self, piece: Self::Piece) -> Result<bool, Error>;
 }
 
@@ -58,9 +52,6 @@ impl Failure {
 }
 
 /// Runs work on threads, while `collect` takes in results on this one.
-///
-/// # Errors
-/// The first failure of a thread, else that of `collect`.
 pub(crate) fn run<T>(
     work: &impl Work,
     threads: usize,

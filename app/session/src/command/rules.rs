@@ -1,9 +1,9 @@
-//! Commands on what rules say of an assembly: edits by which it would comply, a study of options, its compliance sheet.
+//! Commands on the rules for an assembly: edits by which it would comply, a study of options, its compliance sheet.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
-use super::condition::{has_edit_of_all, has_edits, has_verdicts};
 use super::info::Make;
+use super::info::{has_edit_of_all, has_edits, has_verdicts};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 
@@ -22,7 +22,6 @@ pub enum RuleAction {
 
 impl RuleAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Take(_) => "rules.take",

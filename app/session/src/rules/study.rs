@@ -1,18 +1,18 @@
-//! A study of what rules buy: one assembly, edited to comply with each of several rules, in the same encounters.
+//! A study of the effect of rules: one assembly, edited to comply with each of several rules, in the same encounters.
 //!
-//! How encounters are drawn, when a run ends and the sea are those of a study that is there; its options give way to one for
-//! each rule. An option says what its edit changes in the assembly, so that the study needs no other file.
+//! How encounters are drawn, when a run ends and the sea are those of an existing study; its options are replaced by one for
+//! each rule. An option states the changes of its edit in the assembly, so that the study needs no other file.
 
 use endline_gear::{Document, EditError, Rule, Setting};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
 
-use super::fishing::Fishing;
 use super::packs::Packs;
 use super::remedy::{Asked, Proposal, least_added};
+use super::sheet::Fishing;
 
-/// The study whose encounters are taken where nobody names another.
+/// The study whose encounters are taken where none is named.
 pub const USUAL_LIKE: &str = "gear-types";
 
 /// The field of the scenario by which its gear is chosen.
@@ -27,16 +27,13 @@ const OF_OPTIONS: [&str; 6] =
 pub struct RuleOption {
     /// Id of the rule, which is the option's id.
     pub rule: String,
-    /// What the rule asks.
+    /// The requirement of the rule.
     pub asks: String,
-    /// The edit that brings the assembly to comply; none where it does as it stands.
+    /// The edit by which the assembly complies; none where it complies without one.
     pub edit: Option<Proposal>,
 }
 
 /// The options for rules: the least edit for each that an option of a study can say.
-///
-/// # Errors
-/// Fewer than two rules, an unknown one, one that no edit meets, or two rules that the same gear meets.
 pub fn options(
     asked: Asked<'_>,
     rules: &[String],
@@ -68,9 +65,6 @@ pub fn options(
 }
 
 /// The text of a study of these options of an assembly, in the encounters of another study.
-///
-/// # Errors
-/// Where the other study is no TOML.
 pub fn text(
     assembly: &str,
     options: &[RuleOption],
@@ -110,7 +104,7 @@ pub fn text(
     Ok(study.text())
 }
 
-/// What the study asks, and what each option is.
+/// The question of the study, and its options.
 fn notes(assembly: &str, options: &[RuleOption]) -> String {
     let each = options.iter().map(|option| {
         let edit = option.edit.as_ref().map_or("The gear as it stands.", |edit| edit.says.as_str());
@@ -125,9 +119,6 @@ fn notes(assembly: &str, options: &[RuleOption]) -> String {
 
 impl Packs {
     /// A rule by its id.
-    ///
-    /// # Errors
-    /// Where no pack has it, with the nearest.
     pub fn rule(&self, id: &str) -> Result<&Rule, String> {
         let found = self.rules().map(|(_, rule)| rule).find(|rule| rule.id.value == id);
         let known = || self.rules().map(|(_, rule)| rule.id.value.as_str());

@@ -61,9 +61,6 @@ pub(super) struct Process {
 
 impl Process {
     /// Makes the file of a process in a folder.
-    ///
-    /// # Errors
-    /// A folder that cannot be written.
     pub(super) fn begin(folder: &Path, place: Place) -> io::Result<Self> {
         let id = format!("{:016x}", RandomState::new().build_hasher().finish());
         let path = path_of(folder, &id);
@@ -76,9 +73,6 @@ impl Process {
     }
 
     /// Shows that it works. The last byte is written again, so that the time is that of the file's own machine.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub(super) fn beat(&self) -> io::Result<()> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::End(-1))?;
@@ -87,9 +81,6 @@ impl Process {
     }
 
     /// Whether another process has ended: its file is gone, its lock is free, or it has been silent for too long.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub(super) fn has_ended(&self, other: &str) -> io::Result<bool> {
         let path = path_of(self.path.parent().unwrap_or(Path::new(".")), other);
         let file = match ProcessFile::of(&path) {
@@ -120,9 +111,6 @@ pub(super) struct ProcessFile {
 
 impl ProcessFile {
     /// Reads the file of a process.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         let file = read::open(path)?;
         let modified = file.metadata()?.modified()?;
@@ -134,9 +122,6 @@ impl ProcessFile {
     }
 
     /// All of a folder, by the ids of their processes.
-    ///
-    /// # Errors
-    /// A folder that cannot be read.
     pub(super) fn all(folder: &Path) -> io::Result<Vec<(String, Self)>> {
         let mut all = Vec::new();
         for entry in fs::read_dir(folder)? {

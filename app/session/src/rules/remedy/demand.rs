@@ -1,7 +1,7 @@
-//! What the check of a rule demands: each of its comparisons, with the numbers that its parameters give.
+//! The demands of a rule's check: each of its comparisons, with the numbers of its parameters.
 //!
-//! Only comparisons of a fact, or of a function of weak places, with one parameter or number are read. What an edit comes
-//! to is checked by the whole expression, so that a demand which is not read costs a proposal and never a wrong one.
+//! Only comparisons of a fact, or of a function of weak places, with one parameter or number are read. An edit
+//! is checked by the whole expression, so that an unread demand costs a proposal and never makes a wrong one.
 
 use endline_gear::Rule;
 
@@ -95,7 +95,7 @@ impl Reader<'_> {
         Some((top, self.number(*strength)?.si))
     }
 
-    /// From and to of each argument of a function, and where its closing bracket stands.
+    /// From and to of each argument of a function, and the index of its closing bracket.
     fn arguments(&self, function: usize) -> Option<(Vec<(usize, usize)>, usize)> {
         let (mut open, mut start, mut found) = (0, function + 2, Vec::new());
         for at in function + 1..self.tokens.len() {
@@ -116,10 +116,10 @@ impl Reader<'_> {
         None
     }
 
-    /// A limit right of a sign: one parameter or number, with nothing done to it.
+    /// A limit right of a sign: one parameter or number alone.
     fn right(&self, at: usize) -> Option<Limit> {
-        let goes_on = |next: &String| ["+", "-", "*", "/"].contains(&next.as_str());
-        if self.tokens.get(at + 1).is_some_and(goes_on) {
+        let continues = |next: &String| ["+", "-", "*", "/"].contains(&next.as_str());
+        if self.tokens.get(at + 1).is_some_and(continues) {
             return None;
         }
         self.number((at, at + 1))

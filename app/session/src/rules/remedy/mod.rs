@@ -1,26 +1,22 @@
-//! Edits of an assembly by which it comes to comply with rules, each tried on a copy.
+//! Edits by which an assembly complies with rules, each tried on a copy.
 //!
 //! ```text
 //! rule that fails -> demands of its check -> candidates (edits of the file) -> copy assembled and checked -> proposals
 //! ```
-//! A candidate that does not bring its rule to pass is no proposal. What a proposal passes and breaks besides is found by
+//! A candidate that does not meet its rule is no proposal. The other rules that a proposal passes and breaks are found by
 //! the same check that a user calls.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
-//! | `demand` | what a check asks, read from its expression |
+//! | `demand` | the demands of a check, read from its expression |
 //! | `propose` | edits that may meet a demand |
-//! | `candidate` | an edit as steps on the file |
-//! | `trials` | copies assembled, checked and measured |
-//! | `usual` | the usual weak inserts, asked by no rule |
+//! | `trials` | edits as steps on the file, and copies assembled, checked and measured; the usual weak inserts |
 
-mod candidate;
 mod demand;
 mod propose;
 #[cfg(test)]
 mod tests;
 mod trials;
-mod usual;
 
 use endline_gear::{Document, Rule, Sources};
 use schemars::JsonSchema;
@@ -29,21 +25,21 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::plugins::PluginHost;
 
-use super::fishing::Fishing;
 use super::packs::Packs;
+use super::sheet::Fishing;
 use super::sheet::RuleSheet;
 use super::verdict::{RuleResult, Verdict};
-use candidate::Candidate;
 use propose::Scene;
+use trials::Candidate;
 use trials::{CandidateTrials, Tried, size};
 
-pub use candidate::Change;
-pub use usual::{Edited, usual_inserts, usual_inserts_of_own};
+pub use trials::Change;
+pub use trials::{Edited, usual_inserts, usual_inserts_of_own};
 
 /// Name and version of the JSON.
 const SCHEMA: &str = "endline.rules.fix/1";
 
-/// Proposals told of one rule.
+/// Most proposals listed for one rule.
 const MOST_PROPOSALS: usize = 6;
 
 /// Edits made one after another to meet every rule.
@@ -52,7 +48,7 @@ const MOST_ROUNDS: usize = 16;
 /// Edits for one rule among them: edits that undo each other end here.
 const MOST_TIMES: usize = 2;
 
-/// What would bring an assembly to comply.
+/// Edits by which an assembly would comply.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Remedies {
     /// Name and version of this form.
@@ -75,7 +71,7 @@ pub struct Remedy {
     pub binding: bool,
     /// Its verdict: it fails, or cannot be checked.
     pub verdict: Verdict,
-    /// Edits that bring it to pass, the one that changes least first; those that break another rule stand last.
+    /// Edits that meet it, the one that changes least first; those that break another rule last.
     pub proposals: Vec<Proposal>,
     /// Why there is no proposal; empty where there is one.
     pub why_none: String,
@@ -84,7 +80,7 @@ pub struct Remedy {
 /// An edit that was tried on a copy.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Proposal {
-    /// What it does, in a sentence.
+    /// Its effect, in a sentence.
     pub says: String,
     /// Fields that it changes.
     pub changes: Vec<Change>,
@@ -96,7 +92,7 @@ pub struct Proposal {
     pub still_fails: Vec<String>,
     /// Share of the rope that is replaced or taken off [1].
     pub rope_share: f64,
-    /// Traps, endlines, floats and reflectors that come or go.
+    /// Number of traps, endlines, floats and reflectors added or removed.
     pub parts: usize,
     /// The assembly's file with the edit.
     #[serde(skip)]
@@ -116,7 +112,6 @@ pub struct Asked<'a> {
 
 impl Remedies {
     /// As one JSON object.
-    #[must_use]
     pub fn json(&self) -> String {
         // Strings and finite numbers always become JSON.
         serde_json::to_string_pretty(self).unwrap_or_default()
@@ -129,7 +124,7 @@ impl Remedies {
 }
 
 impl Proposal {
-    /// Order of proposals: what breaks nothing first, then by how much of the gear changes.
+    /// Order of proposals: those that break no rule first, then by the change of the gear.
     fn order(&self, other: &Self) -> std::cmp::Ordering {
         let counts = |one: &Self| (one.breaks.len(), one.parts);
         counts(self)
@@ -139,10 +134,7 @@ impl Proposal {
     }
 }
 
-/// The verdicts on an assembly as it stands.
-///
-/// # Errors
-/// As [`remedies`].
+/// The verdicts on an assembly without an edit.
 pub fn checked(
     asked: Asked<'_>,
     packs: &Packs,
@@ -153,10 +145,7 @@ pub fn checked(
     Ok(trials.tried(asked.text)?.sheet)
 }
 
-/// What would bring an assembly to comply where and when it is fished.
-///
-/// # Errors
-/// An area that no pack declares, or every located error of the assembly as it stands.
+/// Edits by which an assembly would comply where and when it is fished.
 pub fn remedies(
     asked: Asked<'_>,
     packs: &Packs,
@@ -180,10 +169,7 @@ pub fn remedies(
 }
 
 /// The least edit by fields set and parts added that brings one rule to pass where it applies: one that an option of a study
-/// can say. None where the gear passes the rule as it stands.
-///
-/// # Errors
-/// An assembly that cannot be assembled, a rule that does not apply to it, or one that no such edit meets, with the reason.
+/// can state. None where the gear passes the rule without an edit.
 pub fn least_added(
     asked: Asked<'_>,
     rule: &str,
@@ -287,7 +273,7 @@ fn verified(
     proposal.passes.contains(&rule.id.value).then_some(proposal)
 }
 
-/// What an edit came to, beside what stood before.
+/// The verdicts with an edit, compared with those before.
 fn proposal(
     base: &Tried,
     tried: &Tried,
@@ -322,7 +308,7 @@ struct Made {
 }
 
 impl Made {
-    /// A field changed twice is one change from what stood there first.
+    /// A field changed twice is one change from its first value.
     fn change(&mut self, change: Change) {
         match self.changes.iter_mut().find(|known| known.field == change.field) {
             Some(known) => known.after = change.after,

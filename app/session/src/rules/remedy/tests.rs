@@ -154,8 +154,8 @@ fn each_kind_of_edit_is_proposed_for_the_rule_that_asks_for_it() {
         );
         for edit in &remedy.proposals {
             // The same from the text alone, by another way: the check of a user.
-            let anew = super::super::tests::gear::assembled(&edit.text);
-            let sheet = super::super::check(&anew, &packs(), &fishing(place)).unwrap();
+            let again = super::super::tests::gear::assembled(&edit.text);
+            let sheet = super::super::check(&again, &packs(), &fishing(place)).unwrap();
             let after = sheet.rules.iter().find(|one| one.rule == rule).unwrap();
             assert_eq!(after.verdict, Verdict::Pass, "{}", edit.text);
             assert!(!edit.changes.is_empty(), "{edit:?}");
@@ -251,8 +251,8 @@ fn all_edits_together_meet_every_rule_that_binds() {
     let remedies = found(&text, "me-b, 2024-06-01, 5 nmi");
     let all = remedies.all.as_ref().unwrap();
     assert!(all.still_fails.is_empty() && all.breaks.is_empty(), "{all:?}");
-    let anew = super::super::tests::gear::assembled(&all.text);
-    let sheet = super::super::check(&anew, &packs(), &fishing("me-b, 2024-06-01, 5 nmi")).unwrap();
+    let again = super::super::tests::gear::assembled(&all.text);
+    let sheet = super::super::check(&again, &packs(), &fishing("me-b, 2024-06-01, 5 nmi")).unwrap();
     assert!(!sheet.fails_binding(), "{}\n{}", all.text, sheet.json());
     // Eight traps in the place of one.
     assert_eq!(sheet.traps, 8);

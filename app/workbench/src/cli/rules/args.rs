@@ -13,7 +13,7 @@ use crate::cli::quantity::length;
 pub(in crate::cli) enum RulesCommand {
     /// Check an assembly against every rule that applies where and when it is fished.
     Check(CheckArgs),
-    /// Say what edits of an assembly would bring it to comply, each tried on a copy; write one as a new assembly.
+    /// Propose edits by which an assembly would comply, each tried on a copy; write one as a new assembly.
     Fix(FixArgs),
     /// Write a study of an assembly edited for each of several rules, in the same encounters.
     Study(StudyArgs),
@@ -21,7 +21,7 @@ pub(in crate::cli) enum RulesCommand {
     List(ListArgs),
 }
 
-/// What is fished, where, when and how.
+/// The gear, where, when and how it is fished.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FishedArgs {
     /// Assembly file, or the id of an assembly in the gear library.

@@ -1,4 +1,4 @@
-//! `endline rules fix`: what would bring an assembly to comply.
+//! `endline rules fix`: edits by which an assembly would comply.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use crate::cli::{Failure, host, output};
 /// Fields shown of an edit; all are in the JSON.
 const MOST_SHOWN: usize = 8;
 
-/// Exit code 0 wherever the proposals could be found: whether a rule fails is what `check` says.
+/// Exit code 0 wherever proposals could be searched for: `check` has the verdicts.
 pub(super) fn fix(args: &FixArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let (packs, fishing) = args.fished.open(library)?;
     let file = AssemblyFile::open(&args.fished.assembly, library)?;
@@ -44,7 +44,7 @@ fn chosen(remedies: &Remedies, number: Option<usize>) -> Result<&Proposal, Failu
     })
 }
 
-/// The edited text under a name that tells it from the old one.
+/// The edited text under a name of its own.
 fn renamed(edit: &Proposal) -> Result<String, Failure> {
     let mut document = Document::parse(&edit.text).map_err(Failure::failed)?;
     let name = document.get("name").unwrap_or_default();
@@ -72,7 +72,7 @@ fn words(remedies: &Remedies) -> String {
     }
 }
 
-/// The rule, what was measured, and why there is no edit.
+/// The rule, the measured values, and why there is no edit.
 fn of_rule(remedies: &Remedies, rule: &Remedy) -> String {
     let Some(result) = remedies.before.rules.iter().find(|one| one.rule == rule.rule) else {
         return String::new();

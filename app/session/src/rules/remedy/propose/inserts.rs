@@ -1,12 +1,12 @@
-//! Weak inserts of rope, and sleeves, put into endlines, moved, or made of something else.
+//! Weak inserts of rope, and sleeves: put into endlines, moved, or made of another product.
 
 use endline_gear::{Document, Library};
 
 use super::super::super::gear::{Endline, Gear};
-use super::super::candidate::Candidate;
 use super::super::demand::{Demand, Limit};
-use super::Lever;
-use super::scene::{OfEndline, Scene, make_of, metres, written};
+use super::super::trials::Candidate;
+use super::{Lever, OfEndline, Scene, make_of, metres, written};
+use crate::units::METRES_PER_FOOT;
 
 /// Length of an insert of rope: the least that is approved [m], as it is written.
 const INSERT: (f64, &str) = (0.9144, "3 ft");
@@ -23,10 +23,10 @@ const USUAL_EVERY_M: f64 = 18.288;
 /// Room between an insert and the end of its line [m].
 const ROOM_M: f64 = 0.05;
 
-/// Strengths this close to a limit are what is approved as that limit [1].
+/// Strengths this close to a limit are approved as that limit [1].
 const CLOSE: f64 = 0.1;
 
-/// What is put into a line.
+/// A weak insert or sleeve.
 #[derive(Clone, Debug)]
 struct Product {
     /// Id of a rope, or of a weak link.
@@ -100,7 +100,7 @@ pub(super) fn every(scene: &Scene<'_>, spacing: &Limit, top: f64, strength_n: f6
     vec![products(scene, strength_n).iter().filter_map(one).collect()]
 }
 
-/// The usual inserts of rope along every endline: every 60 ft over the top three quarters, whatever lines it is made of.
+/// The usual inserts of rope along every endline: every 60 ft over the top three quarters, across all lines that it is made of.
 pub(in super::super) fn usual(document: &Document, gear: &Gear) -> Option<Candidate> {
     let product = Product { item: USUAL.to_owned(), is_sleeve: false };
     let says = format!("Put {} every 60 ft into the top 75 % of", product.words(2));
@@ -125,7 +125,7 @@ fn in_endlines(
     says: &str,
     places: &dyn Fn(f64) -> Vec<f64>,
 ) -> Option<Candidate> {
-    let (mut edit, mut told) = (Candidate::new(String::new()), Vec::new());
+    let (mut edit, mut places_of) = (Candidate::new(String::new()), Vec::new());
     for endline in endlines {
         let lines = Scene::lines(endline);
         let whole_m: f64 = lines.iter().map(|line| line.length_m).sum();
@@ -137,9 +137,9 @@ fn in_endlines(
             }
         }
         let at: Vec<String> = wanted.iter().map(|place_m| written(*place_m)).collect();
-        told.push(format!("{} ({} m from the buoy)", endline.id, at.join(", ")));
+        places_of.push(format!("{} ({} m from the buoy)", endline.id, at.join(", ")));
     }
-    edit.says = format!("{says} {}.", told.join(" and "));
+    edit.says = format!("{says} {}.", places_of.join(" and "));
     (!edit.steps.is_empty()).then_some(edit)
 }
 
@@ -195,7 +195,7 @@ fn into_line(
 
 /// A length in feet where it is a whole number of them, as fishers measure, else in metres.
 fn length(length_m: f64) -> String {
-    let feet = length_m / 0.3048;
+    let feet = length_m / METRES_PER_FOOT;
     if (feet - feet.round()).abs() < 1e-6 { format!("{feet:.0} ft") } else { metres(length_m) }
 }
 

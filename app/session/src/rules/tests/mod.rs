@@ -8,8 +8,8 @@ use endline_gear::Date;
 use endline_gear::units::{Quantity, parse};
 
 use super::facts::FACTS;
+use super::facts::{Part, fits, value};
 use super::gear::Gear;
-use super::measure::{Part, fits, value};
 use super::{Fishing, Packs, RuleResult, Verdict, check};
 use cases::{TRAPS, UNSAID, federal, others};
 use gear::{STOWED, TWO_INSERTS, assembled, inserts, library, line, rig};
@@ -18,7 +18,7 @@ pub fn packs() -> Packs {
     Packs::open(Some(&library()), &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Fishing as `area, day, distance, traps`; what is empty is not given.
+/// Fishing as `area, day, distance, traps`; an empty one is not stated.
 pub fn fishing(text: &str) -> Fishing {
     let words: Vec<&str> = text.split(',').map(str::trim).collect();
     let word = |at: usize| words.get(at).filter(|word| !word.is_empty());

@@ -1,8 +1,6 @@
-//! The thread of a live run: takes commands, steps when due, publishes what there is to see.
+//! The thread of a live run: takes commands, steps when due, publishes views.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each command must be dispatched")]
-
-mod rerun;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -13,23 +11,20 @@ use std::time::{Duration, Instant};
 use endline_sdk::Controls;
 use endline_sim::{Audit, Cost, Frame, State};
 
-use super::envelope::Envelope;
-use super::frame_history::FrameHistory;
-use super::history::Watch;
-use super::pace::Pace;
-use super::series::Series;
+use super::Pace;
+use super::history::{Envelope, FrameHistory, Series, Watch};
 use super::{LiveView, Made, RunCommand, Status};
 use crate::error::Error;
 use crate::plugins::PluginHost;
+use crate::recording::program::program;
 use crate::run::{Run, RunOptions, frame_stride};
 use crate::source::Prepared;
-use rerun::Script;
 
 /// Views published for each real second, at most.
 const VIEWS_HZ: f64 = 60.0;
 /// Frames and tensions kept for each simulated second.
 const KEPT_HZ: f64 = 30.0;
-/// Speeds a user may ask for; above it, as fast as the solver goes.
+/// Speeds a user may ask for; above it, as fast as the solver runs.
 const SPEEDS: [f64; 2] = [0.01, 1000.0];
 
 /// Where views are put.
@@ -50,7 +45,7 @@ impl Screen {
     }
 }
 
-/// What is to see before anything is settled: the gear as first guessed.
+/// The view before statics: the gear as first guessed.
 pub(super) fn first_view(prepared: &Prepared) -> LiveView {
     let model = Arc::clone(&prepared.model);
     LiveView {
@@ -76,7 +71,7 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
     }
 }
 
-/// Runs until the sender of commands is gone.
+/// Runs until the sender of commands is dropped.
 pub(super) fn work(
     prepared: Prepared,
     host: &PluginHost,
@@ -153,7 +148,7 @@ impl<'a> Worker<'a> {
         worker
     }
 
-    /// Waits for commands or for the next step to be due; false when the sender is gone.
+    /// Waits for commands or for the next step to be due; false when the sender was dropped.
     fn turn(&mut self, commands: &Receiver<RunCommand>) -> bool {
         let received = match self.wait() {
             Some(wait) => commands.recv_timeout(wait),
@@ -193,11 +188,11 @@ impl<'a> Worker<'a> {
             RunCommand::Load(prepared) => self.load(*prepared),
             RunCommand::Seek(time_s) => {
                 self.pause();
-                self.look(|frames, _| frames.nearest(time_s));
+                self.show_stored(|frames, _| frames.nearest(time_s));
             }
             RunCommand::Shift(by) => {
                 self.pause();
-                self.look(|frames, now_s| frames.beside(now_s, by));
+                self.show_stored(|frames, now_s| frames.beside(now_s, by));
             }
             RunCommand::Inputs(inputs) => self.run_again(inputs, false),
             RunCommand::Rerun(prepared) => self.rerun(*prepared),
@@ -211,8 +206,8 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Looks at a kept frame, given the time shown; at the newest moment where that is reached.
-    fn look(&mut self, find: impl FnOnce(&FrameHistory, f64) -> Option<Arc<Frame>>) {
+    /// Shows a stored frame, found by the time shown; the newest moment where that is reached.
+    fn show_stored(&mut self, find: impl FnOnce(&FrameHistory, f64) -> Option<Arc<Frame>>) {
         let newest_s = self.run.as_ref().map_or(0.0, |run| run.state().time_s);
         let shown_s = self.sought.as_ref().map_or(newest_s, |frame| frame.time_s);
         let found = find(&self.frames, shown_s);
@@ -282,7 +277,7 @@ impl<'a> Worker<'a> {
         self.controls = run.pilot();
         self.run = Some(run);
         self.status = Status::Paused;
-        self.keep();
+        self.store_moment();
         self.set_speed(self.pace.speed());
         self.show();
     }
@@ -304,11 +299,11 @@ impl<'a> Worker<'a> {
         } else if run.finished() && self.pilot.is_none() {
             self.status = Status::Finished;
         }
-        self.keep();
+        self.store_moment();
     }
 
-    /// Keeps the newest moment for looking back.
-    fn keep(&mut self) {
+    /// Stores the newest moment for the history.
+    fn store_moment(&mut self) {
         let Some(run) = &self.run else { return };
         let now_n = run.peak_tensions_n();
         self.peak_n.resize(now_n.len(), 0.0);
@@ -317,7 +312,7 @@ impl<'a> Worker<'a> {
         self.envelope.fold(run.model(), run.state(), run.segment_peaks_n());
         if self.frames.wants(run.state().step) {
             self.history.push(run.state().time_s, self.watch.sample(run));
-            self.frames.keep(run.frame());
+            self.frames.store(run.frame());
             self.tension.push(run.state().time_s, std::mem::take(&mut self.peak_n));
         }
     }
@@ -363,5 +358,77 @@ impl<'a> Worker<'a> {
             envelope: Arc::new(self.envelope.clone()),
             program: self.program.clone(),
         });
+    }
+}
+
+/// Inputs still to be run, and the state after them.
+struct Script {
+    inputs: std::vec::IntoIter<Controls>,
+    /// The speed at which the run continues.
+    speed: f64,
+    /// Whether the pilot program steers from there; else the run pauses.
+    on: bool,
+}
+
+impl Worker<'_> {
+    /// Runs inputs again from the start as fast as possible.
+    fn run_again(&mut self, inputs: Vec<Controls>, on: bool) {
+        let speed = self.script.take().map_or(self.pace.speed(), |script| script.speed);
+        self.reset();
+        if !inputs.is_empty() {
+            self.script = Some(Script { inputs: inputs.into_iter(), speed, on });
+            self.start();
+            self.set_speed(f64::INFINITY);
+        } else if on {
+            self.start();
+        }
+    }
+
+    /// Runs again up to the moment shown.
+    fn branch(&mut self) {
+        if let Some(inputs) = self.inputs_up_to_the_moment_shown() {
+            self.run_again(inputs, false);
+        }
+    }
+
+    /// Runs the inputs up to the moment shown in another model, whose pilot program steers from there.
+    fn rerun(&mut self, prepared: Prepared) {
+        let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
+        self.pilot = None;
+        self.load(prepared);
+        if !matches!(self.status, Status::Failed(_)) {
+            self.run_again(inputs, true);
+        }
+    }
+
+    /// None where they cannot be read again, which is reported.
+    fn inputs_up_to_the_moment_shown(&mut self) -> Option<Vec<Controls>> {
+        let Some(run) = &self.run else { return Some(Vec::new()) };
+        let step = self.sought.as_ref().map_or(run.state().step, |frame| frame.step);
+        let inputs = run.inputs(usize::try_from(step).unwrap_or(usize::MAX));
+        inputs.map_err(|error| self.message = Some(error.to_string())).ok()
+    }
+
+    /// The next input of those run again.
+    fn scripted(&mut self) -> Option<Controls> {
+        let script = self.script.as_mut()?;
+        let next = script.inputs.next();
+        if script.inputs.len() == 0 {
+            let (speed, on) = (script.speed, script.on);
+            self.script = None;
+            if !on {
+                self.pause();
+            }
+            self.set_speed(speed);
+        }
+        next
+    }
+
+    /// Makes the run so far a scenario whose pilot program flies it again.
+    fn make_program(&mut self, thin: f64) {
+        let Some(run) = &self.run else { return };
+        let made = run.recording().and_then(|recording| program(&recording, self.host, thin));
+        let made = made.map_err(|error| error.to_string());
+        self.program = Some(Arc::new(made));
     }
 }

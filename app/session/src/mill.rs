@@ -1,8 +1,99 @@
-//! The law of strength behind breaks, and what approves it.
+//! Mill tests: breaks of a product become its law of strength, and the probability that it is approved.
+//!
+//! Breaks are taken as draws from a normal law whose mean `μ` and deviation `σ` are unknown. With `n` breaks of mean `x` and
+//! deviation `s`, under the usual prior `1/σ`:
+//!
+//! | quantity | formula |
+//! |---|---|
+//! | interval of `μ` | `x ± t · s / √n`, `t` of Student's law with `n − 1` degrees of freedom |
+//! | interval of `σ` | `s √((n − 1) / χ²)` at the two ends of the χ² law with `n − 1` degrees of freedom |
+//! | mean of ten more breaks | `x + s √(1/n + 1/10) · T` with `T` of the same Student's law |
+//!
+//! Two texts of NOAA state when a weak rope or insert is approved, and they differ: the mean of ten consecutive breaks within 10 %
+//! of 1,700 lbf (its page of approved weak inserts), or at most 1,700 lbf (bulletin 307460d). Both are reported.
 
+use std::sync::Arc;
+
+use endline_gear::units::{self, Quantity, find, format};
+use endline_gear::{Diagnostic, Document, EditError, Place, Setting, SourceText};
 use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+/// Column of the table that is read.
+const COLUMN: &str = "break";
+
+/// Reads the column `break` of a CSV table, a force with its unit in each row [N]; other columns are the mill's own.
+pub fn read_breaks(name: &str, text: &str) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    let source = Arc::new(SourceText { path: name.to_owned(), text: text.to_owned() });
+    let whole = Place { source: Arc::clone(&source), span: 0..0, field: COLUMN.to_owned() };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let failed = |error: csv::Error| {
+        let at = error.position().map_or(0, csv::Position::byte);
+        let at = usize::try_from(at).unwrap_or_default();
+        let place = Place { span: at..at, ..whole.clone() };
+        place.error(format!("is no row of the table: {error}"), "write as many values as columns")
+    };
+    let column = reader.headers().map_err(|error| vec![failed(error)])?.iter().position(is_column);
+    let Some(column) = column else {
+        let help = "write `break` above the column, and forces below, such as \"1,650 lbf\"";
+        return Err(vec![whole.error("the table has no column `break`", help)]);
+    };
+    let (mut breaks, mut problems) = (Vec::new(), Vec::new());
+    for row in reader.records() {
+        match row.map(|row| force(&row, column, &whole)) {
+            Ok(Ok(newtons)) => breaks.push(newtons),
+            Ok(Err(problem)) => problems.push(*problem),
+            Err(error) => problems.push(failed(error)),
+        }
+    }
+    if problems.is_empty() { Ok(breaks) } else { Err(problems) }
+}
+
+fn is_column(name: &str) -> bool {
+    name == COLUMN
+}
+
+/// The force of a row [N].
+fn force(row: &csv::StringRecord, column: usize, whole: &Place) -> Result<f64, Box<Diagnostic>> {
+    let text = row.get(column).unwrap_or_default();
+    let at = row.position().map_or(0, csv::Position::byte);
+    let at = usize::try_from(at).unwrap_or_default();
+    let rest = whole.source.text.get(at..).unwrap_or_default();
+    let line = rest.trim_start_matches(['\r', '\n']);
+    let start = at + (rest.len() - line.len()) + line.find(text).unwrap_or_default();
+    let place = Place { span: start..start + text.len(), ..whole.clone() };
+    match units::parse(text, Quantity::Force) {
+        Ok(newtons) if newtons > 0.0 => Ok(newtons),
+        Ok(_) => {
+            Err(Box::new(place.error(format!("`{text}` is no break"), "a rope breaks above zero")))
+        }
+        Err(error) => Err(Box::new(place.error(error.message, error.help))),
+    }
+}
+
+/// The text of a weak link that parts as the product broke: its mean as rating, its spread between pieces.
+pub fn weak_link(law: &StrengthLaw, name: &str, source: &str) -> Result<String, EditError> {
+    let mut document = Document::parse("format = 1\nkind = \"weak-link\"\n")?;
+    let newtons = (law.mean_N * 10.0).round() / 10.0;
+    let rating = match find("lbf", Quantity::Force) {
+        Some(unit) => {
+            let number = (law.mean_N / unit.factor() * 10.0).round() / 10.0;
+            format(number * unit.factor(), unit)
+        }
+        None => format!("{newtons} N"),
+    };
+    let spread = format!("{:.4}", law.deviation_N / law.mean_N);
+    let breaks = law.breaks;
+    let source = format!("{source}: mean and standard deviation of {breaks} breaks");
+    let texts =
+        [("name", name), ("source", &source), ("confidence", "measured"), ("rating", &rating)];
+    for (field, text) in texts {
+        document.put(field, &Setting::text(text))?;
+    }
+    document.put("spread", &Setting::plain(&spread))?;
+    Ok(document.text())
+}
 
 /// Name and version of the JSON form.
 const SCHEMA: &str = "endline.mill/1";
@@ -13,10 +104,10 @@ const TARGET_N: f64 = 1700.0 * 4.448_221_615_260_5;
 const BAND: f64 = 0.10;
 /// Breaks of one approval.
 const TESTED: f64 = 10.0;
-/// Fewest breaks of which a spread can be told.
+/// Fewest breaks that have a spread.
 const FEWEST: usize = 3;
 
-/// What breaks say of a product.
+/// The strength law of a product, from its breaks.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct StrengthLaw {
@@ -33,7 +124,7 @@ pub struct StrengthLaw {
     pub deviation_N: f64,
     /// 95 % interval of the product's standard deviation [N].
     pub deviation_interval_N: [f64; 2],
-    /// What each criterion says, in the order of publication in docs/rules.md.
+    /// The result of each criterion, in the order of publication in docs/rules.md.
     pub approvals: [Approval; 2],
 }
 
@@ -55,9 +146,6 @@ pub struct Approval {
 
 impl StrengthLaw {
     /// The law behind breaks [N].
-    ///
-    /// # Errors
-    /// Fewer than three breaks, or breaks that are all the same.
     pub fn of(breaks_n: &[f64]) -> Result<Self, String> {
         let count = breaks_n.len();
         if count < FEWEST {
@@ -69,7 +157,7 @@ impl StrengthLaw {
         let squares: f64 = breaks_n.iter().map(|one| (one - mean) * (one - mean)).sum();
         let deviation = (squares / (n - 1.0)).sqrt();
         if deviation <= 0.0 {
-            return Err("all breaks are the same: no spread can be told".to_owned());
+            return Err("all breaks are the same: they have no spread".to_owned());
         }
         let failed = |error: &dyn std::fmt::Display| format!("no law of {count} breaks: {error}");
         let student = StudentsT::new(0.0, 1.0, n - 1.0).map_err(|error| failed(&error))?;
@@ -103,9 +191,38 @@ impl StrengthLaw {
 
 #[cfg(test)]
 mod tests {
+    use endline_gear::Library;
     use statrs::distribution::Normal;
 
     use super::*;
+
+    #[test]
+    fn breaks_are_read_with_their_units_and_mistakes_stand_at_their_rows() {
+        let table = "sample,break\n1,\"1,650 lbf\"\n2,7.5 kN\n";
+        let breaks = read_breaks("mill.csv", table).unwrap();
+        assert!((breaks[0] - 1650.0 * 4.448_221_615_260_5).abs() < 1e-6 && breaks.len() == 2);
+        assert!((breaks[1] - 7500.0).abs() < 1e-9);
+        let wrong = "sample,break\n1,1650\n2,\"1,700 lb\"\n3,0 N\n4\n5,1700 lbf\n";
+        let problems = read_breaks("mill.csv", wrong).unwrap_err();
+        let places: Vec<(usize, usize)> =
+            problems.iter().map(|problem| (problem.line, problem.column)).collect();
+        assert_eq!(places, [(2, 3), (3, 4), (4, 3), (5, 1)], "{problems:?}");
+        assert!(problems[0].message.contains("has no unit"), "{problems:?}");
+        assert!(problems[1].message.contains("unit of a mass"), "{problems:?}");
+        let none = read_breaks("mill.csv", "a,b\n1,2\n").unwrap_err();
+        assert!(none[0].message.contains("no column `break`") && none[0].line == 1);
+    }
+
+    #[test]
+    fn the_entry_is_an_item_of_the_library_without_a_problem() {
+        let law = StrengthLaw::of(&[7400.0, 7500.0, 7600.0]).unwrap();
+        let text = weak_link(&law, "Sleeve of a mill", "mill.csv").unwrap();
+        let problems = Library::check_file("weak-links/mill.toml", &text);
+        assert!(problems.is_empty(), "{problems:?}\n{text}");
+        // 7,500 N are 1,686.1 lbf; 100 of 7,500 are 1.33 %.
+        assert!(text.contains("\"1686.1 lbf\"") && text.contains("spread = 0.0133"), "{text}");
+        assert!(text.contains("mill.csv: mean and standard deviation of 3 breaks"), "{text}");
+    }
 
     const LBF: f64 = 4.448_221_615_260_5;
 
