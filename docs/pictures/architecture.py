@@ -55,6 +55,29 @@ ROW = [
       ["writes report.html, report.csv, findings.json and bundle"], "one thread; the disk", "disk")],
 ]
 
+STEP = [
+    [("1. Choose the length", ["step/substeps.rs, step/substep_policy.rs, step/stages.rs, step_control.rs"],
+      ["writes the policy of this step of the model; reads StepControl of the state"], "SubstepPolicy::next", "")],
+    [("2. Find what may touch", ["step/solver_step.rs, contact/mod.rs, broad_phase/, contact/*/kind.rs"],
+      ["each kind writes its own pairs; the interface matrix is laid out for coupled bodies"], "Contacts::find", "")],
+    [("3. Begin the step", ["solver/step.rs, trial/, forces/water.rs"],
+      ["writes Trial: history and predictor x + h v, moved out of contact by each kind"], "Solver::begin_step", "")],
+    [("4. Evaluate contact", ["contact/*/measure.rs, contact/law/"],
+      ["each kind writes gap, normal force, friction and block of its contact points"], "Contacts::measure", "")],
+    [("5. Assemble", ["forces/*.rs, contact/*/kind.rs"],
+      ["writes LinearSystem: forces and blocks, always in the same order"], "Solver::assemble", "")],
+    [("6. Solve", ["system/mod.rs, system/block_tridiagonal.rs or system/lanes, system/interface.rs, system/woodbury.rs"],
+      ["writes the moves: rope.step and interface.step"], "LinearSystem::solve", "")],
+    [("7. Move, and test the error", ["solver/newton.rs, solver/stopping.rs"],
+      ["writes Trial; each kind stores its solved forces. Above the tolerance: back to 4"], "Solver::solve_step", "")],
+    [("8. Check the path", ["step/contact.rs, contact/*/path.rs, geometry/sweep.rs, geometry/crossing.rs"],
+      ["writes counters of crossings only; a refused path is a Rejection: back to 1, with a shorter step"], "Contacts::check_path", "")],
+    [("9. Accept", ["step/solver_step.rs, contact/*/kind.rs, balance/source_forces.rs"],
+      ["writes friction of the state, reports of contact, the balance of momentum and energy"], "Contacts::accept", "")],
+    [("10. Store", ["solver/step.rs, parting.rs"],
+      ["writes State: places, velocities, grips, bodies, time; parts what is overloaded"], "Solver::store", "disk")],
+]
+
 CLICK = [
     [("1. A panel draws its button", ["gui/panels/run.rs, gui/panels/study/mod.rs"],
       ["writes its own state; Shared::give appends a command to Shared::commands"], "window thread, while drawing", "")],
@@ -112,4 +135,5 @@ def draw(rows, name, about):
 
 
 draw(ROW, "life-of-a-study-row", "The life of a study row, from draw to report")
+draw(STEP, "life-of-a-solver-step", "The life of a solver step, from its length to the state")
 draw(CLICK, "life-of-a-click", "The life of a click, from panel to view")

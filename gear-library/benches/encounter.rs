@@ -1,11 +1,11 @@
-//! What a step of an encounter costs: `cargo bench -p endline-gear --bench encounter`.
+//! Cost of a step of an encounter: `cargo bench -p endline-gear --bench encounter`.
 //!
-//! Five hundred nodes far from the whale, near it without touch, sliding over it on uniform segments and on fine ones that follow the whale,
-//! wound about it, and wound tight with 150 segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
-//! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
-//! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
-//! tolerance, `from=17 to=18` the stretch of the run, `scenario=PATH` runs that scenario instead; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction, mean speed of slip by push.
-//! Ripple is the mean departure from a running mean over 0.25 s, as a share of the whole mean.
+//! Five hundred nodes: far from the whale, near it without contact, sliding over it on uniform segments and on fine ones near the whale,
+//! wound about it, and wound tight with 150 segments in contact. Of each: solver steps and Newton passes, CPU time a solver step, its share for the search of near pairs
+//! (search, distances and sweeps repeated outside the step), and seconds of the run per second.
+//! A name after `--` selects the sections with that name; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
+//! tolerance, `from=17 to=18` the section of the run, `scenario=PATH` runs that scenario instead; `detection=0` omits that measurement. Also of each section: peak tension, mean and ripple of the tension at the top of the first line, work against friction, mean speed of slip by push.
+//! Ripple is the mean deviation from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
 
@@ -22,11 +22,11 @@ use linked::{built, spec};
 /// Steps of the model in the running mean of a tension.
 const RIPPLE_STEPS: usize = 25;
 
-/// A stretch of a scenario's run.
+/// A section of a scenario's run.
 struct Stretch<'a> {
     name: &'static str,
     scenario: &'a str,
-    /// Pieces of its text, and what takes their place.
+    /// Replacements in its text.
     changes: &'static [(&'static str, &'static str)],
     from_s: f64,
     to_s: f64,
@@ -65,14 +65,14 @@ const STRETCHES: [Stretch<'_>; 6] = [
     },
 ];
 
-/// Half of the nodes that the scenario ships with.
+/// Half of the nodes of the shipped scenario.
 const NODES: (&str, &str) = ("rope_nodes = 1000", "rope_nodes = 500");
 
-/// Segments that keep their lengths.
+/// Segments of constant length.
 const UNIFORM: &[(&str, &str)] =
     &[NODES, ("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "")];
 
-/// More turns, laid on taut: more of the rope bears on skin.
+/// More turns, laid taut: more of the rope presses on skin.
 const TIGHT: &[(&str, &str)] = &[
     ("turns = 2\n", "turns = 3\n"),
     ("turns = 2.5", "turns = 6"),
@@ -80,14 +80,14 @@ const TIGHT: &[(&str, &str)] = &[
     ("length = \"38 m\"", "length = \"60 m\""),
 ];
 
-/// What the command line changes of every stretch.
+/// Settings of the command line for every section.
 #[derive(Default)]
 struct Changes {
     contact_step_s: Option<f64>,
     tolerance: Option<f64>,
     from_s: Option<f64>,
     to_s: Option<f64>,
-    /// Whether detection is measured besides.
+    /// Whether detection is measured too.
     detects: bool,
 }
 
@@ -125,7 +125,7 @@ fn main() {
     }
 }
 
-/// What a stretch took.
+/// Costs of a section.
 #[derive(Default)]
 struct Taken {
     seconds: f64,
@@ -134,7 +134,7 @@ struct Taken {
     peak_n: f64,
     top_n: Vec<f64>,
     friction_j: f64,
-    /// Slip speed of each contact at the end of each step times its push [N m/s], and the pushes [N].
+    /// Slip speed of each contact at the end of each step times its normal force [N m/s], and the normal forces [N].
     slip: [f64; 2],
 }
 
@@ -175,7 +175,7 @@ fn run(stretch: &Stretch<'_>, changes: &Changes) {
             detection.measure(&model, &earlier, &state);
         }
     }
-    tell(stretch, (&before, &workspace.audit), &taken, &detection);
+    print_costs(stretch, (&before, &workspace.audit), &taken, &detection);
 }
 
 fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
@@ -184,7 +184,7 @@ fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
         .unwrap_or_else(|stop| panic!("{stop:?}"));
 }
 
-fn tell(
+fn print_costs(
     stretch: &Stretch<'_>,
     (before, after): (&Audit, &Audit),
     taken: &Taken,
@@ -224,7 +224,7 @@ fn tell(
     );
 }
 
-/// Mean of tensions at the model's steps, and their mean departure from a running mean as a share of it.
+/// Mean of tensions at the model's steps, and their mean deviation from a running mean as a share of it.
 fn ripple(tension_n: &[f64]) -> (f64, f64) {
     let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
     let around = |at: usize| {

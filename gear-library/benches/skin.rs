@@ -1,6 +1,6 @@
-//! What posing and skinning a right whale costs: `cargo bench -p endline-gear --bench skin`.
+//! Cost of posing and skinning a right whale: `cargo bench -p endline-gear --bench skin`.
 //!
-//! Posing is what every step of a run pays, twice; the whole skin is placed for the view alone: contact places the vertices
+//! Every step of a run poses the whale twice; only the view places the whole skin: contact places the vertices
 //! near rope (`docs/whale.md`).
 
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
@@ -49,7 +49,7 @@ fn posing(bencher: Bencher) {
     });
 }
 
-/// Holding a posture within the joints' ranges, once a step.
+/// Limits a posture to the joints' ranges, once a step.
 #[divan::bench]
 fn holding(bencher: Bencher) {
     let ranges = whale().joints.ranges;
@@ -79,7 +79,7 @@ fn building(bencher: Bencher) {
     bencher.bench_local(|| build_skin(divan::black_box(&form)));
 }
 
-/// The tree over the skin by which rope near it is found.
+/// The tree over the skin for the search of near rope.
 #[divan::bench(sample_count = 20)]
 fn growing_the_tree(bencher: Bencher) {
     let skin = Arc::new(whale().skin_at(13.7));

@@ -1,9 +1,9 @@
 //! Encounters of fast, taut rope with the edges of fins, counted: `cargo bench -p endline-gear --bench tunnelling -- 10000`.
 //!
-//! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
-//! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` leaves these out.
+//! The numbers after `--` are the number of encounters and the first of them (default 10,000 from 0). The same encounters are run
+//! with tests at the end of each step alone, but only a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` omits these.
 //! With the word `ropes` the piece meets two strands of rope that cross, or one rope in a loop, and rope meets rope and skin at once.
-//! With the word `bodies` it is buoys and traps that meet pieces of all of the skin.
+//! With the word `bodies`, buoys and traps meet pieces of all of the skin.
 
 #[path = "../tests/all/fins/mod.rs"]
 mod fins;
@@ -14,7 +14,7 @@ use fins::tally::Tally;
 use fins::{Encounter, Fins};
 
 /// Encounters between two lines of the report.
-const TOLD_EVERY: u64 = 1_000;
+const REPORT_EVERY: u64 = 1_000;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -34,7 +34,7 @@ fn main() {
     run("swept", first..first + count, |number| fins.encounter(number, true));
 }
 
-/// Buoys and traps in place of rope: a tenth of the meetings with discrete tests, all along every path.
+/// Buoys and traps in place of rope: a tenth of the meetings with discrete tests, along every path.
 fn meetings(numbers: std::ops::Range<u64>) {
     let pieces = Pieces::new();
     let tenth = numbers.start..numbers.start + (numbers.end - numbers.start) / 10;
@@ -51,20 +51,20 @@ fn run(name: &str, numbers: std::ops::Range<u64>, encounter: impl Fn(u64) -> Enc
     let (start, mut tally, last) = (ProcessTime::now(), Tally::default(), numbers.end - 1);
     for number in numbers {
         tally.add(number, encounter(number));
-        if number == last || tally.encounters.is_multiple_of(TOLD_EVERY) {
-            tell(name, &tally, start.elapsed().as_secs_f64());
+        if number == last || tally.encounters.is_multiple_of(REPORT_EVERY) {
+            print_tally(name, &tally, start.elapsed().as_secs_f64());
         }
     }
 }
 
-fn tell(name: &str, tally: &Tally, spent_s: f64) {
+fn print_tally(name: &str, tally: &Tally, spent_s: f64) {
     let Tally { encounters, met, met_both, crossed, ropes_crossed, ended, .. } = tally;
-    let Tally { solver_steps, passes, unconverged, told, .. } = tally;
+    let Tally { solver_steps, passes, unconverged, reported, .. } = tally;
     println!(
         "{name}: {encounters} encounters, {met} with contact, {met_both} with rope on rope too, {crossed} crossed, {ropes_crossed} crossed rope, \
          {ended} ended early, \
          {solver_steps} solver steps, {passes} passes, {unconverged} not converged, {:.2} ms each",
         1e3 * spent_s / *encounters as f64
     );
-    told.iter().for_each(|told| println!("    {told}"));
+    reported.iter().for_each(|reported| println!("    {reported}"));
 }

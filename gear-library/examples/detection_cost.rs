@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use endline_gear::whale::bones::Skeleton;
-use endline_gear::whale::section::Sections;
+use endline_gear::whale::trunk::Sections;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::Posture;
 use endline_sim::geometry::distance::segment_triangle;

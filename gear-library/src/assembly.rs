@@ -1,9 +1,8 @@
-//! Assemblies: gear built by a gear type from attributes, or spelled out part by part.
+//! Assemblies: gear that a gear type builds from attributes, or that consists of parts; attributes as written.
 
 use endline_sdk::LineEnd;
 
-use crate::attributes::Attributes;
-use crate::diagnostic::At;
+use crate::diagnostic::{At, Place};
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
 use crate::line::{LineMake, line_choices};
@@ -16,11 +15,11 @@ use crate::units::Quantity;
 pub struct Assembly {
     /// Its file.
     pub entry: Entry,
-    /// What it is made of.
+    /// Its gear type or parts.
     pub make: Make,
 }
 
-/// What an assembly is made of.
+/// The content of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Make {
     /// A gear type builds it from attributes.
@@ -29,10 +28,10 @@ pub enum Make {
         id: At<String>,
         /// Its attributes.
         attributes: Attributes,
-        /// How its lines are made up, by id.
+        /// Makes of its lines, by id.
         lines: Vec<(At<String>, LineMake)>,
     },
-    /// Its parts, one by one.
+    /// Its parts.
     Parts(Parts),
 }
 
@@ -49,7 +48,7 @@ pub struct Parts {
     pub links: Vec<PartLink>,
 }
 
-/// Where a part starts: on the seabed, at the surface, or a share of the depth between.
+/// Initial place of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Along and across the assembly [m].
@@ -67,7 +66,7 @@ pub struct PartBody {
     pub kind: Kind,
     /// Id of the library item.
     pub item: At<String>,
-    /// First guess of its place.
+    /// Its initial place.
     pub start: Start,
 }
 
@@ -76,7 +75,7 @@ pub struct PartBody {
 pub struct PartJoint {
     /// Id.
     pub id: At<String>,
-    /// First guess of its place.
+    /// Its initial place.
     pub start: Start,
 }
 
@@ -93,7 +92,7 @@ pub struct PartLine {
     pub to: At<String>,
     /// Unstretched length [m].
     pub length_m: f64,
-    /// How it is made up.
+    /// Its make.
     pub make: LineMake,
 }
 
@@ -104,7 +103,7 @@ pub struct PartLink {
     pub id: At<String>,
     /// Id of the library item; a scenario may rate one in place instead.
     pub item: Option<At<String>>,
-    /// Rating where written in place [N].
+    /// Rating written in place [N].
     pub rating_n: Option<f64>,
     /// Id of its line.
     pub line: At<String>,
@@ -113,7 +112,7 @@ pub struct PartLink {
 }
 
 impl Assembly {
-    /// Reads an assembly's file; `None` where something needed is missing, which is reported.
+    /// Reads an assembly's file; `None` if a required field is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Assembly.word(), problems);
@@ -168,8 +167,7 @@ impl Parts {
 fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"trap-1\"");
-    let kind = fields.need_text("kind", "write trap, buoy or anchor");
-    let known = kind.and_then(|_| fields.word("kind", &["trap", "buoy", "anchor"]));
+    let known = fields.need_word("kind", "write trap, buoy or anchor", &["trap", "buoy", "anchor"]);
     let item =
         fields.need_text("item", "write the id of a library item, such as \"wire-lobster-3ft\"");
     let start = start(&fields);
@@ -209,26 +207,25 @@ pub(crate) fn line(node: &Node, problems: &Problems) -> Option<PartLine> {
     line
 }
 
-/// Reads a line's fields without refusing others.
+/// Reads the fields of a line; other fields are not reported.
 pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
     let id = fields.need_id("id", "write an id such as \"groundline-1\"");
     let rope = fields.need_text("rope", "write the id of a rope, such as \"pp-3-8\"");
-    let from = fields.need_text("from", "write the id of the body or joint at this end");
-    let to = fields.need_text("to", "write the id of the body or joint at that end");
+    let from = fields.need_text("from", "write the id of the body or joint at the `from` end");
+    let to = fields.need_text("to", "write the id of the body or joint at the `to` end");
     let length = fields.need_value("length", Quantity::Length, Range::Between(0.01, 20_000.0));
     let make = LineMake::read(fields);
     if let (Some(from), Some(to)) = (&from, &to)
         && from.value == to.value
     {
         fields.problems().push(
-            to.place
-                .error(format!("both ends are at `{}`", to.value), "a line runs between two parts"),
+            to.place.error(format!("both ends are at `{}`", to.value), "a line connects two parts"),
         );
     }
     Some(PartLine { id: id?, rope: rope?, from: from?, to: to?, length_m: length?.value, make })
 }
 
-/// Reads a `[[link]]`; with `in_place` it may carry a rating instead of an item.
+/// Reads a `[[link]]`; with `in_place` it may have a rating instead of an item.
 pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<PartLink> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"buoy-link\"");
@@ -240,12 +237,32 @@ pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<P
         fields.need_text("item", "write the id of a weak link, such as \"wl-600\"")
     };
     let line = fields.need_text("line", "write the id of its line");
-    let end = fields.need_text("end", "write from or to");
-    let end = end.and_then(|_| fields.word("end", &["from", "to"]));
+    let end = fields.need_word("end", "write from or to", &["from", "to"]);
     fields.finish();
     let end = if end?.value == "from" { LineEnd::A } else { LineEnd::B };
     if item.is_none() && rating.is_none() {
         return None;
     }
     Some(PartLink { id: id?, item, rating_n: rating.map(|rating| rating.value), line: line?, end })
+}
+
+/// Attributes as written: key, place of the key, value; checked once the plugin is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes(pub(crate) Vec<(String, Place, Node)>);
+
+impl Attributes {
+    /// The entries of a table, if present.
+    pub(crate) fn read<'a>(fields: &Fields<'a>, key: &'a str) -> Self {
+        fields
+            .table(key)
+            .map(|table| Self(table.rest().into_iter().cloned().collect()))
+            .unwrap_or_default()
+    }
+
+    /// These attributes, which override others.
+    pub(crate) fn over(&self, other: &Self) -> Self {
+        let others =
+            other.0.iter().filter(|(key, _, _)| !self.0.iter().any(|(own, _, _)| own == key));
+        Self(others.chain(&self.0).cloned().collect())
+    }
 }

@@ -1,4 +1,4 @@
-//! Problems in files: where, what, and how to fix them.
+//! Problems in files, with place and correction; suggestions for misspelt names.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use crate::limits::{Beyond, EXCERPT_CHARS};
 
-/// How bad a problem is.
+/// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Worth a look; the file still serves.
+    /// The file can be used.
     Warning,
-    /// The file cannot serve as it is.
+    /// The file cannot be used.
     Error,
 }
 
@@ -20,21 +20,21 @@ pub enum Severity {
 pub struct Diagnostic {
     /// File, relative to the library's folder or as the user named it.
     pub file: String,
-    /// Line, from 1; 0 where the problem is the file itself.
+    /// Line, from 1; 0 for the whole file.
     pub line: usize,
-    /// Column in characters, from 1; 0 where the problem is the file itself.
+    /// Column in characters, from 1; 0 for the whole file.
     pub column: usize,
-    /// Dotted path of the field, such as `whale.length`; empty for the file itself.
+    /// Dotted path of the field, such as `whale.length`; empty for the whole file.
     pub field: String,
     /// What is wrong.
     pub message: String,
     /// What was expected and how to fix it; may be empty.
     pub help: String,
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// The offending line, of a long one its first [`EXCERPT_CHARS`] characters; empty where the problem is the file itself.
+    /// The line, at most [`EXCERPT_CHARS`] characters; empty for the whole file.
     pub excerpt: String,
-    /// How many characters of the line to underline.
+    /// Number of underlined characters.
     pub width: usize,
 }
 
@@ -58,8 +58,7 @@ impl Diagnostic {
         }
     }
 
-    /// Whether the file cannot serve as it is.
-    #[must_use]
+    /// Whether the file cannot be used.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
@@ -74,7 +73,7 @@ impl fmt::Display for Diagnostic {
             write!(f, "{}:{}:{}: {kind}: {}", self.file, self.line, self.column, self.message)?;
             let gutter = " ".repeat(self.line.to_string().len());
             write!(f, "\n {} | {}", self.line, self.excerpt)?;
-            // Beyond what is shown of a long line there is nothing to underline.
+            // Only the excerpt of a long line is underlined.
             let room = EXCERPT_CHARS.saturating_sub(self.column);
             if self.column <= EXCERPT_CHARS {
                 let indent = " ".repeat(self.column.saturating_sub(1));
@@ -95,7 +94,7 @@ pub struct SourceText {
     pub text: String,
 }
 
-/// A place in a file: where a value was read from.
+/// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The file.
@@ -139,8 +138,7 @@ impl Place {
 }
 
 impl Beyond {
-    /// The same as a problem at a place.
-    #[must_use]
+    /// The error at a place.
     pub fn at(self, place: &Place) -> Diagnostic {
         place.error(self.message, self.help)
     }
@@ -150,11 +148,29 @@ fn floor_boundary(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
-/// A value with the place it was read from.
+/// A value with its place in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// Its place.
     pub place: Place,
+}
+
+/// The nearest of `known` of which at most a third of the letters differ.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = name.to_lowercase();
+    let distance = |other: &str| strsim::damerau_levenshtein(&lower, &other.to_lowercase());
+    let near = |other: &&str| distance(other) <= (other.chars().count().max(2)).div_ceil(3);
+    known.into_iter().filter(near).min_by_key(|other| distance(other))
+}
+
+/// Help on an unknown name: `did you mean …?`, else `known names are …`.
+pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    match nearest(name, known.iter().copied()) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if known.is_empty() => "there are no known names".to_owned(),
+        None => format!("known names are {}", known.join(", ")),
+    }
 }

@@ -1,4 +1,4 @@
-//! A library file of any kind as read: id, name, texts and figures.
+//! A library file of any kind as read: id, name, texts and figures; levels of confidence.
 
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Figure, Problems, Provenance, provenance};
@@ -7,7 +7,7 @@ use crate::limits;
 use crate::schema::{Field, Kind};
 use crate::tree::Node;
 
-/// The version of the file format this program writes and reads.
+/// The version of the file format of this program.
 pub const FORMAT: u64 = 1;
 
 /// An item of the library, or one written into a scenario.
@@ -27,35 +27,32 @@ pub struct Entry {
     pub words: Vec<(&'static str, At<String>)>,
     /// Figures, in the order of the kind's fields.
     pub figures: Vec<(&'static Field, Figure)>,
-    /// What is fixed to a buoy's float.
+    /// Pieces fixed to a buoy's float.
     pub pieces: Vec<BuoyPiece>,
-    /// Points of its own where a line can be made fast, on a trap, buoy or anchor.
+    /// Additional points for lines on a trap, buoy or anchor.
     pub points: Vec<Point>,
-    /// Where it stands.
+    /// Its place.
     pub place: Place,
 }
 
 impl Entry {
     /// A figure by its key.
-    #[must_use]
     pub fn figure(&self, key: &str) -> Option<&Figure> {
         self.figures.iter().find(|(field, _)| field.key == key).map(|(_, figure)| figure)
     }
 
     /// The SI value of a figure by its key.
-    #[must_use]
     pub fn value(&self, key: &str) -> Option<f64> {
         self.figure(key).map(|figure| figure.value)
     }
 
     /// A text by its key.
-    #[must_use]
     pub fn word(&self, key: &str) -> Option<&At<String>> {
         self.words.iter().find(|(name, _)| *name == key).map(|(_, word)| word)
     }
 }
 
-/// Reads what every library file holds: format, kind, name, notes; answers the file's source and confidence.
+/// Reads the heading of a file: format, kind, name, notes; returns name, notes, and source and confidence.
 pub fn header(
     fields: &Fields<'_>,
     word: &str,
@@ -90,7 +87,7 @@ pub fn header(
     (name, notes, provenance(fields))
 }
 
-/// Reads the texts and figures of a kind; what is missing or wrong becomes a problem.
+/// Reads the texts and figures of a kind; problems are reported.
 pub fn body(
     fields: &Fields<'_>,
     kind: Kind,
@@ -125,7 +122,7 @@ pub fn body(
     }
 }
 
-/// Tables that may be left out whole; where one is there, all that it needs is there.
+/// Optional tables; a present one must be complete.
 const OPTIONAL_TABLES: [&str; 2] = ["mass", "age"];
 
 /// Reads figures in the order of the schema; `head.mouth` is read from the table `head`.
@@ -160,15 +157,7 @@ fn one(
     file: &Provenance,
 ) -> Option<Figure> {
     if field.needed && fields.get(key).is_none() {
-        fields.missing(
-            key,
-            format!(
-                "{}: expected {} such as {}",
-                field.help,
-                field.quantity.noun(),
-                field.quantity.examples()
-            ),
-        );
+        fields.missing(key, format!("{}: {}", field.help, field.quantity.expected()));
     }
     fields.figure(key, field.quantity, field.range, file)
 }
@@ -183,11 +172,53 @@ fn close(open: Option<(&str, Option<Fields<'_>>)>, outer: &Fields<'_>) {
     }
 }
 
-/// Reads a whole file of figures; the keys it does not know are problems.
+/// Reads a whole file of figures; unknown keys are reported.
 pub fn read(node: &Node, kind: Kind, id: &str, problems: &Problems) -> Entry {
     let fields = Fields::of(node, problems);
     let head = header(&fields, kind.word(), problems);
     let entry = body(&fields, kind, head, id);
     fields.finish();
     entry
+}
+
+/// The key of the confidence in older files.
+pub(crate) const FORMER_CONFIDENCE: &str = "sureness";
+
+/// Confidence in a figure or distribution, from high to low.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Confidence {
+    /// Measured, or stated as measured by its source.
+    Measured,
+    /// Computed from measured figures.
+    Derived,
+    /// An engineering estimate, from similar cases.
+    Estimate,
+    /// Assumed, without measurement or source.
+    Assumed,
+}
+
+impl Confidence {
+    /// All levels, from high to low.
+    pub const ALL: [Self; 4] = [Self::Measured, Self::Derived, Self::Estimate, Self::Assumed];
+
+    /// Words of figures; an assumption has no source, which a figure needs.
+    pub(crate) const OF_FIGURES: [&'static str; 3] = ["measured", "derived", "estimate"];
+
+    /// Words of distributions.
+    pub(crate) const OF_PRIORS: [&'static str; 4] = ["measured", "derived", "estimate", "assumed"];
+
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::Derived => "derived",
+            Self::Estimate => "estimate",
+            Self::Assumed => "assumed",
+        }
+    }
+
+    /// The level of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|confidence| confidence.word() == word)
+    }
 }

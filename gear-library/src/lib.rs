@@ -8,10 +8,8 @@
 
 mod assemble;
 mod assembly;
-mod attributes;
 mod case;
 mod compass;
-mod confidence;
 mod diagnostic;
 mod document;
 mod entry;
@@ -21,7 +19,6 @@ mod library;
 pub mod limits;
 mod line;
 pub mod names;
-mod nearest;
 mod observation;
 mod plugin;
 pub mod read;
@@ -39,13 +36,13 @@ pub use assemble::{
     Assembled, Hooks, Options, assemble, assemble_traced, box_inertia, buoy_floats, buoy_inertia,
     shell_inertia,
 };
-pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
-pub use attributes::Attributes;
+pub use assembly::{
+    Assembly, Attributes, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start,
+};
 pub use case::{Case, CaseHaul, Check, Limit, Measure, Rows, Samples, Table};
-pub use confidence::Confidence;
-pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
+pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText, hint};
 pub use document::{Document, EditError, Setting, UNSOURCED, save_text};
-pub use entry::{Entry, FORMAT};
+pub use entry::{Confidence, Entry, FORMAT};
 pub use fields::{Figure, Range};
 pub use items::{
     ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel,
@@ -54,7 +51,6 @@ pub use items::{
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
-pub use nearest::hint;
 pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Site, Size, Trailing};
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use rules::{Area, Date, Parameter, Rule, RuleDraft, RulePack, Standing, Subject};

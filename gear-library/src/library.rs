@@ -1,13 +1,12 @@
 //! The library: every item of every kind, read and checked.
 
 use crate::assembly::Assembly;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, hint};
 use crate::entry::{self, Entry};
 use crate::fields::Problems;
 use crate::items::{
     ActItem, BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem,
 };
-use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::sources::Sources;
 use crate::tree;
@@ -40,8 +39,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads every file; a file with errors is left out, and all its problems are reported.
-    #[must_use]
+    /// Reads all files; files with errors are omitted, and all problems are returned.
     pub fn read(sources: &Sources) -> (Self, Vec<Diagnostic>) {
         let mut library = Self::default();
         let all = Problems::default();
@@ -55,16 +53,14 @@ impl Library {
         (library, all.into_sorted())
     }
 
-    /// All problems of one file, as the library would find them; a mesh or animation that it names is not read.
-    #[must_use]
+    /// Problems of one file; its mesh or animation is not read.
     pub fn check_file(path: &str, text: &str) -> Vec<Diagnostic> {
         let problems = Problems::default();
         Self::default().read_file(path, text, &problems);
         problems.into_sorted()
     }
 
-    /// All problems of one file and of the mesh or animation that it names, looked for in `meshes`.
-    #[must_use]
+    /// Problems of one file and of its mesh or animation in `meshes`.
     pub fn check_file_with(path: &str, text: &str, meshes: &Sources) -> Vec<Diagnostic> {
         let problems = Problems::default();
         let mut library = Self::default();
@@ -73,7 +69,7 @@ impl Library {
         problems.into_sorted()
     }
 
-    /// Reads the meshes of whales and the animations of acts; an item whose own cannot be read is left out.
+    /// Reads the meshes of whales and the animations of acts; items with invalid ones are omitted.
     fn read_meshes(&mut self, meshes: &Sources, problems: &Problems) {
         self.whales.retain_mut(|whale| whale.load_mesh(meshes, problems));
         self.acts.retain_mut(|act| act.load_animation(meshes, problems));
@@ -87,7 +83,7 @@ impl Library {
             let folders = Kind::ALL.map(Kind::folder);
             problems.push(Diagnostic::of_file(
                 path,
-                format!("`{folder}` is no folder of a library"),
+                format!("`{folder}` is not a folder of a library"),
                 hint(folder, folders),
             ));
             return;
@@ -99,7 +95,7 @@ impl Library {
         let mut fresh = Self::default();
         fresh.read_item(&node, kind, id, problems);
         if !problems.any_error() {
-            self.take(fresh);
+            self.append(fresh);
         }
     }
 
@@ -120,7 +116,7 @@ impl Library {
         }
     }
 
-    fn take(&mut self, mut fresh: Self) {
+    fn append(&mut self, mut fresh: Self) {
         self.ropes.append(&mut fresh.ropes);
         self.traps.append(&mut fresh.traps);
         self.buoys.append(&mut fresh.buoys);
@@ -134,7 +130,7 @@ impl Library {
         self.assemblies.append(&mut fresh.assemblies);
     }
 
-    /// Every rope's material is an item of `friction/`.
+    /// Checks that the materials of ropes are items of `friction/`.
     fn check_materials(&self, problems: &Problems) {
         let known = self.ids(Kind::Friction);
         for rope in self.ropes.iter().filter(|rope| !known.contains(&rope.material.as_str())) {
@@ -148,7 +144,6 @@ impl Library {
     }
 
     /// The files of a kind, by id.
-    #[must_use]
     pub fn entries(&self, kind: Kind) -> Vec<&Entry> {
         match kind {
             Kind::Rope => self.ropes.iter().map(|item| &item.entry).collect(),
@@ -166,13 +161,11 @@ impl Library {
     }
 
     /// The ids of a kind.
-    #[must_use]
     pub fn ids(&self, kind: Kind) -> Vec<&str> {
         self.entries(kind).into_iter().map(|entry| entry.id.as_str()).collect()
     }
 
     /// A file by kind and id.
-    #[must_use]
     pub fn entry(&self, kind: Kind, id: &str) -> Option<&Entry> {
         self.entries(kind).into_iter().find(|entry| entry.id == id)
     }

@@ -1,31 +1,31 @@
-//! Every limit of a number, count, size, depth or time that a file or an option may ask for: one table, each limit with its reason.
+//! Limits of numbers, counts, sizes and times in files and options, each with its reason.
 //!
-//! A limit lies far beyond what gear, whales and seas need, and well within what the program bears.
-//! It is there so that a slip of the keyboard, or a hostile file, is refused with a message instead of taking all memory or all day.
+//! A limit is far above the values of gear, whales and seas, and within the capacity of the program. It rejects typing errors
+//! and hostile files with a message before they use all memory or time.
 
 use crate::units::{Quantity, format_si};
 
-/// The least and the most of something, and why.
+/// A least and a greatest value with the reason.
 #[derive(Debug, PartialEq)]
 pub struct Limit {
-    /// What it measures.
+    /// Physical quantity.
     pub quantity: Quantity,
-    /// The least allowed [SI].
+    /// Least allowed value [SI].
     pub least: f64,
-    /// The most allowed [SI].
+    /// Greatest allowed value [SI].
     pub most: f64,
-    /// Why there is no more: ends the sentence "the limit is there because".
+    /// Reason: completes the sentence "the limit exists because".
     pub why: &'static str,
-    /// What to do instead; may be empty.
-    pub mend: &'static str,
+    /// Correction; may be empty.
+    pub correction: &'static str,
 }
 
-/// A value beyond its limit, in words.
+/// A message on a value beyond its limit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Beyond {
     /// What is wrong, with field and value.
     pub message: String,
-    /// The limit, its reason, and how to mend it.
+    /// The limit, its reason and the correction.
     pub help: String,
 }
 
@@ -34,43 +34,43 @@ pub const STEP: Limit = Limit {
     quantity: Quantity::Time,
     least: 1e-6,
     most: 1.0,
-    why: "a shorter step takes more than a million of them for a second, and a longer one follows no rope",
-    mend: "write a step from 1 ms to 20 ms; 10 ms is usual",
+    why: "a shorter step needs more than a million steps per second, and a longer one cannot resolve the motion of rope",
+    correction: "write a step from 1 ms to 20 ms; 10 ms is usual",
 };
 /// Length of a run.
 pub const DURATION: Limit = Limit {
     quantity: Quantity::Time,
     least: 1e-6,
     most: 1e6,
-    why: "inputs and hashes of every step are kept",
-    mend: "write minutes, such as \"10 min\"",
+    why: "inputs and hashes of all steps are stored",
+    correction: "write minutes, such as \"10 min\"",
 };
 /// Length of a segment of rope.
 pub const SEGMENT: Limit = Limit {
     quantity: Quantity::Length,
     least: 1e-3,
     most: 1000.0,
-    why: "a segment shorter than rope is thick bends like a row of beads",
-    mend: "write a length such as \"0.5 m\"",
+    why: "a segment shorter than the rope's diameter is not a rope",
+    correction: "write a length such as \"0.5 m\"",
 };
 /// Radius of a ball, or an edge of a box, among the bodies of a scenario.
 pub const BODY_SIZE: Limit = Limit {
     quantity: Quantity::Length,
     least: 1e-3,
     most: 20.0,
-    why: "a body as large as a whale touches every triangle of its skin at once, and each touch is weighed against all others",
-    mend: "write the size of a trap, buoy or anchor, such as \"0.3 m\"; what stands still is an `[[obstacle]]`",
+    why: "the contact of a body as large as a whale includes all triangles of its skin at once",
+    correction: "write the size of a trap, buoy or anchor, such as \"0.3 m\"; a fixed solid is an `[[obstacle]]`",
 };
 /// Nodes of all ropes together.
 pub const ROPE_NODES: Limit = Limit {
     quantity: Quantity::Ratio,
     least: 2.0,
     most: 100_000.0,
-    why: "a node takes about 4 kB and a step visits every one",
-    mend: "write a smaller `rope_nodes`, a longer `segment`, or a shorter line",
+    why: "a node needs about 4 kB of memory, and a step visits each node",
+    correction: "write a smaller `rope_nodes`, a longer `segment`, or a shorter line",
 };
 /// Parts of gear in a scenario: bodies, joints, lines and links together.
-pub const PARTS: Limit = count_of(1.0, 10_000.0, "each part is searched for by name and drawn", "");
+pub const PARTS: Limit = count_of(1.0, 10_000.0, "each part is found by name and drawn", "");
 /// Seed of random draws.
 pub const SEED: Limit = count_of(
     0.0,
@@ -79,22 +79,22 @@ pub const SEED: Limit = count_of(
     "write any smaller whole number",
 );
 /// Number of the format of a file.
-pub const FORMAT: Limit = count_of(1.0, 1e6, "formats are counted up from 1", "");
+pub const FORMAT: Limit = count_of(1.0, 1e6, "formats are numbered from 1", "");
 /// Traps hauled aboard or trawled.
 pub const TRAPS: Limit = count_of(1.0, 10_000.0, "no fishery sets more in a row", "");
 /// Components of a sea of irregular waves.
 pub const WAVE_COMPONENTS: Limit = count_of(
     1.0,
     endline_sim::water::check::MOST_COMPONENTS as f64,
-    "every component is summed at every node of rope in every step",
+    "each component is summed at each node of rope in each step",
     "64 is usual",
 );
 /// Encounters of a study.
 pub const ENCOUNTERS: Limit = count_of(
     1.0,
     65_536.0,
-    "the sequence they are drawn from has no more",
-    "1,000 tell a rate to a few percent",
+    "their sequence has no more points",
+    "1,000 give a rate within a few percent",
 );
 /// Encounters that were counted in a study.
 pub const COUNTED: Limit = count_of(0.0, 65_536.0, "a study has no more encounters", "");
@@ -106,32 +106,32 @@ pub const MESH_FILE_BYTES: u64 = 64 << 20;
 pub const FILE_BYTES: u64 = 4 << 30;
 /// Size of all files of a library together.
 pub const LIBRARY_BYTES: u64 = 512 << 20;
-/// Problems of a file that are kept; the others are counted.
+/// Number of stored problems of a file; the others are counted.
 pub const DIAGNOSTICS: usize = 200;
-/// Characters of a line that a problem shows.
+/// Shown characters of a line.
 pub const EXCERPT_CHARS: usize = 160;
-/// Corners of a mesh, with every instance of it, counted before they are made.
+/// Corners of all instances of a mesh.
 pub const MESH_CORNERS: usize = 2_000_000;
 
-/// Memory that a node of rope takes in state, workspace and contact [bytes]: 2.6 kB were measured with the scenario `hello-endline`.
+/// Memory of a node of rope in state, workspace and contact [bytes]; measured with `hello-endline`: 2.6 kB.
 const NODE_BYTES: f64 = 4e3;
 
-const fn count_of(least: f64, most: f64, why: &'static str, mend: &'static str) -> Limit {
-    Limit { quantity: Quantity::Ratio, least, most, why, mend }
+const fn count_of(least: f64, most: f64, why: &'static str, correction: &'static str) -> Limit {
+    Limit { quantity: Quantity::Ratio, least, most, why, correction }
 }
 
 const fn up_to(quantity: Quantity, most: f64, why: &'static str) -> Limit {
-    Limit { quantity, least: -most, most, why, mend: "" }
+    Limit { quantity, least: -most, most, why, correction: "" }
 }
 
-/// The greatest amount of each quantity, either way from zero: beyond it a figure is a slip of the keyboard, whatever it is of.
+/// Greatest magnitude of each quantity: a greater figure is a typing error.
 static AMOUNTS: [Limit; 19] = [
     up_to(Quantity::Ratio, 1e15, "no ratio, count or coefficient is greater"),
-    up_to(Quantity::Length, 1e6, "the sea is flat here, and nothing is a thousand kilometres away"),
+    up_to(Quantity::Length, 1e6, "the sea is flat, and no distance is a thousand kilometres"),
     up_to(Quantity::Area, 1e6, "nothing in a model is larger"),
     up_to(Quantity::Volume, 1e6, "nothing in a model is larger"),
     up_to(Quantity::Mass, 1e9, "nothing in a model is heavier"),
-    up_to(Quantity::Time, 1e10, "it is longer than three centuries"),
+    up_to(Quantity::Time, 1e10, "this is more than three centuries"),
     up_to(Quantity::Speed, 1e3, "nothing in water moves faster"),
     up_to(Quantity::Acceleration, 1e4, "nothing in water is pulled harder"),
     up_to(Quantity::Force, 1e9, "no rope bears more"),
@@ -146,13 +146,12 @@ static AMOUNTS: [Limit; 19] = [
     up_to(Quantity::Damping, 1e9, "no rope damps more"),
     up_to(Quantity::BendingStiffness, 1e9, "no rope is stiffer"),
     up_to(Quantity::Inertia, 1e12, "nothing in a model is larger"),
-    up_to(Quantity::Angle, 1e5, "beyond it rounding blurs where a turn ends"),
+    up_to(Quantity::Angle, 1e5, "rounding makes greater angles inexact"),
     up_to(Quantity::TurnRate, 1e4, "nothing in water turns faster"),
     up_to(Quantity::Frequency, 1e5, "no step resolves it"),
 ];
 
-/// The greatest amount of a quantity.
-#[must_use]
+/// The limit of a quantity.
 pub fn amount(quantity: Quantity) -> &'static Limit {
     let found = AMOUNTS.iter().find(|limit| limit.quantity == quantity);
     found.unwrap_or(&AMOUNTS[0])
@@ -160,15 +159,11 @@ pub fn amount(quantity: Quantity) -> &'static Limit {
 
 impl Limit {
     /// Whether it allows a value [SI].
-    #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
     }
 
-    /// Refuses a value [SI] beyond it.
-    ///
-    /// # Errors
-    /// With field, value, limit, reason and what to do.
+    /// Checks a value [SI].
     pub fn check(&self, field: &str, value: f64) -> Result<(), Beyond> {
         if self.holds(value) {
             return Ok(());
@@ -177,28 +172,28 @@ impl Limit {
         Err(Beyond { message, help: self.words() })
     }
 
-    /// The limit, its reason, and what to do.
-    #[must_use]
+    /// The limit, its reason and the correction.
     pub fn words(&self) -> String {
-        let Self { least, most, why, mend, .. } = self;
+        let Self { least, most, why, correction, .. } = self;
         let [least, most] = [least, most].map(|value| format_si(*value, self.quantity));
-        let mend = if mend.is_empty() { String::new() } else { format!("; {mend}") };
-        format!("it must be between {least} and {most}, because {why}{mend}")
+        let correction =
+            if correction.is_empty() { String::new() } else { format!("; {correction}") };
+        format!("it must be between {least} and {most}, because {why}{correction}")
     }
 }
 
-/// Refuses more rope nodes than a run can bear, before memory is taken for them.
-///
-/// # Errors
-/// With the nodes, the memory they would take, the limit and what to do.
+/// Checks the number of rope nodes before memory is allocated.
 pub fn check_nodes(nodes: f64) -> Result<(), Beyond> {
     if nodes <= ROPE_NODES.most {
         return Ok(());
     }
     let gigabytes = nodes * NODE_BYTES / 1e9;
-    let message = format!("the ropes come to {nodes:.0} nodes, for about {gigabytes:.1} GB");
-    let (most, why, mend) = (ROPE_NODES.most, ROPE_NODES.why, ROPE_NODES.mend);
-    Err(Beyond { message, help: format!("at most {most} are allowed, because {why}; {mend}") })
+    let message = format!("the ropes have {nodes:.0} nodes, which need about {gigabytes:.1} GB");
+    let (most, why, correction) = (ROPE_NODES.most, ROPE_NODES.why, ROPE_NODES.correction);
+    Err(Beyond {
+        message,
+        help: format!("at most {most} are allowed, because {why}; {correction}"),
+    })
 }
 
 #[cfg(test)]
@@ -206,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_quantity_has_its_greatest_amount() {
+    fn every_quantity_has_a_limit() {
         for quantity in Quantity::ALL {
             assert_eq!(amount(quantity).quantity, quantity);
             assert!(!amount(quantity).holds(1e300) && !amount(quantity).holds(f64::NAN));
@@ -214,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_names_field_value_limit_reason_and_what_to_do() {
+    fn a_message_names_field_value_limit_reason_and_correction() {
         let beyond = STEP.check("step", 1e-12).expect_err("it is too short");
         assert_eq!(beyond.message, "`step` is 1e-12 s");
         for part in ["0.000001 s", "1 s", "because", "10 ms is usual"] {

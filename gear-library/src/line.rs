@@ -1,7 +1,7 @@
-//! How a line is made up: the condition of its rope, what holds its ends, weak inserts or sleeves along it.
+//! The make of a line: condition of its rope, knots at its ends, weak inserts or sleeves.
 //!
-//! These keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in `[lines.<line>]` of
-//! its assembly. In `[gear.lines.<line>]` of a scenario they go over those of the assembly.
+//! The keys occur in `[[line]]` of an assembly or scenario and in `[lines.<line>]` of an assembly with a gear type.
+//! `[gear.lines.<line>]` of a scenario overrides the assembly.
 
 use endline_sdk::LineEnd;
 
@@ -11,16 +11,16 @@ use crate::items::Condition;
 use crate::tree::Node;
 use crate::units::Quantity;
 
-/// How a line is made up; what is not named is usual.
+/// The make of a line; missing properties have defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineMake {
     /// Condition of its rope.
     pub condition: Option<At<Condition>>,
-    /// Strength that wear leaves, over the rope's own [1].
+    /// Strength after wear, overrides the rope's [1].
     pub wear_factor: Option<f64>,
-    /// Mean strength that the line delivers at its weakest place; its rope is made as strong as that takes [N].
+    /// Required mean strength at the weakest place, for which the rope is scaled [N].
     pub delivered_n: Option<f64>,
-    /// Whether its rope keeps its stiffness then; stiffness follows strength where not, so that it breaks at the same stretch.
+    /// Whether the stiffness is not scaled with the strength; by default the stretch at break is constant.
     pub keeps_stiffness: Option<bool>,
     /// Knot or splice at end A.
     pub from_knot: Option<At<String>>,
@@ -30,26 +30,26 @@ pub struct LineMake {
     pub inserts: Option<Inserts>,
 }
 
-/// Weak inserts or sleeves at even distances.
+/// Weak inserts or sleeves at equal distances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inserts {
-    /// What is put in.
+    /// Kind of insert.
     pub what: Insert,
-    /// The end that distances are counted from: the buoy's.
+    /// The end from which distances are measured.
     pub counted_from: LineEnd,
-    /// From that end to the near edge of the first [m].
+    /// From that end to the start of the first insert [m].
     pub first_m: f64,
-    /// From near edge to near edge [m].
+    /// From start to start [m].
     pub every_m: f64,
-    /// Share of the line, from that end, that they must lie in whole [1].
+    /// Share of the line, from that end, in which entire inserts are placed [1].
     pub within: f64,
-    /// Knot or splice of the line's rope at each; the rope's usual one where not named.
+    /// Knot or splice of the line's rope at each insert; `None` for the rope's default.
     pub knot: Option<At<String>>,
-    /// Where they are written.
+    /// Their place.
     pub place: Place,
 }
 
-/// What is put into a line.
+/// A kind of insert.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Insert {
     /// A length of another rope.
@@ -64,7 +64,7 @@ pub enum Insert {
 }
 
 impl LineMake {
-    /// Reads the keys of a line that say how it is made up.
+    /// Reads the make of a line.
     pub(crate) fn read(fields: &Fields<'_>) -> Self {
         let condition = fields.word("condition", &Condition::WORDS);
         let wear = fields.value("wear_factor", Quantity::Ratio, Range::Between(0.05, 1.0));
@@ -82,7 +82,7 @@ impl LineMake {
         }
     }
 
-    /// These over usual ones.
+    /// This make with defaults for missing properties.
     pub(crate) fn over(&self, usual: &Self) -> Self {
         Self {
             condition: self.condition.clone().or_else(|| usual.condition.clone()),
@@ -96,7 +96,7 @@ impl LineMake {
     }
 }
 
-/// Reads `[lines.<line>]`: how a line is made up, by id.
+/// Reads `[lines.<line>]`: makes by id.
 pub(crate) fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
     let Some(table) = fields.table("lines") else { return Vec::new() };
     let choice = |(line, key, node): &(String, Place, Node)| {
@@ -122,10 +122,10 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
     if let Insert::Rope { length_m, .. } = &what
         && every.value < *length_m + 0.01
     {
-        let message = format!("`every` is {} m, and an insert is {length_m} m long", every.value);
-        fields
-            .problems()
-            .push(every.place.error(message, "inserts lie apart: write a longer `every`"));
+        let message = format!("`every` is {} m, but an insert is {length_m} m long", every.value);
+        fields.problems().push(
+            every.place.error(message, "write a longer `every`, so that inserts do not overlap"),
+        );
         return None;
     }
     Some(Inserts {
@@ -150,23 +150,20 @@ fn insert(fields: &Fields<'_>) -> Option<Insert> {
     match (rope, sleeve, length) {
         (Some(rope), None, Some(length)) => Some(Insert::Rope { rope, length_m: length.value }),
         (Some(_), None, None) => {
-            if fields.get("length").is_none() {
-                fields.missing("length", "write the length of an insert, such as \"3 ft\"");
-            }
+            fields.require("length", "write the length of an insert, such as \"3 ft\"");
             None
         }
         (None, Some(sleeve), None) => Some(Insert::Sleeve(sleeve)),
         (None, Some(sleeve), Some(_)) => {
             let help =
-                "a sleeve adds no length; take `length` out, or name a rope instead of a sleeve";
+                "a sleeve has no length; remove `length`, or name a rope instead of a sleeve";
             fields.problems().push(sleeve.place.error("a sleeve has no length", help));
             None
         }
         (Some(rope), Some(_), _) => {
-            fields.problems().push(
-                rope.place
-                    .error("both `rope` and `sleeve` are given", "keep the one that is meant"),
-            );
+            fields
+                .problems()
+                .push(rope.place.error("both `rope` and `sleeve` are present", "keep one of them"));
             None
         }
         (None, None, _) => {

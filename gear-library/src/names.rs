@@ -1,26 +1,24 @@
-//! What a stranger's file may call its parts and the files that it names.
+//! Valid ids and paths in files.
 
 use std::path::{Component, Path};
 
-/// What an id is made of, for messages.
+/// Help on ids.
 pub const ID_HELP: &str =
-    "an id begins with a letter or digit and goes on with letters, digits, spaces and . - _ +";
+    "an id begins with a letter or digit, followed by letters, digits, spaces and . - _ +";
 
-/// Whether a text is an id: it names a part in tables, files and folders, so it holds nothing that means something there.
-#[must_use]
+/// Whether a text is an id: it has no characters with a meaning in tables, file names or folders.
 pub fn is_id(text: &str) -> bool {
-    let may_stand =
+    let is_allowed =
         |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '-' | '_' | '+' | ' ');
     text.chars().next().is_some_and(char::is_alphanumeric)
-        && text.chars().all(may_stand)
+        && text.chars().all(is_allowed)
         && !text.ends_with([' ', '.'])
 }
 
-/// Whether a path that a file names stays below the folder of that file.
-#[must_use]
+/// Whether a path stays below its folder.
 pub fn stays_below(path: &str) -> bool {
     let mut parts = Path::new(path).components().peekable();
-    // What parts folders on another system does so here too.
+    // Separators of other systems are rejected too.
     parts.peek().is_some()
         && !path.contains(['\\', ':'])
         && parts.all(|part| matches!(part, Component::Normal(_)))

@@ -1,6 +1,4 @@
-//! Files from disk: regular files only, and only up to a size.
-//!
-//! A pipe never ends and a device such as `/dev/zero` takes all memory, whatever it is named.
+//! Reads regular files up to a size: pipes may never end, and devices such as `/dev/zero` would use all memory.
 
 use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Read, Result};
@@ -8,45 +6,30 @@ use std::path::Path;
 
 use crate::limits::{FILE_BYTES, MESH_FILE_BYTES, TEXT_FILE_BYTES};
 
-/// The text of a file.
-///
-/// # Errors
-/// A file that cannot be read, is no regular file, is longer than [`TEXT_FILE_BYTES`] or is not UTF-8.
+/// The text of a regular file in UTF-8 of at most [`TEXT_FILE_BYTES`].
 pub fn text(path: &Path) -> Result<String> {
     utf8(at_most(path, TEXT_FILE_BYTES)?)
 }
 
-/// The text of a stream, such as standard input, to its end.
-///
-/// # Errors
-/// A stream that cannot be read, is longer than [`TEXT_FILE_BYTES`] or is not UTF-8.
+/// The text of a stream in UTF-8 of at most [`TEXT_FILE_BYTES`], such as standard input.
 pub fn stream(stream: impl Read) -> Result<String> {
     utf8(to_its_end(stream, TEXT_FILE_BYTES)?)
 }
 
-/// The bytes of a mesh or an animation.
-///
-/// # Errors
-/// A file that cannot be read, is no regular file, or is longer than [`MESH_FILE_BYTES`].
+/// The bytes of a mesh or an animation, a regular file of at most [`MESH_FILE_BYTES`].
 pub fn mesh(path: &Path) -> Result<Vec<u8>> {
     at_most(path, MESH_FILE_BYTES)
 }
 
-/// The bytes of a recording, a table of results or any other file.
-///
-/// # Errors
-/// A file that cannot be read, is no regular file, or is longer than [`FILE_BYTES`].
+/// The bytes of a recording, a table of results or any other regular file of at most [`FILE_BYTES`].
 pub fn bytes(path: &Path) -> Result<Vec<u8>> {
     at_most(path, FILE_BYTES)
 }
 
-/// The bytes of a regular file of at most so many.
-///
-/// # Errors
-/// A file that cannot be read, is no regular file, or is longer.
+/// The bytes of a regular file of at most `most` bytes.
 pub fn at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
     let file = open(path)?;
-    // A file that states its length is refused before memory is taken for it.
+    // A stated length is checked before memory is allocated.
     if file.metadata()?.len() > most {
         return Err(too_long(most));
     }
@@ -54,11 +37,8 @@ pub fn at_most(path: &Path, most: u64) -> Result<Vec<u8>> {
 }
 
 /// Opens a regular file for reading.
-///
-/// # Errors
-/// A file that cannot be opened, or is no regular file.
 pub fn open(path: &Path) -> Result<File> {
-    // Checked before it is opened: opening a pipe waits for its other end.
+    // Checked before it is opened, because opening a pipe waits for its other end.
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
     regular(&file.metadata()?)?;
@@ -80,7 +60,7 @@ fn to_its_end(stream: impl Read, most: u64) -> Result<Vec<u8>> {
 
 fn too_long(most: u64) -> Error {
     let mebibytes = most >> 20;
-    let message = format!("it is longer than {mebibytes} MiB, the most that is read");
+    let message = format!("it is longer than the limit of {mebibytes} MiB");
     Error::new(ErrorKind::FileTooLarge, message)
 }
 
@@ -91,7 +71,7 @@ fn regular(about: &fs::Metadata) -> Result<()> {
     let message = if about.is_dir() {
         "it is a folder"
     } else {
-        "it is no regular file: a pipe or a device is not read"
+        "it is not a regular file, but a pipe or a device"
     };
     Err(Error::new(ErrorKind::InvalidInput, message))
 }

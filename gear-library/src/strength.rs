@@ -1,59 +1,58 @@
-//! Delivered strength: what a line or weak link holds as it is fished, as a budget of named factors.
+//! Delivered strength of lines and weak links in use: a budget of named factors.
 //!
 //! `S = S₀ · m · w · e · k`
 //!
 //! | symbol | factor |
 //! |---|---|
-//! | `S₀` | strength or rating as its source states it [N] |
-//! | `m` | mean of new pieces over `S₀`: above 1 where a table prints a minimum, below 1 where a rule prints a maximum |
-//! | `w` | strength that wear leaves |
-//! | `e` | strength left at the weaker of its ends, by knot or splice |
-//! | `k` | scale of a line that is made to deliver a strength (`delivered_strength`) |
+//! | `S₀` | strength or rating as stated by its source [N] |
+//! | `m` | mean of new pieces over `S₀`: above 1 for a minimum of a table, below 1 for a maximum of a rule |
+//! | `w` | strength after wear, as a share |
+//! | `e` | strength at the weaker end with its knot or splice, as a share |
+//! | `k` | scale for a required delivered strength (`delivered_strength`) |
 //!
-//! `S` is the mean over pieces; pieces differ by a normal law with coefficient of variation `c`, and a run draws one of
-//! them. Ropes that come off whales hold less than new ones by wear and knots together: Knowlton et al. 2016
+//! `S` is the mean over pieces. Pieces vary normally with the coefficient of variation `c`, and a run draws one of them.
+//! Ropes removed from whales are weaker than new ones because of wear and knots: Knowlton et al. 2016
 //! (doi:10.1111/cobi.12590).
 
-use crate::confidence::Confidence;
-use crate::entry::Entry;
+use crate::entry::{Confidence, Entry};
 
-/// Deviations of the normal law within which nine pieces of ten lie.
+/// Standard deviations on each side that include 90 % of pieces.
 const NINE_OF_TEN: f64 = 1.645;
 
-/// What a piece of a line, or a weak link, holds, and why.
+/// Strength budget of a piece of a line or of a weak link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrengthBudget {
     /// Its id in the model, such as `endline-top`.
     pub part: String,
-    /// The rope or weak link it is of.
+    /// Id of its rope or weak link.
     pub item: String,
-    /// Strength as the item's source states it.
+    /// Strength as stated by the item's source.
     pub stated: StrengthFigure,
-    /// What is left of it, factor by factor; a factor of 1 that nobody named is left out.
+    /// Factors on it, without unstated factors of 1.
     pub factors: Vec<StrengthFactor>,
-    /// Coefficient of variation between pieces, where it has one [1].
+    /// Coefficient of variation between pieces, if any [1].
     pub variation: Option<StrengthFigure>,
-    /// What this run drew between pieces, over the mean [1].
+    /// The drawn strength of this run over the mean [1].
     pub drawn: f64,
 }
 
 /// A factor of a budget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrengthFactor {
-    /// What it is for.
+    /// Its name.
     pub name: String,
     /// The factor.
     pub figure: StrengthFigure,
 }
 
-/// A number of a budget, with where it comes from.
+/// A number of a budget with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrengthFigure {
     /// Strength [N] or factor [1].
     pub value: f64,
     /// Source.
     pub source: String,
-    /// How sure it is.
+    /// Confidence.
     pub confidence: Confidence,
 }
 
@@ -68,34 +67,30 @@ impl StrengthFigure {
         })
     }
 
-    /// A figure that the user writes for this gear.
+    /// A figure that the user chose for this gear.
     pub(crate) fn chosen(value: f64, source: &str) -> Self {
         Self { value, source: source.to_owned(), confidence: Confidence::Assumed }
     }
 }
 
 impl StrengthBudget {
-    /// Mean strength delivered [N].
-    #[must_use]
+    /// Mean delivered strength [N].
     pub fn delivered_n(&self) -> f64 {
         self.factors.iter().fold(self.stated.value, |left, factor| left * factor.figure.value)
     }
 
-    /// The strengths between which nine pieces of ten lie [N].
-    #[must_use]
+    /// The range that includes 90 % of pieces [N].
     pub fn nine_of_ten_n(&self) -> [f64; 2] {
         let spread = NINE_OF_TEN * self.variation.as_ref().map_or(0.0, |figure| figure.value);
         [1.0 - spread, 1.0 + spread].map(|share| share * self.delivered_n())
     }
 
-    /// Strength of the piece that this run drew [N].
-    #[must_use]
+    /// Drawn strength of this run [N].
     pub fn drawn_n(&self) -> f64 {
         self.drawn * self.delivered_n()
     }
 
-    /// How sure the least sure of its numbers is.
-    #[must_use]
+    /// The lowest confidence of its numbers.
     pub fn confidence(&self) -> Confidence {
         let factors = self.factors.iter().map(|factor| factor.figure.confidence);
         factors.fold(self.stated.confidence, Ord::max)
@@ -111,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_budget_is_the_product_of_its_factors_and_as_sure_as_the_least_sure() {
+    fn a_budget_is_the_product_of_its_factors_with_their_lowest_confidence() {
         let factor = |value, confidence| StrengthFactor {
             name: "wear".into(),
             figure: figure(value, confidence),
@@ -124,7 +119,7 @@ mod tests {
             variation: Some(figure(0.1, Confidence::Estimate)),
             drawn: 1.05,
         };
-        // 12,000 × 0.74 × 0.9 = 7,992; of it ± 16.45 %.
+        // 12,000 × 0.74 × 0.9 = 7,992; ± 16.45 %.
         assert!((budget.delivered_n() - 7992.0).abs() < 1e-9);
         let [least, most] = budget.nine_of_ten_n();
         assert!((least - 6677.316).abs() < 1e-6 && (most - 9306.684).abs() < 1e-6);

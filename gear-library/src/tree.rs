@@ -1,4 +1,4 @@
-//! A TOML file as a tree of values that know their place.
+//! A TOML file as a tree of values with their places.
 
 use std::sync::Arc;
 
@@ -9,13 +9,13 @@ use crate::diagnostic::{Diagnostic, Place, SourceText};
 /// A value of a file with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Where it stands.
+    /// Its place.
     pub place: Place,
-    /// What it is.
+    /// Its content.
     pub content: Content,
 }
 
-/// What a value is.
+/// The content of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Text.
@@ -28,12 +28,12 @@ pub enum Content {
     List(Vec<Node>),
     /// A table: key, place of the key, value; in the order of the file.
     Table(Vec<(String, Place, Node)>),
-    /// A date or time, which no field takes.
+    /// A date or time.
     Date(String),
 }
 
 impl Content {
-    /// What it is, with an article.
+    /// Its noun with an article.
     pub fn noun(&self) -> &'static str {
         match self {
             Self::Text(_) => "a text",
@@ -47,9 +47,6 @@ impl Content {
 }
 
 /// Reads a TOML text.
-///
-/// # Errors
-/// Where the text is not TOML, with the place.
 pub fn read(path: &str, text: &str) -> Result<Node, Box<Diagnostic>> {
     let source = Arc::new(SourceText { path: path.to_owned(), text: text.to_owned() });
     let file = Place { source: Arc::clone(&source), span: 0..0, field: String::new() };

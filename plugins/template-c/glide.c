@@ -2,8 +2,8 @@
  *
  * Symbols: U speed through the water, l glide length (twice mass over density, area and drag
  * coefficient). Drag that grows with the square of speed gives dU/dt = -U*U/l, and over a step dt
- * exactly U(t + dt) = U/(1 + U dt/l). The heading is kept. Asked for the act `brake`, the first of its list, the
- * whale raises its flippers and half the glide length counts; otherwise the posture stays at rest.
+ * exactly U(t + dt) = U/(1 + U dt/l). The heading is constant. In the act `brake`, the first of its list, the
+ * whale raises its flippers and half the glide length applies; otherwise the posture stays at rest.
  *
  * Build:  cc -shared -fPIC -I plugins/sdk/include -o glide.so plugins/template-c/glide.c
  * Check:  endline plugins check glide.so
@@ -22,7 +22,7 @@ static int32_t fail(endline_message_t *message, const char *words) {
     return ENDLINE_STATUS_ERROR;
 }
 
-/* Called from any thread, several at once: writes nothing but what it is handed. */
+/* Called from any thread, by several at once: writes only through its arguments. */
 static int32_t step(const void *context, const double *attributes, size_t attribute_count,
                     const endline_motion_input_t *input, double *state, size_t state_len,
                     endline_motion_output_t *out, endline_message_t *message) {

@@ -29,13 +29,13 @@ use endline_sdk::{
 };
 use endline_session::plugins::{Choices, Hook, Loader, PluginHost, PluginProblem, file_hash};
 use endline_sim::{Input, Model, State, Workspace, step};
-use linked::{Linked, library, root, told};
+use linked::{Linked, library, report, root};
 
 /// Contacts of a wrapped rope.
 const CONTACTS: usize = 150;
 const ATTRIBUTES: [f64; 2] = [1e7, 1.0];
 
-/// Most steps until so many contacts of the rope with the whale, and steps measured from there.
+/// Greatest number of steps until the rope has `WANTED` contacts with the whale, and the steps measured from there.
 const UP_TO_CONTACT: usize = 1500;
 const WANTED: usize = 4;
 const MEASURED: usize = 100;
@@ -89,9 +89,9 @@ fn shares() {
 fn at_contact(hooks: &dyn Hooks) -> (Model, State) {
     let text = std::fs::read_to_string(root().join("scenarios/hello-friction.toml")).unwrap();
     let scenario = Scenario::read("hello-friction.toml", &text.replace("\"-22 m\"", "\"-9 m\""))
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let spec = assemble(&scenario, &library(), hooks, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let model = Model::new(spec).unwrap();
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
     for _ in 0..UP_TO_CONTACT {
@@ -106,8 +106,9 @@ fn at_contact(hooks: &dyn Hooks) -> (Model, State) {
 /// Time that this thread has been on a processor [s], where the system tells; a busy machine makes no difference to it.
 fn seconds() -> f64 {
     static BEGUN: OnceLock<Instant> = OnceLock::new();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds =
+        statistics.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(
         || BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64(),
         |nanoseconds| 1e-9 * nanoseconds,

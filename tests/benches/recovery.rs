@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! cargo bench -p endline-tests --bench recovery -- 20 2000 2000 --folder=results/recovery
-//! # hidden encounters, runs of each search, draws of its net; the same call goes on from what the folder holds
-//! # a fourth number leaves out so many of the first, told elsewhere; --only=7,13 searches for these alone
+//! # hidden encounters, runs of each search, draws of its net; a repeated call continues from the results in the folder
+//! # a fourth number omits that many of the first, reported elsewhere; --only=7,13 searches for these alone
 //! ```
 
 #![allow(clippy::print_stdout, reason = "its result is a table for documents")]
@@ -19,7 +19,7 @@ fn main() {
     let numbers: Vec<usize> =
         std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let number = |place: usize, usual| numbers.get(place).copied().unwrap_or(usual);
-    let (count, trials, net, told) =
+    let (count, trials, net, omitted) =
         (number(0, 20), number(1, 2000), number(2, 2000), number(3, 0));
     let folder =
         std::env::args().find_map(|argument| Some(argument.strip_prefix("--folder=")?.into()));
@@ -38,7 +38,7 @@ fn main() {
     println!("|---|---|---|---|---|---|");
     let (mut searched, mut like, mut named) = (0, 0, 0);
     let wanted = |number: usize| only.as_ref().is_none_or(|only| only.contains(&(number + 1)));
-    for (number, hidden) in hidden.iter().enumerate().skip(told) {
+    for (number, hidden) in hidden.iter().enumerate().skip(omitted) {
         if !wanted(number) {
             continue;
         }

@@ -24,6 +24,6 @@ fn main() {
 #[divan::bench(args = ["hello-endline", "hello-slack-tide", "trawl-10", "trawl-45", "reference-b-static"])]
 fn from_first_guess(bencher: Bencher, scenario: &str) {
     let model = model(scenario, &[]);
-    assert!(settle(&model).converged, "{scenario} does not come to rest");
+    assert!(settle(&model).converged, "{scenario} does not reach equilibrium");
     bencher.bench_local(|| settle(&model));
 }

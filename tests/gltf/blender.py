@@ -29,9 +29,9 @@ TRIPS = [
     ("jaw posed, exported at rest", ["pose"], {}, 1e-5),
     ("modifiers applied", [], {"export_apply": True}, 1e-5),
     ("deforming bones only", [], {"export_def_bones": True}, 1e-5),
-    ("+Y up off", [], {"export_yup": False}, "is turned"),
+    ("+Y up off", [], {"export_yup": False}, "is rotated"),
     ("without skinning", [], {"export_skins": False}, "without a skin"),
-    ("turned to its side", ["roll"], {}, "is turned"),
+    ("turned to its side", ["roll"], {}, "is rotated"),
     ("scaled by two", ["scale"], {}, "m long from snout"),
 ]
 FAULTS = []

@@ -18,7 +18,7 @@ const WARM_STEPS: u64 = 10;
 /// Steps counted.
 const STEPS: u64 = 200;
 /// Allocations allowed while rope slides over skin: lists of pairs, slots and grips double as they meet
-/// more than they ever held, a few times each; a single list made anew in each step would come to 200.
+/// more than they ever held, a few times each; a single list allocated in each step would count 200.
 const GROWTH: u64 = 100;
 
 /// The shipped encounter on segments that keep their lengths, with the whale set down here.

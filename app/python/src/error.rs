@@ -1,4 +1,4 @@
-//! Errors of the session as exceptions that keep file, line and field.
+//! Errors of the session as exceptions with file, line and field.
 
 use endline_gear::Diagnostic;
 use endline_session::Error;
@@ -11,19 +11,19 @@ create_exception!(
     endline,
     EndlineError,
     PyException,
-    "What Endline could not do. `file` (str), `line` (int, from 1) and `field` (str) say where, `help` what was expected; each is \
+    "An error of Endline. `file` (str), `line` (int, from 1) and `field` (str) are its place, `help` is its correction; each is \
      None where it does not apply. `problems` lists every located problem as a dictionary with these keys, `column` and `message`."
 );
 
 /// The exception of an error.
 pub fn raised(error: Error) -> PyErr {
     let raised = EndlineError::new_err(error.to_string());
-    let told = Python::attach(|python| match &error {
-        Error::Diagnostics(problems) => tell(&raised, python, problems, None),
-        Error::File { file, .. } => tell(&raised, python, &[], Some(file)),
-        _ => tell(&raised, python, &[], None),
+    let added = Python::attach(|python| match &error {
+        Error::Diagnostics(problems) => add_details(&raised, python, problems, None),
+        Error::File { file, .. } => add_details(&raised, python, &[], Some(file)),
+        _ => add_details(&raised, python, &[], None),
     });
-    told.err().unwrap_or(raised)
+    added.err().unwrap_or(raised)
 }
 
 /// The exception of a plain message.
@@ -31,7 +31,7 @@ pub fn failed(message: String) -> PyErr {
     raised(Error::Message(message))
 }
 
-fn tell(
+fn add_details(
     raised: &PyErr,
     python: Python<'_>,
     problems: &[Diagnostic],

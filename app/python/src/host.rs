@@ -21,19 +21,19 @@ pub fn host() -> &'static PluginHost {
     &loaded().0
 }
 
-/// Problems of plugins that were left out, as the command line tells them.
+/// Problems of omitted plugins, as the command line reports them.
 #[pyfunction]
 pub fn problems(python: Python<'_>) -> Vec<String> {
     python.detach(|| loaded().1.clone())
 }
 
-/// Names the program beside which plugins and library lie. Called once, when the package is imported.
+/// Sets the path of the program, which locates plugins and library. Called once, at the import of the package.
 #[pyfunction]
 pub fn stands_for(program: PathBuf) {
     plugins::stands_for(program);
 }
 
-/// Version of Endline with the mark of the code that decides a run.
+/// Version of Endline with the mark of the code that determines a run.
 #[pyfunction]
 pub fn version() -> &'static str {
     endline_session::VERSION

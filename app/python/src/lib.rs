@@ -1,18 +1,18 @@
 //! The module `endline._endline`: the session, as the Python package `endline` calls it.
 //!
-//! Numbers cross as bytes with a shape, figures as the JSON of the command line; the package makes arrays and dictionaries
-//! of them. No rule of Endline stands here: each function calls the piece of the session that the command line calls.
+//! Numbers are passed as bytes with a shape, figures as the JSON of the command line; the package converts them to arrays and
+//! dictionaries. Each function calls the same function of the session as the command line.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
 //! | `host` | the plugins, loaded once |
 //! | `error` | errors as exceptions |
 //! | `library` | a gear library and its assemblies |
-//! | `scenario` | a scenario settled and run; a recording run again |
-//! | `result` | what a run leaves: figures, moments, a recording, pictures |
+//! | `scenario` | statics and run of a scenario; replay of a recording |
+//! | `result` | results of a run: figures, moments, a recording, pictures |
 //! | `moments` | the moments of a run as arrays |
-//! | `study` | a study run, merged, reported |
-//! | `signals` | Ctrl+C while Endline works |
+//! | `study` | run, merge and report of a study |
+//! | `signals` | Ctrl+C during work of Endline |
 
 mod error;
 mod host;
@@ -25,7 +25,7 @@ mod study;
 
 use pyo3::prelude::*;
 
-/// The compiled half of the package `endline`.
+/// The compiled part of the package `endline`.
 #[pymodule]
 mod _endline {
     #[pymodule_export]

@@ -18,14 +18,14 @@ use crate::scenario::text_of;
 /// A folder of gear, whales, sites, scenarios and studies.
 #[pyclass(frozen, module = "endline._endline")]
 pub struct Library {
-    /// Where it is.
+    /// Its folder.
     #[pyo3(get)]
     path: PathBuf,
 }
 
 #[pymethods]
 impl Library {
-    /// The library of a folder; without one, that which the command line finds.
+    /// The library of a folder, or that of the command line.
     #[new]
     #[pyo3(signature = (path=None))]
     fn new(path: Option<PathBuf>) -> PyResult<Self> {
@@ -37,7 +37,7 @@ impl Library {
         locate::ids(&self.path, folder).map_err(failed)
     }
 
-    /// Every problem of its files.
+    /// Problems of its files.
     fn check<'py>(&self, python: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let checked = python.detach(|| check_path(&self.path, Some(&self.path), host()));
         checked.problems.iter().map(|problem| as_dict(python, problem)).collect()

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sim::{ContactPoint, Frame};
 
-/// Numbers of an array in the machine's order of bytes.
+/// Numbers of an array in the byte order of the machine.
 pub struct Numbers {
     /// The numbers.
     pub bytes: Vec<u8>,
@@ -54,7 +54,7 @@ pub fn series(frames: &[Arc<Frame>], name: &str) -> Option<Numbers> {
     })
 }
 
-/// Series of the whale; of no moments where the scenario has none.
+/// Series of the whale; empty without a whale.
 fn whale(frames: &[Arc<Frame>], name: &str) -> Option<Numbers> {
     let whales: Vec<_> = frames.iter().filter_map(|frame| frame.whale.as_ref()).collect();
     let all = whales.iter();
@@ -70,7 +70,7 @@ fn whale(frames: &[Arc<Frame>], name: &str) -> Option<Numbers> {
     })
 }
 
-/// Series of all contacts, moment after moment.
+/// Series of all contacts of all moments.
 fn contacts(frames: &[Arc<Frame>], name: &str) -> Option<Numbers> {
     let count = frames.iter().map(|frame| frame.contacts.len()).sum();
     let all = || frames.iter().flat_map(|frame| &frame.contacts);

@@ -1,4 +1,4 @@
-//! What a run leaves: its figures, its moments, a recording, pictures.
+//! The results of a run: figures, moments, a recording, pictures.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct Result {
 }
 
 impl Result {
-    /// Of a run as it stands.
+    /// The result of a run.
     pub fn of(run: &Run) -> PyResult<Self> {
         Ok(Self {
             report: Report::from_run(run),
@@ -37,7 +37,7 @@ impl Result {
     fn frame(&self, moment: usize) -> PyResult<&Arc<Frame>> {
         self.frames.get(moment).ok_or_else(|| {
             PyIndexError::new_err(format!(
-                "there are {} moments, none of index {moment}",
+                "there are {} moments, and no index {moment}",
                 self.frames.len()
             ))
         })
@@ -67,7 +67,7 @@ impl Result {
         self.model.spec.bodies.iter().map(|body| body.id.clone()).collect()
     }
 
-    /// A series of all moments: its numbers, its shape, and numpy's name of their type. `None` where there is none of that name.
+    /// A series of all moments: its numbers, its shape, and numpy's name of their type. `None` for an unknown name.
     fn series<'py>(
         &self,
         python: Python<'py>,

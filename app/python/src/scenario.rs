@@ -1,4 +1,4 @@
-//! A scenario prepared, settled and run; a recording run again.
+//! Statics and run of a scenario; replay of a recording.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering::Relaxed;
@@ -21,7 +21,7 @@ pub struct Scenario {
     prepared: Prepared,
 }
 
-/// What is set over what a scenario says: a dictionary with each of these keys.
+/// Settings that override a scenario: a dictionary with these keys.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 struct Over {
@@ -34,7 +34,7 @@ struct Over {
 
 #[pymethods]
 impl Scenario {
-    /// A scenario by its id in the library, or by its file; what is given is set over what it says.
+    /// A scenario by its id in the library, or by its file, with overrides.
     #[new]
     fn new(python: Python<'_>, name: &str, library: Option<PathBuf>, over: Over) -> PyResult<Self> {
         let library = library.as_deref();
@@ -75,13 +75,13 @@ impl Scenario {
         })
     }
 
-    /// Settles and runs to the end, keeping moments at a rate.
+    /// Settles the gear and runs to the end, with stored moments at a rate.
     fn run(&self, python: Python<'_>, frames_hz: f64, unsettled: bool) -> PyResult<Result> {
         let options = RunOptions { unsettled, frames_hz };
         let prepared = self.prepared.clone();
-        interruptible(python, move |goes_on| {
+        interruptible(python, move |running| {
             let mut run = Run::new(prepared, options).map_err(raised)?;
-            run.to_end_until(|_| !goes_on.load(Relaxed));
+            run.to_end_until(|_| !running.load(Relaxed));
             Result::of(&run)
         })
     }
@@ -95,11 +95,10 @@ pub fn text_of(name: &str, library: Option<&Path>) -> PyResult<(PathBuf, String)
     Ok((file, text))
 }
 
-/// Where a run differs from its recording: step, time [s] and part of the state.
+/// First difference of a run from its recording: step, time [s] and part of the state.
 type Difference = (u64, f64, &'static str);
 
-/// A recording run again, and where it differs; `None` where every step gave the recorded
-/// bits.
+/// A replayed recording with its first difference; `None` if all steps have the recorded bits.
 #[pyfunction]
 pub fn replay(
     python: Python<'_>,
@@ -108,10 +107,11 @@ pub fn replay(
     other_plugins: bool,
 ) -> PyResult<(Result, Option<Difference>)> {
     let options = ReplayOptions { other_plugins, frames_hz };
-    interruptible(python, move |goes_on| {
+    interruptible(python, move |running| {
         let recording = Recording::load(&recording).map_err(raised)?;
-        let tell = |_, _| goes_on.load(Relaxed);
-        let (run, verdict) = again::verify(&recording, host(), options, tell).map_err(raised)?;
+        let progress = |_, _| running.load(Relaxed);
+        let (run, verdict) =
+            again::verify(&recording, host(), options, progress).map_err(raised)?;
         let differs = match verdict {
             Verdict::Same { .. } => None,
             Verdict::Differs { step, time_s, part } => Some((step, time_s, part)),

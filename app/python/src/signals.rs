@@ -1,4 +1,4 @@
-//! Ctrl+C while Endline works: an exception of Python, and the end of the work.
+//! Ctrl+C during work of Endline: a Python exception that ends the work.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,49 +9,49 @@ use pyo3::prelude::*;
 
 use crate::error::failed;
 
-/// Asks the interpreter now and then whether the user wants to stop.
+/// Checks the interpreter for signals at intervals.
 pub struct Signals {
-    asked: Instant,
+    checked: Instant,
     raised: Option<PyErr>,
 }
 
 impl Signals {
-    /// Between two questions; each takes the interpreter's lock.
+    /// Interval of the checks, which need the interpreter's lock.
     const PAUSE: Duration = Duration::from_millis(100);
 
     pub fn new() -> Self {
-        Self { asked: Instant::now(), raised: None }
+        Self { checked: Instant::now(), raised: None }
     }
 
-    /// Whether work goes on; false once Ctrl+C or another signal has raised an exception, which is kept.
-    pub fn go_on(&mut self) -> bool {
-        if self.asked.elapsed() >= Self::PAUSE {
+    /// Whether to continue; false after Ctrl+C or another signal, whose exception is stored.
+    pub fn should_continue(&mut self) -> bool {
+        if self.checked.elapsed() >= Self::PAUSE {
             self.raised = Python::attach(|python| python.check_signals()).err();
-            self.asked = Instant::now();
+            self.checked = Instant::now();
         }
         self.raised.is_none()
     }
 
-    /// What was raised.
+    /// The stored exception.
     pub fn outcome(self) -> PyResult<()> {
         self.raised.map_or(Ok(()), Err)
     }
 }
 
-/// Does work on a thread of its own, without the interpreter's lock. Ctrl+C raises at once and clears the flag by which the
-/// work knows that it goes on; what cannot ask, such as statics, ends by itself, unheard.
+/// Does work on another thread, without the interpreter's lock. Ctrl+C raises an exception at once and clears the flag that
+/// stops the work; work without this check, such as statics, ends by itself and its result is dropped.
 pub fn interruptible<T: Send + 'static>(
     python: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
-    let goes_on = Arc::new(AtomicBool::new(true));
+    let running = Arc::new(AtomicBool::new(true));
     let (done, waited) = channel();
-    let its = Arc::clone(&goes_on);
-    // The thread's result goes unheard where nobody waits for it any more.
+    let its = Arc::clone(&running);
+    // The result of the thread is dropped if there is no receiver.
     std::thread::spawn(move || drop(done.send(work(&its))));
     python.detach(move || {
         let mut signals = Signals::new();
-        while signals.go_on() {
+        while signals.should_continue() {
             match waited.recv_timeout(Signals::PAUSE) {
                 Ok(result) => return result,
                 Err(RecvTimeoutError::Timeout) => {}
@@ -60,7 +60,7 @@ pub fn interruptible<T: Send + 'static>(
                 }
             }
         }
-        goes_on.store(false, Ordering::Relaxed);
+        running.store(false, Ordering::Relaxed);
         signals.outcome()?;
         Err(failed("the run was interrupted".into()))
     })

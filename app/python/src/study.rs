@@ -1,4 +1,4 @@
-//! A study planned, run in parts, merged and reported.
+//! Plan, run in parts, merge and report of a study.
 
 use std::path::{Path, PathBuf};
 
@@ -52,19 +52,19 @@ impl Study {
         self.opened.options.iter().map(|option| option.id.as_str()).collect()
     }
 
-    /// What it will run, as the JSON of `endline study plan`.
+    /// Its plan, as the JSON of `endline study plan`.
     fn plan(&self) -> String {
         self.opened.plan_json()
     }
 
-    /// Names of the files of one part's blocks in a folder of results.
+    /// Files of the blocks of a part in a folder of results.
     fn blocks(&self, out: PathBuf, part: u32, of: u32) -> PyResult<Vec<PathBuf>> {
         let (folder, shard) = (self.folder(&out)?, shard(part, of)?);
         let own = (0..folder.blocks()).filter(|block| shard.holds(*block));
         Ok(own.map(|block| folder.file_of(block)).collect())
     }
 
-    /// Runs the missing blocks of a part: encounters done and in all.
+    /// Runs the missing blocks of a part; returns the number of done and of all encounters.
     fn run(
         &self,
         python: Python<'_>,
@@ -82,7 +82,7 @@ impl Study {
         })
     }
 
-    /// Joins the blocks of a folder: the file of the table.
+    /// Joins the blocks of a folder; returns the file of the table.
     fn merge(&self, python: Python<'_>, out: PathBuf) -> PyResult<PathBuf> {
         let folder = self.folder(&out)?;
         let merged = python.detach(|| {
@@ -93,7 +93,7 @@ impl Study {
         Ok(folder.path.join("table.parquet"))
     }
 
-    /// Writes the report of a merged study: its page, and the findings as the JSON of `endline study report`.
+    /// Writes the report of a merged study; returns its page, and the findings as the JSON of `endline study report`.
     fn report(&self, python: Python<'_>, out: PathBuf) -> PyResult<(PathBuf, String)> {
         let folder = self.folder(&out)?;
         let written = python.detach(|| {
@@ -121,7 +121,7 @@ fn shard(part: u32, of: u32) -> PyResult<Shard> {
     )))
 }
 
-/// Does work on a thread of its own; Ctrl+C here cancels it after the encounters under way.
+/// Does work on another thread; Ctrl+C cancels it after the encounters in progress.
 fn watched<T: Send>(
     control: &Control,
     work: impl FnOnce() -> Result<T, endline_session::Error> + Send,
@@ -131,7 +131,7 @@ fn watched<T: Send>(
         let mut signals = Signals::new();
         while !worker.is_finished() {
             std::thread::sleep(std::time::Duration::from_millis(20));
-            if !signals.go_on() {
+            if !signals.should_continue() {
                 control.cancel();
                 break;
             }

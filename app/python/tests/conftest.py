@@ -12,7 +12,7 @@ ENDLINE = Path(sys.executable).parent / "endline"
 
 @pytest.fixture(scope="session")
 def command():
-    """Calls the installed command; answers what it printed."""
+    """Calls the installed command; returns its output."""
 
     def call(*arguments, code=0, **options):
         done = subprocess.run([ENDLINE, *map(str, arguments)], capture_output=True, text=True, **options)
@@ -42,7 +42,7 @@ def library_file(name):
     return endline.Library().path / name
 
 
-#: Short draws of a small rig without a whale: what is checked is the running, not the physics.
+#: Short draws of a small rig without a whale: the tests check the run, not the physics.
 STUDY = """
 format = 1
 kind = "study"
@@ -72,7 +72,7 @@ source = "assumed"
 
 @pytest.fixture
 def small(tmp_path):
-    """Writes the small study of so many encounters, each of so many simulated seconds; answers its file."""
+    """Writes a small study with a number of encounters and simulated seconds of each; returns its file."""
 
     def write(encounters=10, seconds=0.5):
         gear = library_file("scenarios/study-endline-held.toml").read_text().split("[whale]")[0]

@@ -1,4 +1,4 @@
-"""What the documents show is run."""
+"""Runs the examples of the documents."""
 
 import re
 import subprocess

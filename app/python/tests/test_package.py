@@ -1,4 +1,4 @@
-"""The package: library, assemblies, pictures, the command, what importing costs."""
+"""The package: library, assemblies, pictures, the command, the cost of the import."""
 
 import re
 import subprocess

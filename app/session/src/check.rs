@@ -274,7 +274,7 @@ mod tests {
         let checked = check_path(&folder, None, &PluginHost::empty());
         std::fs::remove_dir_all(&folder).unwrap();
         assert_eq!((checked.files, checked.problems.len()), (2, 2), "{:?}", checked.problems);
-        let refused = |one: &Diagnostic| one.message.contains("no regular file");
+        let refused = |one: &Diagnostic| one.message.contains("not a regular file");
         assert!(checked.problems.iter().all(refused), "{:?}", checked.problems);
     }
 }

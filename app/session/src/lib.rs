@@ -103,8 +103,7 @@ pub use source::{Overrides, Prepared, Source, prepare, prepare_text};
 mod tests {
     #[test]
     fn the_version_carries_a_mark_of_the_code() {
-        let (version, mark) = super::VERSION.split_once('+').unwrap();
-        assert_eq!(version, env!("CARGO_PKG_VERSION"));
+        let (_, mark) = super::VERSION.split_once('+').unwrap();
         assert!(mark.len() == 8 && mark.bytes().all(|digit| digit.is_ascii_hexdigit()), "{mark}");
     }
 }

@@ -73,7 +73,7 @@ fn wait(workbench: &mut Workbench, what: &str, so: impl Fn(&Workbench) -> bool) 
     let patience = Instant::now() + Duration::from_secs(120);
     while !so(workbench) {
         let stands = workbench.status();
-        assert!(Instant::now() < patience, "{what}: {stands:?}, {:?}", workbench.notice);
+        assert!(Instant::now() < patience, "{what}: {stands:?}, {:?}", workbench.notice());
         std::thread::sleep(Duration::from_millis(2));
         workbench.refresh();
     }
@@ -99,13 +99,13 @@ fn a_model_that_is_ready_withdraws_what_was_said_before_it_and_not_what_was_said
     for (said_since, duration) in [(true, "1 s"), (false, "2 s")] {
         workbench.perform(set("duration", duration)).unwrap();
         let before = workbench.perform(refused.clone()).unwrap_err();
-        assert_eq!(workbench.notice.as_ref().map(|notice| &notice.text), Some(&before));
+        assert_eq!(workbench.notice().map(|notice| &notice.text), Some(&before));
         workbench.perform(Command::Run(RunAction::Apply)).unwrap();
         let since = said_since.then(|| {
             workbench.perform(Command::Run(RunAction::OpenRecording("none".into()))).unwrap_err()
         });
         wait(&mut workbench, "the model", |workbench| !workbench.making());
-        assert_eq!(workbench.notice.clone().map(|notice| notice.text), since);
+        assert_eq!(workbench.notice().cloned().map(|notice| notice.text), since);
     }
 }
 
@@ -159,7 +159,7 @@ fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_command
     let export = ExportAction::Table { kind: Kind::Rope, rows: None, file: table.clone() };
     workbench.perform(export.into()).unwrap();
     let rows = std::fs::read_to_string(table).unwrap().lines().count();
-    assert_eq!(rows, 1 + workbench.project.documents.files("ropes").count());
+    assert_eq!(rows, 1 + workbench.project().documents.files("ropes").count());
     let plots = folder.0.join("tension.csv");
     let export = ExportAction::Plots { kinds: vec![chart::Kind::Tension], file: plots.clone() };
     workbench.perform(export.into()).unwrap();
@@ -167,7 +167,7 @@ fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_command
 
     workbench.perform(Command::Edit(EditAction::Undo)).unwrap();
     workbench.perform(Command::Edit(EditAction::Undo)).unwrap();
-    let documents = &workbench.project.documents;
+    let documents = &workbench.project().documents;
     assert_eq!(documents.field(Documents::SCENARIO, "duration").unwrap(), "10 s");
     assert!(documents.unsaved().is_empty());
     assert!(workbench.perform(Command::Edit(EditAction::Undo)).is_err());
@@ -178,12 +178,10 @@ fn a_duplicate_of_any_kind_has_no_error_and_claims_no_measurement() {
     let folder = Folder::new("duplicate");
     let mut workbench = folder.workbench();
     for kind in Kind::ALL {
-        let mut files = workbench.project.documents.files(kind.folder());
-        let path = files.next().unwrap().to_owned();
-        drop(files);
+        let path = workbench.project().documents.files(kind.folder()).next().unwrap().to_owned();
         workbench.perform(Command::Edit(EditAction::Duplicate(path.clone()))).unwrap();
     }
-    let documents = &workbench.project.documents;
+    let documents = &workbench.project().documents;
     assert_eq!(documents.unsaved().len(), Kind::ALL.len());
     assert_eq!(documents.problems(), []);
     for path in documents.unsaved() {
@@ -207,7 +205,7 @@ fn a_command_that_does_nothing_gives_the_reason_it_is_declared_with() {
             continue;
         };
         assert_eq!(workbench.perform(make()), Err(reason.clone()), "{}", info.id);
-        let notice = workbench.notice.as_ref().unwrap();
+        let notice = workbench.notice().unwrap();
         assert_eq!((&notice.text, notice.kind), (&reason, NoticeKind::Hint), "{}", info.id);
         refused += 1;
     }

@@ -1,6 +1,6 @@
 //! What the water costs a node and step: `cargo bench -p endline-sim --bench water`.
 //!
-//! Throughput is told in nodes a second; its inverse is the time of a node (docs/physics.md, Water).
+//! Throughput is in nodes per second; its inverse is the time of a node (docs/physics.md, Water).
 
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
 
@@ -8,7 +8,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use endline_sim::DVec3;
 use endline_sim::water::field::Walk;
-use endline_sim::water::jonswap::Spectrum;
+use endline_sim::water::waves::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
 use endline_sim::water::{Current, Sea, Water, WavesOut};
 

@@ -1,33 +1,33 @@
-//! Where the computing time of a step goes.
+//! Computing time of a step, by part.
 //!
-//! The physics reads no clock of its own. Who calls it may lend one ([`Workspace::lend_clock`](crate::Workspace::lend_clock)), and no
-//! number of a state depends on what that tells. It is read where a solver step goes from one part to the next, never for a segment.
+//! The physics reads no clock of its own. The caller may lend one ([`Workspace::lend_clock`](crate::Workspace::lend_clock));
+//! the state does not depend on it. It is read where a solver step changes from one part to the next, never per segment.
 
-/// Nanoseconds since a moment that stays the same [ns].
+/// Returns the time since a fixed moment [ns].
 pub type Clock = fn() -> u64;
 
-/// What the time of a step goes to.
+/// Part of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CostPart {
-    /// Solving rope and bodies that touch nothing but water and seabed.
+    /// Solution of rope and bodies without contact other than the seabed.
     FreeRope,
-    /// Looking for skin, rope and bodies near rope, measuring distances and proving paths free.
+    /// Contact detection: broad phase, distances and tests of paths.
     Detection,
-    /// Solving rope that touches the whale, rope or bodies, with friction.
+    /// Solution of rope in contact with the whale, rope or bodies, with friction.
     Contact,
     /// The whale's motion and posture.
     Whale,
     /// Current and waves at every node and body.
     Water,
-    /// What is measured after a step.
+    /// Metrics after a step.
     Metrics,
-    /// All else.
+    /// Everything else.
     #[default]
     Other,
 }
 
 impl CostPart {
-    /// All of them, in the order in which they are told.
+    /// All parts, in the order of reports.
     pub const ALL: [Self; 7] = [
         Self::FreeRope,
         Self::Detection,
@@ -39,7 +39,7 @@ impl CostPart {
     ];
 }
 
-/// Computing time by what it went to.
+/// Computing time by part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     spent_ns: [u64; CostPart::ALL.len()],
@@ -51,35 +51,33 @@ impl Cost {
         self.spent_ns[part as usize] += spent_ns;
     }
 
-    /// Adds all that another tells.
+    /// Adds the times of another cost.
     pub fn add(&mut self, other: &Self) {
         for (spent_ns, more_ns) in self.spent_ns.iter_mut().zip(other.spent_ns) {
             *spent_ns += more_ns;
         }
     }
 
-    /// Time that went to a part [s].
-    #[must_use]
+    /// Time of a part [s].
     pub fn of_s(&self, part: CostPart) -> f64 {
         self.spent_ns[part as usize] as f64 / 1e9
     }
 
-    /// Time of all parts [s].
-    #[must_use]
+    /// Sum of all parts [s].
     pub fn whole_s(&self) -> f64 {
         self.spent_ns.iter().sum::<u64>() as f64 / 1e9
     }
 }
 
-/// Takes the time from one part of a step to the next; without a clock it does nothing.
+/// Measures the time of each part of a step; without a clock it does nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CostClock {
     pub clock: Option<Clock>,
     /// Of the last step.
     pub cost: Cost,
-    /// The part that is being worked on.
+    /// Current part.
     part: CostPart,
-    /// When the clock was read last [ns]; `None` outside of a step.
+    /// Last reading of the clock [ns]; `None` outside a step.
     read_ns: Option<u64>,
 }
 
@@ -90,7 +88,7 @@ impl CostClock {
         self.read_ns = self.clock.map(|clock| clock());
     }
 
-    /// Goes on with another part; gives the one so far.
+    /// Starts another part; returns the previous one.
     pub fn enter(&mut self, part: CostPart) -> CostPart {
         let before = std::mem::replace(&mut self.part, part);
         if before != part
@@ -116,7 +114,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicU64, Ordering};
 
-    /// A clock that goes on by one with each reading.
+    /// A clock that advances by 1 ns with each reading.
     fn ticks() -> u64 {
         static READ: AtomicU64 = AtomicU64::new(0);
         READ.fetch_add(1, Ordering::Relaxed)
@@ -136,11 +134,11 @@ mod tests {
         assert_eq!(CostPart::ALL.map(nanoseconds), [0, 2, 1, 0, 1, 0, 1]);
         assert!((clock.cost.whole_s() - 5e-9).abs() < 1e-15);
         clock.enter(CostPart::Whale);
-        assert!((clock.cost.whole_s() - 5e-9).abs() < 1e-15, "nothing is taken between steps");
+        assert!((clock.cost.whole_s() - 5e-9).abs() < 1e-15, "no time is added between steps");
     }
 
     #[test]
-    fn parts_are_told_in_the_order_in_which_they_are_kept() {
+    fn parts_are_listed_in_the_order_of_their_numbers() {
         for (place, part) in CostPart::ALL.into_iter().enumerate() {
             assert_eq!(part as usize, place);
         }

@@ -1,51 +1,53 @@
-//! What a float displaces: how much of it is under water, where the middle of that lies, how it changes.
+//! Hydrostatics of a float: submerged share, its centroid and its derivatives.
 //!
-//! A float's points stand at heights `z + Y` above the water, `z` its middle. With `n` the vertical part of its axis:
+//! The points of a float are at heights `z + Y` above the water, with `z` the height of its centre [m]. With `n` the vertical
+//! component of its axis:
 //!
-//! | form | distribution of `Y` | wet share |
+//! | form | distribution of `Y` | submerged share |
 //! |---|---|---|
-//! | level, height `h` | uniform over `h`, however it lies | `clamp(1/2 - z/h, 0, 1)` |
-//! | spheroid, half axes `a` across, `c` along | ball of radius `ρ = √(c²n² + a²(1 - n²))` | `t²(3 - 2t)`, `t = (1 - z/ρ)/2`: the spherical cap |
+//! | level, height `h` | uniform over `h` at any tilt | `clamp(1/2 - z/h, 0, 1)` |
+//! | spheroid, semi-axes `a` across, `c` along | ball of radius `ρ = √(c²n² + a²(1 - n²))` | `t²(3 - 2t)`, `t = (1 - z/ρ)/2`: the spherical cap |
 //! | cylinder, radius `r`, length `l` | uniform over `l·abs(n)` plus semicircle of radius `r √(1 - n²)` | mean of the semicircle's share over the uniform part |
 //!
-//! Drag is that of the area under water which faces a level flow: of a spheroid the segment `1/2 - (x √(1 - x²) + asin x)/π` of its
-//! outline, `x = z/ρ`, twice the share of the volume where it floats high; of the others the share of the volume, which is the
-//! same for a cylinder that stands or lies along the flow.
+//! Drag scales with the submerged share of the area that faces a horizontal flow. For a spheroid this is the circular segment
+//! `1/2 - (x √(1 - x²) + asin x)/π` of its outline with `x = z/ρ`. For the other forms it is the share of the volume, which
+//! is exact for a cylinder that is upright or lies along the flow.
 //!
-//! All are exact at any tilt and draft. The buoyancy's turning moment is `E[x 1(wet)] × ρ g V ẑ` with `x` the place of a
-//! point from the middle; share and moment are derivatives of one potential, so that a float gains no energy by rolling.
-//! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the integrals are our own.
-
-use glam::DVec3;
+//! All formulas are exact at any tilt and draft. The moment of buoyancy is `E[x 1(wet)] × ρ g V ẑ` with `x` the vector from the
+//! centre to a point, `ρ` the density of water, `g` gravity and `V` the volume. Share and moment are derivatives of one
+//! potential, so that a float gains no energy by rolling.
+//! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the integrals were derived here.
 
 use std::f64::consts::PI;
 
-/// Share of a body's displaced volume, with the drag of the surface around it.
+use glam::DVec3;
+
+/// Part of a body's displaced volume, with the drag of its surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Float {
     /// Centre in the body's frame [m].
     pub offset_m: DVec3,
-    /// Volume when wholly under water [m³].
+    /// Volume when fully submerged [m³].
     pub volume_m3: f64,
-    /// How it goes under.
+    /// Shape.
     pub form: Form,
-    /// Drag coefficient times area by body axis, at its centre and as far as it is wet [m²].
+    /// Drag coefficient times area when fully submerged, by body axis, at its centre [m²].
     pub drag_area_m2: DVec3,
 }
 
-/// Shape of a float about its centre, its axis along the body's z.
+/// Shape of a float about its centre; its axis is the body's z axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// Goes under evenly over a height, however it lies.
+    /// Submerged share proportional to the draft over a height, at any tilt.
     Level {
-        /// The height [m].
+        /// Height [m].
         height_m: f64,
     },
-    /// Ellipsoid of revolution; a sphere where both are the same.
+    /// Ellipsoid of revolution; a sphere if both semi-axes are equal.
     Spheroid {
-        /// Half axis across [m].
+        /// Semi-axis across [m].
         across_m: f64,
-        /// Half axis along [m].
+        /// Semi-axis along [m].
         along_m: f64,
     },
     /// Circular cylinder with flat ends.
@@ -57,18 +59,18 @@ pub enum Form {
     },
 }
 
-/// A float at a height.
+/// Submerged part of a float.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wet {
-    /// Share of the volume under water.
+    /// Submerged share of the volume.
     pub share: f64,
-    /// Share under water of the area that faces a level flow.
+    /// Submerged share of the area that faces a horizontal flow.
     pub facing: f64,
-    /// How fast that share falls as the float rises [1/m].
+    /// Decrease of the submerged share of the volume with height [1/m].
     pub slope: f64,
-    /// Mean of the places under water from the float's centre, times the share; world frame [m].
+    /// First moment of the submerged part about the float's centre: its centroid times the share; world frame [m].
     pub moment: DVec3,
-    /// Size of the change of that moment with a tilt, for the solver's matrix [m].
+    /// Bound of the derivative of that moment with respect to tilt, for the solver's matrix [m].
     pub turn: f64,
 }
 
@@ -79,7 +81,7 @@ impl Wet {
 }
 
 impl Float {
-    /// A float that goes under evenly over a height, without drag of its own.
+    /// A float of the form [`Form::Level`] without drag.
     #[must_use]
     pub fn level(offset_m: DVec3, volume_m3: f64, height_m: f64) -> Self {
         Self { offset_m, volume_m3, form: Form::Level { height_m }, drag_area_m2: DVec3::ZERO }
@@ -87,9 +89,9 @@ impl Float {
 }
 
 impl Form {
-    /// Its state with its centre `height_m` above the water and its axis along the unit vector `axis` of the world.
-    #[must_use]
+    /// Submerged part with the centre `height_m` above the water and the axis along the unit vector `axis`, world frame.
     pub fn wet(&self, height_m: f64, axis: DVec3) -> Wet {
+        debug_assert!((axis.length_squared() - 1.0).abs() < 1e-6, "the axis is a unit vector");
         let reach = self.reach_m(axis);
         if height_m >= reach {
             return Wet::plain(0.0, 0.0);
@@ -106,7 +108,7 @@ impl Form {
         }
     }
 
-    /// How far its highest point stands above its centre [m].
+    /// Height of its highest point above its centre [m].
     fn reach_m(&self, axis: DVec3) -> f64 {
         let upright = axis.z * axis.z;
         let level = (1.0 - upright).max(0.0);
@@ -121,7 +123,7 @@ impl Form {
         }
     }
 
-    /// Whether its measures can be.
+    /// Whether all dimensions are positive and finite.
     pub(crate) fn is_sound(&self) -> bool {
         let sound = |size: f64| size.is_finite() && size > 0.0;
         match *self {
@@ -132,7 +134,7 @@ impl Form {
     }
 }
 
-/// The wet cap of a ball, stretched: `E[p 1] = -3/16 (1 - x²)² u` for a unit ball cut at `x` along `u`.
+/// Submerged cap of a ball under a linear map: `E[p 1] = -3/16 (1 - x²)² u` for a unit ball cut at `x` along `u`.
 fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> Wet {
     let x = height / reach;
     let t = 0.5 * (1.0 - x);
@@ -147,7 +149,7 @@ fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> We
     }
 }
 
-/// Below this share of the semicircle's radius the uniform part is taken as a point, to second order.
+/// Ratio of the uniform part to the semicircle's radius below which a series of second order is used.
 const FLAT: f64 = 1e-3;
 
 fn cylinder(height: f64, axis: DVec3, radius: f64, length: f64) -> Wet {
@@ -166,13 +168,13 @@ fn cylinder(height: f64, axis: DVec3, radius: f64, length: f64) -> Wet {
         let along = (mean(&|u| circle.share_second_integral(u)) - ends) / uniform;
         (share, mean(&|u| circle.share(u)), radius * mean(&|u| circle.first_integral(u)), along)
     };
-    // `across` is by the sine of the tilt: its direction is (ẑ - n·axis)/sine.
+    // `across` is divided by the sine of the tilt, because its direction is (ẑ - n·axis)/sine.
     let sign = if axis.z < 0.0 { -1.0 } else { 1.0 };
     let moment = (DVec3::Z - axis * axis.z) * (radius * across) + axis * (sign * length * along);
     Wet { share, facing: share, slope, moment, turn: 0.25 * slope * radius * radius }
 }
 
-/// Heights of a disc's points: density `2√(1 - q²)/πR` with `q = u/R`.
+/// Distribution of the heights `u` of a disc's points: density `2√(1 - q²)/πR` with `q = u/R`.
 struct Semicircle {
     radius: f64,
 }
@@ -193,14 +195,14 @@ impl Semicircle {
         0.5 + (q * root + angle) / PI
     }
 
-    /// Integral of the share from far below.
+    /// Integral of the share from minus infinity to `u`.
     fn share_integral(&self, u: f64) -> f64 {
         let (q, root, angle) = self.parts(u);
         let inside = 0.5 * q + (q * angle + root) / PI - root * root * root / (3.0 * PI);
         self.radius * inside + (u - self.radius).max(0.0)
     }
 
-    /// Integral of that.
+    /// Second integral of the share.
     fn share_second_integral(&self, u: f64) -> f64 {
         let (q, root, angle) = self.parts(u);
         let inside = 0.25 * q * q + ((0.5 * q * q + 0.25) * angle + 0.75 * q * root) / PI
@@ -216,18 +218,188 @@ impl Semicircle {
         -2.0 * root * root * root / (3.0 * PI)
     }
 
-    /// Integral of that over `u/R`.
+    /// Integral of `first` over `u/R`.
     fn first_integral(&self, u: f64) -> f64 {
         let (q, root, angle) = self.parts(u);
         -2.0 * cubed(q, root, angle) / (3.0 * PI)
     }
 }
 
-/// Integral of `(1 - q²)^(3/2)` from zero.
+/// Integral of `(1 - q²)^(3/2)` from 0 to `q`.
 fn cubed(q: f64, root: f64, angle: f64) -> f64 {
     q * (5.0 - 2.0 * q * q) * root / 8.0 + 0.375 * angle
 }
 
 #[cfg(test)]
-#[path = "float_tests.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    const SPHERE: Form = Form::Spheroid { across_m: 0.2, along_m: 0.2 };
+    const EGG: Form = Form::Spheroid { across_m: 0.16, along_m: 0.29 };
+    const STAFF: Form = Form::Cylinder { radius_m: 0.02, length_m: 3.4 };
+    const DRUM: Form = Form::Cylinder { radius_m: 0.15, length_m: 0.4 };
+
+    fn tilted(angle: f64) -> DVec3 {
+        DQuat::from_rotation_x(angle) * DVec3::Z
+    }
+
+    /// Submerged share and first moment, summed over points distributed uniformly over the volume.
+    fn summed(form: Form, height: f64, axis: DVec3) -> (f64, DVec3) {
+        let turn = DQuat::from_rotation_arc(DVec3::Z, axis);
+        let (slices, rings, spokes) = (160, 40, 48);
+        let (mut share, mut moment, mut all) = (0.0, DVec3::ZERO, 0.0);
+        for slice in 0..slices {
+            let t = (f64::from(slice) + 0.5) / f64::from(slices) * 2.0 - 1.0;
+            let (z, radius) = match form {
+                Form::Spheroid { across_m, along_m } => {
+                    (t * along_m, across_m * (1.0 - t * t).sqrt())
+                }
+                Form::Cylinder { radius_m, length_m } => (0.5 * t * length_m, radius_m),
+                Form::Level { height_m } => (0.5 * t * height_m, 1.0),
+            };
+            for cell in 0..rings * spokes {
+                let r = radius * ((f64::from(cell / spokes) + 0.5) / f64::from(rings)).sqrt();
+                let around = 2.0 * PI * (f64::from(cell % spokes) + 0.5) / f64::from(spokes);
+                let place = turn * DVec3::new(r * libm::cos(around), r * libm::sin(around), z);
+                let weight = radius * radius;
+                all += weight;
+                if height + place.z < 0.0 {
+                    share += weight;
+                    moment += place * weight;
+                }
+            }
+        }
+        (share / all, moment / all)
+    }
+
+    #[test]
+    fn share_and_moment_are_those_of_the_submerged_points() {
+        for form in [SPHERE, EGG, STAFF, DRUM] {
+            for angle in [0.0, 0.02, 0.4, 1.1, 1.5, 0.5 * PI, 2.6] {
+                let axis = tilted(angle);
+                for part in [-0.8, -0.3, 0.05, 0.6] {
+                    let height = part * form.reach_m(axis);
+                    let (wet, (share, moment)) =
+                        (form.wet(height, axis), summed(form, height, axis));
+                    assert!(
+                        (wet.share - share).abs() < 0.008,
+                        "{form:?} {angle} {part}: {} for {share}",
+                        wet.share
+                    );
+                    let off = (wet.moment - moment).length();
+                    assert!(
+                        off < 0.008 * form.reach_m(axis).max(0.02),
+                        "{form:?} {angle} {part}: {} for {moment}",
+                        wet.moment
+                    );
+                }
+            }
+        }
+    }
+
+    /// Share and moment are derivatives of one potential: `dW/dz = -share`, and with respect to tilt the cross product of
+    /// moment and `ẑ`.
+    #[test]
+    fn a_float_gains_no_energy_by_rolling() {
+        for form in [SPHERE, EGG, STAFF, DRUM] {
+            for angle in [0.01, 0.3, 0.9, 1.3, 1.5, 1.565, 1.5703] {
+                let axis = tilted(angle);
+                for part in [-0.7, 0.0, 0.4] {
+                    let height = part * form.reach_m(axis);
+                    let (d, at) = (1e-6, |height: f64, angle: f64| form.wet(height, tilted(angle)));
+                    // Mixed derivatives agree: that of the share by tilt and that of the moment by height.
+                    let by_tilt =
+                        (at(height, angle + d).share - at(height, angle - d).share) / (2.0 * d);
+                    let turning = |height: f64| at(height, angle).moment.cross(DVec3::Z).x;
+                    let by_height = (turning(height + d) - turning(height - d)) / (2.0 * d);
+                    assert!(
+                        (by_tilt - by_height).abs() < 2e-4 * (1.0 + by_tilt.abs()),
+                        "{form:?} {angle} {part}: {by_tilt} {by_height}"
+                    );
+                    let slope =
+                        (at(height - d, angle).share - at(height + d, angle).share) / (2.0 * d);
+                    let expected = at(height, angle).slope;
+                    assert!(
+                        (slope - expected).abs() < 1e-4 * expected,
+                        "{form:?} {angle} {part}: {slope} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// `V_wet = π d² (3R - d)/3` at draft `d`.
+    #[test]
+    fn a_sphere_displaces_its_cap() {
+        for draft in [0.01, 0.1, 0.2, 0.37] {
+            let cap = draft * draft * (0.6 - draft) / 3.0 / (4.0 / 3.0 * 0.2 * 0.2 * 0.2);
+            assert!((SPHERE.wet(0.2 - draft, DVec3::Z).share - cap).abs() < 1e-14);
+        }
+    }
+
+    /// Submerged share of a float's outline across a horizontal flow, summed over a grid of lines along the flow.
+    fn outline_under_water(form: Form, height: f64, axis: DVec3, along_flow: DVec3) -> f64 {
+        let Form::Spheroid { across_m, along_m } = form else { panic!("{form:?}") };
+        let stretch = DVec3::new(1.0 / across_m, 1.0 / across_m, 1.0 / along_m);
+        let to_ball = |v: DVec3| stretch * (DQuat::from_rotation_arc(axis, DVec3::Z) * v);
+        let (side, reach) = (along_flow.cross(DVec3::Z), across_m.max(along_m));
+        let (mut under, mut all, cells) = (0.0, 0.0, 600);
+        let at = |cell: i32| (f64::from(cell) + 0.5) / f64::from(cells) * 2.0 * reach - reach;
+        for (row, column) in (0..cells).flat_map(|row| (0..cells).map(move |column| (row, column)))
+        {
+            let place = to_ball(DVec3::Z * at(row) + side * at(column));
+            let ray = to_ball(along_flow).normalize();
+            if (place - place.dot(ray) * ray).length() < 1.0 {
+                all += 1.0;
+                under += f64::from(u8::from(height + at(row) < 0.0));
+            }
+        }
+        under / all
+    }
+
+    #[test]
+    fn the_facing_share_is_that_of_the_submerged_outline() {
+        for (form, angle) in [(SPHERE, 0.0), (EGG, 0.0), (EGG, 0.7), (EGG, 0.5 * PI)] {
+            for part in [-0.7, 0.1, 0.8] {
+                let axis = tilted(angle);
+                let height = part * form.reach_m(axis);
+                let facing = form.wet(height, axis).facing;
+                for along in [DVec3::X, DVec3::Y, DVec3::new(0.6, 0.8, 0.0)] {
+                    let sum = outline_under_water(form, height, axis, along);
+                    assert!(
+                        (facing - sum).abs() < 0.004,
+                        "{form:?} {angle} {part}: {facing}, {sum}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// The restoring moment of an upright cylinder at a small heel: `ρ g π r⁴/4` per radian about its centre from the
+    /// waterplane, and the part of buoyancy below the centre (wall-sided formula).
+    #[test]
+    fn an_upright_cylinder_rights_itself_by_its_waterplane() {
+        let (radius, length, angle) = (0.15, 0.4, 1e-4);
+        let wet = DRUM.wet(0.05, tilted(angle));
+        let (share, area) = (0.5 - 0.05 / length, PI * radius * radius);
+        let volume = area * length;
+        assert!((wet.share - share).abs() < 1e-9);
+        // The centroid of the submerged part is below the centre by half of the dry length.
+        let below = 0.5 * (1.0 - share) * length;
+        let expected =
+            (-PI * radius * radius * radius * radius / 4.0 / volume + share * below) * angle;
+        let turning = wet.moment.cross(DVec3::Z).x;
+        assert!((turning / expected - 1.0).abs() < 1e-6, "{turning} for {expected}");
+    }
+
+    #[test]
+    fn the_share_of_a_level_float_is_linear_in_the_draft() {
+        let wet = Form::Level { height_m: 0.25 }.wet(0.05, tilted(0.7));
+        assert!(
+            (wet.share - 0.3).abs() < 1e-15
+                && (wet.slope - 4.0).abs() < 1e-15
+                && wet.moment == DVec3::ZERO
+        );
+    }
+}

@@ -1,4 +1,4 @@
-//! What is shown and exported: a snapshot of a state, detached from the solver.
+//! Frames: snapshots of a state for display and export, independent of the solver.
 
 use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
@@ -13,30 +13,30 @@ use crate::whale::Exertion;
 pub struct Frame {
     /// Simulated time [s].
     pub time_s: f64,
-    /// Steps taken.
+    /// Number of steps taken.
     pub step: u64,
-    /// Place of each node, in the model's layout [m].
+    /// Position of each node, in the model's layout [m].
     pub nodes: Vec<DVec3>,
     /// Unstretched length of each segment [m].
     pub segment_length_m: Vec<f64>,
-    /// Tension of each segment, never below zero [N].
+    /// Tension of each segment, zero where it is slack [N].
     pub tension_n: Vec<f64>,
     /// Whether each segment is cut.
     pub cut: Vec<bool>,
-    /// Place and orientation of each body.
+    /// Position and orientation of each body.
     pub bodies: Vec<(DVec3, DQuat)>,
-    /// Place, orientation, speed through the water and posture of the whale.
+    /// The whale, where the model has one.
     pub whale: Option<WhaleFrame>,
-    /// Places where rope presses on skin.
+    /// Contacts of rope with skin.
     pub contacts: Vec<ContactPoint>,
-    /// Places where bodies press on skin.
+    /// Contacts of bodies with skin.
     pub body_contacts: Vec<BodyContact>,
 }
 
 /// The whale in a [`Frame`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct WhaleFrame {
-    /// Place of the whale frame's origin [m].
+    /// Position of the whale frame's origin [m].
     pub position: DVec3,
     /// Orientation, whale to world.
     pub orientation: DQuat,
@@ -44,12 +44,12 @@ pub struct WhaleFrame {
     pub speed_m_s: f64,
     /// Joint angles.
     pub posture: Posture,
-    /// What it does and bears.
+    /// Effort of the whale and forces on it.
     pub exertion: Exertion,
 }
 
 impl Frame {
-    /// The snapshot of a state with the contacts of its last step.
+    /// A snapshot of a state with the contacts of its last step.
     #[must_use]
     pub fn of(state: &State, contacts: &[ContactPoint], body_contacts: &[BodyContact]) -> Self {
         Self {

@@ -1,23 +1,23 @@
-//! Gear types at work: once a step each sees the tensions of its lines and may cut or release.
+//! Gear types during a run: each is called once per step with the tensions of its lines, and may cut lines or release links.
 
 use endline_sdk::{GearAction, GearStep, LineEnd};
 
 use crate::model::Model;
-use crate::parting::{cut, link_segment, note_line};
+use crate::parting::{cut, link_segment, record_parted_line};
 use crate::state::State;
 use crate::step::Stop;
 
-/// Scratch of the gear types' calls.
+/// Buffers for the calls of gear types.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GearWorkspace {
     tensions: Vec<[f64; 2]>,
     actions: Vec<GearAction>,
 }
 
-/// Calls every gear type and does what it asks.
+/// Calls every gear type and executes its actions.
 ///
 /// # Errors
-/// With the plugin's id, where it fails or names a line or link it did not build.
+/// Reports the plugin's id if it fails, or if it refers to a line or link that it did not build.
 pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWorkspace) -> Result<(), Stop> {
     let GearWorkspace { tensions, actions } = work;
     for (index, hook) in model.spec.gear.iter().enumerate() {
@@ -39,7 +39,7 @@ pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWorkspace) ->
         state.gear[index] = floats;
         answer.map_err(|error| stop(state.time_s, error.message))?;
         for action in actions.drain(..) {
-            obey(model, state, index, action).map_err(|reason| stop(state.time_s, reason))?;
+            execute(model, state, index, action).map_err(|reason| stop(state.time_s, reason))?;
         }
     }
     Ok(())
@@ -51,7 +51,12 @@ fn end_tensions(model: &Model, state: &State, [first, last]: [usize; 2]) -> [f64
         .map(|segment| state.rope.tension[segment].max(0.0))
 }
 
-fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Result<(), String> {
+fn execute(
+    model: &Model,
+    state: &mut State,
+    hook: usize,
+    action: GearAction,
+) -> Result<(), String> {
     let hook = &model.spec.gear[hook];
     match action {
         GearAction::CutLine { line, end } => {
@@ -64,7 +69,7 @@ fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Re
                 model.line_segments[last].end - 1
             };
             if !state.rope.cut[segment] {
-                note_line(model, state, segment);
+                record_parted_line(model, state, segment);
                 cut(state, segment);
             }
         }

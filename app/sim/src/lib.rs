@@ -1,13 +1,15 @@
 //! The physics of Endline: rope, bodies, water, whale, contact.
 //!
-//! A [`Model`] never changes once made; a [`State`] walks through time under it by [`step`].
-//! Nothing here reads a file or a thread, logs, or keeps a global; a clock is read only where the caller lends one to tell costs.
+//! A [`Model`] never changes; [`step`] advances a [`State`] in time under it.
+//! The crate does no I/O, starts no thread, writes no log and has no global state; it reads a clock only if the caller lends
+//! one.
 //! SI units, f64, radians; z up, z = 0 the mean sea surface, x east, y north.
 
-#![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
+#![warn(clippy::print_stdout, clippy::print_stderr)] // results are returned as values
 
 mod assembly;
 pub mod balance;
+mod bits;
 mod broad_phase;
 pub mod contact;
 pub mod cost;
@@ -17,15 +19,11 @@ pub mod frame;
 mod gear_hook;
 pub mod geometry;
 pub mod haul;
-mod in_place;
 mod matrix;
 pub mod metrics;
 pub mod model;
-mod model_check;
 pub mod parting;
-mod random;
 mod remesh;
-mod same_bits;
 pub mod solids;
 mod solver;
 mod start;

@@ -1,17 +1,18 @@
-//! Weak links and ropes part: a link when the tension at its end of the line passes its rating, a rope
-//! when the tension of a segment passes its strength there, which a knot or splice lowers in the segment at that end (of
-//! segments above it the one most above its own goes). The segment is then cut: it pulls and touches nothing.
+//! Parting of weak links and ropes.
+//!
+//! A link parts when the tension `T` of the end segment of its line exceeds its rating. A rope parts at the segment with the
+//! greatest ratio `T/S > 1`, where the strength `S` of a segment includes the factor of a knot or splice at that end.
+//! The segment is then cut: it exerts no force and has no contact. `T`, `S` and ratings are in newtons.
 
 use endline_sdk::LineEnd;
 
 use crate::model::{Link, Model, Strength};
 use crate::state::State;
 
-/// How far above its rating something may part before the step is redone shorter.
+/// Ratio of tension to rating above which the step is repeated with a shorter length.
 const LATE: f64 = 1.005;
 
-/// The segment a link sits on.
-#[must_use]
+/// Segment of a link.
 pub fn link_segment(model: &Model, link: &Link) -> usize {
     let segments = &model.line_segments[link.line];
     match link.end {
@@ -20,8 +21,9 @@ pub fn link_segment(model: &Model, link: &Link) -> usize {
     }
 }
 
-/// Whether no tension comes up to the weakest link or line end of all.
+/// Whether no tension exceeds the rating or strength of the weakest link or line end.
 fn holds(model: &Model, tension: &[f64]) -> bool {
+    debug_assert_eq!(tension.len(), model.segment_count, "one tension per segment");
     let links = model.spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n);
     let lines = model.spec.lines.iter().map(|line| {
         let Strength { all, end_a, end_b } = line.strength;
@@ -31,7 +33,7 @@ fn holds(model: &Model, tension: &[f64]) -> bool {
     tension.iter().all(|tension| *tension <= weakest)
 }
 
-/// Whether these tensions pass a rating or strength by so much that it should have parted sooner.
+/// Whether a tension exceeds a rating or strength by more than [`LATE`] allows.
 pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
     if holds(model, tension) {
         return false;
@@ -46,7 +48,7 @@ pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
     model.spec.links.iter().any(link_late) || (0..model.segment_count).any(rope_late)
 }
 
-/// Parts what is above its rating or strength; whether anything parted.
+/// Parts links and ropes above their rating or strength; returns whether any parted.
 pub(crate) fn part(model: &Model, state: &mut State) -> bool {
     let mut parted = false;
     if holds(model, &state.rope.tension) {
@@ -69,20 +71,20 @@ pub(crate) fn part(model: &Model, state: &mut State) -> bool {
         else {
             continue;
         };
-        note_line(model, state, worst);
+        record_parted_line(model, state, worst);
         cut(state, worst);
         parted = true;
     }
     parted
 }
 
-/// Notes when and where a line parts for the first time: at the middle of a segment.
-pub(crate) fn note_line(model: &Model, state: &mut State, segment: usize) {
+/// Records time and position of a line's first break, at the middle of a segment.
+pub(crate) fn record_parted_line(model: &Model, state: &mut State, segment: usize) {
     let place = (state.time_s, state.arc(model, segment, 0.5));
     state.line_parted[model.segment_line[segment]].get_or_insert(place);
 }
 
-/// Cuts one segment.
+/// Cuts a segment.
 pub(crate) fn cut(state: &mut State, segment: usize) {
     state.rope.cut[segment] = true;
     state.rope.tension[segment] = 0.0;

@@ -1,4 +1,4 @@
-//! The state from which a model starts before statics: first guesses, at rest.
+//! Initial state of a model before statics: initial guesses, at rest.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::whale::Exertion;
 use crate::whale::pilot;
 
 impl State {
-    /// The state a model starts from before statics: first guesses, at rest.
+    /// The initial state of a model before statics: initial guesses, at rest.
     #[must_use]
     pub fn start(model: &Model) -> Self {
         let position = start_nodes(model);
@@ -55,12 +55,18 @@ impl State {
             step_control: StepControl::new(model.spec.lines.len()),
             pilot: PilotMemory::default(),
         };
+        debug_assert_eq!(state.rope.position.len(), model.node_count, "one position per node");
+        debug_assert_eq!(
+            state.rope.segment_length.len(),
+            model.segment_count,
+            "one length per segment"
+        );
         pilot::begin(model, &mut state);
         state
     }
 }
 
-/// First guess of every node: the line's own, or a straight line between its joints.
+/// Initial position of every node: that of the line, or on a straight line between its joints.
 fn start_nodes(model: &Model) -> Vec<DVec3> {
     let joint_place = |joint: usize| match &model.spec.joints[joint].kind {
         JointKind::Body { body, offset_m } => {

@@ -1,35 +1,35 @@
-//! Strands: lines joined end to end at plain splices, so that a wrap across a splice counts whole.
+//! Strands: lines joined end to end at splices, so that a wrap across a splice is counted as one.
 
 use endline_sdk::LineEnd;
 
 use crate::model::{JointKind, Model};
 
-/// Where every segment lies in its strand; rope before it and its length by the last [`Strands::measure`].
+/// Position of every segment in its strand; lengths are those of the last [`Strands::measure`].
 #[derive(Clone, Debug)]
 pub(crate) struct Strands {
-    /// By segment of the model's layout.
+    /// Position of each segment of the model's layout.
     pub(crate) places: Vec<Place>,
-    /// Segments of each strand, from its start.
+    /// Segments of each strand, in order from its start.
     segments: Vec<Vec<usize>>,
 }
 
-/// A segment's place in its strand.
+/// Position of a segment in its strand.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Place {
     /// Index of the strand.
     pub(crate) strand: usize,
-    /// How many segments of the strand come before.
+    /// Number of segments of the strand before it.
     pub(crate) order: usize,
-    /// Unstretched rope before the segment [m].
+    /// Unstretched length before the segment [m].
     pub(crate) arc_m: f64,
     /// Its unstretched length [m].
     pub(crate) length_m: f64,
-    /// Whether its line runs against the strand.
+    /// Whether its line runs opposite to the strand.
     pub(crate) reversed: bool,
 }
 
 impl Place {
-    /// Unstretched rope from the strand's start to a fraction of the segment [m].
+    /// Unstretched length from the strand's start to a fraction of the segment [m].
     pub(crate) fn arc_at(&self, fraction: f64) -> f64 {
         self.arc_m + self.length_m * if self.reversed { 1.0 - fraction } else { fraction }
     }
@@ -49,13 +49,14 @@ impl Strands {
         strands
     }
 
-    /// Segments of each strand in its order.
+    /// Segments of each strand, in order.
     pub(crate) fn lists(&self) -> &[Vec<usize>] {
         &self.segments
     }
 
-    /// Takes over the lengths of a state.
+    /// Updates the lengths from a state.
     pub(crate) fn measure(&mut self, segment_length: &[f64]) {
+        debug_assert_eq!(segment_length.len(), self.places.len(), "one length per segment");
         for strand in &self.segments {
             let mut arc_m = 0.0;
             for &segment in strand {
@@ -66,13 +67,14 @@ impl Strands {
         }
     }
 
-    /// Whether the rope between two segments of a strand is whole, both included.
+    /// Whether no segment between two segments of a strand is cut, both included.
     pub(crate) fn whole(&self, from: &Place, to: &Place, cut: &[bool]) -> bool {
+        debug_assert_eq!(from.strand, to.strand, "both segments belong to one strand");
         let (low, high) = (from.order.min(to.order), from.order.max(to.order));
         self.segments[from.strand][low..=high].iter().all(|segment| !cut[*segment])
     }
 
-    /// Lays lines from end `entered` of `line` on, splice by splice.
+    /// Appends a strand that starts at end `entered` of `line` and continues across splices.
     fn lay(&mut self, model: &Model, mut line: usize, mut entered: LineEnd, laid: &mut [bool]) {
         let (strand, mut order) = (self.segments.len(), Vec::new());
         loop {
@@ -98,7 +100,7 @@ impl Strands {
     }
 }
 
-/// The line and its end at which the strand through `line` starts; `line` itself in a ring.
+/// Line and end at which the strand through `line` starts; `line` itself if the strand is a ring.
 fn strand_start(model: &Model, line: usize) -> (usize, LineEnd) {
     let (mut at, mut end) = (line, LineEnd::A);
     while let Some((before, joined)) = spliced_to(model, at, end) {
@@ -110,7 +112,7 @@ fn strand_start(model: &Model, line: usize) -> (usize, LineEnd) {
     (at, end)
 }
 
-/// The one other line end at the free joint where `end` of `line` is, if there is just one.
+/// The other line end at the free joint of `end` of `line`, if exactly two line ends meet there.
 fn spliced_to(model: &Model, line: usize, end: LineEnd) -> Option<(usize, LineEnd)> {
     let joint = joint_at(model, line, end);
     if model.spec.joints.get(joint).is_none_or(|joint| joint.kind != JointKind::Free) {
@@ -121,7 +123,7 @@ fn spliced_to(model: &Model, line: usize, end: LineEnd) -> Option<(usize, LineEn
     if others.next().is_some() { None } else { found }
 }
 
-/// Every line end at a joint.
+/// All line ends at a joint.
 pub(crate) fn ends_at(model: &Model, joint: usize) -> impl Iterator<Item = (usize, LineEnd)> {
     let ends =
         (0..model.spec.lines.len()).flat_map(|line| [(line, LineEnd::A), (line, LineEnd::B)]);

@@ -1,4 +1,4 @@
-//! What finding contacts costs in a step: the search of the tree, distances of what is near, and sweeps, made once more and timed.
+//! Cost of contact detection in a step: the search of the tree, distances of near pairs, and sweeps, repeated and timed.
 
 use cpu_time::ThreadTime;
 use endline_sim::geometry::distance::segment_triangle;
@@ -6,12 +6,12 @@ use endline_sim::geometry::sweep::{SweptSegment, safe_fraction};
 use endline_sim::whale::{Candidate, Surface, pose};
 use endline_sim::{DAffine3, Model, State};
 
-/// Rope within this distance of skin is looked at, as in a step [m].
+/// Rope within this distance of skin is tested, as in a step [m].
 const MARGIN_M: f64 = 0.08;
-/// Separation the sweeps keep [m].
+/// Smallest separation of the sweeps [m].
 const SEPARATION_M: f64 = 0.000_5;
 
-/// Detection over a stretch of a run.
+/// Detection over a section of a run.
 pub struct Detection {
     surface: Option<Surface>,
     bones: [Vec<DAffine3>; 2],
@@ -19,7 +19,7 @@ pub struct Detection {
     segments: Vec<SweptSegment>,
     /// CPU time of all steps measured [s].
     pub seconds: f64,
-    /// Pairs of segment and triangle found in all.
+    /// Number of all pairs of segment and triangle.
     pub pairs: u64,
     /// Steps measured.
     pub steps: u64,
@@ -40,7 +40,7 @@ impl Detection {
         }
     }
 
-    /// Finds contacts of one solver step that begins where the whale was earlier and ends where it is.
+    /// Finds contacts of one solver step from the earlier place of the whale to the present one.
     pub fn measure(&mut self, model: &Model, earlier: &State, now: &State) {
         let (Some(surface), Some(whale)) = (&mut self.surface, &model.spec.whale) else { return };
         for (bones, state) in self.bones.iter_mut().zip([earlier, now]) {

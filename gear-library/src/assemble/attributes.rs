@@ -1,17 +1,17 @@
-//! Attributes as a plugin takes them: looked up, checked and in the declared order.
+//! Resolves attributes of files: checked values in the order that a plugin declares.
 
 use endline_sdk::{Attribute, AttributeKind, AttributeValue, Descriptor};
 
-use crate::attributes::Attributes;
+use crate::assembly::Attributes;
+use crate::diagnostic::hint;
 use crate::fields::{Problems, Range, read_value};
 use crate::library::Library;
-use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
 impl Attributes {
-    /// The values a plugin takes, in its declared order; library items are noted in `used`.
+    /// The values in the declared order; files of library items are added to `used`.
     pub(crate) fn resolve(
         &self,
         plugin: &Descriptor,
@@ -31,9 +31,9 @@ impl Attributes {
             }
         }
         let value = |attribute: &Attribute| {
-            let given = self.0.iter().find(|(key, _, _)| attribute.key == *key);
+            let written = self.0.iter().find(|(key, _, _)| attribute.key == *key);
             let read =
-                given.and_then(|(_, _, node)| read_attribute(attribute, node, library, problems));
+                written.and_then(|(_, _, node)| read_attribute(attribute, node, library, problems));
             read.unwrap_or_else(|| attribute.default_value())
         };
         let values: Vec<_> = plugin.attributes.iter().map(value).collect();
@@ -44,12 +44,12 @@ impl Attributes {
     }
 }
 
-/// The numbers among attribute values, for hooks that take numbers only.
+/// The numbers among attribute values, for hooks with numbers only.
 pub(super) fn numbers(values: &[AttributeValue]) -> Vec<f64> {
     values.iter().filter_map(AttributeValue::number).collect()
 }
 
-/// The value of one attribute; `None` where it is not one that the attribute takes, which is reported.
+/// The value of one attribute; `None` if it is invalid, which is reported.
 fn read_attribute(
     attribute: &Attribute,
     node: &Node,
@@ -86,14 +86,14 @@ fn number(attribute: &Attribute, node: &Node, range: Range, problems: &Problems)
     let Some(quantity) = Quantity::from_si_unit(&attribute.unit) else {
         let (key, unit) = (&attribute.key, &attribute.unit);
         let message = format!("attribute `{key}` is declared in the unknown unit `{unit}`");
-        let help = "this is a fault of the plugin; leave the attribute out";
+        let help = "this is an error of the plugin; remove the attribute";
         problems.push(node.place.error(message, help));
         return None;
     };
     read_value(node, quantity, range, problems).map(|value| value.value)
 }
 
-/// A whole number between two.
+/// A whole number within a range.
 fn count(
     attribute: &Attribute,
     node: &Node,
@@ -124,7 +124,7 @@ fn item(
         let (key, noun) = (&attribute.key, node.content.noun());
         let message = format!("`{key}` is {noun}, not the id of an item in {folder}/");
         problems
-            .push(node.place.error(message, "write the id in quotes; an empty text is for none"));
+            .push(node.place.error(message, "write the id in quotes; an empty text means none"));
         return None;
     };
     if !id.is_empty() && !ids.contains(&id.as_str()) {
@@ -134,7 +134,7 @@ fn item(
     Some(id.clone())
 }
 
-/// Path of the file that a value names, where it names one.
+/// Path of the file of a library item.
 fn item_path(kind: &AttributeKind, value: &AttributeValue, library: &Library) -> Option<String> {
     let AttributeKind::Item { library: folder, .. } = kind else { return None };
     library.entry(Kind::in_folder(folder)?, value.item()?).map(|entry| entry.path.clone())

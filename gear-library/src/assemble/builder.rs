@@ -1,22 +1,21 @@
-//! What assembly works on: the spec so far, the names in it, the problems found.
+//! The state of an assembly: the spec so far, names of its parts, problems.
 
 use endline_sim::DVec3;
 use endline_sim::model::{ModelSpec, Settings};
 use endline_sim::water::{Current, Water};
 
-use crate::diagnostic::{At, Diagnostic, Place};
+use crate::diagnostic::{At, Diagnostic, Place, hint};
 use crate::fields::Problems;
 use crate::items::{Condition, Rope};
 use crate::library::Library;
 use crate::limits;
-use crate::nearest::hint;
 use crate::scenario::{LineStart, Scenario};
 use crate::schema::Kind;
 use crate::strength::StrengthBudget;
 
 use super::{Assembled, Hooks};
 
-/// A part of the spec by what it is and its index; a line with inserts is several in a row.
+/// A part of the spec by kind and index; a line with inserts is a range of lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Body(usize),
@@ -32,18 +31,18 @@ pub(super) struct Uncut {
     pub length_m: f64,
     /// The shape it starts in.
     pub start: LineStart,
-    /// The way it lies at first, where its gear type says [m].
+    /// Initial path, if its gear type states one [m].
     pub laid_m: Vec<DVec3>,
-    /// Where it is written, for messages.
+    /// Its place in a file, for messages.
     pub place: Place,
 }
 
-/// Strength and stiffness of a rope over those of its library item, where a line is to deliver a strength [1].
+/// Factors on strength and stiffness of a rope of a line with a required delivered strength [1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
-    /// Of the strength.
+    /// On the strength.
     pub strength: f64,
-    /// Of the stiffness.
+    /// On the stiffness.
     pub stiffness: f64,
 }
 
@@ -65,13 +64,13 @@ pub(super) struct Builder<'a> {
     pub stock: Vec<Rope>,
     /// Materials of the spec's ropes, for friction.
     pub materials: Vec<At<String>>,
-    /// Points of each body where a line can be made fast, in the body's frame [m]; the usual one first.
+    /// Points of each body for lines, in the body's frame [m]; the default first.
     pub points: Vec<Vec<(String, DVec3)>>,
     /// The spec's lines before they are cut.
     pub uncut: Vec<Uncut>,
-    /// What lines and weak links hold, and why.
+    /// Strength budgets of lines and weak links.
     pub strengths: Vec<StrengthBudget>,
-    /// Whether gear could not be built, so that ids may be missing through no fault of those who name them.
+    /// Whether gear could not be built; then unknown ids are not reported.
     pub incomplete: bool,
     /// Parts by id.
     names: Vec<(String, Part)>,
@@ -125,7 +124,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Gives a part its id; a second part of the same id is a problem.
+    /// Registers the id of a part; a duplicate id is reported.
     pub fn name(&mut self, id: String, part: Part, place: &Place) {
         let most = limits::PARTS.most as usize;
         if self.names.len() >= most {
@@ -146,10 +145,9 @@ impl<'a> Builder<'a> {
         }
         if id.contains(':') && matches!(part, Part::Body(_) | Part::Joint(_)) {
             let message = format!("the id `{id}` has a colon");
-            self.problems.push(place.error(
-                message,
-                "a colon parts a body from the point where a line is made fast; choose another id",
-            ));
+            self.problems.push(
+                place.error(message, "a colon separates a body from its point; choose another id"),
+            );
         }
         self.names.push((id, part));
     }
@@ -159,7 +157,7 @@ impl<'a> Builder<'a> {
         self.names.iter().find(|(known, _)| known == id).map(|(_, part)| *part)
     }
 
-    /// Reports an id that names nothing of the wanted kind.
+    /// Reports an id that names no part of the expected kind.
     pub fn unknown(&self, what: &str, id: &At<String>, wanted: fn(Part) -> bool) {
         if self.incomplete {
             return;
@@ -171,7 +169,7 @@ impl<'a> Builder<'a> {
         );
     }
 
-    /// Reports an item the library does not have.
+    /// Reports an item that is not in the library.
     pub fn no_item(&self, kind: Kind, id: &str, place: &Place) {
         self.problems.push(
             place.error(
@@ -181,13 +179,12 @@ impl<'a> Builder<'a> {
         );
     }
 
-    /// Notes a library file as used.
+    /// Records a library file as used.
     pub fn uses(&mut self, path: &str) {
         self.used.push(path.to_owned());
     }
 
-    /// Index of a rope of a condition in the spec: one written in place, or one of the library; scaled where a line is to
-    /// deliver a strength.
+    /// Index in the spec of a rope in a condition, scaled for a required delivered strength; it is added if it is new.
     pub fn rope(
         &mut self,
         id: &At<String>,
@@ -241,7 +238,7 @@ impl<'a> Builder<'a> {
         Some(rope)
     }
 
-    /// The same without a report of what is missing.
+    /// Finds a rope without a report of a missing one.
     pub fn find_rope(&self, id: &At<String>, problems: &Problems) -> Option<Rope> {
         match self.scenario.ropes.iter().find(|entry| entry.id == id.value) {
             Some(entry) => Rope::from_entry(entry.clone(), problems),
@@ -260,9 +257,9 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A rope stronger or weaker than its item, under an id of its own.
+/// A scaled rope, with its own id.
 fn scaled(rope: endline_sim::model::Rope, scale: Scale) -> endline_sim::model::Rope {
-    // Tenths of a newton tell ropes apart that lines of nearly one strength need.
+    // The id distinguishes ropes to a tenth of a newton.
     let strength_n = (10.0 * rope.strength_n * scale.strength).round() / 10.0;
     endline_sim::model::Rope {
         id: format!("{} (new {strength_n:.1} N, stiffness {:.3})", rope.id, scale.stiffness),

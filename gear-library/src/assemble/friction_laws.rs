@@ -1,32 +1,31 @@
 //! The laws of friction on the whale, by rope and region.
 //!
-//! For each rope and region the scenario names a model: that of `[friction]`, or of the last `[[friction.on]]` whose surfaces hold it.
-//! Its attributes are the model's own defaults, over them what the file of the rope's material says, over that the scenario.
+//! The model of a rope and region is that of the last `[[friction.on]]` that includes the region, else that of `[friction]`.
+//! Attributes of the scenario override those of the rope's material, which override the defaults of the model.
 
 use endline_sdk::Region;
 use endline_sim::model::{BODY_ON_SKIN_FRICTION, Friction, FrictionLaw};
 
-use crate::attributes::Attributes;
-use crate::diagnostic::At;
+use crate::assembly::Attributes;
+use crate::diagnostic::{At, hint};
 use crate::items::{RopeFriction, any_holds};
-use crate::nearest::hint;
 use crate::scenario::FrictionChoice;
 use crate::schema::Kind;
 
 use super::attributes::numbers;
 use super::builder::Builder;
 
-/// Id of the file of friction that holds for traps, buoys and anchors.
+/// Id of the friction file of traps, buoys and anchors.
 const BODIES: &str = "bodies";
 
 impl Builder<'_> {
-    /// The friction of every rope on a whale: the laws, and the table of coefficients, rope by region.
+    /// Adds friction on the whale: laws and coefficients by rope and region.
     pub fn add_friction(&mut self) {
         if self.scenario.whale.is_none() {
             return;
         }
         let Some(choice) = &self.scenario.friction else {
-            let message = "there is a whale, but no `friction`";
+            let message = "the scenario has a whale, but no `friction`";
             let help = "write [friction] with model = \"org.endline.friction.coulomb\"";
             self.problems.push(self.scenario.place.error(message, help));
             return;
@@ -56,14 +55,14 @@ impl Builder<'_> {
         }
         self.add_friction_of_bodies(choice, &mut friction);
         if friction.laws.is_empty() {
-            // Nothing here can touch the whale, yet the model is known by its plugin.
+            // Without rope or bodies the model still needs its plugin.
             let attributes = Attributes::default().over(&choice.attributes);
             friction.laws.extend(self.resolved(&choice.model.value, &attributes));
         }
         self.spec.friction = Some(friction);
     }
 
-    /// The friction of traps, buoys and anchors on a whale, where the library has figures of it.
+    /// Adds friction of bodies on the whale if the library has their figures.
     fn add_friction_of_bodies(&mut self, choice: &FrictionChoice, friction: &mut Friction) {
         let files = &self.library.frictions;
         let Some(file) = files.iter().find(|file| file.entry.id == BODIES) else { return };
@@ -81,7 +80,8 @@ impl Builder<'_> {
         for model in std::iter::once(&choice.model).chain(choice.on.iter().map(|on| &on.model)) {
             if self.hooks.friction(&model.value).is_none() {
                 let ids = self.hooks.ids();
-                let message = format!("no friction model `{}` among the plugins", model.value);
+                let message =
+                    format!("there is no plugin with the friction model `{}`", model.value);
                 self.problems.push(
                     model.place.error(message, hint(&model.value, ids.iter().map(String::as_str))),
                 );
@@ -91,7 +91,7 @@ impl Builder<'_> {
         all
     }
 
-    /// Index of the law of a material on a region among the laws, where it is put if it is new.
+    /// Index of the law of a material on a region; a new law is added.
     fn law(
         &mut self,
         choice: &FrictionChoice,

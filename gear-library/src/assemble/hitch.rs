@@ -1,30 +1,29 @@
-//! Where rope is made fast to the whale: `whale:peduncle`, `whale:mouth-left` and so on.
+//! Spots on the whale for the ends of lines: `whale:peduncle`, `whale:mouth-left` and so on.
 //!
-//! A spot is the triangle of its regions that lies farthest in a direction near a place along the body, or in the middle of them.
+//! A spot is a triangle of its regions: the outermost one in a direction near a place along the body, or the middle one.
 
 use endline_sdk::Region;
 use endline_sim::model::{Hitch, Joint, JointKind};
 use endline_sim::whale::Skin;
 use endline_sim::{DAffine3, DVec3};
 
-use crate::diagnostic::At;
-use crate::nearest::hint;
+use crate::diagnostic::{At, hint};
 use crate::whale::WhaleForm;
 
 use super::builder::Builder;
 
-/// How far off the skin the rope's centre line begins [m].
+/// Distance of the rope's centre line from the skin [m].
 const STAND_OFF_M: f64 = 0.03;
-/// How much farther out a spot must lie to be a metre away from its place along the body [m/m].
+/// Penalty on the distance from the place along the body, in outward distance [m/m].
 const STRAY: f64 = 2.0;
 
-/// A spot where rope can be made fast.
+/// A spot for the end of a line.
 struct Spot {
     name: &'static str,
     regions: &'static [Region],
-    /// Outward: the farthest triangle this way is meant.
+    /// Outward direction: the farthest triangle counts.
     toward: DVec3,
-    /// Place along the body, as a share of length from the snout; `None` for the middle of the regions, whatever the direction.
+    /// Place along the body, as a share of length from the snout; `None` for the middle of the regions.
     at: fn(&WhaleForm) -> Option<f64>,
 }
 
@@ -71,17 +70,17 @@ const SPOTS: [Spot; 9] = [
 ];
 
 impl Builder<'_> {
-    /// The joint at a spot of the whale; one for all lines made fast there.
+    /// The joint at a spot of the whale, shared by all lines there.
     pub fn whale_joint(&mut self, spot: Option<&str>, end: &At<String>) -> Option<usize> {
         let Some(whale) = &self.spec.whale else {
-            // A whale that could not be built is reported already.
+            // A failed whale has been reported.
             if self.scenario.whale.is_some() {
                 return None;
             }
-            self.problems.push(end.place.error(
-                "there is no whale to make rope fast to",
-                "write a [whale], or name a body or joint",
-            ));
+            self.problems.push(
+                end.place
+                    .error("the scenario has no whale", "add a [whale], or name a body or joint"),
+            );
             return None;
         };
         let name = spot.unwrap_or_default();
@@ -99,7 +98,7 @@ impl Builder<'_> {
         let form =
             &self.library.whales.iter().find(|item| item.entry.id == placed.item.value)?.form;
         let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
-            let message = format!("this whale's skin has nothing at its `{name}`");
+            let message = format!("the skin of this whale has no triangle at `{name}`");
             self.problems
                 .push(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
             return None;
@@ -114,7 +113,7 @@ impl Builder<'_> {
 }
 
 impl Spot {
-    /// The triangle of a skin that is meant.
+    /// The triangle of this spot.
     fn on(&self, skin: &Skin, form: &WhaleForm, length_m: f64) -> Option<usize> {
         let middle = |triangle: usize| {
             skin.triangles[triangle]

@@ -1,17 +1,19 @@
-//! Parts written into the scenario: obstacles, fixtures, joints, bodies, lines and weak links.
+//! Parts written into the scenario: obstacles, fixtures, joints, bodies, lines, weak links and probes.
 
+use endline_sdk::LineEnd;
 use endline_sim::DVec3;
-use endline_sim::model::{Joint, JointKind, Obstacle};
+use endline_sim::model::{Joint, JointKind, Obstacle, Probe, ProbeTarget, WhaleFigure};
 
-use crate::scenario::ObstacleOf;
+use crate::diagnostic::At;
+use crate::scenario::{ObstacleOf, ProbePart};
 
 use super::body;
 use super::builder::{Builder, Part};
+use super::gear::Rated;
 use super::line::NewLine;
-use super::rig::Rated;
 
 impl Builder<'_> {
-    /// Obstacles of the scenario.
+    /// Adds the obstacles.
     pub fn add_obstacles(&mut self) {
         for obstacle in &self.scenario.obstacles {
             let ObstacleOf { id, shape, position_m, orientation, friction, stiffness_n_m2 } =
@@ -28,7 +30,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Fixed, driven and pulled points of the scenario.
+    /// Adds the fixed, driven and pulled points.
     pub fn add_fixtures(&mut self) {
         for fixture in &self.scenario.fixtures {
             let kind = match (fixture.drive, fixture.pull) {
@@ -51,7 +53,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Free joints written into the scenario.
+    /// Adds the free joints.
     pub fn add_free_joints(&mut self) {
         for (id, position_m) in &self.scenario.joints {
             self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
@@ -63,7 +65,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Bodies written into the scenario.
+    /// Adds the bodies.
     pub fn add_free_bodies(&mut self) {
         for free in &self.scenario.bodies {
             self.name(free.id.value.clone(), Part::Body(self.spec.bodies.len()), &free.id.place);
@@ -72,7 +74,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Lines written into the scenario.
+    /// Adds the lines.
     pub fn add_free_lines(&mut self) {
         for (line, start) in &self.scenario.lines {
             let ends = (self.end(&line.from), self.end(&line.to));
@@ -89,13 +91,105 @@ impl Builder<'_> {
         }
     }
 
-    /// Weak links written into the scenario.
+    /// Adds the weak links.
     pub fn add_free_links(&mut self) {
         for link in &self.scenario.links {
             let item = link.item.as_ref().and_then(|item| self.rating(item, &link.id.value));
             let written =
                 link.rating_n.map(|rating_n| Rated { rating_n, ..item.unwrap_or_default() });
             self.add_link(&link.id, written.or(item), &link.line, link.end);
+        }
+    }
+}
+
+impl Builder<'_> {
+    /// Adds the probes.
+    pub fn add_probes(&mut self) {
+        for probe in &self.scenario.probes {
+            let target = match &probe.part {
+                ProbePart::Tension(line, end) => {
+                    let at_end =
+                        |[first, last]: [usize; 2]| if *end == LineEnd::A { first } else { last };
+                    self.line(line).map(|pieces| ProbeTarget::EndTension(at_end(pieces), *end))
+                }
+                ProbePart::Middle(line, axis) => {
+                    self.whole_line(line).map(|line| ProbeTarget::LineMiddle(line, *axis))
+                }
+                ProbePart::TensionAt(line, length_m) => {
+                    self.whole_line(line).map(|line| ProbeTarget::TensionAt(line, *length_m))
+                }
+                ProbePart::LineAt(line, length_m, axis) => {
+                    self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis))
+                }
+                ProbePart::Height(line, away_m) => {
+                    self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m))
+                }
+                ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
+                ProbePart::Whale(figure) => self.of_whale(figure),
+                ProbePart::Place { part, point_m, axis } => self.placed(part, *point_m, *axis),
+            };
+            if self.spec.probes.iter().any(|known| known.id == probe.id.value) {
+                let message = format!("there are two probes with the id `{}`", probe.id.value);
+                self.problems.push(probe.id.place.error(message, "give one of them another id"));
+            }
+            self.spec
+                .probes
+                .extend(target.map(|target| Probe { id: probe.id.value.clone(), target }));
+        }
+    }
+
+    /// The target of a figure of the whale, which must have that figure.
+    fn of_whale(&mut self, figure: &At<WhaleFigure>) -> Option<ProbeTarget> {
+        let error = match &self.spec.whale {
+            None => ("the scenario has no whale", "add a [whale], or remove this probe"),
+            Some(whale) if whale.kinetic.is_none() && figure.value != WhaleFigure::Speed => (
+                "a kinematic whale has no thrust, power or drag",
+                "write dynamics = \"kinetic\" in [whale], or read `speed`",
+            ),
+            Some(_) => return Some(ProbeTarget::Whale(figure.value)),
+        };
+        self.problems.push(figure.place.error(error.0, error.1));
+        None
+    }
+
+    /// First and last piece of a line.
+    fn line(&self, id: &At<String>) -> Option<[usize; 2]> {
+        if let Some(Part::Line { first, last }) = self.part(&id.value) {
+            return Some([first, last]);
+        }
+        self.unknown("line", id, |part| matches!(part, Part::Line { .. }));
+        None
+    }
+
+    /// A line that consists of one piece.
+    fn whole_line(&self, id: &At<String>) -> Option<usize> {
+        let [first, last] = self.line(id)?;
+        if first != last {
+            let message = format!("line `{}` consists of {} pieces", id.value, last + 1 - first);
+            let help = format!("name one of its pieces, such as `{}`", self.spec.lines[first].id);
+            self.problems.push(id.place.error(message, help));
+            return None;
+        }
+        Some(first)
+    }
+
+    /// A point of a body, or a joint.
+    fn placed(&self, id: &At<String>, point_m: Option<DVec3>, axis: usize) -> Option<ProbeTarget> {
+        match self.part(&id.value) {
+            Some(Part::Body(body)) => {
+                Some(ProbeTarget::Body { body, offset_m: point_m.unwrap_or_default(), axis })
+            }
+            Some(Part::Joint(joint)) if point_m.is_none() => Some(ProbeTarget::Joint(joint, axis)),
+            _ if point_m.is_some() => {
+                self.unknown("body", id, |part| matches!(part, Part::Body(_)));
+                None
+            }
+            _ => {
+                self.unknown("body or joint", id, |part| {
+                    matches!(part, Part::Body(_) | Part::Joint(_))
+                });
+                None
+            }
         }
     }
 }

@@ -1,32 +1,20 @@
-//! Assembly: scenario, library and plugins become a model's spec.
+//! Assembly: builds a model's spec from scenario, library and plugins.
 //!
-//! Order: sea, whale, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
-//! friction, probes. Every problem is collected and reported with its place.
+//! Order: sea, whale, gear of the library, obstacles, parts written in place, segments of lines, weak links,
+//! friction, probes. All problems are collected and reported with their places.
 
-mod acts;
-mod around;
 mod attributes;
 mod body;
 mod builder;
-mod catenary;
-mod ends;
 mod friction_laws;
 mod gear;
-mod half_hitches;
 mod hitch;
 mod in_place;
-mod inserts;
-mod kinetic;
 mod line;
-mod node_count;
-mod pilot;
-mod probes;
-mod rig;
+mod line_shapes;
 mod sea;
 mod segments;
 mod strength;
-mod strength_variation;
-mod way;
 mod whale;
 mod wrapped;
 
@@ -45,7 +33,7 @@ use builder::Builder;
 
 pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
 
-/// The plugins at hand, by id.
+/// The available plugins, by id.
 pub trait Hooks {
     /// A whale motion.
     fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>>;
@@ -57,42 +45,39 @@ pub trait Hooks {
     fn ids(&self) -> Vec<String>;
 }
 
-/// Choices of the caller over the scenario's own; `None` keeps the scenario's.
+/// Settings of the caller that override those of the scenario.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Seed.
     pub seed: Option<u64>,
     /// Step between inputs [s].
     pub step_s: Option<f64>,
-    /// Longest step while rope is near the whale [s].
+    /// Greatest step while rope is near the whale [s].
     pub contact_step_s: Option<f64>,
     /// Length of the run [s].
     pub duration_s: Option<f64>,
     /// Whether weak links can part.
     pub weak_links: Option<bool>,
-    /// How many rope nodes there are in all.
+    /// Total number of rope nodes.
     pub rope_nodes: Option<u64>,
     /// Whether the whale is kinetic.
     pub kinetic: Option<bool>,
-    /// Whether momentum and energy of the gear are told by source where the scenario does not say.
+    /// Default for the balance of momentum and energy by source.
     pub balance: bool,
 }
 
-/// A spec with the library files it was made from.
+/// A spec with the library files it was built from.
 #[derive(Clone)]
 pub struct Assembled {
     /// The spec.
     pub spec: ModelSpec,
     /// Paths of the library files used, in order, each once.
     pub files: Vec<String>,
-    /// What every piece of a line and every weak link of the library holds, and why.
+    /// Strength budgets of the pieces of lines and of the weak links.
     pub strengths: Vec<StrengthBudget>,
 }
 
 /// Builds the spec of a scenario.
-///
-/// # Errors
-/// Every problem, with its place in the scenario or in an assembly's file.
 pub fn assemble(
     scenario: &Scenario,
     library: &Library,
@@ -102,10 +87,7 @@ pub fn assemble(
     assemble_traced(scenario, library, hooks, options).map(|assembled| assembled.spec)
 }
 
-/// Builds the spec of a scenario and names the library files it used.
-///
-/// # Errors
-/// Every problem, with its place in the scenario or in an assembly's file.
+/// Builds the spec of a scenario with the library files used.
 pub fn assemble_traced(
     scenario: &Scenario,
     library: &Library,
@@ -131,16 +113,16 @@ pub fn assemble_traced(
     builder.finish()
 }
 
-/// Refuses choices of the caller that no file may ask for either.
+/// Checks the settings of the caller against the limits of files.
 fn check_options(scenario: &Scenario, options: &Options) -> Result<(), Vec<Diagnostic>> {
-    let asked = [
+    let settings = [
         ("step", options.step_s, &limits::STEP),
         ("contact_step", options.contact_step_s, &limits::STEP),
         ("duration", options.duration_s, &limits::DURATION),
         ("rope_nodes", options.rope_nodes.map(|nodes| nodes as f64), &limits::ROPE_NODES),
         ("seed", options.seed.map(|seed| seed as f64), &limits::SEED),
     ];
-    let beyond = asked.into_iter().filter_map(|(field, value, limit)| {
+    let beyond = settings.into_iter().filter_map(|(field, value, limit)| {
         limit.check(field, value?).err().map(|beyond| beyond.at(&scenario.place))
     });
     let problems: Vec<Diagnostic> = beyond.collect();

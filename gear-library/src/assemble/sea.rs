@@ -1,8 +1,8 @@
-//! Water and seabed.
+//! Adds water and seabed to the spec.
 
 use endline_sim::DVec3;
 use endline_sim::model::Seabed;
-use endline_sim::water::profile::{Profile, ProfileRow};
+use endline_sim::water::current::{Profile, ProfileRow};
 use endline_sim::water::waves::breaking_height;
 use endline_sim::water::{Current, Water};
 
@@ -13,15 +13,15 @@ use crate::schema::Kind;
 
 use super::builder::Builder;
 
-/// What a scenario without a library site has for its seabed.
+/// Default seabed of a scenario without a library site.
 const ROPE_FRICTION: f64 = 0.5;
 const ROPE_STIFFNESS_N_M2: f64 = 5e3;
 const FOOT_STIFFNESS_N_M: f64 = 2e4;
-/// How far a row of a current's profile may stand out of the water, as a share of the depth: what rounding makes.
+/// Tolerance of the heights of a profile for rounding, as a share of the depth.
 const ROUNDING: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// Water and seabed from the scenario over its site.
+    /// Adds water and seabed; the scenario overrides its site.
     pub fn add_sea(&mut self) {
         let sea = &self.scenario.sea;
         let site = sea.item.as_ref().and_then(|item| {
@@ -62,12 +62,12 @@ impl Builder<'_> {
         if let Some(height) =
             current.speed_height_m.as_ref().filter(|height| height.value > depth_m)
         {
-            let message = format!("`speed_height` is out of the water, which is {depth_m} m deep");
+            let message = format!("`speed_height` is outside the water, which is {depth_m} m deep");
             self.problems.push(
-                height.place.error(message, "give a height above the seabed within the water"),
+                height.place.error(message, "write a height above the seabed within the water"),
             );
         }
-        // A site's height may lie above the shallower water of a scenario: there it is the surface.
+        // In shallower water than the site's, the surface replaces its height.
         let share =
             height_m.map_or(1.0, |height| profile.turn(DVec3::X, (height / depth_m).min(1.0)).x);
         Current {
@@ -77,7 +77,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A profile in rows: its fastest row is the velocity that the tide turns, the others are measured by it.
+    /// A profile in rows, relative to the fastest row, which is the velocity that the tide turns.
     fn tabled(&self, current: &CurrentOf, depth_m: f64) -> Current {
         let by_speed = |row: &&crate::scenario::CurrentRow| row.velocity_m_s.length_squared();
         let fastest =
@@ -91,15 +91,15 @@ impl Builder<'_> {
         for row in &current.rows {
             let height = row.at.value.share(depth_m);
             if !(-ROUNDING..=1.0 + ROUNDING).contains(&height) {
-                let message = format!("this row is out of the water, which is {depth_m} m deep");
+                let message = format!("this row is outside the water, which is {depth_m} m deep");
                 self.problems.push(row.at.place.error(
                     message,
-                    "give a height above the seabed, or a depth, within the water",
+                    "write a height above the seabed, or a depth, within the water",
                 ));
             }
             if rows.iter().any(|known: &ProfileRow| (known.height - height).abs() < ROUNDING) {
                 self.problems
-                    .push(row.at.place.error("there are two rows at this height", "take one out"));
+                    .push(row.at.place.error("there are two rows at this height", "remove one"));
             }
             rows.push(ProfileRow {
                 height,
@@ -111,14 +111,14 @@ impl Builder<'_> {
         Current { surface_m_s: fastest, profile: Profile::Table(rows), tide: current.tide.clone() }
     }
 
-    /// Waves that would break are a problem of their height.
+    /// Reports waves that would break.
     fn check_waves(&self) {
         let (Some(waves), water) = (&self.scenario.sea.waves, &self.spec.water) else { return };
         let (height, period) = waves.value.height_and_period();
         if water.gravity_m_s2 <= 0.0 || water.density_kg_m3 <= 0.0 {
             self.problems.push(waves.place.error(
                 "waves without gravity or water",
-                "give the site gravity and density, or take [waves] out",
+                "write gravity and density of the site, or remove [waves]",
             ));
             return;
         }
@@ -135,13 +135,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Height of the seabed at a place, below zero [m].
+    /// Height of the seabed at a place, negative [m].
     pub fn seabed_height(&self, place: DVec3) -> f64 {
         self.spec.seabed.as_ref().map_or(-self.spec.water.depth_m, |bed| bed.height_at(place))
     }
 }
 
-/// The law of the current by height: the scenario's over its site's; uniform where there is neither.
+/// The current by height: the law of the scenario, else of its site, else uniform.
 fn law(current: &CurrentOf, site: Option<&SeaSite>, depth_m: f64) -> Profile {
     match (current.exponent, current.roughness_m) {
         (Some(exponent), _) => Profile::power(exponent),
@@ -154,7 +154,7 @@ fn law(current: &CurrentOf, site: Option<&SeaSite>, depth_m: f64) -> Profile {
     }
 }
 
-/// A plane that falls by a slope towards a bearing.
+/// The seabed: a plane with a slope towards a bearing.
 fn seabed(bed: &Bed, depth_m: f64, site: Option<&SeaSite>) -> Seabed {
     let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| {
         own.unwrap_or_else(|| site.map_or(usual, of))

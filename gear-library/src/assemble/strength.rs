@@ -1,8 +1,13 @@
-//! Strength of lines and weak links as they are made up: the budget of each, and the rope of a line that is to
-//! deliver a strength.
+//! Strength of lines and weak links: their budgets ([`StrengthBudget`]), required delivered strengths, random variation.
 //!
-//! What a budget is: [`StrengthBudget`]. A line that delivers `S` needs rope whose new pieces hold `S / (w · e)` in the
-//! mean, with the least `e` along the line; its stiffness follows, so that it breaks at the same stretch.
+//! A line that delivers `S` needs rope with a mean new strength of `S / (w · e)`, where `e` is the smallest along the line.
+//! Its stiffness is scaled alike, so that the stretch at break is unchanged.
+//!
+//! The variation of a line or weak link is `1 + c z` with the coefficient of variation `c` and a standard normal `z`
+//! (Box and Muller 1958, doi:10.1214/aoms/1177706645) from two uniform numbers, the BLAKE3 hash of seed, id and attempt.
+//! It is therefore independent of other parts. A factor below [`LEAST`] is drawn again.
+
+use std::f64::consts::PI;
 
 use endline_sim::model::Strength;
 
@@ -14,23 +19,21 @@ use crate::line::LineMake;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 
 use super::builder::{Builder, Scale};
-use super::inserts::{Piece, Tied};
-use super::line::NewLine;
-use super::strength_variation;
+use super::line::{NewLine, Piece, Tied};
 
 impl Builder<'_> {
-    /// The condition of a line's rope: its own, or the scenario's.
+    /// Condition of a line's rope: its own, else that of the scenario.
     pub fn condition(&self, make: &LineMake) -> At<Condition> {
         let usual =
             || At { value: self.scenario.rope_condition, place: self.scenario.place.clone() };
         make.condition.clone().unwrap_or_else(usual)
     }
 
-    /// The scale of the line's own rope by which it delivers the strength asked for at its weakest place.
+    /// Scale of the line's rope for its required delivered strength at the weakest place.
     pub fn scale_to_deliver(&self, line: &NewLine<'_>, pieces: &[Piece<'_>]) -> Option<Scale> {
         let wanted_n = line.make.delivered_n?;
         let condition = self.condition(line.make).value;
-        // What is wrong with the rope is reported where it is put into the spec.
+        // Problems of the rope are reported when it is added to the spec.
         let item = self.find_rope(&line.rope, &Problems::default())?;
         let weakest = pieces
             .iter()
@@ -44,7 +47,7 @@ impl Builder<'_> {
         Some(Scale { strength, stiffness: if keeps { 1.0 } else { strength } })
     }
 
-    /// What a piece keeps of its rope's strength: wear and variation all along, a knot or splice at each end.
+    /// Strength of a piece relative to its rope: wear and variation along it, connections at its ends. Records its budget.
     pub fn piece_strength(
         &mut self,
         rope: usize,
@@ -54,7 +57,7 @@ impl Builder<'_> {
     ) -> Strength {
         let condition = self.condition(make).value;
         let item = &self.stock[rope];
-        // What a line says of its wear is of its own rope, not of what is put into it.
+        // `wear_factor` of a line applies to its own rope, not to inserts.
         let usual = LineMake::default();
         let make = if piece.own { make } else { &usual };
         let drawn = self.strength_factor(item.strength_cv, &piece.id);
@@ -73,7 +76,7 @@ impl Builder<'_> {
         strength
     }
 
-    /// The tension above which a weak link of the library parts, as drawn [N]; its budget is noted.
+    /// Drawn rating of a weak link of the library [N]. Records its budget.
     pub fn link_strength(&mut self, link: &WeakLink, id: &str) -> f64 {
         let drawn = self.strength_factor(link.spread, id);
         let budget = StrengthBudget {
@@ -89,10 +92,10 @@ impl Builder<'_> {
         drawn_n
     }
 
-    /// The drawn factor on the strength of a part; 1 where the scenario takes strengths as they are named.
+    /// Drawn factor on the strength of a part; 1 without variation.
     fn strength_factor(&self, variation: f64, id: &str) -> f64 {
         if self.scenario.strength_variation {
-            strength_variation::factor(self.spec.settings.seed, id, variation)
+            factor(self.spec.settings.seed, id, variation)
         } else {
             1.0
         }
@@ -114,7 +117,7 @@ impl Builder<'_> {
     }
 }
 
-/// Share of a rope's strength that wear leaves; rope that has never been loaded is not worn.
+/// Strength after wear, as a share; rope that has never been loaded has no wear.
 fn wear(item: &Rope, make: &LineMake, condition: Condition) -> f64 {
     let usual = if condition == Condition::New { 1.0 } else { item.wear_factor };
     make.wear_factor.unwrap_or(usual)
@@ -128,7 +131,7 @@ fn weaker_end(item: &Rope, piece: &Piece<'_>) -> f64 {
     end_left(item, piece, 0).min(end_left(item, piece, 1)).min(1.0)
 }
 
-/// The strength as the item states it; one written into a scenario in place may lack its figure.
+/// Stated strength of an item; an item written into a scenario may have no figure.
 fn stated(entry: &Entry, key: &str, value: f64) -> StrengthFigure {
     StrengthFigure::of(entry, key)
         .unwrap_or_else(|| StrengthFigure::chosen(value, "written in the scenario"))
@@ -139,7 +142,7 @@ fn mean_factor(entry: &Entry) -> Option<StrengthFactor> {
     Some(StrengthFactor { name: "mean of new pieces".to_owned(), figure })
 }
 
-/// The factors of a piece of rope, those that nobody named left out.
+/// Factors of a piece of rope that have a source.
 fn rope_factors(
     item: &Rope,
     piece: &Piece<'_>,
@@ -171,7 +174,7 @@ fn worn(item: &Rope, make: &LineMake, condition: Condition) -> Option<StrengthFa
     (condition != Condition::New).then_some(StrengthFactor { name, figure })
 }
 
-/// The weaker end of a piece: its knot or splice, or what is usual for the rope.
+/// Factor of an end: its knot or splice, else the rope's default.
 fn end_factor(item: &Rope, piece: &Piece<'_>, end: usize) -> Option<StrengthFactor> {
     match &piece.ends[end] {
         Some(tied) => tied.source.as_ref().map(|(knot, figure)| StrengthFactor {
@@ -180,5 +183,60 @@ fn end_factor(item: &Rope, piece: &Piece<'_>, end: usize) -> Option<StrengthFact
         }),
         None => StrengthFigure::of(&item.entry, "knot_factor")
             .map(|figure| StrengthFactor { name: "end, usual splice or knot".to_owned(), figure }),
+    }
+}
+
+/// Smallest factor.
+const LEAST: f64 = 0.2;
+
+/// Factor on the strength of a part, with mean 1 and a coefficient of variation of at most 0.5.
+fn factor(seed: u64, id: &str, variation: f64) -> f64 {
+    if variation <= 0.0 {
+        return 1.0;
+    }
+    (0..)
+        .map(|attempt: u64| 1.0 + variation * normal(seed, id, attempt))
+        .find(|factor| *factor >= LEAST)
+        .unwrap_or(1.0)
+}
+
+/// A standard normal number.
+fn normal(seed: u64, id: &str, attempt: u64) -> f64 {
+    let mut hasher = blake3::Hasher::new_derive_key("endline strength scatter 1");
+    hasher.update(&seed.to_le_bytes()).update(&attempt.to_le_bytes()).update(id.as_bytes());
+    let bytes = hasher.finalize();
+    let whole = |from: usize| {
+        bytes.as_bytes()[from..from + 8].iter().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte))
+    };
+    // 53 bits, shifted by half so that zero is never drawn.
+    let uniform = |from: usize| ((whole(from) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+    (-2.0 * libm::log(uniform(0))).sqrt() * libm::cos(2.0 * PI * uniform(8))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_and_variation_over_seeds_and_over_ids_are_as_stated() {
+        let by_seed: Vec<f64> = (0..4000).map(|seed| factor(seed, "endline-top", 0.12)).collect();
+        let by_id: Vec<f64> =
+            (0..4000).map(|number| factor(7, &format!("groundline-{number}"), 0.12)).collect();
+        for drawn in [by_seed, by_id] {
+            let mean = drawn.iter().sum::<f64>() / 4000.0;
+            let variance =
+                drawn.iter().map(|factor| (factor - mean) * (factor - mean)).sum::<f64>() / 3999.0;
+            // Standard errors: 0.12/√4000 = 0.0019 of the mean, 0.12/√8000 = 0.0013 of the deviation.
+            assert!((mean - 1.0).abs() < 0.006, "{mean}");
+            assert!((variance.sqrt() - 0.12).abs() < 0.005, "{}", variance.sqrt());
+        }
+    }
+
+    #[test]
+    fn a_draw_is_a_function_of_seed_and_id() {
+        assert_eq!(factor(3, "a", 0.1).to_bits(), factor(3, "a", 0.1).to_bits());
+        assert!((factor(3, "a", 0.1) - factor(4, "a", 0.1)).abs() > 1e-9);
+        assert!((factor(3, "a", 0.1) - factor(3, "b", 0.1)).abs() > 1e-9);
+        assert_eq!(factor(3, "a", 0.0).to_bits(), 1.0_f64.to_bits());
     }
 }

@@ -1,24 +1,31 @@
-//! The whale.
+//! Adds the whale to the spec: skin, motion with acts, pilot program and, for a kinetic whale, its dynamics.
+//!
+//! Mass, centre and inertia are those of the skin. Added mass is that of a spheroid of the whale's length and greatest
+//! diameter. The turning drag of an elliptic outline of area `A` and length `L` about its middle is
+//! `½ρ C ω|ω| · 4/(60π) A L³`, and the rolling drag of fins of half span `s` and chord `c` is `½ρ C ω|ω| · ½ c s⁴`.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use endline_sdk::WhaleMotion;
-use endline_sim::DQuat;
-use endline_sim::model::{PilotProgram, Whale};
-use endline_sim::whale::kinetic::Kinetic;
-use endline_sim::whale::{Measures, Skin};
+use endline_sdk::{Controls, Descriptor, Posture, WhaleMotion};
+use endline_sim::model::{PilotEntry, PilotProgram, Target, Trigger, Whale};
+use endline_sim::whale::acts::{Acting, Answer, Clip};
+use endline_sim::whale::kinetic::hull::{fins, spheroid};
+use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
+use endline_sim::whale::{JawStrength, Measures, Skin};
+use endline_sim::{DQuat, DVec3};
 
-use crate::diagnostic::At;
-use crate::items::WhaleItem;
-use crate::nearest::hint;
-use crate::scenario::PlacedWhale;
+use crate::diagnostic::{At, hint};
+use crate::items::{ActItem, WhaleItem};
+use crate::scenario::{PilotOf, PlacedWhale, TriggerOf};
 use crate::schema::Kind;
+use crate::whale::WhaleForm;
 
 use super::attributes::numbers;
-use super::builder::Builder;
+use super::builder::{Builder, Part};
 
 impl Builder<'_> {
-    /// The scenario's whale with its motion; `kinetic` over the scenario's own choice.
+    /// Adds the whale; `kinetic` overrides the scenario.
     pub fn add_whale(&mut self, kinetic: Option<bool>) {
         let Some(placed) = &self.scenario.whale else {
             return;
@@ -68,25 +75,24 @@ impl Builder<'_> {
         });
     }
 
-    /// The motion plugin of an id; one that is not there is reported.
+    /// The motion plugin of an id; a missing one is reported.
     fn motion(&self, id: &At<String>) -> Option<Arc<dyn WhaleMotion>> {
         let motion = self.hooks.motion(&id.value);
         if motion.is_none() {
             let ids = self.hooks.ids();
-            let message = format!("no whale motion `{}` among the plugins", id.value);
+            let message = format!("there is no plugin with the whale motion `{}`", id.value);
             let help = hint(&id.value, ids.iter().map(String::as_str));
             self.problems.push(id.place.error(message, help));
         }
         motion
     }
 
-    /// The whale's length: its own, by its age, or that of the file.
+    /// Length of the whale: from the scenario, its age or its file [m].
     fn length(&self, placed: &PlacedWhale, item: &WhaleItem) -> Option<f64> {
         if item.mesh.is_some() && (placed.pregnant || (placed.condition - 1.0).abs() > 0.0) {
-            let help =
-                "leave out `condition` and `pregnant`, or take the mesh out of the whale's file";
+            let help = "remove `condition` and `pregnant`, or the mesh in the whale's file";
             self.problems.push(placed.item.place.error(
-                format!("{} brings its own mesh, whose girth does not change", item.entry.path),
+                format!("{} has its own mesh, whose girth cannot change", item.entry.path),
                 help,
             ));
         }
@@ -96,23 +102,22 @@ impl Builder<'_> {
         let law = item.growth.age;
         if law.is_none() {
             let help = "write `length` instead, or the table [age] with `birth`, `one_year` and `tenfold` in the whale's file";
-            self.problems.push(age.place.error(
-                format!("{} does not say how long a whale of some age is", item.entry.path),
-                help,
-            ));
+            self.problems.push(
+                age.place.error(format!("{} has no law of length by age", item.entry.path), help),
+            );
         }
         law.map(|law| law.length_m(age.value))
     }
 }
 
-/// Heading by compass, then nose up, then roll to starboard.
+/// Rotation by heading, then pitch, then roll.
 fn orientation(placed: &PlacedWhale) -> DQuat {
     DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - placed.heading_rad)
         * DQuat::from_rotation_y(-placed.pitch_rad)
         * DQuat::from_rotation_x(placed.roll_rad)
 }
 
-/// What makes the whale kinetic, at its length [m] in water of a density [kg/m³], alive or dead.
+/// Dynamics of a whale of a length [m] in water of a density [kg/m³], alive or dead.
 fn kinetic_whale(
     placed: &PlacedWhale,
     item: &WhaleItem,
@@ -121,4 +126,302 @@ fn kinetic_whale(
 ) -> Option<Kinetic> {
     let alive = item.kinetic(length_m, skin, density_kg_m3, placed.effort)?;
     if placed.dead { item.dead(skin, alive, density_kg_m3) } else { Some(alive) }
+}
+
+/// Turning drag of an elliptic outline over its area and the cube of its length.
+const TURNING: f64 = 4.0 / (60.0 * PI);
+
+impl WhaleItem {
+    /// Dynamics of a living whale of a length in water of a density; `None` if a figure is missing, which is reported.
+    pub fn kinetic(
+        &self,
+        length_m: f64,
+        skin: &Skin,
+        density_kg_m3: f64,
+        effort: Effort,
+    ) -> Option<Kinetic> {
+        let measures = Measures::of(skin, self.density_kg_m3);
+        let value = |key| self.entry.value(key);
+        let form = self.form_at(length_m);
+        let (mass_kg, inertia) = (measures.mass_kg, measures.inertia_kg_m2);
+        let inertia_kg_m2 = DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
+        let drag = self.axial_drag(length_m, mass_kg)?;
+        let shares = spheroid(length_m / drag.diameter_m);
+        let fins = [flukes(&form), flippers(&form)];
+        let muscle = self.muscle(&form, effort)?;
+        let arm = DVec3::new(
+            value("strength.rolling_arm")?,
+            value("strength.steering_arm")?,
+            value("strength.steering_arm")?,
+        );
+        let (side_drag_m2, turn_drag_m5) = self.cross_drag(length_m, &fins)?;
+        Some(Kinetic {
+            mass_kg,
+            centre_m: measures.centre_m,
+            inertia_kg_m2,
+            added_mass_kg: DVec3::new(shares.along, shares.across, shares.across) * mass_kg,
+            added_inertia_kg_m2: DVec3::new(
+                fins.iter().map(|[span, chord]| self::fins(density_kg_m3, *span, *chord)).sum(),
+                shares.turning * inertia_kg_m2.y,
+                shares.turning * inertia_kg_m2.z,
+            ),
+            drag,
+            side_drag_m2,
+            turn_drag_m5,
+            steering_n_m: arm * (length_m * muscle.sustained_n),
+            muscle,
+            steering_time_s: value("strength.steering_time")?,
+            buoyancy: value("dynamics.buoyancy")?,
+            hull: Arc::new(Hull::of(skin, &Posture::default())),
+            dead: None,
+        })
+    }
+
+    /// Drag along the axis of a whale of a length and mass.
+    fn axial_drag(&self, length_m: f64, mass_kg: f64) -> Option<AxialDrag> {
+        let value = |key| self.entry.value(key);
+        Some(AxialDrag {
+            length_m,
+            diameter_m: value("drag.diameter_offset")? + value("drag.diameter")? * length_m,
+            wetted_area_m2: value("drag.wetted_area")?
+                * libm::pow(mass_kg, value("drag.wetted_area_exponent")?),
+            appendages: value("drag.appendages")?,
+            oscillation: value("drag.oscillation")?,
+            open_mouth: value("drag.open_mouth")?,
+            wide_rad: value("drag.wide_mouth")?,
+        })
+    }
+
+    /// Drag areas from the side and from above [m²], and turning drag about each axis [m⁵]; `fins` have half span and
+    /// mean chord [m].
+    fn cross_drag(&self, length_m: f64, fins: &[[f64; 2]; 2]) -> Option<([f64; 2], DVec3)> {
+        let value = |key| self.entry.value(key);
+        let (area, cross) = (length_m * length_m, value("drag.cross")?);
+        let [side, plan] = [value("drag.side_area")? * area, value("drag.plan_area")? * area];
+        let rolling =
+            fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
+        let turning = DVec3::new(
+            cross * rolling,
+            TURNING * cross * plan * area * length_m,
+            TURNING * cross * side * area * length_m,
+        );
+        Some(([cross * side, cross * plan], turning))
+    }
+
+    /// Dynamics of a dead whale afloat: its mass equals the water that it displaces at rest.
+    /// `None` if a figure is missing, which is reported.
+    pub fn dead(&self, skin: &Skin, alive: Kinetic, density_kg_m3: f64) -> Option<Kinetic> {
+        let measures = Measures::of(skin, self.density_kg_m3);
+        let value = |key| self.entry.value(key);
+        let mass_kg = density_kg_m3 * measures.volume_m3 * (1.0 - value("dead.afloat")?);
+        let posture = Posture { jaw: value("dead.jaw")?, ..Posture::default() };
+        Some(Kinetic {
+            mass_kg,
+            centre_m: alive.centre_m
+                + DVec3::Z * (value("dead.weight_above")? * alive.drag.length_m),
+            inertia_kg_m2: alive.inertia_kg_m2 * (mass_kg / alive.mass_kg),
+            hull: Arc::new(Hull::of(skin, &posture)),
+            dead: Some(Dead { posture }),
+            ..alive
+        })
+    }
+
+    /// Closing strength of jaws and lips at a length, from the burst thrust; `None` if its file has none.
+    pub fn jaws(&self, length_m: f64, skin: &Skin) -> Option<JawStrength> {
+        let value = |key| self.entry.value(key);
+        let burst_n = value("strength.burst")? * libm::pow(length_m, value("strength.exponent")?);
+        let forces_n = [value("strength.jaw")? * burst_n, value("strength.lip")? * burst_n];
+        Some(JawStrength::of_forces(skin, forces_n))
+    }
+
+    fn muscle(&self, form: &WhaleForm, effort: Effort) -> Option<Muscle> {
+        let value = |key| self.entry.value(key);
+        let length = form.length_m;
+        let grown = libm::pow(length, value("strength.exponent")?);
+        Some(Muscle {
+            sustained_n: value("strength.sustained")? * grown,
+            burst_n: value("strength.burst")? * grown,
+            efficiency: value("strength.efficiency")?,
+            swept_area_m2: form.flukes.span * value("strength.stroke")? * length * length,
+            effort,
+        })
+    }
+}
+
+/// Half span and mean chord of the flukes [m].
+fn flukes(form: &WhaleForm) -> [f64; 2] {
+    [
+        0.5 * form.flukes.span * form.length_m,
+        0.5 * (form.flukes.root_chord + form.flukes.tip_chord) * form.length_m,
+    ]
+}
+
+/// Reach from the axis and mean chord of the flippers [m].
+fn flippers(form: &WhaleForm) -> [f64; 2] {
+    let at = form.flippers.insertion;
+    let nearest = form
+        .stations
+        .iter()
+        .min_by(|one, other| (one.at - at).abs().total_cmp(&(other.at - at).abs()));
+    let half_width = 0.5 * form.breadth_scale * nearest.map_or(0.0, |station| station.width);
+    let reach = half_width + form.flippers.span * libm::cos(form.flippers.droop);
+    [
+        reach * form.length_m,
+        0.5 * (form.flippers.root_chord + form.flippers.max_chord) * form.length_m,
+    ]
+}
+
+impl Builder<'_> {
+    /// The motion with the acts that the scenario names, or all of the library, and the answer to touch.
+    pub fn with_acts(
+        &mut self,
+        motion: Arc<dyn WhaleMotion>,
+        placed: &PlacedWhale,
+        whale: &WhaleItem,
+    ) -> Arc<dyn WhaleMotion> {
+        let clips = self.clips(placed, whale);
+        self.check_ids(motion.as_ref(), &clips, placed);
+        let own = motion.descriptor().acts.len();
+        let answer = placed.answer.as_ref().and_then(|answer| {
+            let ids = || clips.iter().map(|clip| clip.id.as_str());
+            let Some(at) = ids().position(|id| id == answer.act.value) else {
+                let message =
+                    format!("the whale has no act `{}` to answer a touch with", answer.act.value);
+                self.problems.push(answer.act.place.error(message, hint(&answer.act.value, ids())));
+                return None;
+            };
+            Some(Answer { act: own + at + 1, above_n: answer.above_n, again_s: answer.again_s })
+        });
+        if clips.is_empty() { motion } else { Arc::new(Acting::new(motion, clips, answer)) }
+    }
+
+    /// Clips of the acts that the scenario names, or of all.
+    fn clips(&mut self, placed: &PlacedWhale, whale: &WhaleItem) -> Vec<Clip> {
+        let library = self.library;
+        let Some(named) = &placed.acts else {
+            self.used.extend(library.acts.iter().flat_map(ActItem::files).map(str::to_owned));
+            return library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
+        };
+        let every =
+            || library.acts.iter().flat_map(|act| act.clips.iter().map(move |clip| (act, clip)));
+        let mut clips = Vec::new();
+        for id in named {
+            let Some((act, clip)) = every().find(|(_, clip)| clip.id == id.value) else {
+                let known = every().map(|(_, clip)| clip.id.as_str());
+                self.problems.push(
+                    id.place
+                        .error(format!("no act `{}` in acts/", id.value), hint(&id.value, known)),
+                );
+                continue;
+            };
+            self.used.extend(act.files().map(str::to_owned));
+            self.check_joints(act, whale);
+            clips.push(clip.clone());
+        }
+        clips
+    }
+
+    /// Checks a named act against the joint ranges; other acts are clamped to them.
+    fn check_joints(&self, act: &ActItem, whale: &WhaleItem) {
+        for (angle, figure) in &act.angles {
+            let [least, most] = whale.joints.ranges.of(*angle);
+            // Tolerance for rounding of a distributed bend.
+            if figure.value < least - 1e-9 || figure.value > most + 1e-9 {
+                let [value, least, most] = [figure.value, least, most].map(f64::to_degrees);
+                let message = format!(
+                    "the act sets {angle:?} to {value:.1} deg, the joint range of `{}` is {least:.1} to {most:.1} deg",
+                    whale.entry.id
+                );
+                let help =
+                    format!("stay in that range, or change [joints] in {}", whale.entry.path);
+                self.problems.push(figure.place.error(message, help));
+            }
+        }
+    }
+
+    /// Checks that ids of acts are unique.
+    fn check_ids(&self, motion: &dyn WhaleMotion, clips: &[Clip], placed: &PlacedWhale) {
+        let own = motion.descriptor().acts.iter().map(|act| act.id.as_ref());
+        let ids: Vec<&str> = own.chain(clips.iter().map(|clip| clip.id.as_str())).collect();
+        for (index, id) in ids.iter().enumerate() {
+            if ids[..index].contains(id) {
+                let named = placed.acts.iter().flatten().rfind(|named| named.value == *id);
+                let place = named.map_or(&placed.motion.place, |named| &named.place);
+                let help = "name each act once in `acts`, and give files of acts/ ids that the motion's own acts do not have";
+                self.problems.push(place.error(format!("two acts have the id `{id}`"), help));
+            }
+        }
+    }
+}
+
+impl Builder<'_> {
+    /// Adds the pilot program, after the gear that its entries may name.
+    pub fn add_pilot(&mut self) {
+        let Some(motion) = self.spec.whale.as_ref().map(|whale| Arc::clone(&whale.motion)) else {
+            return;
+        };
+        let Some(placed) = &self.scenario.whale else { return };
+        let program = self.pilot(&placed.pilot, motion.descriptor());
+        if let Some(whale) = &mut self.spec.whale {
+            whale.pilot = program;
+        }
+    }
+
+    /// The program of these entries.
+    fn pilot(&self, entries: &[PilotOf], motion: &Descriptor) -> PilotProgram {
+        PilotProgram {
+            entries: entries.iter().filter_map(|entry| self.pilot_entry(entry, motion)).collect(),
+        }
+    }
+
+    fn pilot_entry(&self, entry: &PilotOf, motion: &Descriptor) -> Option<PilotEntry> {
+        let mut controls = entry.controls;
+        if let Some(act) = &entry.act {
+            controls[Controls::ACT] = Some(self.act(act, motion)?);
+        }
+        let trigger = match &entry.trigger {
+            TriggerOf::Time(time_s) => Trigger::Time(*time_s),
+            TriggerOf::Touch(part) => Trigger::Touch(*part),
+            TriggerOf::Within(distance_m, of) => {
+                Trigger::Within(*distance_m, self.target(of.as_ref())?)
+            }
+            TriggerOf::Depth(depth_m) => Trigger::Depth(*depth_m),
+            TriggerOf::Heading(bearing_rad) => Trigger::Heading(*bearing_rad),
+            TriggerOf::After(entry) => Trigger::After(*entry),
+        };
+        Some(PilotEntry {
+            trigger,
+            delay_s: entry.delay_s,
+            hold_s: entry.hold_s,
+            ramp_s: entry.ramp_s,
+            controls,
+        })
+    }
+
+    /// Number of an act; `none` is 0.
+    fn act(&self, act: &At<String>, motion: &Descriptor) -> Option<f64> {
+        let known = || motion.acts.iter().map(|act| act.id.as_ref());
+        let place = std::iter::once("none").chain(known()).position(|id| id == act.value);
+        if place.is_none() {
+            let message = format!("the motion {} has no act `{}`", motion.id, act.value);
+            self.problems.push(act.place.error(message, hint(&act.value, known().chain(["none"]))));
+        }
+        place.map(|place| place as f64)
+    }
+
+    /// The target of a distance; any line by default.
+    fn target(&self, of: Option<&At<String>>) -> Option<Target> {
+        let Some(of) = of else { return Some(Target::AnyLine) };
+        match self.part(&of.value) {
+            Some(Part::Body(body)) => Some(Target::Body(body)),
+            Some(Part::Joint(joint)) => Some(Target::Joint(joint)),
+            Some(Part::Line { first, last }) => Some(Target::Lines(first..last + 1)),
+            _ => {
+                let is_target =
+                    |part| matches!(part, Part::Body(_) | Part::Joint(_) | Part::Line { .. });
+                self.unknown("line, body or joint", of, is_target);
+                None
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! One comparison of a case: what is measured of the readings, and how far it may lie from what is expected.
+//! A comparison of a case: a measure of the readings, its expected value and tolerance.
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
@@ -12,95 +12,95 @@ use super::{reading, words};
 pub struct Check {
     /// Name shown to the user.
     pub name: String,
-    /// What is measured.
+    /// Its measure.
     pub measure: Measure,
-    /// How far it may be off.
+    /// Its tolerance.
     pub limit: Limit,
 }
 
-/// What is measured of the readings.
+/// A measure of the readings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
-    /// Distance from the table's points, RMS over points and times [m]; a point is the probes of its coordinates.
+    /// RMS distance from the points of the table over points and times [m]; a point is a list of probes.
     Distance(Vec<Vec<At<String>>>),
     /// RMS of the difference of probes from the table, over the RMS of the table.
     Series(Vec<At<String>>),
-    /// Greatest sample of a probe, against the table's greatest.
+    /// Greatest sample of a probe and of the table.
     Peak(At<String>),
-    /// Last reading of a probe, against a number.
+    /// Last reading of a probe and an expected value.
     Value(At<String>, f64),
-    /// Mean of a probe from a time [s] on, over a unit of its own, against a number.
+    /// Mean of a probe from a time [s] on, over a unit of its own and an expected value.
     Mean {
         /// The probe.
         of: At<String>,
         /// From this time on [s].
         from_s: f64,
-        /// What the mean is divided by.
+        /// Divisor of the mean.
         over: f64,
-        /// What should come out.
+        /// Expected value.
         expected: f64,
     },
-    /// Mean of a probe over that of another, both from a time [s] on, against a number.
+    /// Mean of a probe over that of another, both from a time [s] on and an expected value.
     Ratio {
         /// The probe.
         of: At<String>,
-        /// What its mean is divided by the mean of.
+        /// The probe whose mean is the divisor.
         over: At<String>,
         /// From this time on [s].
         from_s: f64,
-        /// What should come out.
+        /// Expected value.
         expected: f64,
     },
-    /// Greatest sample of a probe, against a number.
+    /// Greatest sample of a probe and an expected value.
     Greatest(At<String>, f64),
-    /// Mean rate at which a probe's reading changes from a time on, against a number [unit/s].
+    /// Mean rate at which a probe's reading changes from a time on, and an expected value [unit/s].
     Rate {
         /// The probe.
         of: At<String>,
         /// From this time on [s].
         from_s: f64,
-        /// What should come out.
+        /// Expected value.
         expected: f64,
     },
-    /// Greatest reading of a probe above its first, over the greatest of another (none is expected).
+    /// Greatest reading of a probe above its first, over the greatest of another; expected 0.
     Gain(At<String>, At<String>),
-    /// Last reading of a probe below its first, over the greatest of another (none is expected).
+    /// Last reading of a probe below its first, over the greatest of another; expected 0.
     Loss(At<String>, At<String>),
-    /// Rows: sum of a group's readings against the sum of its measurements; one verdict for each group.
+    /// Rows: sums of readings and measurements, with a verdict per group.
     Sums,
-    /// Rows: slope of the groups' mean reading over a column, by least squares, against a number.
+    /// Rows: least-squares slope of the groups' mean reading over a column, and an expected value.
     Slope(At<String>, f64),
-    /// Rows: share by which readings over the square of a column fall from one group to another, against the same share
-    /// of the measurements.
+    /// Rows: relative decrease of readings over the square of a column from one group to another, and that of the
+    /// measurements.
     Fall {
-        /// Group at first.
+        /// First group.
         from: String,
-        /// Group afterwards.
+        /// Second group.
         to: String,
-        /// Column whose square a reading is divided by.
+        /// Column whose square is the divisor.
         square: At<String>,
     },
 }
 
-/// How far off is still right.
+/// The tolerance of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
     /// The difference is at most this share of what is expected.
     Share(f64),
     /// The difference is at most this [SI].
     Absolute(f64),
-    /// What is got lies between the two.
+    /// The result is between the two.
     Between(f64, f64),
 }
 
-/// Reads `[[check]]`; `None` where something needed is missing or wrong, which is reported.
+/// Reads `[[check]]`; `None` if a field is missing or wrong, which is reported.
 pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
     let fields = Fields::of(node, problems);
-    let name = fields.need_text("name", "write what is compared, such as \"anchor tension\"");
+    let name = fields.need_text("name", "write the compared quantity, such as \"anchor tension\"");
     let measure = measure(&fields);
     let limit = limit(&fields);
     if measure.is_none() {
-        // Which fields it would have asked for is not known; its fault is reported.
+        // The fields of an unknown measure are not known; the measure is reported.
         fields.rest();
     }
     fields.finish();
@@ -170,7 +170,7 @@ fn expected(fields: &Fields<'_>) -> Option<f64> {
         None => {
             fields.missing(
                 "expected",
-                "write what should come out, such as \"23.9 N\", \"1.5 m\" or 2.57",
+                "write the expected value, such as \"23.9 N\", \"1.5 m\" or 2.57",
             );
             None
         }
@@ -197,7 +197,7 @@ fn points(fields: &Fields<'_>) -> Option<Vec<Vec<At<String>>>> {
         _ => None,
     };
     if read.is_none() {
-        fields.problems().push(node.place.error("these are no points", help));
+        fields.problems().push(node.place.error("these are not points", help));
     }
     read
 }
@@ -228,7 +228,7 @@ fn limit(fields: &Fields<'_>) -> Option<Limit> {
             }
             _ => {
                 problems.push(node.place.error(
-                    "`between` has not two ends",
+                    "`between` does not have two values",
                     "write [least, most], such as [0.35, 0.6]",
                 ));
                 None

@@ -1,23 +1,20 @@
-//! The validation case: a scenario, what is read of it, and what it should read, as data.
+//! Validation cases: a scenario, readings of it, and their expected values.
 //!
-//! A case file lies in `cases/` and its reference tables in `cases/tables/`. The session runs it; the program's
-//! `endline validate` prints what came of it. The format is described in `docs/gear-format.md`.
+//! Case files are in `cases/`, their reference tables in `cases/tables/`. The session runs a case, and `endline validate`
+//! prints the result. With `[haul]` the gear is hauled from its first buoy; with `[rows]` the scenario is modified and solved
+//! for each row of a table. The format is described in `docs/gear-format.md`.
 
 mod check;
-mod hauled;
-mod rows;
 mod table;
 
-use crate::confidence::Confidence;
 use crate::diagnostic::{At, Diagnostic, Place};
-use crate::entry;
-use crate::fields::{Fields, Problems, Provenance, Range, read_value};
-use crate::tree::{self, Content, Node};
+use crate::entry::{self, Confidence};
+use crate::fields::{Fields, Problems, Provenance, Range, id_of, read_file, read_value};
+use crate::limits;
+use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
 pub use check::{Check, Limit, Measure};
-pub use hauled::CaseHaul;
-pub use rows::Rows;
 pub use table::Table;
 
 /// A case as read.
@@ -27,74 +24,63 @@ pub struct Case {
     pub id: String,
     /// Name shown to the user.
     pub name: String,
-    /// What it is for, and why a tolerance is as it is; may be empty.
+    /// Its purpose and the reasons of its tolerances; may be empty.
     pub notes: String,
-    /// Heading it stands under.
+    /// Heading of its group.
     pub group: String,
-    /// Where the expected values come from.
+    /// Source of the expected values.
     pub source: String,
-    /// How well they are known.
+    /// Confidence in them.
     pub confidence: Confidence,
     /// The file itself.
     pub place: Place,
     /// Id of its scenario: a file of `scenarios/`.
     pub scenario: At<String>,
-    /// Fields over the scenario's, by dotted path.
+    /// Fields that override the scenario, by dotted path.
     pub set: Vec<(At<String>, String)>,
-    /// Whether it is run at half the step too.
+    /// Whether it is also run at half the step.
     pub halve_step: bool,
-    /// Whether it is run at half the segment too.
+    /// Whether it is also run at half the segment length.
     pub halve_segment: bool,
-    /// Whether it is cheap enough for the everyday tests.
+    /// Whether it is fast enough for the quick tests.
     pub quick: bool,
-    /// Row of the hindcast that it answers: what was seen on real gear or whales, and nothing was fitted to.
+    /// Its row of the hindcast: an observation of real gear or whales that was not used for a fit.
     pub hindcast: Option<String>,
-    /// How the gear is hauled, where it is; the scenario then gives gear, sea and step.
+    /// Haul of the gear, if any; the scenario then defines gear, sea and step.
     pub haul: Option<CaseHaul>,
-    /// When readings are taken.
+    /// Times of the readings.
     pub samples: Samples,
     /// Id of the table of expected readings: columns `t` [s] and one by each probe's id, SI.
     pub table: Option<At<String>>,
-    /// What is compared.
+    /// Comparisons.
     pub checks: Vec<Check>,
 }
 
-/// When readings are taken.
+/// Times of the readings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
-    /// Once, of the gear at rest.
+    /// The gear at rest.
     Rest,
     /// At the times of the table.
     Table,
-    /// All through the run, at this interval [s].
+    /// Regular intervals of the run [s].
     Every(f64),
-    /// Of the gear at rest or under way, for each row of measurements anew.
+    /// Each row of measurements, at rest or in a run.
     Rows(Box<Rows>),
 }
 
 impl Case {
     /// Reads a case's text; `name` is its path as shown in messages.
-    ///
-    /// # Errors
-    /// Everything wrong with it that can be seen without its scenario and table.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        let problems = Problems::default();
-        let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
-        let case = Self::from_node(name, &node, &problems);
-        match case {
-            Some(case) if !problems.any_error() => Ok(case),
-            _ => Err(problems.into_sorted()),
-        }
+        read_file(name, text, |node, problems| Self::from_node(name, node, problems))
     }
 
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "case", problems);
         check_provenance(&fields, &file);
-        let group = fields.need_text(
-            "group",
-            "write the heading it belongs under, such as \"Reference problems\"",
-        );
+        let group = fields
+            .need_text("group", "write the heading of its group, such as \"Reference problems\"");
         let scenario = fields
             .need_text("scenario", "write the id of a scenario, such as \"reference-a-pendulum\"");
         let set = choices(&fields, "set");
@@ -104,19 +90,19 @@ impl Case {
         let table = fields.text("table");
         let samples = samples(&fields, table.is_some());
         check_halving(samples.as_ref(), &halve, problems);
-        let haul = fields.table("haul").map(|haul| hauled::read(&haul));
+        let haul = fields.table("haul").map(|haul| read_haul(&haul));
         if haul.is_some() && !matches!(samples, Some(Samples::Every(_)) | None) {
-            fields.missing("every", "a [haul] is sampled all along: write every = \"0.1 s\"");
+            fields.missing("every", "a [haul] is sampled at intervals: write every = \"0.1 s\"");
         }
         let checks: Vec<Check> =
             fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
         if fields.tables("check").is_empty() {
-            fields.missing("check", "write what is compared under [[check]]");
+            fields.missing("check", "write the comparisons under [[check]]");
         }
         fields.finish();
         let halves = |knob: &str| halve.iter().any(|word| word.value == knob);
         Some(Self {
-            id: path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml").to_owned(),
+            id: id_of(path),
             name,
             notes,
             group: group?.value,
@@ -137,9 +123,9 @@ impl Case {
     }
 }
 
-/// Expected values have a source and a confidence.
+/// Checks that the expected values have a source and a confidence.
 fn check_provenance(fields: &Fields<'_>, file: &Provenance) {
-    let help = "say where the expected values come from, and whether they are measured, derived or estimate";
+    let help = "write the source of the expected values, and whether they are measured, derived or estimate";
     if file.source.is_none() {
         fields.missing("source", help);
     }
@@ -148,11 +134,11 @@ fn check_provenance(fields: &Fields<'_>, file: &Provenance) {
     }
 }
 
-/// With `[rows]` neither step nor segment is halved.
+/// Reports a halved step or segment with `[rows]`.
 fn check_halving(samples: Option<&Samples>, halve: &[At<String>], problems: &Problems) {
     if let (Some(Samples::Rows(rows)), [knob, ..]) = (samples, halve) {
         let message = format!("`{}` cannot be halved with [rows]", knob.value);
-        let help = format!("take `halve` out, or [rows] by `{}`", rows.by.value);
+        let help = format!("remove `halve`, or [rows] by `{}`", rows.by.value);
         problems.push(knob.place.error(message, help));
     }
 }
@@ -161,7 +147,7 @@ fn check_halving(samples: Option<&Samples>, halve: &[At<String>], problems: &Pro
 fn samples(fields: &Fields<'_>, has_table: bool) -> Option<Samples> {
     let at = fields.word("at", &["rest", "table"]);
     let every = fields.value("every", Quantity::Time, Range::Positive);
-    let rows = fields.table("rows").map(|rows| rows::read(&rows));
+    let rows = fields.table("rows").map(|rows| read_rows(&rows));
     match (at.as_ref().map(|at| at.value.as_str()), every, rows) {
         (Some("rest"), None, None) => Some(Samples::Rest),
         (Some(_), None, None) if has_table => Some(Samples::Table),
@@ -185,17 +171,16 @@ fn choices(fields: &Fields<'_>, key: &'static str) -> Vec<(At<String>, String)> 
             }
             other => {
                 let message = format!("`{field}` is {}, not a text", other.noun());
-                fields.problems().push(node.place.error(
-                    message,
-                    "write the value in quotes, as it would stand in the scenario",
-                ));
+                fields.problems().push(
+                    node.place.error(message, "write the value in quotes, as in the scenario"),
+                );
             }
         }
     }
     choices
 }
 
-/// A list of texts, or one text; with `allowed` each is one of a few words.
+/// A list of texts, or one text, from the `allowed` words, if any.
 fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<String>> {
     let Some(node) = fields.get(key) else { return Vec::new() };
     let items = match &node.content {
@@ -213,7 +198,7 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
                 format!("of {}", allowed.join(", "))
             };
             fields.problems().push(item.place.error(
-                format!("this is no value of `{key}`"),
+                format!("this is not a value of `{key}`"),
                 format!("expected a list {choice}"),
             ));
             None
@@ -222,7 +207,7 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
     items.iter().filter_map(word).collect()
 }
 
-/// A number, or a text with a unit of length, force or another quantity that a probe reads.
+/// A number, or a text with the unit of a quantity of a probe.
 fn reading(node: &Node, problems: &Problems) -> Option<f64> {
     let quantities = [Quantity::Length, Quantity::Force, Quantity::Speed];
     let known = |text: &str| {
@@ -233,4 +218,149 @@ fn reading(node: &Node, problems: &Problems) -> Option<f64> {
         _ => Quantity::Ratio,
     };
     read_value(node, quantity, Range::Any, problems).map(|value| value.value)
+}
+
+/// The haul of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseHaul {
+    /// Speed of the hauler; `None` for the default [m/s].
+    pub speed_m_s: Option<f64>,
+    /// Height of the block over the sea surface; `None` for the default [m].
+    pub block_m: Option<f64>,
+    /// Number of traps aboard at the end; `None` for all.
+    pub aboard: Option<u64>,
+}
+
+/// Reads `[haul]`.
+fn read_haul(fields: &Fields<'_>) -> CaseHaul {
+    let value = |key, quantity, range| fields.value(key, quantity, range).map(|value| value.value);
+    let haul = CaseHaul {
+        speed_m_s: value("speed", Quantity::Speed, Range::Between(0.01, 5.0)),
+        block_m: value("height", Quantity::Length, Range::Between(0.0, 20.0)),
+        aboard: fields.count("aboard", &limits::TRAPS).map(|count| count.value),
+    };
+    fields.finish();
+    haul
+}
+
+/// The rows of a table, the fields that each sets, and the compared values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// Column of the group of a row, such as a set of gear.
+    pub by: At<String>,
+    /// The groups, in order.
+    pub groups: Vec<String>,
+    /// Column and least value that select rows.
+    pub least: Option<(At<String>, f64)>,
+    /// Id of the probe.
+    pub read: At<String>,
+    /// Start of the average of a run [s]; `None` for the gear at rest.
+    pub mean_from_s: Option<f64>,
+    /// Column of the measurements [SI].
+    pub measured: At<String>,
+    /// Fields that override the scenario, with `{column}`, `{-column}` or `{column/column}` for numbers of the row.
+    pub set: Vec<(At<String>, String)>,
+}
+
+/// Reads `[rows]`; `None` if a required field is missing, which is reported.
+fn read_rows(fields: &Fields<'_>) -> Option<Rows> {
+    let by = fields.need_text("by", "write the column of the set of gear");
+    let groups = groups(fields);
+    let least_of = fields.text("least_of");
+    let least = fields.value("least", Quantity::Ratio, Range::Any);
+    let read = fields.need_text("read", "write the id of a probe");
+    let mean_from = fields.value("mean_from", Quantity::Time, Range::NotNegative);
+    let measured = fields.need_text("measured", "write the column of the measurements");
+    let set = choices(fields, "set");
+    fields.finish();
+    let least = least_of.zip(least.map(|least| least.value));
+    let mean_from_s = mean_from.map(|from| from.value);
+    Some(Rows {
+        by: by?,
+        groups: groups?,
+        least,
+        read: read?,
+        mean_from_s,
+        measured: measured?,
+        set,
+    })
+}
+
+/// Numbers or texts.
+fn groups(fields: &Fields<'_>) -> Option<Vec<String>> {
+    let Some(node) = fields.get("groups") else {
+        fields.missing("groups", "write the values of the column `by`, such as [16, 18]");
+        return None;
+    };
+    let Content::List(items) = &node.content else {
+        fields.problems().push(node.place.error("`groups` is not a list", "write [16, 18]"));
+        return None;
+    };
+    let text = |content: &Content| match content {
+        Content::Number(number) => Some(number.to_string()),
+        Content::Text(text) => Some(text.clone()),
+        _ => None,
+    };
+    items.iter().map(|item| text(&item.content)).collect()
+}
+
+impl Rows {
+    /// The rows of a table that belong to a group.
+    pub fn of_group(&self, table: &Table, group: &str) -> Result<Vec<usize>, Box<Diagnostic>> {
+        let mut rows = Vec::new();
+        for row in 0..table.len() {
+            let high = match &self.least {
+                Some((column, least)) => table.number(row, &column.value)? >= *least,
+                None => true,
+            };
+            if high && table.text(row, &self.by.value)? == group {
+                rows.push(row);
+            }
+        }
+        Ok(rows)
+    }
+
+    /// The fields of a row, with its numbers inserted.
+    pub fn fields(
+        &self,
+        table: &Table,
+        row: usize,
+    ) -> Result<Vec<(String, String)>, Box<Diagnostic>> {
+        self.set
+            .iter()
+            .map(|(field, text)| Ok((field.value.clone(), filled(text, table, row)?)))
+            .collect()
+    }
+}
+
+/// A text with `{column}`, `{-column}` and `{column/column}` replaced by a row's numbers.
+fn filled(text: &str, table: &Table, row: usize) -> Result<String, Box<Diagnostic>> {
+    let mut whole = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        let (inside, behind) = after.split_once('}').unwrap_or((after, ""));
+        whole += before;
+        let (sign, name) = inside.strip_prefix('-').map_or((1.0, inside), |name| (-1.0, name));
+        let number = match name.split_once('/') {
+            Some((above, below)) => table.number(row, above)? / table.number(row, below)?,
+            None => table.number(row, name)?,
+        };
+        whole += &(sign * number).to_string();
+        rest = behind;
+    }
+    Ok(whole + rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rows_numbers_fill_a_text() {
+        let table = Table::read("t.csv", "mass,length\n3,60\n").unwrap();
+        assert_eq!(filled("{mass} kg", &table, 0).unwrap(), "3 kg");
+        assert_eq!(filled("{-length} m", &table, 0).unwrap(), "-60 m");
+        assert_eq!(filled("{mass/length} kg/m", &table, 0).unwrap(), "0.05 kg/m");
+        assert!(filled("{width} m", &table, 0).is_err());
+    }
 }

@@ -1,9 +1,8 @@
 //! A table of a case: reference readings or measurements, as comma-separated values with a heading row.
 //!
-//! Lines that begin with `#` are remarks: the source stands there.
+//! Lines that begin with `#` are remarks, such as the source.
 
-use crate::diagnostic::Diagnostic;
-use crate::nearest::hint;
+use crate::diagnostic::{Diagnostic, hint};
 
 /// A table as read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,16 +14,13 @@ pub struct Table {
 
 impl Table {
     /// Reads a table's text; `name` is its path as shown in messages.
-    ///
-    /// # Errors
-    /// With the line, where a row has more or fewer cells than the heading.
     pub fn read(name: &str, text: &str) -> Result<Self, Box<Diagnostic>> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
         let wrong = |error: &csv::Error| {
-            let help = "expected a heading row and rows of as many cells, with commas between; remarks begin with #";
+            let help = "expected a heading row and rows with as many cells, separated by commas; remarks begin with #";
             Box::new(Diagnostic::of_file(name, error.to_string(), help))
         };
         let cells =
@@ -35,22 +31,17 @@ impl Table {
         Ok(Self { name: name.to_owned(), heading, rows: rows.map_err(|error| wrong(&error))? })
     }
 
-    /// How many rows there are.
-    #[must_use]
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
     /// Whether there is no row.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
     /// A cell's text.
-    ///
-    /// # Errors
-    /// Where there is no such column or row.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, Box<Diagnostic>> {
         let Some(index) = self.heading.iter().position(|name| name == column) else {
             let help = hint(column, self.heading.iter().map(String::as_str));
@@ -71,14 +62,11 @@ impl Table {
     }
 
     /// A cell's number.
-    ///
-    /// # Errors
-    /// Where there is no such cell, or it holds no finite number.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, Box<Diagnostic>> {
         let text = self.text(row, column)?;
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         number.ok_or_else(|| {
-            let message = format!("row {}: `{text}` in column `{column}` is no number", row + 1);
+            let message = format!("row {}: `{text}` in column `{column}` is not a number", row + 1);
             Box::new(Diagnostic::of_file(
                 &self.name,
                 message,
@@ -88,9 +76,6 @@ impl Table {
     }
 
     /// A column's numbers.
-    ///
-    /// # Errors
-    /// As [`number`](Self::number).
     pub fn column(&self, column: &str) -> Result<Vec<f64>, Box<Diagnostic>> {
         (0..self.len()).map(|row| self.number(row, column)).collect()
     }
@@ -103,7 +88,7 @@ mod tests {
     const TEXT: &str = "# from the book of tables, p. 1\nt, end x\n1, 2.5\n2, four\n";
 
     #[test]
-    fn remarks_and_blanks_are_passed_over() {
+    fn remarks_and_blanks_are_skipped() {
         let table = Table::read("a.csv", TEXT).unwrap();
         assert_eq!(table.len(), 2);
         assert_eq!(table.number(0, "end x"), Ok(2.5));
@@ -111,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told_by_row_and_column() {
+    fn problems_name_row_and_column() {
         let table = Table::read("a.csv", TEXT).unwrap();
         let message = table.column("end x").unwrap_err().to_string();
         assert!(

@@ -1,39 +1,31 @@
-//! Reading the fields of a table: every problem is collected, every unread key is one.
+//! Reads the fields of a table. All problems are collected; a key that is not read is a problem too.
 
 mod figure;
-mod problems;
-mod range;
-mod rising;
-mod value;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
-use crate::diagnostic::{At, Place};
+use crate::diagnostic::{At, Diagnostic, Place, hint, nearest};
 use crate::limits::{DIAGNOSTICS, Limit};
 use crate::names;
-use crate::nearest::{hint, nearest};
-use crate::tree::{Content, Node};
+use crate::tree::{self, Content, Node};
 use crate::units::Quantity;
 
 pub use figure::{
-    Figure, Provenance, confidence, provenance, provenance_over, read_figure, sourced,
+    Figure, Provenance, Range, confidence, provenance, provenance_over, read_figure, read_value,
+    sourced,
 };
-pub use problems::Problems;
-pub use range::Range;
-pub use rising::rising;
-pub use value::read_value;
 
-/// A table being read: what was asked for is known, the rest is refused by [`finish`](Self::finish).
+/// A table that is being read; [`finish`](Self::finish) reports every key that was not requested.
 pub struct Fields<'a> {
-    /// Where the table stands.
+    /// Place of the table.
     pub place: &'a Place,
     entries: &'a [(String, Place, Node)],
-    asked: RefCell<Vec<&'a str>>,
+    requested: RefCell<Vec<&'a str>>,
     problems: &'a Problems,
 }
 
 impl<'a> Fields<'a> {
-    /// Opens a table; anything else is a problem and reads as an empty table.
+    /// Opens a table; another value is reported and treated as an empty table.
     pub fn of(node: &'a Node, problems: &'a Problems) -> Self {
         let entries = match &node.content {
             Content::Table(entries) => entries.as_slice(),
@@ -45,27 +37,34 @@ impl<'a> Fields<'a> {
                 &[]
             }
         };
-        Self { place: &node.place, entries, asked: RefCell::default(), problems }
+        Self { place: &node.place, entries, requested: RefCell::default(), problems }
     }
 
-    /// The raw value of a key, if it is there.
+    /// The value of a key, if present.
     pub fn get(&self, key: &'a str) -> Option<&'a Node> {
-        self.asked.borrow_mut().push(key);
+        self.requested.borrow_mut().push(key);
         self.entries.iter().find(|(name, _, _)| name == key).map(|(_, _, node)| node)
     }
 
-    /// Every entry not asked for so far, now taken as asked for.
+    /// All entries that were not requested so far; they count as requested now.
     pub fn rest(&self) -> Vec<&'a (String, Place, Node)> {
         let rest: Vec<_> = self
             .entries
             .iter()
-            .filter(|(name, _, _)| !self.asked.borrow().contains(&name.as_str()))
+            .filter(|(name, _, _)| !self.requested.borrow().contains(&name.as_str()))
             .collect();
-        self.asked.borrow_mut().extend(rest.iter().map(|(name, _, _)| name.as_str()));
+        self.requested.borrow_mut().extend(rest.iter().map(|(name, _, _)| name.as_str()));
         rest
     }
 
-    /// Reports a key that must be there and is not.
+    /// Reports a required key that is missing.
+    pub fn require(&self, key: &'a str, help: impl Into<String>) {
+        if self.get(key).is_none() {
+            self.missing(key, help);
+        }
+    }
+
+    /// Reports a missing key.
     pub fn missing(&self, key: &str, help: impl Into<String>) {
         let within = if self.place.field.is_empty() {
             String::new()
@@ -78,7 +77,7 @@ impl<'a> Fields<'a> {
         self.problems.push(place.error(format!("`{key}` is missing{within}"), help));
     }
 
-    /// A text, if it is there.
+    /// A text, if present.
     pub fn text(&self, key: &'a str) -> Option<At<String>> {
         let node = self.get(key)?;
         match &node.content {
@@ -91,40 +90,36 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A text that must be there.
+    /// A required text.
     pub fn need_text(&self, key: &'a str, help: &str) -> Option<At<String>> {
-        if !self.has(key) {
-            self.missing(key, help);
-        }
+        self.require(key, help);
         self.text(key)
     }
 
-    /// An id that must be there, such as that of a part.
+    /// A required id, such as that of a part.
     pub fn need_id(&self, key: &'a str, help: &str) -> Option<At<String>> {
-        if !self.has(key) {
-            self.missing(key, help);
-        }
+        self.require(key, help);
         self.id(key)
     }
 
-    /// An id, if it is there.
+    /// An id, if present.
     pub fn id(&self, key: &'a str) -> Option<At<String>> {
         let text = self.text(key)?;
         if names::is_id(&text.value) {
             return Some(text);
         }
-        let message = format!("{:?} is no `{key}`", text.value);
+        let message = format!("{:?} is not a valid `{key}`", text.value);
         self.problems.push(text.place.error(message, names::ID_HELP));
         None
     }
 
-    /// One of a few words, if it is there.
+    /// One of the allowed words, if present.
     pub fn word(&self, key: &'a str, allowed: &[&str]) -> Option<At<String>> {
         let text = self.text(key)?;
         if allowed.contains(&text.value.as_str()) {
             return Some(text);
         }
-        let message = format!("`{}` is no value of `{key}`", text.value);
+        let message = format!("`{}` is not a value of `{key}`", text.value);
         let meant = nearest(&text.value, allowed.iter().copied())
             .map(|word| format!("; did you mean `{word}`?"));
         let choices =
@@ -133,7 +128,13 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// True or false, if it is there.
+    /// One of the allowed words, required.
+    pub fn need_word(&self, key: &'a str, help: &str, allowed: &[&str]) -> Option<At<String>> {
+        self.require(key, help);
+        self.word(key, allowed)
+    }
+
+    /// True or false, if present.
     pub fn flag(&self, key: &'a str) -> Option<bool> {
         let node = self.get(key)?;
         if let Content::Flag(flag) = node.content {
@@ -146,24 +147,19 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// A value with unit, if it is there.
+    /// A value with a unit, if present.
     pub fn value(&self, key: &'a str, quantity: Quantity, range: Range) -> Option<At<f64>> {
         let node = self.get(key)?;
         read_value(node, quantity, range, self.problems)
     }
 
-    /// A value with unit that must be there.
+    /// A required value with a unit.
     pub fn need_value(&self, key: &'a str, quantity: Quantity, range: Range) -> Option<At<f64>> {
-        if !self.has(key) {
-            self.missing(
-                key,
-                format!("expected {} such as {}", quantity.noun(), quantity.examples()),
-            );
-        }
+        self.require(key, quantity.expected());
         self.value(key, quantity, range)
     }
 
-    /// A list of values with unit, of a length that must fit.
+    /// A list of values with units, of one of the allowed lengths.
     pub fn values(
         &self,
         key: &'a str,
@@ -198,7 +194,7 @@ impl<'a> Fields<'a> {
         Some(At { value, place: node.place.clone() })
     }
 
-    /// A whole number within a limit, if it is there.
+    /// A whole number within a limit, if present.
     pub fn count(&self, key: &'a str, limit: &Limit) -> Option<At<u64>> {
         let node = self.get(key)?;
         let Content::Number(number) = node.content else {
@@ -228,7 +224,7 @@ impl<'a> Fields<'a> {
         Some(At { value, place: node.place.clone() })
     }
 
-    /// A figure with source and confidence, if it is there.
+    /// A figure with source and confidence, if present.
     pub fn figure(
         &self,
         key: &'a str,
@@ -240,14 +236,14 @@ impl<'a> Fields<'a> {
         read_figure(node, quantity, range, file, self.problems)
     }
 
-    /// The tables of a list, such as `[[line]]`; none where the key is not there.
+    /// The tables of a list, such as `[[line]]`; empty if the key is missing.
     pub fn tables(&self, key: &'a str) -> &'a [Node] {
         match self.get(key).map(|node| (&node.content, node)) {
             Some((Content::List(items), _)) => items,
             Some((other, node)) => {
                 self.problems.push(node.place.error(
                     format!("`{key}` is {}", other.noun()),
-                    format!("write each one under [[{key}]]"),
+                    format!("write each entry under [[{key}]]"),
                 ));
                 &[]
             }
@@ -255,34 +251,128 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A table, if it is there.
+    /// A table, if present.
     pub fn table(&self, key: &'a str) -> Option<Fields<'a>> {
         self.get(key).map(|node| Fields::of(node, self.problems))
     }
 
-    /// Refuses every key that was not asked for; the last thing done with a table.
+    /// Reports every key that was not requested; called last.
     pub fn finish(&self) {
-        let asked = self.asked.borrow();
-        let is_unknown = |(name, _, _): &&(String, Place, Node)| !asked.contains(&name.as_str());
+        let requested = self.requested.borrow();
+        let is_unknown =
+            |(name, _, _): &&(String, Place, Node)| !requested.contains(&name.as_str());
         let mut unknown = self.entries.iter().filter(is_unknown);
         for (name, key, _) in unknown.by_ref().take(DIAGNOSTICS) {
             self.problems.push(
-                key.error(format!("unknown field `{name}`"), hint(name, asked.iter().copied())),
+                key.error(format!("unknown field `{name}`"), hint(name, requested.iter().copied())),
             );
         }
         self.problems.count_more(unknown.count());
     }
 
-    /// Where problems go.
+    /// The collected problems.
     pub fn problems(&self) -> &'a Problems {
         self.problems
-    }
-
-    fn has(&self, key: &str) -> bool {
-        self.entries.iter().any(|(name, _, _)| name == key)
     }
 }
 
 fn words_of(lengths: &[usize]) -> String {
     lengths.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
+}
+
+/// Problems found while reading: the first [`DIAGNOSTICS`], and the number of the others.
+#[derive(Debug, Default)]
+pub struct Problems {
+    stored: RefCell<Vec<Diagnostic>>,
+    more: Cell<usize>,
+}
+
+impl Problems {
+    /// Adds one.
+    pub fn push(&self, problem: Diagnostic) {
+        let mut stored = self.stored.borrow_mut();
+        if stored.len() < DIAGNOSTICS {
+            return stored.push(problem);
+        }
+        self.more.set(self.more.get() + 1);
+        // An error replaces a stored warning.
+        if problem.is_error()
+            && let Some(warning) = stored.iter_mut().find(|known| !known.is_error())
+        {
+            *warning = problem;
+        }
+    }
+
+    /// Adds several.
+    pub fn extend(&self, problems: impl IntoIterator<Item = Diagnostic>) {
+        problems.into_iter().for_each(|problem| self.push(problem));
+    }
+
+    /// Counts problems that are not stored.
+    pub fn count_more(&self, more: usize) {
+        self.more.set(self.more.get() + more);
+    }
+
+    /// Whether there is an error.
+    pub fn any_error(&self) -> bool {
+        self.stored.borrow().iter().any(Diagnostic::is_error)
+    }
+
+    /// All problems, sorted by file and place.
+    pub fn into_sorted(self) -> Vec<Diagnostic> {
+        let mut all = self.stored.into_inner();
+        all.sort_by(|a, b| (&a.file, a.line, a.column).cmp(&(&b.file, b.line, b.column)));
+        all.dedup();
+        if let (more @ 1.., Some(last)) = (self.more.get(), all.last()) {
+            let message = format!("{more} more problems are not shown");
+            let note = Diagnostic::of_file(&last.file, message, "correct these first");
+            all.push(note);
+        }
+        all
+    }
+}
+
+/// Reads a whole file, whose path is `name` in messages; `Err` has all its problems.
+pub fn read_file<T>(
+    name: &str,
+    text: &str,
+    read: impl FnOnce(&Node, &Problems) -> Option<T>,
+) -> Result<T, Vec<Diagnostic>> {
+    let problems = Problems::default();
+    let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
+    match read(&node, &problems) {
+        Some(value) if !problems.any_error() => Ok(value),
+        _ => Err(problems.into_sorted()),
+    }
+}
+
+/// Id of a file: its name without `.toml`.
+pub fn id_of(path: &str) -> String {
+    path.rsplit(['/', '\\']).next().unwrap_or(path).trim_end_matches(".toml").to_owned()
+}
+
+/// Reads a least and a greatest value, not negative, if present.
+pub fn rising(
+    fields: &Fields<'_>,
+    key: &'static str,
+    quantity: Quantity,
+    example: &str,
+) -> Option<[f64; 2]> {
+    let node = fields.get(key)?;
+    if matches!(&node.content, Content::List(items) if items.len() != 2) {
+        let help = format!("write the least and the most, {example}");
+        fields.problems().push(node.place.error(format!("`{key}` is not two values"), help));
+        return None;
+    }
+    let values = fields.values(key, quantity, &[2])?;
+    match values.value.as_slice() {
+        [least, most] if *least >= 0.0 && least <= most => Some([*least, *most]),
+        _ => {
+            let help = format!("write the least and the most, {example}");
+            fields
+                .problems()
+                .push(values.place.error(format!("the two values of `{key}` do not rise"), help));
+            None
+        }
+    }
 }

@@ -1,41 +1,47 @@
 //! An act of a whale: keys over time, from a file of `acts/`.
+//!
+//! The keys are written under `[[key]]`, or read from a glTF animation beside the file: `animation = "my-act.glb"`.
 
 use endline_sdk::BodyPart;
 use endline_sim::whale::Angle;
 use endline_sim::whale::acts::{After, Blend, Clip, Curve, Moves, Side, Track};
 
-use crate::diagnostic::At;
-use crate::entry::{self, Entry};
+use crate::diagnostic::{At, hint};
+use crate::entry::{self, Confidence, Entry};
 use crate::fields::{Fields, Figure, Problems, Provenance, Range, read_figure};
-use crate::items::channel::{CHANNELS, Channel};
-use crate::nearest::hint;
 use crate::schema::Kind;
+use crate::sources::Sources;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
+use crate::whale::WhaleForm;
+use crate::whale::bones::Skeleton;
+use crate::whale::gltf::{self, Animation};
+use crate::whale::trunk::Sections;
 
-use super::ActAnimation;
+use super::channel::{CHANNELS, Channel};
+use super::gltf_beside;
 
-/// An act, and what else its file gives.
+/// An act as read from its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActItem {
     /// Its file.
     pub entry: Entry,
-    /// The act as numbers; two where the file also gives the mirror image a name.
+    /// The act as numbers; a second clip if the file names the mirror image.
     pub clips: Vec<Clip>,
-    /// Every joint angle that a key asks for [rad].
+    /// Every joint angle that a key sets [rad].
     pub angles: Vec<(Angle, Figure)>,
-    /// Its keys, where they are those of a glTF animation.
+    /// The glTF animation that holds its keys, if it has one.
     pub animation: Option<ActAnimation>,
 }
 
-/// A channel's keys while a file is read: time and figure, for each of its tracks.
+/// Keys of a channel: time, and a figure for each track.
 struct Keyed {
     channel: &'static Channel,
     keys: Vec<(f64, Vec<Figure>)>,
 }
 
 impl ActItem {
-    /// Reads an act's file; `None` where something needed is missing, which is reported.
+    /// Reads an act's file; `None` if a required field is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Act.word(), problems);
@@ -77,17 +83,17 @@ impl ActItem {
         Some(Self { angles: angles(&keyed), clips: with_mirror(clip, mirror), entry, animation })
     }
 
-    /// Every file it is made from.
+    /// Paths of its files.
     pub fn files(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.entry.path.as_str())
             .chain(self.animation.iter().map(|animation| animation.file.value.as_str()))
     }
 }
 
-/// Greatest rate of turn to a bank or climb where a file names none: 15 degrees a second.
+/// Default of the greatest rate of turn to a bank or climb: 15 degrees per second.
 const TURN_RATE_RAD_S: f64 = 0.261_799_387_799_149_4;
 
-/// The clip, and its mirror image where that has a name.
+/// The clip, and its mirror image if that has a name.
 fn with_mirror(clip: Clip, mirror: Option<At<String>>) -> Vec<Clip> {
     let other = mirror.map(|id| Clip {
         id: id.value,
@@ -98,7 +104,7 @@ fn with_mirror(clip: Clip, mirror: Option<At<String>>) -> Vec<Clip> {
     std::iter::once(clip).chain(other).collect()
 }
 
-/// One of a few words; the first where the file has none.
+/// The meaning of a word; the first one is the default.
 fn word<T: Copy>(
     fields: &Fields<'_>,
     key: &'static str,
@@ -107,11 +113,11 @@ fn word<T: Copy>(
 ) -> T {
     let all: Vec<&str> =
         std::iter::once(first.0).chain(others.iter().map(|(word, _)| *word)).collect();
-    let Some(given) = fields.word(key, &all) else { return first.1 };
-    others.iter().find(|(word, _)| *word == given.value).map_or(first.1, |(_, meaning)| *meaning)
+    let Some(word) = fields.word(key, &all) else { return first.1 };
+    others.iter().find(|(other, _)| *other == word.value).map_or(first.1, |(_, meaning)| *meaning)
 }
 
-/// `ends_at_touch`: true for rope on any part, or a list of parts.
+/// `ends_at_touch`: true (rope on any part), or a list of parts.
 fn parts(fields: &Fields<'_>) -> [bool; BodyPart::ALL.len()] {
     let mut ends = [false; BodyPart::ALL.len()];
     let Some(node) = fields.get("ends_at_touch") else { return ends };
@@ -128,7 +134,7 @@ fn parts(fields: &Fields<'_>) -> [bool; BodyPart::ALL.len()] {
                     Some(part) => ends[part] = true,
                     None => fields.problems().push(
                         item.place
-                            .error(format!("`{name}` is no part of a whale"), hint(name, names)),
+                            .error(format!("`{name}` is not a part of a whale"), hint(name, names)),
                     ),
                 }
             }
@@ -140,7 +146,7 @@ fn parts(fields: &Fields<'_>) -> [bool; BodyPart::ALL.len()] {
     ends
 }
 
-/// Every channel that `[[key]]` names, with its keys; and the times of all keys.
+/// The channels used in `[[key]]` with their keys, and the times of all keys.
 fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
     let nodes = fields.tables("key");
     if nodes.is_empty() {
@@ -150,12 +156,7 @@ fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
     let mut times: Vec<At<f64>> = Vec::new();
     for node in nodes {
         let key = Fields::of(node, fields.problems());
-        if key.get("at").is_none() {
-            key.missing(
-                "at",
-                "write the time of the key since the act began, such as at = \"1.5 s\"",
-            );
-        }
+        key.require("at", "write the time since the start of the act, such as at = \"1.5 s\"");
         let at = key.figure("at", Quantity::Time, Range::Between(0.0, 3600.0), file);
         for channel in CHANNELS {
             let read = channel_key(&key, channel, file);
@@ -178,7 +179,7 @@ fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
     (keyed, times)
 }
 
-/// The values of a channel in a key: one figure, shared out, or a list with one for each joint or side.
+/// Values of a channel in a key: one figure that is distributed, or a list with one value per joint or side.
 fn channel_key<'a>(
     key: &Fields<'a>,
     channel: &'static Channel,
@@ -210,7 +211,7 @@ fn channel_key<'a>(
         .collect()
 }
 
-/// Every joint angle of every key.
+/// The joint angles of all keys.
 fn angles(keyed: &[Keyed]) -> Vec<(Angle, Figure)> {
     let of_key = |keyed: &Keyed, figures: &[Figure]| -> Vec<(Angle, Figure)> {
         let moved = keyed.channel.moves().into_iter().zip(figures);
@@ -226,7 +227,7 @@ fn angles(keyed: &[Keyed]) -> Vec<(Angle, Figure)> {
         .collect()
 }
 
-/// A curve for each joint or side of a channel.
+/// One curve per joint or side of a channel.
 fn tracks(keyed: &Keyed, repeats: bool) -> Vec<Track> {
     let track = |(place, moves): (usize, Moves)| {
         let points: Vec<(f64, f64)> =
@@ -236,7 +237,7 @@ fn tracks(keyed: &Keyed, repeats: bool) -> Vec<Track> {
     keyed.channel.moves().into_iter().enumerate().map(track).collect()
 }
 
-/// A clip that repeats must end as it begins: every channel at the first time and at the last, with the same value; a turn may go on.
+/// A repeated clip must end as it begins: each channel has equal values at the first and the last time, except for turns.
 fn check_closed(keyed: &[Keyed], after: After, length_s: f64, problems: &Problems) {
     if after != After::Repeat {
         return;
@@ -245,27 +246,139 @@ fn check_closed(keyed: &[Keyed], after: After, length_s: f64, problems: &Problem
         let [(first_s, first), .., (last_s, last)] = keys.as_slice() else {
             let place = &keys[0].1[0].place;
             problems.push(place.error(
-                format!("`{}` stands in one key alone", channel.key),
-                "an act that repeats needs it at the start and at the end",
+                format!("`{}` occurs in only one key", channel.key),
+                "a repeated act needs it at the start and at the end",
             ));
             continue;
         };
         let place = &last[0].place;
         if *first_s > 0.0 || *last_s < length_s {
-            let message = format!(
-                "`{}` does not reach from the start to the end of an act that repeats",
-                channel.key
-            );
+            let message =
+                format!("`{}` does not cover a repeated act from start to end", channel.key);
             problems.push(place.error(
                 message,
-                format!("give it in the key at 0 s and in the last key, at {length_s} s"),
+                format!("write it in the key at 0 s and in the last key, at {length_s} s"),
             ));
         } else if !channel.turns()
             && first.iter().zip(last).any(|(first, last)| (first.value - last.value).abs() > 1e-9)
         {
-            let message =
-                format!("`{}` ends elsewhere than it begins, in an act that repeats", channel.key);
-            problems.push(place.error(message, "give the last key the values of the first"));
+            let message = format!(
+                "`{}` has different values at the start and the end of a repeated act",
+                channel.key
+            );
+            problems
+                .push(place.error(message, "write the values of the first key in the last key"));
         }
+    }
+}
+
+/// Greatest difference between the start and the end of a repeated act [rad].
+const CLOSED_RAD: f64 = 1e-3;
+/// Length of the whale by whose bones an animation is read [m]; the angles do not depend on it.
+const ANY_LENGTH_M: f64 = 13.7;
+
+impl ActItem {
+    /// Reads its animation, if it has one; returns false after a failure, which is reported.
+    pub(crate) fn load_animation(&mut self, sources: &Sources, problems: &Problems) -> bool {
+        let Some(source) = self.animation.clone() else { return true };
+        let Some(bytes) = sources.named_mesh(&source.file, problems) else { return false };
+        let form = WhaleForm::right_whale(ANY_LENGTH_M);
+        let bones = Skeleton::of(&form, &Sections::of(&form)).bones;
+        match gltf::read_animation(
+            bytes,
+            source.clip.as_ref().map(|clip| clip.value.as_str()),
+            &bones,
+        ) {
+            Ok(animation) => self.set_animation(&source, &animation, problems),
+            Err(fault) => {
+                let message = format!("`{}` {}", source.file.value, fault.message);
+                problems.push(source.file.place.error(message, fault.help));
+                false
+            }
+        }
+    }
+
+    fn set_animation(
+        &mut self,
+        source: &ActAnimation,
+        animation: &Animation,
+        problems: &Problems,
+    ) -> bool {
+        let repeats = self.clips.iter().any(|clip| clip.after == After::Repeat);
+        let open = |values: &[f64]| {
+            values
+                .first()
+                .zip(values.last())
+                .is_some_and(|(first, last)| (first - last).abs() > CLOSED_RAD)
+        };
+        if let Some((angle, _)) =
+            animation.angles.iter().find(|(_, values)| repeats && open(values))
+        {
+            let message = format!(
+                "`{}` has different values at the start and the end of a repeated act",
+                angle.name().0
+            );
+            problems.push(
+                source.file.place.error(message, "write the pose of the first key in the last key"),
+            );
+            return false;
+        }
+        let track = |(angle, values): &(_, Vec<f64>)| {
+            let points: Vec<(f64, f64)> =
+                animation.times_s.iter().copied().zip(values.iter().copied()).collect();
+            Track { moves: Moves::Angle(*angle), curve: Curve::through(&points, repeats) }
+        };
+        for clip in &mut self.clips {
+            clip.tracks = animation.angles.iter().map(track).collect();
+            clip.length_s = animation.times_s.last().copied().unwrap_or(0.0);
+        }
+        let figure = |value: f64| Figure {
+            value,
+            text: format!("{:.1} deg", value.to_degrees()),
+            source: source.source.clone().unwrap_or_default(),
+            confidence: source.confidence.unwrap_or(Confidence::Estimate),
+            place: source.file.place.clone(),
+        };
+        let ends = |values: &[f64]| {
+            [f64::min, f64::max].map(|pick| values.iter().copied().fold(values[0], pick))
+        };
+        self.angles = animation
+            .angles
+            .iter()
+            .flat_map(|(angle, values)| ends(values).map(|value| (*angle, figure(value))))
+            .collect();
+        true
+    }
+}
+
+/// The glTF animation that replaces `[[key]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActAnimation {
+    /// Path of the file, relative to the library's folder.
+    pub file: At<String>,
+    /// Name of the animation; `None` for the only one.
+    pub clip: Option<At<String>>,
+    /// Source of its angles.
+    pub(super) source: Option<String>,
+    /// Confidence in its angles.
+    pub(super) confidence: Option<Confidence>,
+}
+
+impl ActAnimation {
+    /// Reads the keys `animation` and `clip`.
+    pub(super) fn read(fields: &Fields<'_>, file: &Provenance) -> Option<Self> {
+        let clip = fields.text("clip");
+        let animation = gltf_beside(fields, "animation")?;
+        if let Some(key) = fields.get("key") {
+            fields.problems().push(
+                key.place.error("both `animation` and [[key]] are present", "remove one of them"),
+            );
+        }
+        Some(Self {
+            file: animation,
+            clip,
+            source: file.source.clone(),
+            confidence: file.confidence,
+        })
     }
 }

@@ -1,6 +1,6 @@
-//! What a key of an act may name: joint angles, turns, attitude, controls, with the range of each.
+//! Channels that a key of an act may set: joint angles, turns, attitude and controls, each with its range.
 //!
-//! A value beyond the range here is beyond any whale's joint; the table `[joints]` of a whale's file says how far its own turn.
+//! These ranges hold for any whale; the table `[joints]` of a whale's file has those of its own joints.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use endline_sim::whale::acts::{Control, Moves, Turn};
 
 use crate::units::Quantity;
 
-/// A name that keys may use.
+/// A channel.
 #[derive(Debug)]
 pub struct Channel {
     /// The name.
@@ -19,22 +19,21 @@ pub struct Channel {
     pub quantity: Quantity,
     /// Least and greatest value, of one joint or side [rad or 1].
     pub range: [f64; 2],
-    /// What it is, for messages and for the manual.
+    /// Description, for messages and for the manual.
     pub help: &'static str,
     kind: Of,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Of {
-    /// The angle of a joint, and how far each joint bends beside the others.
+    /// Angle by joint, and the bend of each joint relative to the others.
     Spine(fn(usize) -> Angle, &'static [f64; SPINE_JOINTS]),
     Pair(fn(usize) -> Angle),
     One(Moves),
 }
 
 impl Channel {
-    /// How many joints or sides it has.
-    #[must_use]
+    /// Number of joints or sides.
     pub fn places(&self) -> usize {
         match self.kind {
             Of::Spine(..) => SPINE_JOINTS,
@@ -43,8 +42,7 @@ impl Channel {
         }
     }
 
-    /// Share of one value that each joint or side takes: the joints of the spine share a bend, a pair has it twice.
-    #[must_use]
+    /// Share of a single value per joint or side: the spine joints divide a bend; both sides of a pair take it in full.
     pub fn shares(&self) -> Vec<f64> {
         match self.kind {
             Of::Spine(_, bends) => {
@@ -54,8 +52,7 @@ impl Channel {
         }
     }
 
-    /// What each of its joints or sides moves.
-    #[must_use]
+    /// Target of each joint or side.
     pub fn moves(&self) -> Vec<Moves> {
         match self.kind {
             Of::Spine(angle, _) | Of::Pair(angle) => {
@@ -65,18 +62,16 @@ impl Channel {
         }
     }
 
-    /// Whether it says how far the whale has turned, which may go on growing.
-    #[must_use]
+    /// Whether it is an accumulated turn, which may grow without bound.
     pub fn turns(&self) -> bool {
         matches!(self.kind, Of::One(Moves::Turn(_)))
     }
 
-    /// What a key may give, for messages.
-    #[must_use]
+    /// Expected value of a key, for messages.
     pub fn expected(&self) -> String {
         match self.kind {
             Of::Spine(..) => format!(
-                "expected the bend of the whole spine, or a list of {SPINE_JOINTS} from the neck aft"
+                "expected the total bend of the spine, or a list of {SPINE_JOINTS} from the neck aft"
             ),
             Of::Pair(_) => {
                 "expected one angle for both sides, or a list of two: left, right".to_owned()
@@ -127,7 +122,7 @@ const fn turn(key: &'static str, turn: Turn, help: &'static str) -> Channel {
 
 const DEGREE: f64 = PI / 180.0;
 
-/// How far the joints of a spine bend beside one another, from the neck aft, as working ranges of a right whale have it: estimates.
+/// Relative bend of the spine joints from the neck aft, by the working ranges of a right whale: estimates.
 const PITCH: [f64; SPINE_JOINTS] = [6.0, 6.0, 6.0, 10.0, 13.0, 16.0, 18.0, 17.0];
 const YAW: [f64; SPINE_JOINTS] = [5.0, 10.0, 12.0, 12.0, 12.0, 12.0, 12.0, 10.0];
 const ROLL: [f64; SPINE_JOINTS] = [1.0, 2.0, 2.5, 2.5, 3.0, 3.0, 3.0, 3.0];
@@ -138,19 +133,19 @@ pub const CHANNELS: &[Channel] = &[
         "spine_pitch",
         20.0,
         Of::Spine(Angle::SpinePitch, &PITCH),
-        "spine bent down (positive, head and tail down) or arched, in all or joint by joint",
+        "spine bent down (positive, head and tail down) or arched, total or joint by joint",
     ),
     spine(
         "spine_yaw",
         15.0,
         Of::Spine(Angle::SpineYaw, &YAW),
-        "spine bent sideways, positive swings what lies aft to starboard",
+        "spine bent sideways, positive: the aft end to starboard",
     ),
     spine(
         "spine_roll",
         5.0,
         Of::Spine(Angle::SpineRoll, &ROLL),
-        "spine twisted, positive turns what lies aft starboard side down",
+        "spine twisted, positive: the aft end starboard side down",
     ),
     angles(
         "fluke_pitch",
@@ -187,28 +182,28 @@ pub const CHANNELS: &[Channel] = &[
         "jaw",
         [0.0, 45.0],
         Of::One(Moves::Angle(Angle::Jaw)),
-        "jaw dropped; the control `mouth` opens it as swimming does",
+        "jaw dropped; the control `mouth` opens it as the swim does",
     ),
     angles("lips", [0.0, 60.0], Of::Pair(Angle::Lips), "lower lips turned out"),
-    turn("roll", Turn::Roll, "turned to starboard since the act began"),
-    turn("pitch", Turn::Pitch, "turned nose up since the act began"),
-    turn("yaw", Turn::Yaw, "turned to port since the act began"),
+    turn("roll", Turn::Roll, "turned to starboard since the start of the act"),
+    turn("pitch", Turn::Pitch, "turned nose up since the start of the act"),
+    turn("yaw", Turn::Yaw, "turned to port since the start of the act"),
     angles(
         "bank",
         [-360.0, 360.0],
         Of::One(Moves::Bank),
-        "roll against the horizon that it turns to, starboard side down",
+        "target roll against the horizon, starboard side down",
     ),
     angles(
         "climb",
         [-85.0, 85.0],
         Of::One(Moves::Climb),
-        "pitch against the horizon that it turns to, nose up",
+        "target pitch against the horizon, nose up",
     ),
-    control("speed", 0.0, Control::Speed, "swim speed as the control has it"),
-    control("burst", 0.0, Control::Burst, "burst as the control has it"),
-    control("mouth", 0.0, Control::Mouth, "mouth as the control has it"),
-    control("steer_pitch", -1.0, Control::Pitch, "nose up as the control has it"),
-    control("steer_roll", -1.0, Control::Roll, "roll to starboard as the control has it"),
-    control("steer_yaw", -1.0, Control::Yaw, "turn to port as the control has it"),
+    control("speed", 0.0, Control::Speed, "swim speed, as the control"),
+    control("burst", 0.0, Control::Burst, "burst, as the control"),
+    control("mouth", 0.0, Control::Mouth, "mouth, as the control"),
+    control("steer_pitch", -1.0, Control::Pitch, "nose up, as the control"),
+    control("steer_roll", -1.0, Control::Roll, "roll to starboard, as the control"),
+    control("steer_yaw", -1.0, Control::Yaw, "turn to port, as the control"),
 ];

@@ -1,4 +1,4 @@
-//! How far a whale's joints turn: the table `[joints]` of its file.
+//! Ranges of a whale's joints: the table `[joints]` of its file.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -9,13 +9,13 @@ use crate::fields::{Fields, Figure, Provenance, Range, provenance_over, read_fig
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
-/// The spine's axes, in the order of [`Angle::SPINE`]: a bend either way at each joint, and of the whole.
+/// The spine's axes in the order of [`Angle::SPINE`]: symmetric bends, limited at each joint and in total.
 const SPINE: [&str; Angle::SPINE.len()] = ["spine_pitch", "spine_yaw", "spine_roll"];
 
-/// A name in the file and its angle by side.
+/// Name in the file, and angle by side.
 type Paired = (&'static str, fn(usize) -> Angle);
 
-/// The other angles, both sides alike.
+/// The other angles, equal on both sides.
 const PAIRED: [Paired; 8] = [
     ("fluke_pitch", |_| Angle::FlukePitch),
     ("fluke_flex", Angle::FlukeFlex),
@@ -27,17 +27,17 @@ const PAIRED: [Paired; 8] = [
     ("lips", Angle::Lips),
 ];
 
-/// Joint ranges of a whale with the figures they were read from.
+/// Joint ranges of a whale with their figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joints {
     /// The ranges [rad].
     pub ranges: JointRanges,
-    /// Every figure by its name, such as `spine_yaw.each.3`, `spine_yaw.total` or `jaw.most`.
+    /// Figures by name, such as `spine_yaw.each.3`, `spine_yaw.total` or `jaw.most`.
     pub figures: Vec<(String, Figure)>,
 }
 
 impl Joints {
-    /// Reads `[joints]`; `None` where a figure is missing or wrong, which is reported.
+    /// Reads `[joints]`; `None` if a figure is missing or wrong, which is reported.
     pub(super) fn read(fields: &Fields<'_>, file: &Provenance) -> Option<Self> {
         let Some(table) = fields.table("joints") else {
             fields.missing(
@@ -127,9 +127,7 @@ fn open<'a>(table: &Fields<'a>, name: &'a str, example: &str) -> Option<Fields<'
 }
 
 fn bound(inner: &Fields<'_>, key: &'static str, range: Range, row: &Provenance) -> Option<Figure> {
-    if inner.get(key).is_none() {
-        inner.missing(key, "expected an angle such as 10 deg; the rest posture is 0");
-    }
+    inner.require(key, "expected an angle such as 10 deg; the rest posture is 0");
     inner.figure(key, Quantity::Angle, range, row)
 }
 

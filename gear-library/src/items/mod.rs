@@ -1,44 +1,40 @@
-//! Library items with their figures by name, ready for assembly.
+//! Items of the library.
 
 mod act;
-mod animated_act;
-mod animation;
-mod box_gear;
-mod buoy;
+mod body;
 mod channel;
 mod friction;
-mod growth;
 mod joints;
-mod knot;
-mod mesh;
-mod piece;
-mod point;
 mod rope;
 mod site;
-mod surface;
-mod weak_link;
 mod whale;
-mod whale_skin;
 
-pub use act::ActItem;
-pub use animation::ActAnimation;
-pub use box_gear::BoxGear;
-pub use buoy::{Buoy, BuoyShape};
+use crate::diagnostic::At;
+use crate::fields::Fields;
+use crate::whale::gltf::Form;
+
+pub use act::{ActAnimation, ActItem};
+pub use body::{BoxGear, Buoy, BuoyPiece, BuoyShape, Point};
+pub(crate) use body::{pieces, points};
 pub use channel::{CHANNELS, Channel};
-pub use friction::{ModelFigures, RopeFriction};
-pub(crate) use growth::YEAR_S;
-pub use growth::{AgeLaw, Growth, MassLaw};
+pub use friction::{ModelFigures, RopeFriction, SURFACES};
+pub(crate) use friction::{any_holds, read_surfaces};
 pub use joints::Joints;
-pub use knot::Knot;
-pub(crate) use knot::USUAL_BULK;
-pub use mesh::WhaleMesh;
-pub use piece::BuoyPiece;
-pub(crate) use piece::pieces;
-pub use point::Point;
-pub(crate) use point::points;
-pub use rope::{Condition, Rope};
+pub(crate) use rope::USUAL_BULK;
+pub use rope::{Condition, Knot, Rope, WeakLink};
 pub use site::SeaSite;
-pub use surface::WORDS as SURFACES;
-pub(crate) use surface::{any_holds, read as read_surfaces};
-pub use weak_link::WeakLink;
-pub use whale::WhaleItem;
+pub(crate) use whale::YEAR_S;
+pub use whale::{AgeLaw, Growth, MassLaw, WhaleItem, WhaleMesh};
+
+/// Path of a glTF file that a key names, beside the file itself; another name is reported.
+fn gltf_beside(fields: &Fields<'_>, key: &'static str) -> Option<At<String>> {
+    let name = fields.text(key)?;
+    if name.value.contains(['/', '\\']) || Form::of_file(&name.value).is_none() {
+        let message = format!("`{}` is not the name of a glTF file", name.value);
+        let help = "write the name of a .glb or .gltf file beside this one";
+        fields.problems().push(name.place.error(message, help));
+        return None;
+    }
+    let folder = name.place.source.path.rsplit('/').nth(1).unwrap_or_default();
+    Some(At { value: format!("{folder}/{}", name.value), place: name.place })
+}

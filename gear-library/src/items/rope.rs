@@ -1,35 +1,34 @@
-//! A rope of the library, and the checks between its figures.
+//! Ropes of the library with the checks between their figures, knots and weak links.
 
 use crate::entry::Entry;
 use crate::fields::Problems;
 use crate::units::{Quantity, format_si};
 
-/// Density of sea water and gravity behind a wet weight of the library.
+/// Density of sea water of wet weights of the library [kg/m³].
 pub(crate) const SEA_WATER_KG_M3: f64 = 1025.0;
-/// Gravity behind a wet weight of the library [m/s²].
+/// Gravity of wet weights of the library [m/s²].
 pub(crate) const GRAVITY_M_S2: f64 = 9.81;
 
-/// Speed at which the library's tangential drag coefficients were measured on towed rope [m/s].
+/// Towing speed at which the library's tangential drag coefficients were measured [m/s].
 const TOWED_M_S: f64 = 2.0;
 
-/// How much a rope has been worked, which sets the law of its stretch.
+/// Working history of a rope, which determines its tension law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Condition {
-    /// A straight line from slack to break, worn strength: between the other two.
+    /// Linear from slack to break, with wear: between the other two.
     #[default]
     Secant,
-    /// Loaded for the first time: a soft toe, and no wear.
+    /// First loading: a soft toe, no wear.
     New,
-    /// Worked in: stiff, worn strength.
+    /// Worked in: stiff, with wear.
     Worked,
 }
 
 impl Condition {
-    /// The words a file names it by.
+    /// Words in files.
     pub const WORDS: [&'static str; 3] = ["secant", "new", "worked"];
 
-    /// By its word.
-    #[must_use]
+    /// The condition of a word.
     pub fn from_word(word: &str) -> Option<Self> {
         match word {
             "secant" => Some(Self::Secant),
@@ -40,7 +39,6 @@ impl Condition {
     }
 
     /// Its word.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Secant => "secant",
@@ -67,9 +65,9 @@ pub struct Rope {
     pub strength_n: f64,
     /// Mean of new pieces over that strength [1].
     pub mean_factor: f64,
-    /// Share of that strength that wear leaves [1].
+    /// Strength after wear, as a share of new [1].
     pub wear_factor: f64,
-    /// Share of its strength left at an end where no knot or splice is named [1].
+    /// Strength at an end without a named knot or splice, as a share [1].
     pub knot_factor: f64,
     /// Coefficient of variation of the strength between pieces [1].
     pub strength_cv: f64,
@@ -77,13 +75,13 @@ pub struct Rope {
     pub stiffness_n: f64,
     /// Stretch at break [1].
     pub stretch_at_break: Option<f64>,
-    /// Share of the stiffness that it has at zero strain when new [1].
+    /// Stiffness of new rope at zero strain, as a share [1].
     pub toe: Option<f64>,
     /// Axial stiffness EA when worked in [N].
     pub worked_stiffness_n: Option<f64>,
     /// Axial damping BA [N s].
     pub damping_n_s: f64,
-    /// Axial damping besides, as a share of a segment's critical damping [1].
+    /// Additional axial damping, as a share of a segment's critical damping [1].
     pub damping_ratio: f64,
     /// Bending stiffness EI [N m²].
     pub bending_stiffness_n_m2: f64,
@@ -91,9 +89,9 @@ pub struct Rope {
     pub drag_normal: f64,
     /// Drag coefficient along, on `π·d·l`.
     pub drag_tangential: f64,
-    /// Share of it that falls with the inverse root of the speed.
+    /// Share of `drag_tangential` that is proportional to the inverse root of the speed.
     pub drag_tangential_viscous: f64,
-    /// Speed along at which it holds [m/s].
+    /// Speed along the rope at which `drag_tangential` holds [m/s].
     pub drag_tangential_speed_m_s: f64,
     /// Added-mass coefficient across.
     pub added_mass: f64,
@@ -102,7 +100,7 @@ pub struct Rope {
 }
 
 impl Rope {
-    /// From a file's figures; `None` where one is missing, which is reported.
+    /// Builds it from a file's figures; `None` if one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         check_wet_weight(&entry, problems);
         check_stretch(&entry, problems);
@@ -135,20 +133,17 @@ impl Rope {
         })
     }
 
-    /// Volume of fibre by length, which is what buoys it up: mass over density [m³/m].
-    #[must_use]
+    /// Displaced volume by length: mass over density of the fibre [m³/m].
     pub fn displaced_m3_m(&self) -> f64 {
         self.mass_kg_m / self.density_kg_m3
     }
 
-    /// Weight in sea water by length, below zero where it floats [N/m].
-    #[must_use]
+    /// Weight in sea water by length, negative for floating rope [N/m].
     pub fn wet_weight_n_m(&self) -> f64 {
         wet_weight(self.mass_kg_m, self.density_kg_m3)
     }
 
-    /// The rope as the simulation takes it, with the mean strength of new pieces, without bending stiffness: a linear law.
-    #[must_use]
+    /// The rope of the model: linear, with the mean strength of new pieces, without bending stiffness.
     pub fn to_model(&self) -> endline_sim::model::Rope {
         endline_sim::model::Rope {
             id: self.entry.id.clone(),
@@ -170,13 +165,9 @@ impl Rope {
         }
     }
 
-    /// The rope as the simulation takes it in a condition; its id then carries the condition's word, such
-    /// as `pp-3-8 (worked)`.
+    /// The rope of the model in a condition, which is part of its id: `pp-3-8 (worked)`. `Err` is the key of a missing figure.
     ///
-    /// New: `T = E ε (toe + (1 - toe) ε/ε_b)`, with `E` the stiffness and `ε_b` the stretch at break.
-    ///
-    /// # Errors
-    /// The key of the figure that is missing for it.
+    /// New rope: `T = E ε (toe + (1 - toe) ε/ε_b)` with stiffness `E` and stretch at break `ε_b`.
     pub fn in_condition(
         &self,
         condition: Condition,
@@ -199,7 +190,7 @@ impl Rope {
     }
 }
 
-/// Damping is named one way or the other.
+/// Checks that exactly one of the two damping figures is present.
 fn check_damping(entry: &Entry, problems: &Problems) {
     let help = "write damping = \"2 N s\" or damping_ratio = 0.03: a number of its own, or a share of a segment's critical damping";
     match (entry.figure("damping"), entry.figure("damping_ratio")) {
@@ -213,7 +204,7 @@ fn check_damping(entry: &Entry, problems: &Problems) {
             problems.push(place.error("`damping` is missing", help));
         }
         (Some(_), Some(ratio)) => {
-            problems.push(ratio.place.error("both `damping` and `damping_ratio` are given", help))
+            problems.push(ratio.place.error("both `damping` and `damping_ratio` are present", help))
         }
         _ => {}
     }
@@ -224,7 +215,7 @@ fn wet_weight(mass_kg_m: f64, density_kg_m3: f64) -> f64 {
     mass_kg_m * GRAVITY_M_S2 * (1.0 - SEA_WATER_KG_M3 / density_kg_m3)
 }
 
-/// A stated wet weight must agree with mass and density to 2 % of the weight in air.
+/// Checks that a stated wet weight agrees with mass and density within 2 % of the weight in air.
 fn check_wet_weight(entry: &Entry, problems: &Problems) {
     let (Some(stated), Some(mass), Some(density)) =
         (entry.figure("wet_weight"), entry.value("mass"), entry.value("density"))
@@ -243,7 +234,7 @@ fn check_wet_weight(entry: &Entry, problems: &Problems) {
     ));
 }
 
-/// Stiffness times stretch at break should be the strength within 25 %.
+/// Warns if stiffness times stretch at break differs from the strength by more than 25 %.
 fn check_stretch(entry: &Entry, problems: &Problems) {
     let (Some(stiffness), Some(stretch), Some(strength)) =
         (entry.figure("stiffness"), entry.value("stretch_at_break"), entry.value("strength"))
@@ -259,7 +250,59 @@ fn check_stretch(entry: &Entry, problems: &Problems) {
         format_si(at_break.round(), Quantity::Force),
         format_si(strength.round(), Quantity::Force)
     );
-    let help =
-        "the three belong together: strength ≈ stiffness × stretch; fix the one that is wrong";
+    let help = "strength ≈ stiffness × stretch_at_break; fix the wrong one of the three";
     problems.push(stiffness.place.warning(message, help));
+}
+
+/// A knot or splice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Knot {
+    /// Its file.
+    pub entry: Entry,
+    /// Strength of the rope at the knot, as a share [1].
+    pub strength_left: f64,
+    /// Breadth over the rope's diameter [1].
+    pub bulk: f64,
+}
+
+/// Default breadth of an end connection over the rope's diameter: that of a splice, the smallest (estimate).
+pub(crate) const USUAL_BULK: f64 = 1.5;
+
+impl Knot {
+    /// Builds it from a file's figures; `None` if one is missing, which is reported.
+    pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
+        Some(Self {
+            strength_left: entry.value("strength_left")?,
+            bulk: entry.value("bulk").unwrap_or(USUAL_BULK),
+            entry,
+        })
+    }
+}
+
+/// A weak link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeakLink {
+    /// Its file.
+    pub entry: Entry,
+    /// Tension above which it parts, as stated by its source [N].
+    pub rating_n: f64,
+    /// Mean strength over the rating [1].
+    pub mean_factor: f64,
+    /// Coefficient of variation between links [1].
+    pub spread: f64,
+    /// Breadth; zero if it is not broader than the rope [m].
+    pub breadth_m: f64,
+}
+
+impl WeakLink {
+    /// Builds it from a file's figures; `None` if one is missing, which is reported.
+    pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
+        Some(Self {
+            rating_n: entry.value("rating")?,
+            mean_factor: entry.value("mean_factor").unwrap_or(1.0),
+            spread: entry.value("spread").unwrap_or(0.0),
+            breadth_m: entry.value("breadth").unwrap_or(0.0),
+            entry,
+        })
+    }
 }

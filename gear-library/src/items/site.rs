@@ -18,26 +18,26 @@ pub struct SeaSite {
     pub gravity_m_s2: f64,
     /// Speed of a running tide at the surface or at `current_height_m` [m/s].
     pub current_m_s: f64,
-    /// Height above the seabed at which it runs so, if not at the surface [m].
+    /// Height above the seabed at which the speed applies; `None` for the surface [m].
     pub current_height_m: Option<f64>,
-    /// Exponent of the current's power law, where it has one.
+    /// Exponent of a power law of the current.
     pub current_exponent: Option<f64>,
-    /// Roughness length of the bed under a logarithmic law, where it has one [m].
+    /// Roughness length of the bed of a logarithmic law [m].
     pub current_roughness_m: Option<f64>,
     /// Slope of the seabed [rad].
     pub slope_rad: f64,
-    /// Compass bearing towards which it falls [rad].
+    /// Compass bearing towards which the seabed falls [rad].
     pub slope_toward_rad: f64,
-    /// Friction of rope on it.
+    /// Friction of rope on the seabed.
     pub rope_friction: f64,
-    /// Its stiffness under rope [N/m²].
+    /// Stiffness of the seabed under rope [N/m²].
     pub rope_stiffness_n_m2: f64,
-    /// Its stiffness under one corner of a trap [N/m].
+    /// Stiffness of the seabed under one corner of a trap [N/m].
     pub foot_stiffness_n_m: f64,
 }
 
 impl SeaSite {
-    /// From a file's figures; `None` where one is missing, which is reported.
+    /// Builds it from a file's figures; `None` if one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         check_law(&entry, problems);
         Some(Self {
@@ -58,7 +58,7 @@ impl SeaSite {
     }
 }
 
-/// One law of the current by height, and no height of its speed out of the water.
+/// Checks that the current has one law and that the height of its speed is within the water.
 fn check_law(entry: &Entry, problems: &Problems) {
     let help = "write current_exponent = 0.142857 for a power law, or current_roughness = \"3 mm\" for a logarithmic one";
     match (entry.figure("current_exponent"), entry.figure("current_roughness")) {
@@ -71,7 +71,7 @@ fn check_law(entry: &Entry, problems: &Problems) {
             problems.push(
                 roughness
                     .place
-                    .error("both `current_exponent` and `current_roughness` are given", help),
+                    .error("both `current_exponent` and `current_roughness` are present", help),
             );
         }
         _ => {}
@@ -79,8 +79,8 @@ fn check_law(entry: &Entry, problems: &Problems) {
     if let (Some(height), Some(depth)) = (entry.figure("current_height"), entry.value("depth"))
         && height.value > depth
     {
-        let message = format!("`current_height` is out of the water, which is {depth} m deep");
+        let message = format!("`current_height` is above the surface: the water is {depth} m deep");
         problems
-            .push(height.place.error(message, "give a height above the seabed within the water"));
+            .push(height.place.error(message, "write a height above the seabed within the water"));
     }
 }

@@ -1,37 +1,43 @@
-//! A whale of the library.
+//! A whale of the library: its form, growth and skin.
+//!
+//! The skin is built from the measures, or read from a mesh beside the file: `mesh = "my-whale.glb"`.
+
+use std::sync::Arc;
 
 use endline_sdk::SPINE_JOINTS;
+use endline_sim::whale::Skin;
 
+use crate::diagnostic::At;
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over, read_figure};
-use crate::items::growth::Growth;
 use crate::schema::Kind;
+use crate::sources::Sources;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
-use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
+use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm, gltf, scaled, skin_of};
 
-use super::{Joints, WhaleMesh};
+use super::{Joints, gltf_beside};
 
-/// Density of a whale that neither sinks nor rises [kg/m³].
+/// Density of a neutrally buoyant whale [kg/m³].
 const SEA_WATER_KG_M3: f64 = 1025.0;
 
-/// A whale: its measures, with source and confidence, and its form.
+/// A whale: its figures and its form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WhaleItem {
     /// Its file.
     pub entry: Entry,
-    /// Its form at its own length, in middling condition.
+    /// Form at its own length, in average condition.
     pub form: WhaleForm,
-    /// How its body changes with length.
+    /// Growth laws.
     pub growth: Growth,
     shares: WhaleForm,
     /// Figures of the body sections: at, width, dorsal, ventral of each.
     pub sections: Vec<[Figure; 4]>,
     /// Mass over displaced volume [kg/m³].
     pub density_kg_m3: f64,
-    /// How far its joints turn.
+    /// Joint ranges.
     pub joints: Joints,
-    /// Its own mesh, in place of one made from its measures.
+    /// Its own mesh, which replaces the one built from its measures.
     pub mesh: Option<WhaleMesh>,
     /// Greatest speed it can swim [m/s].
     pub burst_speed_m_s: f64,
@@ -40,7 +46,7 @@ pub struct WhaleItem {
 }
 
 impl WhaleItem {
-    /// Reads a whale's file; `None` where a figure is missing, which is reported.
+    /// Reads a whale's file; `None` if a figure is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Whale.word(), problems);
@@ -56,7 +62,7 @@ impl WhaleItem {
         let growth = Growth::of(&entry);
         if growth.mass.is_none() && entry.value("breadth_scale").is_none() {
             let help = "write [mass] with `length`, `mass` and `exponent`, from which the breadth follows, or `breadth_scale`";
-            problems.push(node.place.error("neither `mass` nor `breadth_scale` is there", help));
+            problems.push(node.place.error("both `mass` and `breadth_scale` are missing", help));
         }
         let density_kg_m3 = entry.value("density").unwrap_or(SEA_WATER_KG_M3);
         Some(Self {
@@ -73,14 +79,13 @@ impl WhaleItem {
         })
     }
 
-    /// Its form at another length, in middling condition.
-    #[must_use]
+    /// Form at another length, in average condition.
     pub fn form_at(&self, length_m: f64) -> WhaleForm {
         grown(&self.shares, &self.growth, self.density_kg_m3, length_m)
     }
 }
 
-/// A form at a length: edges and callosities grow with it, the head and the mass by their own laws.
+/// Form at a length: edges and callosities scale with it; head and mass follow their own laws.
 fn grown(shares: &WhaleForm, growth: &Growth, density_kg_m3: f64, length_m: f64) -> WhaleForm {
     let scale = length_m / shares.length_m;
     let mut form = shares.clone();
@@ -125,9 +130,7 @@ fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figur
     let fields = Fields::of(node, problems);
     let row = provenance_over(&fields, file);
     let ratio = |key: &'static str, range| {
-        if fields.get(key).is_none() {
-            fields.missing(key, "expected a share of body length, such as 0.149");
-        }
+        fields.require(key, "expected a share of body length, such as 0.149");
         fields.figure(key, Quantity::Ratio, range, &row)
     };
     let at = ratio("at", Range::Between(0.0, 1.0));
@@ -140,13 +143,13 @@ fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figur
     {
         problems.push(ventral.place.error(
             "`ventral` is above `dorsal`",
-            "heights are above the snout's level: the belly is the lower one",
+            "heights are measured from the level of the snout, and the belly is lower than the back",
         ));
     }
     Some([at?, width?, dorsal?, ventral?])
 }
 
-/// The places of the spine joints: a list as `value`, with source and confidence.
+/// Reads the places of the spine joints.
 fn spine(fields: &Fields<'_>, file: &Provenance) -> Option<[f64; SPINE_JOINTS]> {
     let help = format!(
         "write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and confidence"
@@ -254,4 +257,163 @@ fn flukes(entry: &Entry) -> Option<FlukesForm> {
         height: value("flukes.height")?,
         edge_radius_m: value("flukes.edge_radius")?,
     })
+}
+
+/// Laws of growth of a whale of the library.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Growth {
+    /// Length added to the mouth's share of body length [m].
+    pub mouth_offset_m: f64,
+    /// Length added to the baleen's share of body length [m].
+    pub baleen_offset_m: f64,
+    /// Width of the head at a tenth of length: share of length, and an added length [m].
+    pub head_width: Option<[f64; 2]>,
+    /// Mass by length; without it `breadth_scale` applies.
+    pub mass: Option<MassLaw>,
+    /// Length by age.
+    pub age: Option<AgeLaw>,
+}
+
+/// `M = mass (L / length)^exponent` of a whale in average condition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassLaw {
+    /// Reference length [m].
+    pub length_m: f64,
+    /// Mass at the reference length [kg].
+    pub mass_kg: f64,
+    /// Exponent of length [1].
+    pub exponent: f64,
+}
+
+/// `L = at_one + per_tenfold log10(age)` from one year on, linear from the length at birth before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AgeLaw {
+    /// Length at birth [m].
+    pub birth_m: f64,
+    /// Length at one year [m].
+    pub at_one_m: f64,
+    /// Growth per tenfold age [m].
+    pub per_tenfold_m: f64,
+}
+
+/// Shortest baleen, that of a newborn calf [share of length].
+const LEAST_BALEEN: f64 = 0.03;
+/// Transition from the width of the head to that of the table [share of length].
+const HEAD_WIDTH: [f64; 2] = [0.1, 0.3];
+/// A year [s].
+pub(crate) const YEAR_S: f64 = 365.25 * 86_400.0;
+
+impl Growth {
+    /// The laws of a checked file.
+    pub(crate) fn of(entry: &Entry) -> Self {
+        let value = |key: &str| entry.value(key);
+        let all =
+            |[one, two, three]: [&'static str; 3]| Some([value(one)?, value(two)?, value(three)?]);
+        Self {
+            mouth_offset_m: value("head.mouth_offset").unwrap_or(0.0),
+            baleen_offset_m: value("head.baleen_offset").unwrap_or(0.0),
+            head_width: value("head.width")
+                .map(|share| [share, value("head.width_offset").unwrap_or(0.0)]),
+            mass: all(["mass.length", "mass.mass", "mass.exponent"])
+                .map(|[length_m, mass_kg, exponent]| MassLaw { length_m, mass_kg, exponent }),
+            age: all(["age.birth", "age.one_year", "age.tenfold"]).map(
+                |[birth_m, at_one_m, per_tenfold_m]| AgeLaw { birth_m, at_one_m, per_tenfold_m },
+            ),
+        }
+    }
+
+    /// Applies the growth laws to a form whose measures are shares of its length.
+    pub(crate) fn proportion(&self, form: &mut WhaleForm) {
+        let length_m = form.length_m;
+        form.head.mouth = (form.head.mouth + self.mouth_offset_m / length_m).clamp(0.08, 0.4);
+        form.head.baleen = (form.head.baleen + self.baleen_offset_m / length_m)
+            .max(LEAST_BALEEN.min(form.head.baleen));
+        if let Some([share, offset_m]) = self.head_width {
+            let wide = share + offset_m / length_m;
+            let table = width_at(&form.stations, HEAD_WIDTH[0]);
+            let factor = (wide / table.max(1e-6)).clamp(0.5, 1.5);
+            for station in &mut form.stations {
+                let [from, to] = HEAD_WIDTH;
+                let left = ((to - station.at) / (to - from)).clamp(0.0, 1.0);
+                station.width *= 1.0 + (factor - 1.0) * left;
+            }
+        }
+    }
+}
+
+impl MassLaw {
+    /// Mass of a whale in average condition [kg].
+    pub fn mass_kg(&self, length_m: f64) -> f64 {
+        self.mass_kg * libm::pow(length_m / self.length_m, self.exponent)
+    }
+}
+
+impl AgeLaw {
+    /// Length at an age [m].
+    pub fn length_m(&self, age_s: f64) -> f64 {
+        let years = age_s / YEAR_S;
+        if years < 1.0 {
+            self.birth_m + (self.at_one_m - self.birth_m) * years.max(0.0)
+        } else {
+            self.at_one_m + self.per_tenfold_m * libm::log10(years)
+        }
+    }
+}
+
+/// Width by linear interpolation in the table [share of length].
+fn width_at(stations: &[Station], at: f64) -> f64 {
+    let between = stations.windows(2).find(|pair| pair[0].at <= at && at <= pair[1].at);
+    between.map_or(0.0, |pair| {
+        pair[0].width
+            + (pair[1].width - pair[0].width) * (at - pair[0].at) / (pair[1].at - pair[0].at)
+    })
+}
+
+/// A whale's own mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleMesh {
+    /// Path of its file, relative to the library's folder.
+    pub file: At<String>,
+    /// Its skin at the whale's own length; `None` until the file has been read.
+    pub skin: Option<Arc<Skin>>,
+}
+
+impl WhaleMesh {
+    /// Reads the key `mesh`.
+    pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
+        gltf_beside(fields, "mesh").map(|file| Self { file, skin: None })
+    }
+}
+
+impl WhaleItem {
+    /// Skin at a length [m].
+    pub fn skin_at(&self, length_m: f64) -> Skin {
+        Arc::unwrap_or_clone(self.skin_for(length_m, 1.0, false))
+    }
+
+    /// Skin at a length [m], in a condition (volume over that of average condition), and late in pregnancy or not.
+    /// A mesh of its own is only scaled.
+    pub fn skin_for(&self, length_m: f64, condition: f64, pregnant: bool) -> Arc<Skin> {
+        if let Some(skin) = self.mesh.as_ref().and_then(|mesh| mesh.skin.as_deref()) {
+            return Arc::new(scaled(skin, length_m / self.form.length_m));
+        }
+        let form = self.form_at(length_m).in_condition(condition);
+        skin_of(&if pregnant { form.pregnant() } else { form })
+    }
+
+    /// Reads its mesh, if it has one; returns false after a failure, which is reported.
+    pub(crate) fn load_mesh(&mut self, sources: &Sources, problems: &Problems) -> bool {
+        let Some(mesh) = &mut self.mesh else { return true };
+        let (path, place) = (&mesh.file.value, &mesh.file.place);
+        let Some(bytes) = sources.named_mesh(&mesh.file, problems) else { return false };
+        match gltf::read(bytes, &skin_of(&self.form)) {
+            Ok(skin) => mesh.skin = Some(Arc::new(skin)),
+            Err(faults) => problems.extend(
+                faults
+                    .into_iter()
+                    .map(|fault| place.error(format!("`{path}` {}", fault.message), fault.help)),
+            ),
+        }
+        mesh.skin.is_some()
+    }
 }

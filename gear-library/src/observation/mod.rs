@@ -1,23 +1,22 @@
-//! The observation: what was seen of gear on a real whale, as data.
+//! Observations of gear on real whales.
 //!
-//! An observation file lies in `observations/`. It says where rope was and was not, how often it went round, in which order,
-//! what hung behind, and what could not be seen. A search looks for encounters that end like it. The format is described in
-//! `docs/search.md`.
+//! A file in `observations/` states sites with and without rope, wraps, the order along the rope, trailing gear, and sites that
+//! were not visible. A search finds encounters with a similar end. The format is described in `docs/search.md`.
 
 mod place;
-mod seen;
 
-use crate::confidence::Confidence;
-use crate::diagnostic::{At, Diagnostic, Place};
-use crate::entry;
-use crate::fields::{Fields, Problems, Range, rising};
-use crate::tree::{self, Node};
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::{At, Diagnostic, Place, hint};
+use crate::entry::{self, Confidence};
+use crate::fields::{Fields, Problems, Range, id_of, read_file, rising};
+use crate::study::texts;
+use crate::tree::Node;
 use crate::units::Quantity;
 
 pub use place::{PathPlace, Site};
-pub use seen::{RopeEnd, SeenSite, Trailing};
 
-/// What was seen of gear on a whale.
+/// An observation of gear on a whale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// Id: the file's name without `.toml`.
@@ -26,29 +25,29 @@ pub struct Observation {
     pub name: String,
     /// Remarks; may be empty.
     pub notes: String,
-    /// Who saw it.
+    /// Its source.
     pub source: String,
-    /// How well it is known.
+    /// Its confidence.
     pub confidence: Confidence,
     /// The file itself.
     pub place: Place,
-    /// Id of the study whose encounters may have led to it, where one is named.
+    /// Id of a study with encounters that may have led to it, if any.
     pub encounters: Option<At<String>>,
-    /// Id of the whale in the library, where it is known.
+    /// Id of the whale in the library, if known.
     pub whale: Option<At<String>>,
-    /// How old or how long the whale was, where either is known.
+    /// Age or length of the whale, if known.
     pub size: Option<Size>,
-    /// Whether an ending that is its mirror image is as much like it.
+    /// Whether the mirror image of an end is equivalent.
     pub mirrored: bool,
-    /// Places at which rope was seen, or seen to be absent.
+    /// Sites with visible rope, or without rope.
     pub sites: Vec<SeenSite>,
-    /// Places that rope passes, in its order; empty where it was not told.
+    /// Places along the rope, in order; empty if not reported.
     pub path: Vec<PathPlace>,
-    /// What hung behind.
+    /// Trailing gear.
     pub trailing: Option<Trailing>,
     /// Turns of the rope's two legs about each other, least and most.
     pub twist: Option<[f64; 2]>,
-    /// Places that nobody could see.
+    /// Sites that were not visible.
     pub hidden: Vec<Site>,
 }
 
@@ -63,23 +62,15 @@ pub enum Size {
 
 impl Observation {
     /// Reads an observation's text; `name` is its path as shown in messages.
-    ///
-    /// # Errors
-    /// Everything wrong with it that can be seen without the library.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        let problems = Problems::default();
-        let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
-        match Self::from_node(name, &node, &problems) {
-            Some(observation) if !problems.any_error() => Ok(observation),
-            _ => Err(problems.into_sorted()),
-        }
+        read_file(name, text, |node, problems| Self::from_node(name, node, problems))
     }
 
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "observation", problems);
         if file.source.is_none() {
-            fields.missing("source", "say who saw it");
+            fields.missing("source", "write the source of the observation");
         }
         if file.confidence.is_none() {
             fields.missing("confidence", "write measured, derived or estimate");
@@ -88,18 +79,18 @@ impl Observation {
         let whale = fields.text("whale");
         let size = size(&fields);
         let mirrored = fields.flag("mirrored").unwrap_or(false);
-        let sites = seen::sites(&fields);
-        let path_of_rope = seen::path(&fields);
-        let trailing = fields.table("trailing").and_then(|table| seen::trailing(&table));
+        let sites = sites(&fields);
+        let path_of_rope = rope_path(&fields);
+        let trailing = fields.table("trailing").and_then(|table| trailing(&table));
         let twist = fields.table("twist").and_then(|table| twist(&table));
-        let hidden = fields.table("hidden").map(|table| seen::hidden(&table)).unwrap_or_default();
+        let hidden = fields.table("hidden").map(|table| hidden(&table)).unwrap_or_default();
         fields.finish();
-        seen::check_once(&sites, &hidden, problems);
+        check_once(&sites, &hidden, problems);
         if fields.tables("site").is_empty() {
-            fields.missing("site", "write under [[site]] where rope was seen");
+            fields.missing("site", "write the sites of rope under [[site]]");
         }
         Some(Self {
-            id: path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml").to_owned(),
+            id: id_of(path),
             name,
             notes,
             source: file.source?,
@@ -123,8 +114,8 @@ fn size(fields: &Fields<'_>) -> Option<Size> {
     let age = fields.value("age", Quantity::Time, Range::Positive);
     let length = fields.value("length", Quantity::Length, Range::Positive);
     if let (Some(_), Some(length)) = (&age, &length) {
-        let help = "keep one of them: a whale's length follows from its age";
-        fields.problems().push(length.place.error("`age` and `length` are both given", help));
+        let help = "keep one of them: the age determines the length";
+        fields.problems().push(length.place.error("both `age` and `length` are present", help));
     }
     age.map(|age| Size::Age(age.value)).or(length.map(|length| Size::Length(length.value)))
 }
@@ -136,6 +127,173 @@ fn twist(table: &Fields<'_>) -> Option<[f64; 2]> {
     turns
 }
 
+/// Default probability of rope at a site.
+const SURE: f64 = 0.95;
+
+/// A site with visible rope, or without rope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenSite {
+    /// The site.
+    pub site: Site,
+    /// Its place in the file.
+    pub place: Place,
+    /// Probability of rope there: 1 certain, 0 certainly none, 0.5 unknown.
+    pub present: f64,
+    /// Least and most wraps about it [turns].
+    pub wraps: Option<[f64; 2]>,
+    /// Whether rope was tight there, if reported.
+    pub tight: Option<bool>,
+    /// How it was observed; may be empty.
+    pub seen_by: String,
+}
+
+/// Gear behind the whale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trailing {
+    /// Least and most rope behind the whale [m].
+    pub length_m: Option<[f64; 2]>,
+    /// The ends of the rope.
+    pub ends: Vec<RopeEnd>,
+}
+
+/// The kind of an end of rope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RopeEnd {
+    /// It parted there.
+    Broken,
+    /// A bare end.
+    Bare,
+    /// A buoy or high-flyer.
+    Buoy,
+    /// A trap.
+    Trap,
+    /// An anchor, a weight or a fixed object.
+    Anchor,
+}
+
+impl RopeEnd {
+    /// Every kind.
+    pub const ALL: [Self; 5] = [Self::Broken, Self::Bare, Self::Buoy, Self::Trap, Self::Anchor];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Broken => "broken",
+            Self::Bare => "bare",
+            Self::Buoy => "buoy",
+            Self::Trap => "trap",
+            Self::Anchor => "anchor",
+        }
+    }
+
+    /// The end in words: `at a buoy`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Broken => "where it broke",
+            Self::Bare => "bare",
+            Self::Buoy => "at a buoy",
+            Self::Trap => "at a trap",
+            Self::Anchor => "at an anchor",
+        }
+    }
+}
+
+/// Reads `[[site]]`.
+fn sites(fields: &Fields<'_>) -> Vec<SeenSite> {
+    let problems = fields.problems();
+    fields.tables("site").iter().filter_map(|node| site(node, problems)).collect()
+}
+
+fn site(node: &Node, problems: &Problems) -> Option<SeenSite> {
+    let fields = Fields::of(node, problems);
+    let names = Site::ALL.map(Site::name);
+    fields.need_text("part", &format!("write one of {}", names.join(", ")));
+    let part = fields.word("part", &names);
+    let present = fields.value("present", Quantity::Ratio, Range::Between(0.0, 1.0));
+    let wraps = rising(&fields, "wraps", Quantity::Ratio, "such as wraps = [0.5, 1.5]");
+    let tight = fields.flag("tight");
+    let seen_by = fields.text("seen_by").map(|text| text.value).unwrap_or_default();
+    fields.finish();
+    let part = part?;
+    Some(SeenSite {
+        site: Site::named(&part.value)?,
+        place: part.place,
+        present: present.map_or(SURE, |present| present.value),
+        wraps,
+        tight,
+        seen_by,
+    })
+}
+
+/// Reads `[path]`: places in the order in which rope passes them.
+fn rope_path(fields: &Fields<'_>) -> Vec<PathPlace> {
+    let Some(table) = fields.table("path") else { return Vec::new() };
+    let places = texts(&table, "order");
+    table.finish();
+    let names = || Site::ALL.iter().map(|site| site.name());
+    let place = |text: At<String>| {
+        PathPlace::named(&text.value).or_else(|| {
+            let message = format!("`{}` is not a place of a whale", text.value);
+            let (site, _) = text.value.split_once(':').unwrap_or((&text.value, ""));
+            let help = if Site::named(site).is_some() {
+                "head, mouth, body and peduncle may have `:left` or `:right`; the names of fins contain their side".to_owned()
+            } else {
+                hint(site, names())
+            };
+            table.problems().push(text.place.error(message, help));
+            None
+        })
+    };
+    places.into_iter().filter_map(place).collect()
+}
+
+/// Reads `[trailing]`.
+fn trailing(table: &Fields<'_>) -> Option<Trailing> {
+    let length_m =
+        rising(table, "length", Quantity::Length, "such as length = [\"30 m\", \"50 m\"]");
+    let names = || RopeEnd::ALL.iter().map(|end| end.name());
+    let end = |text: At<String>| {
+        let found = RopeEnd::ALL.into_iter().find(|end| end.name() == text.value);
+        if found.is_none() {
+            let message = format!("`{}` is not an end of rope", text.value);
+            table.problems().push(text.place.error(message, hint(&text.value, names())));
+        }
+        found
+    };
+    let ends = texts(table, "ends").into_iter().filter_map(end).collect();
+    table.finish();
+    Some(Trailing { length_m, ends })
+}
+
+/// Reads `[hidden]`: sites that were not visible.
+fn hidden(table: &Fields<'_>) -> Vec<At<Site>> {
+    let names = || Site::ALL.iter().map(|site| site.name());
+    let site = |text: At<String>| match Site::named(&text.value) {
+        Some(value) => Some(At { value, place: text.place }),
+        None => {
+            let message = format!("`{}` is not a part of a whale", text.value);
+            table.problems().push(text.place.error(message, hint(&text.value, names())));
+            None
+        }
+    };
+    let sites = texts(table, "parts").into_iter().filter_map(site).collect();
+    table.finish();
+    sites
+}
+
+/// Reports sites that occur more than once.
+fn check_once(sites: &[SeenSite], hidden: &[At<Site>], problems: &Problems) {
+    let seen = sites.iter().map(|seen| (seen.site, &seen.place));
+    let all: Vec<_> = seen.chain(hidden.iter().map(|site| (site.value, &site.place))).collect();
+    for (index, (site, place)) in all.iter().enumerate() {
+        if all[..index].iter().any(|(other, _)| other == site) {
+            let message = format!("`{}` occurs twice", site.name());
+            problems.push(place.error(message, "write each part once, under [[site]] or [hidden]"));
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use endline_sdk::Side;
@@ -143,33 +301,33 @@ mod tests {
     use super::*;
 
     const TEXT: &str = r#"
-format = 1
-kind = "observation"
-name = "Eg 1"
-source = "a paper"
-confidence = "measured"
-age = "1 yr"
-encounters = "met-single"
-[[site]]
-part = "mouth"
-present = 0.99
-wraps = [0.5, 1.5]
-[[site]]
-part = "flipper"
-present = 0
-[path]
-order = ["mouth:left", "head", "mouth:right"]
-[trailing]
-length = ["30 m", "50 m"]
-ends = ["broken", "buoy"]
-[twist]
-turns = [1, 3]
-[hidden]
-parts = ["right_fluke"]
-"#;
+    format = 1
+    kind = "observation"
+    name = "Eg 1"
+    source = "a paper"
+    confidence = "measured"
+    age = "1 yr"
+    encounters = "met-single"
+    [[site]]
+    part = "mouth"
+    present = 0.99
+    wraps = [0.5, 1.5]
+    [[site]]
+    part = "flipper"
+    present = 0
+    [path]
+    order = ["mouth:left", "head", "mouth:right"]
+    [trailing]
+    length = ["30 m", "50 m"]
+    ends = ["broken", "buoy"]
+    [twist]
+    turns = [1, 3]
+    [hidden]
+    parts = ["right_fluke"]
+    "#;
 
     #[test]
-    fn what_was_seen_is_read() {
+    fn an_observation_is_read() {
         let seen = Observation::read("observations/eg-1.toml", TEXT)
             .unwrap_or_else(|problems| panic!("{problems:?}"));
         assert_eq!((seen.id.as_str(), seen.sites.len()), ("eg-1", 2));
@@ -185,21 +343,21 @@ parts = ["right_fluke"]
     }
 
     #[test]
-    fn mistakes_are_told_all_at_once_each_where_it_stands() {
-        for (from, to, told, line) in [
-            ("\"mouth\"", "\"mouht\"", "`mouht` is no value of `part`", 10),
+    fn all_problems_are_reported_with_their_places() {
+        for (from, to, expected, line) in [
+            ("\"mouth\"", "\"mouht\"", "`mouht` is not a value of `part`", 10),
             ("present = 0.99", "present = 1.2", "`present`", 11),
-            ("[0.5, 1.5]", "[1.5, 0.5]", "are no two rising values", 12),
-            ("\"mouth:left\"", "\"mouth:up\"", "`mouth:up` is no place", 17),
-            ("\"flipper\"", "\"mouth\"", "`mouth` is given twice", 14),
-            ("\"right_fluke\"", "\"mouth\"", "`mouth` is given twice", 24),
-            ("\"broken\"", "\"torn\"", "`torn` is no end of rope", 20),
-            ("age = \"1 yr\"", "age = \"1 yr\"\nlength = \"9 m\"", "are both given", 8),
+            ("[0.5, 1.5]", "[1.5, 0.5]", "do not rise", 12),
+            ("\"mouth:left\"", "\"mouth:up\"", "`mouth:up` is not a place", 17),
+            ("\"flipper\"", "\"mouth\"", "`mouth` occurs twice", 14),
+            ("\"right_fluke\"", "\"mouth\"", "`mouth` occurs twice", 24),
+            ("\"broken\"", "\"torn\"", "`torn` is not an end of rope", 20),
+            ("age = \"1 yr\"", "age = \"1 yr\"\nlength = \"9 m\"", "are present", 8),
             ("present = 0\n", "presnt = 0\n", "unknown field `presnt`", 15),
         ] {
             let problems = Observation::read("o.toml", &TEXT.replacen(from, to, 1)).unwrap_err();
-            let found = problems.iter().find(|problem| problem.message.contains(told));
-            let found = found.unwrap_or_else(|| panic!("{told}: {problems:?}"));
+            let found = problems.iter().find(|problem| problem.message.contains(expected));
+            let found = found.unwrap_or_else(|| panic!("{expected}: {problems:?}"));
             assert_eq!(found.line, line, "{found:?}");
         }
         let many = TEXT.replacen("\"mouth\"", "\"mouht\"", 1).replacen("\"broken\"", "\"torn\"", 1);

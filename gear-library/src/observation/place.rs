@@ -1,9 +1,9 @@
-//! Places on a whale as people name them who look at one: finer than a body part at the mouth, coarser where a side was not told.
+//! Sites of an observation: finer than body parts at the mouth, coarser if a side was not reported.
 
 use endline_sdk::{BodyPart, Region, Side};
 use serde::{Deserialize, Serialize};
 
-/// A place where rope may be seen.
+/// A site of rope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Site {
@@ -44,7 +44,7 @@ impl Site {
         Self::Fluke,
     ];
 
-    /// Sites that are one place each.
+    /// Sites that are a single place.
     pub const SINGLE: [Self; 8] = [
         Self::Mouth,
         Self::Head,
@@ -57,7 +57,6 @@ impl Site {
     ];
 
     /// Its name in files, such as `left_flipper`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Mouth => "mouth",
@@ -74,13 +73,11 @@ impl Site {
     }
 
     /// A site by its name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|site| site.name() == name)
     }
 
-    /// The single sites that it stands for: itself, or both of a pair.
-    #[must_use]
+    /// Its single sites: itself, or both of a pair.
     pub fn singles(self) -> &'static [Self] {
         match self {
             Self::Mouth => &[Self::Mouth],
@@ -96,8 +93,7 @@ impl Site {
         }
     }
 
-    /// The site in the mirror.
-    #[must_use]
+    /// The mirrored site.
     pub fn mirrored(self) -> Self {
         match self {
             Self::LeftFlipper => Self::RightFlipper,
@@ -109,7 +105,6 @@ impl Site {
     }
 
     /// The site of a body part, away from the mouth.
-    #[must_use]
     pub fn of_part(part: BodyPart) -> Self {
         match part {
             BodyPart::Head => Self::Head,
@@ -123,7 +118,6 @@ impl Site {
     }
 
     /// The site that a region of skin belongs to.
-    #[must_use]
     pub fn of_region(region: Region) -> Self {
         match region {
             Region::Baleen | Region::Lips => Self::Mouth,
@@ -132,19 +126,18 @@ impl Site {
     }
 }
 
-/// A place that rope passes.
+/// A place along the rope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct PathPlace {
     /// The site.
     pub site: Site,
-    /// On which side of a site in the midplane, where it was told.
+    /// Side of a site in the midplane, if reported.
     pub side: Option<Side>,
 }
 
 impl PathPlace {
     /// Reads a place such as `mouth:left` or `peduncle`.
-    #[must_use]
     pub fn named(text: &str) -> Option<Self> {
         let (site, side) = match text.split_once(':') {
             None => (text, None),
@@ -156,8 +149,7 @@ impl PathPlace {
         (side.is_none() || site.is_in_midplane()).then_some(Self { site, side })
     }
 
-    /// The place in the mirror.
-    #[must_use]
+    /// The mirrored place.
     pub fn mirrored(self) -> Self {
         let side = self.side.map(|side| match side {
             Side::Left => Side::Right,
@@ -177,7 +169,7 @@ impl TryFrom<String> for PathPlace {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        Self::named(&text).ok_or_else(|| format!("`{text}` is no place on a whale"))
+        Self::named(&text).ok_or_else(|| format!("`{text}` is not a place on a whale"))
     }
 }
 
@@ -193,8 +185,7 @@ impl std::fmt::Display for PathPlace {
 }
 
 impl Site {
-    /// Whether it lies in the midplane, so that it has two sides itself.
-    #[must_use]
+    /// Whether it is in the midplane and therefore has two sides.
     pub fn is_in_midplane(self) -> bool {
         matches!(self, Self::Mouth | Self::Head | Self::Body | Self::Peduncle)
     }

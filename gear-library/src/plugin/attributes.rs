@@ -1,22 +1,23 @@
-//! `[[attribute]]` of a gear type that is data: a length, a pure number, a count or an item of the library.
+//! `[[attribute]]` of a text gear type: a length, a pure number, a count or an item of the library.
 
 use endline_sdk::{Attribute, AttributeKind};
 
-use super::expression::Name;
+use crate::diagnostic::hint;
 use crate::fields::{Fields, Problems, Range, read_value};
-use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
-/// Names that an attribute may not have: those of the depth and of the count in a row of parts.
+use super::expression::Name;
+
+/// Reserved names: depth, index in a row of parts, functions.
 pub(super) const TAKEN: [&str; 5] = ["depth", "i", "min", "max", "sqrt"];
 
-/// Reads an attribute; `None` where something needed is missing or wrong, which is reported.
+/// Reads an attribute; `None` if a field is missing or wrong, which is reported.
 pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
     let fields = Fields::of(node, problems);
     let key = fields.need_text("key", "write a key such as \"scope\"");
-    let help = fields.need_text("help", "write one sentence that says what it is");
+    let help = fields.need_text("help", "write a description in one sentence");
     let kind = kind(&fields);
     fields.finish();
     let (key, (unit, kind)) = (key?, kind?);
@@ -24,15 +25,17 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
         && key.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     if !plain || TAKEN.contains(&key.value.as_str()) {
         let message = format!("`{}` cannot be the key of an attribute", key.value);
-        let help =
-            format!("write small letters, digits and underscores; {} are taken", TAKEN.join(", "));
+        let help = format!(
+            "write small letters, digits and underscores; {} are reserved",
+            TAKEN.join(", ")
+        );
         problems.push(key.place.error(message, help));
         return None;
     }
     Some(Attribute { key: key.value.into(), unit: unit.into(), help: help?.value.into(), kind })
 }
 
-/// The name by which expressions know it.
+/// Its name in expressions.
 pub(super) fn name(attribute: &Attribute) -> Name {
     let power = match attribute.kind {
         AttributeKind::Number { .. } => Some(i32::from(attribute.unit == "m")),
@@ -42,17 +45,14 @@ pub(super) fn name(attribute: &Attribute) -> Name {
     Name { key: attribute.key.to_string(), power }
 }
 
-/// Unit and kind: an item where `items` is given, a count where `count` is, else a length or a pure number as `default` is written.
+/// Unit and kind: an item with `items`, a count with `count`, else a length or a pure number by its `default`.
 fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
     if fields.get("items").is_some() {
         return item(fields);
     }
     let is_count = fields.flag("count").unwrap_or(false);
     let Some(node) = fields.get("default") else {
-        fields.missing(
-            "default",
-            "write the value taken where a file names none, such as 1.3 or \"20 m\"",
-        );
+        fields.missing("default", "write the default value, such as 1.3 or \"20 m\"");
         return None;
     };
     let quantity = if matches!(node.content, Content::Text(_)) && !is_count {
@@ -69,10 +69,9 @@ fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
         return None;
     };
     if !(min..=max).contains(&default) {
-        fields.problems().push(node.place.error(
-            "the default lies outside the range",
-            "widen the range, or take a default within it",
-        ));
+        fields.problems().push(
+            node.place.error("the default is outside the range", "change the range or the default"),
+        );
         return None;
     }
     if is_count {
@@ -96,11 +95,7 @@ fn count(
         ));
         return None;
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "looked at in the lines before"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     let [min, max, default] = numbers.map(|value| value as u32);
     Some(("1", AttributeKind::Count { min, max, default }))
 }
@@ -111,7 +106,7 @@ fn item(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
     const FOLDERS: [Kind; 5] = [Kind::Rope, Kind::Trap, Kind::Buoy, Kind::WeakLink, Kind::Anchor];
     let folders = FOLDERS.map(Kind::folder);
     if !folders.contains(&folder.value.as_str()) {
-        let message = format!("`{}` is no folder of items for gear", folder.value);
+        let message = format!("`{}` is not a folder of items for gear", folder.value);
         fields.problems().push(folder.place.error(message, hint(&folder.value, folders)));
         return None;
     }

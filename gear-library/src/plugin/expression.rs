@@ -1,4 +1,9 @@
-//! Small arithmetic in the gear types of plugin folders: `1.3 * depth + 2 fathom`.
+//! Expressions and templates of text gear types: `1.3 * depth + 2 fathom`, `trap-{i}`, `{rope}`.
+//!
+//! Expressions have units of length and a dimension: the power of length, computed when they are read. A sum of a length and
+//! a pure number is an error with a location and a correction. This is why they have their own parser: exmex, which
+//! evaluates the rules, has neither units nor dimensions. Only `+ - * /`, `min`, `max` and the correctly rounded square root
+//! are used, so that results are equal on all platforms.
 //!
 //! ```text
 //! expression = term { ("+" | "-") term }
@@ -6,20 +11,23 @@
 //! factor     = "-" factor | number [unit of length] | name | "(" expression ")"
 //!            | "min" "(" expression "," expression ")" | "max" "(" … ")" | "sqrt" "(" expression ")"
 //! ```
-//! Each has a power of length, known when it is read: a sum of a length and a pure number is refused, with its reason.
+//! A template is a text with braces, which contain a count or the key of an attribute that is an item.
 
-use crate::nearest::hint;
+use endline_sdk::AttributeValue;
+
+use crate::diagnostic::{At, hint};
+use crate::fields::Problems;
 use crate::units::{self, Quantity};
 
-/// Most codes of one expression, and deepest nesting of brackets.
+/// Greatest number of instructions of an expression, and greatest depth of brackets.
 const MOST: usize = 200;
 
-/// A name that an expression may use.
+/// A name in expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Name {
     /// As written.
     pub key: String,
-    /// Power of length of its value; none where it names an item and has no value.
+    /// Power of length of its value; `None` for an item, which has no value.
     pub power: Option<i32>,
 }
 
@@ -42,11 +50,11 @@ enum Operator {
     Greatest,
 }
 
-/// An expression that was read.
+/// A compiled expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Expression {
     code: Vec<Code>,
-    /// Its power of length: 1 for a length, 0 for a pure number.
+    /// Power of length: 1 for a length, 0 for a pure number.
     pub power: i32,
 }
 
@@ -56,20 +64,20 @@ impl Expression {
         Self { code: vec![Code::Push(value)], power: 0 }
     }
 
-    /// Reads an expression; the error says what is wrong and how to fix it.
+    /// Reads an expression; `Err` is a message with its help.
     pub fn read(text: &str, names: &[Name]) -> Result<Self, (String, String)> {
         let mut reader = Reader { rest: text, names, code: Vec::new(), depth: 0 };
         let power = reader.sum()?;
         if let Some(left) = reader.peek() {
             return fail(
-                format!("`{left}` stands where the expression should end"),
-                "write an operator + - * / before it, or take it out",
+                format!("unexpected `{left}` after the end of the expression"),
+                "write an operator + - * / before it, or remove it",
             );
         }
         Ok(Self { code: reader.code, power })
     }
 
-    /// Its value, with the values of the names in the order given.
+    /// Its value for the values of the names, in order.
     pub fn value(&self, values: &[f64]) -> f64 {
         let mut stack: Vec<f64> = Vec::with_capacity(8);
         for code in &self.code {
@@ -102,7 +110,7 @@ impl Operator {
     }
 }
 
-/// Reads from left to right and writes what to do in the order to do it; each step gives its power of length.
+/// Recursive descent parser that emits instructions; each function returns the power of length.
 struct Reader<'a> {
     rest: &'a str,
     names: &'a [Name],
@@ -187,14 +195,14 @@ impl Reader<'_> {
             Some(c) if c.is_alphabetic() => self.name()?,
             Some(c) => {
                 return fail(
-                    format!("`{c}` is no part of an expression"),
+                    format!("unexpected `{c}` in an expression"),
                     "write numbers, names, + - * / and brackets",
                 );
             }
             None => {
                 return fail(
-                    "the expression ends where a number or a name should follow",
-                    "write what is meant, such as 1.3 * depth",
+                    "the expression is incomplete: a number or a name is missing",
+                    "write an expression such as 1.3 * depth",
                 );
             }
         };
@@ -208,11 +216,11 @@ impl Reader<'_> {
         if self.take(')') {
             Ok(power)
         } else {
-            fail("a bracket is not closed", "write a ) where it ends")
+            fail("a bracket is not closed", "write the missing )")
         }
     }
 
-    /// A number, and a unit of length where one follows.
+    /// A number with an optional unit of length.
     fn number(&mut self) -> Power {
         let digits = self.word(|c| c.is_ascii_digit() || c == '.');
         let unit = if self.peek().is_some_and(char::is_alphabetic) {
@@ -228,7 +236,7 @@ impl Reader<'_> {
         Ok(power)
     }
 
-    /// Takes as many characters as fit.
+    /// Reads characters while they match.
     fn word(&mut self, fits: impl Fn(char) -> bool) -> String {
         let end = self.rest.find(|c| !fits(c)).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
@@ -246,14 +254,14 @@ impl Reader<'_> {
         }
         let Some(index) = self.names.iter().position(|name| name.key == word) else {
             return fail(
-                format!("nothing is called `{word}` here"),
+                format!("unknown name `{word}`"),
                 hint(&word, self.names.iter().map(|name| name.key.as_str())),
             );
         };
         let Some(power) = self.names[index].power else {
             return fail(
-                format!("`{word}` names an item and has no value"),
-                format!("an item stands in braces, as in item = \"{{{word}}}\""),
+                format!("`{word}` is an item and has no value"),
+                format!("write an item in braces, such as item = \"{{{word}}}\""),
             );
         };
         self.write(Code::Load(index))?;
@@ -265,14 +273,17 @@ impl Reader<'_> {
         let one = self.sum()?;
         let comma = self.take(',');
         if !open || !comma {
-            return fail("`min` and `max` are of two values", "write them as in max(depth, 20 m)");
+            return fail(
+                "`min` and `max` have two arguments",
+                "write them such as max(depth, 20 m)",
+            );
         }
         let power = same(one, self.sum()?)?;
         self.write(Code::Two(operator))?;
         if self.take(')') {
             Ok(power)
         } else {
-            fail("a bracket is not closed", "write a ) where it ends")
+            fail("a bracket is not closed", "write the missing )")
         }
     }
 
@@ -280,7 +291,7 @@ impl Reader<'_> {
         let power = self.bracket()?;
         if power % 2 != 0 {
             return fail(
-                format!("the root of {} is no length and no number", noun(power)),
+                format!("the root of {} is neither a length nor a number", noun(power)),
                 "take the root of a product of two lengths",
             );
         }
@@ -293,17 +304,94 @@ fn same(one: i32, other: i32) -> Power {
     if one == other {
         return Ok(one);
     }
-    let help = "give numbers that are lengths a unit, such as 2 m or 1 fathom";
-    fail(format!("{} and {} do not add or compare", noun(one), noun(other)), help)
+    let help = "write lengths with a unit, such as 2 m or 1 fathom";
+    fail(format!("cannot add or compare {} and {}", noun(one), noun(other)), help)
 }
 
-/// What a power of length is.
+/// Name of a power of length.
 pub(super) fn noun(power: i32) -> String {
     match power {
         0 => "a pure number".to_owned(),
         1 => "a length".to_owned(),
         2 => "an area".to_owned(),
         power => format!("a length to the power {power}"),
+    }
+}
+
+/// A template: a text with braces.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Template(Vec<Piece>);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Piece {
+    Text(String),
+    /// The item of the attribute with this index.
+    Item(usize),
+    /// A whole number.
+    Count(Expression),
+}
+
+impl Template {
+    /// Reads a template; problems are reported.
+    pub fn read(text: &At<String>, names: &[Name], problems: &Problems) -> Option<Self> {
+        let (mut pieces, mut rest) = (Vec::new(), text.value.as_str());
+        while let Some((before, after)) = rest.split_once('{') {
+            pieces.push(Piece::Text(before.to_owned()));
+            let Some((inside, after)) = after.split_once('}') else {
+                problems.push(
+                    text.place.error(
+                        "a brace is not closed",
+                        "write the missing }, such as \"trap-{i}\"",
+                    ),
+                );
+                return None;
+            };
+            pieces.push(piece(inside.trim(), text, names, problems)?);
+            rest = after;
+        }
+        pieces.push(Piece::Text(rest.to_owned()));
+        Some(Self(pieces))
+    }
+
+    /// The text for values of the names and attributes.
+    pub fn text(&self, values: &[f64], attributes: &[AttributeValue]) -> String {
+        let mut text = String::new();
+        for piece in &self.0 {
+            match piece {
+                Piece::Text(words) => text.push_str(words),
+                Piece::Item(index) => text.push_str(
+                    attributes.get(*index).and_then(AttributeValue::item).unwrap_or_default(),
+                ),
+                Piece::Count(expression) => {
+                    text.push_str(&format!("{:.0}", expression.value(values)))
+                }
+            }
+        }
+        text
+    }
+}
+
+fn piece(inside: &str, text: &At<String>, names: &[Name], problems: &Problems) -> Option<Piece> {
+    if let Some(index) = names.iter().position(|name| name.key == inside && name.power.is_none()) {
+        return Some(Piece::Item(index));
+    }
+    match Expression::read(inside, names) {
+        Ok(expression) if expression.power == 0 => Some(Piece::Count(expression)),
+        Ok(expression) => {
+            let message = format!(
+                "`{{{inside}}}` is {}, not a whole number or an item",
+                noun(expression.power)
+            );
+            problems.push(
+                text.place
+                    .error(message, "write a count such as {i}, or the key of an item attribute"),
+            );
+            None
+        }
+        Err((message, help)) => {
+            problems.push(text.place.error(message, help));
+            None
+        }
     }
 }
 
@@ -336,18 +424,18 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_told() {
+    fn invalid_expressions_are_reported() {
         let long = "(".repeat(500);
         for (text, expected) in [
-            ("depth + 2", "a length and a pure number do not add"),
-            ("dept + 2 m", "nothing is called `dept`"),
-            ("rope * 2", "names an item"),
+            ("depth + 2", "cannot add or compare a length and a pure number"),
+            ("dept + 2 m", "unknown name `dept`"),
+            ("rope * 2", "is an item"),
             ("2 lbf", "`lbf` is a unit of a force"),
             ("(depth", "not closed"),
-            ("depth 2", "should end"),
-            ("2 *", "ends where"),
+            ("depth 2", "after the end"),
+            ("2 *", "incomplete"),
             ("sqrt(depth)", "the root of a length"),
-            ("depth ^ 2", "should end"),
+            ("depth ^ 2", "after the end"),
             (&long, "nested too deeply"),
         ] {
             let (message, help) = Expression::read(text, &names()).unwrap_err();

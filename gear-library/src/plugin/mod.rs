@@ -1,15 +1,14 @@
-//! A plugin without code: a folder with `plugin.toml`, motion clips in `acts/` and gear types in `gear-types/`.
+//! A text plugin: a folder with `plugin.toml`, motion clips in `acts/` and gear types in `gear-types/`.
 //!
 //! ```text
 //! plugin.toml            format, kind = "plugin", id, version, name, notes, source
 //! acts/*.toml, *.glb     acts as in a gear library: docs/motions.md
-//! gear-types/*.toml      attributes, and parts whose lengths are expressions of them: docs/gear-types.md
+//! gear-types/*.toml      attributes, and parts with lengths that are expressions of them: docs/gear-types.md
 //! ```
 
 mod attributes;
 mod expression;
 mod gear;
-mod words;
 
 use std::fs;
 use std::path::Path;
@@ -28,13 +27,13 @@ use crate::tree::{self, Node};
 
 pub use gear::TextGear;
 
-/// The file that makes a folder a plugin.
+/// The file that identifies the folder of a text plugin.
 pub const PLUGIN_FILE: &str = "plugin.toml";
 
 /// Folder of gear types in a plugin.
 const GEAR_TYPES: &str = "gear-types";
 
-/// A plugin without code.
+/// A text plugin.
 #[derive(Clone)]
 pub struct TextPlugin {
     /// Reverse-domain id.
@@ -45,7 +44,7 @@ pub struct TextPlugin {
     pub name: String,
     /// One sentence of help.
     pub help: String,
-    /// Who made it, where its figures come from.
+    /// Author, and sources of its figures.
     pub about: String,
     /// Acts by id, with those of their mirror images.
     pub acts: Vec<Act>,
@@ -53,11 +52,11 @@ pub struct TextPlugin {
     pub clips: Sources,
     /// Gear types.
     pub gear: Vec<Arc<dyn GearType>>,
-    /// All its files, one after the other, for a hash of the whole.
+    /// All its files, for a hash.
     pub bytes: Vec<u8>,
 }
 
-/// Who a plugin says that it is.
+/// The heading of a plugin.
 struct Head {
     id: String,
     version: String,
@@ -67,16 +66,12 @@ struct Head {
 }
 
 impl TextPlugin {
-    /// Whether a folder is a plugin without code.
-    #[must_use]
+    /// Whether a folder contains a text plugin.
     pub fn is_in(folder: &Path) -> bool {
         folder.join(PLUGIN_FILE).is_file()
     }
 
     /// Reads a folder.
-    ///
-    /// # Errors
-    /// Every located problem of its files.
     pub fn from_folder(folder: &Path) -> Result<Self, Vec<Diagnostic>> {
         let (problems, mut bytes) = (Problems::default(), Vec::new());
         let head = text(folder, PLUGIN_FILE, &mut bytes, &problems)
@@ -92,12 +87,8 @@ impl TextPlugin {
         }
         let (clips, acts) = clips(folder, &mut bytes, &problems);
         if acts.is_empty() && gear.is_empty() && !problems.any_error() {
-            let help = "put acts into acts/, or gear types into gear-types/";
-            problems.push(Diagnostic::of_file(
-                PLUGIN_FILE,
-                "there is nothing in this plugin",
-                help,
-            ));
+            let help = "add acts in acts/, or gear types in gear-types/";
+            problems.push(Diagnostic::of_file(PLUGIN_FILE, "this plugin is empty", help));
         }
         match head {
             Some(Head { id, version, name, help, about }) if !problems.any_error() => {
@@ -123,7 +114,7 @@ fn head(node: &Node, problems: &Problems) -> Option<Head> {
     })
 }
 
-/// Reads a text of the folder; what is wrong with it is reported under its path there.
+/// Reads a TOML file of the folder; problems are reported with its path in the folder.
 fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> Option<Node> {
     let text = match read::text(&folder.join(path)) {
         Ok(text) => text,
@@ -137,7 +128,7 @@ fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> 
     tree::read(path, &text).map_err(|problem| problems.push(*problem)).ok()
 }
 
-/// A file's path, length and content, so that no two sets of files run together to the same bytes.
+/// Adds path, length and content of a file, so that different sets of files have different bytes.
 fn add(path: &str, content: &[u8], bytes: &mut Vec<u8>) {
     bytes.extend_from_slice(format!("{path} {}\n", content.len()).as_bytes());
     bytes.extend_from_slice(content);
@@ -158,7 +149,7 @@ fn toml_files(folder: &Path, inner: &str) -> Vec<String> {
     files
 }
 
-/// The acts: their files, and each with its name.
+/// The acts and their files.
 fn clips(folder: &Path, bytes: &mut Vec<u8>, problems: &Problems) -> (Sources, Vec<Act>) {
     if !folder.join(Kind::Act.folder()).is_dir() {
         return (Sources::default(), Vec::new());

@@ -1,27 +1,26 @@
-//! One rule of a pack.
+//! A rule of a pack with its parameters: numbers with unit, source and confidence.
 
-use crate::confidence::Confidence;
-use crate::diagnostic::At;
-use crate::fields::{Fields, Problems, Provenance, provenance_over, rising};
+use crate::diagnostic::{At, Place};
+use crate::entry::Confidence;
+use crate::fields::{Fields, Problems, Provenance, Range, provenance_over, read_figure, rising};
 use crate::study::texts;
-use crate::tree::Node;
-use crate::units::Quantity;
+use crate::tree::{Content, Node};
+use crate::units::{self, Quantity, Unit};
 
-use super::date::{Date, date};
-use super::parameter::{Parameter, parameters};
+use super::{Date, date};
 
-/// What binds people to a rule.
+/// The legal status of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It is, or was, in force by law.
+    /// In force by law, now or formerly.
     Law,
-    /// People follow it, or are advised to, without being bound.
+    /// Voluntary practice or advice.
     Voluntary,
-    /// It is proposed.
+    /// Proposed.
     Proposed,
 }
 
-/// What a rule is checked on.
+/// The subject of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// The gear as a whole.
@@ -39,52 +38,52 @@ pub enum Subject {
 pub struct Rule {
     /// Its id, such as `ma.strength`.
     pub id: At<String>,
-    /// What it asks for, in a sentence.
+    /// The requirement in a sentence.
     pub asks: String,
-    /// The law, or the page, that says so.
+    /// The law, or the page, that states it.
     pub cite: String,
-    /// What binds people to it.
+    /// Its legal status.
     pub standing: Standing,
-    /// Where the wording behind it was read.
+    /// Source of the wording.
     pub source: String,
-    /// How sure its wording is: measured where the source named was read, derived from a summary, else an estimate.
+    /// Confidence in the wording: measured from the source, derived from a summary, or an estimate.
     pub confidence: Confidence,
-    /// First day in force; `None` where nobody looked it up.
+    /// First day in force; `None` if unknown.
     pub from: Option<Date>,
-    /// Last day in force, where it has one.
+    /// Last day in force, if any.
     pub until: Option<Date>,
-    /// Areas where it applies; everywhere where none is named.
+    /// Areas where it applies; empty for everywhere.
     pub areas: Vec<At<String>>,
-    /// Depths where it applies, the second left out [m].
+    /// Depths where it applies, the second excluded [m].
     pub depth_m: Option<[f64; 2]>,
-    /// Distances from shore where it applies, the second left out [m].
+    /// Distances from shore where it applies, the second excluded [m].
     pub distance_m: Option<[f64; 2]>,
     /// Numbers of traps to which it applies.
     pub traps: Option<[f64; 2]>,
-    /// First and last day of the year on which it applies; from autumn to spring where the first is the later.
+    /// First and last day of the year on which it applies; a later first day means from autumn to spring.
     pub season: Option<[u16; 2]>,
-    /// What it is checked on.
+    /// Subject of the check.
     pub subject: Subject,
-    /// The condition under which it applies besides.
+    /// Additional condition under which it applies.
     pub when: Option<At<String>>,
-    /// What must hold.
+    /// Required condition.
     pub check: At<String>,
     /// Its numbers.
     pub parameters: Vec<Parameter>,
-    /// How to mend gear that fails.
+    /// Remedy for gear that does not comply.
     pub mend: String,
     /// Remarks; may be empty.
     pub notes: String,
 }
 
-/// A rule being read: what could be read of its expressions, and the rule where nothing is missing.
+/// A rule that is being read: its expressions, and the rule if it is complete.
 #[derive(Clone, Debug)]
 pub struct RuleDraft {
-    /// What it is checked on.
+    /// Subject of the check.
     pub subject: Subject,
     /// The condition under which it applies.
     pub when: Option<At<String>>,
-    /// What must hold.
+    /// Required condition.
     pub check: Option<At<String>>,
     /// Its numbers.
     pub parameters: Vec<Parameter>,
@@ -95,14 +94,12 @@ impl Standing {
     /// The words a file uses.
     pub const WORDS: [&'static str; 3] = ["law", "voluntary", "proposed"];
 
-    /// Whether people are bound to follow it; a rule that does not bind is advice.
-    #[must_use]
+    /// Whether it is binding; other rules are advice.
     pub fn binds(self) -> bool {
         self == Self::Law
     }
 
     /// Its word.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Law => "law",
@@ -118,7 +115,6 @@ impl Subject {
         ["gear", "every endline", "any endline", "every groundline"];
 
     /// Its words.
-    #[must_use]
     pub fn word(self) -> &'static str {
         Self::WORDS[self as usize]
     }
@@ -134,8 +130,7 @@ impl Subject {
 }
 
 impl Rule {
-    /// A day on which it applies: its first, or a later one in its season; `None` where there is none.
-    #[must_use]
+    /// A day on which it applies: its first, or the next one in its season; `None` if there is none.
     pub fn day_in_force(&self) -> Option<Date> {
         let first = self.from.or(self.until).unwrap_or(Date::USUAL);
         let in_season = |day: &Date| self.season.is_none_or(|season| day.is_in(season));
@@ -154,7 +149,8 @@ impl RuleDraft {
         let subject = fields.word("subject", &Subject::WORDS);
         let subject = subject.map_or(Subject::Gear, |word| Subject::named(&word.value));
         let when = fields.text("when");
-        let check = fields.need_text("check", "write what must hold, such as \"traps >= least\"");
+        let check =
+            fields.need_text("check", "write the required condition, such as \"traps >= least\"");
         let parameters = parameters(&fields, &own);
         let rule = rule(&fields, &own, subject, &check);
         fields.finish();
@@ -163,13 +159,13 @@ impl RuleDraft {
         Self { subject, when, check, parameters, rule }
     }
 
-    /// The rule, where nothing that it needs is missing.
+    /// The rule, if it is complete.
     pub(super) fn finished(self) -> Option<Rule> {
         self.rule
     }
 }
 
-/// The rest of a rule; every key is read before one that is missing ends it.
+/// The other fields of a rule; all keys are read before a missing one ends the function.
 fn rule(
     fields: &Fields<'_>,
     own: &Provenance,
@@ -177,16 +173,16 @@ fn rule(
     check: &Option<At<String>>,
 ) -> Option<Rule> {
     let id = fields.need_id("id", "write an id such as \"ma.strength\"");
-    let asks = fields.need_text("asks", "say in a sentence what it asks for");
-    let cite = fields.need_text("cite", "name the law, or the page, that says so");
-    let mend = fields.need_text("mend", "say in a sentence how to mend gear that fails");
-    let standing = fields.need_text("standing", "write law, voluntary or proposed");
-    let standing = standing.and_then(|_| fields.word("standing", &Standing::WORDS));
+    let asks = fields.need_text("asks", "write the requirement in a sentence");
+    let cite = fields.need_text("cite", "name the law, or the page, that states it");
+    let mend = fields.need_text("mend", "write the remedy for gear that does not comply");
+    let standing =
+        fields.need_word("standing", "write law, voluntary or proposed", &Standing::WORDS);
     let (from, until) = in_force(fields);
     for (key, lacks) in [("source", own.source.is_none()), ("confidence", own.confidence.is_none())]
     {
         if lacks {
-            fields.missing(key, "say where its wording was read, and how sure it is");
+            fields.missing(key, "write the source of its wording, and the confidence");
         }
     }
     let areas = texts(fields, "areas");
@@ -223,12 +219,10 @@ fn rule(
     })
 }
 
-/// `from` and `until`, in this order in time.
+/// `from` and `until`, in chronological order.
 fn in_force(fields: &Fields<'_>) -> (Option<At<Option<Date>>>, Option<Date>) {
     let from = date(fields, "from", true);
-    if fields.get("from").is_none() {
-        fields.missing("from", "write its first day in force, such as \"2022-05-01\"");
-    }
+    fields.require("from", "write its first day in force, such as \"2022-05-01\"");
     let until = date(fields, "until", false);
     let end = until.as_ref().and_then(|until| until.value);
     if let (Some(begin), Some(end), Some(until)) =
@@ -247,10 +241,75 @@ fn season(fields: &Fields<'_>) -> Option<[u16; 2]> {
     let whole = |day: &f64| day.fract() == 0.0 && (1.0..=366.0).contains(day);
     if !days.value.iter().all(whole) {
         let help = "write two days of the year from 1 to 366, such as season = [32, 120]";
-        fields.problems().push(days.place.error("`season` has no days of a year", help));
+        fields
+            .problems()
+            .push(days.place.error("`season` does not consist of days of the year", help));
         return None;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     let day = |at: usize| days.value[at] as u16;
     Some([day(0), day(1)])
+}
+
+/// A number of a rule.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// The name by which expressions use it.
+    pub key: String,
+    /// Place of its name.
+    pub place: Place,
+    /// Value [SI].
+    pub value: f64,
+    /// Physical quantity.
+    pub quantity: Quantity,
+    /// Unit in the rule; `None` for a pure number.
+    pub unit: Option<&'static Unit>,
+    /// As written, such as `1,700 lbf`.
+    pub text: String,
+    /// Source.
+    pub source: String,
+    /// Confidence.
+    pub confidence: Confidence,
+}
+
+/// Reads `[rule.parameters]`: a figure by each name.
+pub(super) fn parameters(rule: &Fields<'_>, file: &Provenance) -> Vec<Parameter> {
+    let Some(table) = rule.table("parameters") else { return Vec::new() };
+    table.rest().into_iter().filter_map(|entry| parameter(rule, entry, file)).collect()
+}
+
+fn parameter(
+    rule: &Fields<'_>,
+    (key, place, node): &(String, Place, Node),
+    file: &Provenance,
+) -> Option<Parameter> {
+    let (quantity, unit) = measured_in(node);
+    let figure = read_figure(node, quantity, Range::Any, file, rule.problems())?;
+    Some(Parameter {
+        key: key.clone(),
+        place: place.clone(),
+        value: figure.value,
+        quantity,
+        unit,
+        text: figure.text,
+        source: figure.source,
+        confidence: figure.confidence,
+    })
+}
+
+/// Quantity and unit of a figure, from its unit; a length for an unknown unit.
+fn measured_in(node: &Node) -> (Quantity, Option<&'static Unit>) {
+    let value = match &node.content {
+        Content::Table(entries) => entries.iter().find(|(key, ..)| key == "value"),
+        _ => None,
+    };
+    let Content::Text(text) = &value.map_or(node, |(_, _, value)| value).content else {
+        return (Quantity::Ratio, None);
+    };
+    let is_number = |letter: char| letter.is_ascii_digit() || " .,/+-".contains(letter);
+    let unit = text.trim_start_matches(is_number).trim();
+    let found = Quantity::ALL
+        .into_iter()
+        .find_map(|quantity| units::find(unit, quantity).map(|unit| (quantity, Some(unit))));
+    found.unwrap_or((Quantity::Length, None))
 }

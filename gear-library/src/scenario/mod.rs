@@ -1,19 +1,9 @@
 //! The scenario document: sea, gear, whale, fixtures and probes of one run.
 
-mod bearing;
-mod current;
-mod friction;
 mod gear;
-mod lines;
-mod obstacle;
 mod parts;
-mod pilot;
-mod resolution;
 mod sea;
-mod segments;
-mod waves;
 mod whale;
-mod wrap;
 
 use endline_sim::DVec3;
 use endline_sim::model::Resolution;
@@ -21,24 +11,18 @@ use endline_sim::model::Resolution;
 use crate::assembly::{PartLine, PartLink, link};
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry::{self, Entry};
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Problems, Range, read_file};
 use crate::items::Condition;
 use crate::limits;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
-pub use current::{CurrentOf, CurrentRow, RowHeight};
-pub use friction::{FrictionChoice, FrictionOn};
-pub use gear::PlacedGear;
-pub use obstacle::ObstacleOf;
-pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
-pub use pilot::{PilotOf, TriggerOf};
-pub use sea::{Bed, Sea};
-pub use segments::LineSegments;
-pub use whale::{AnswerToTouch, PlacedWhale};
-pub use wrap::WrapOf;
+pub use gear::{LineSegments, PlacedGear, WrapOf};
+pub use parts::{Fixture, FreeBody, LineStart, ObstacleOf, ProbeOf, ProbePart};
+pub use sea::{Bed, CurrentOf, CurrentRow, RowHeight, Sea};
+pub use whale::{AnswerToTouch, FrictionChoice, FrictionOn, PilotOf, PlacedWhale, TriggerOf};
 
-/// A scenario as read; ids are looked up by [`assemble`](crate::assemble).
+/// A scenario as read; [`assemble`](crate::assemble) resolves ids.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// Name shown to the user.
@@ -49,23 +33,23 @@ pub struct Scenario {
     pub place: Place,
     /// Length of the run [s].
     pub duration_s: f64,
-    /// Seed of everything drawn at random.
+    /// Seed of random draws.
     pub seed: u64,
-    /// Whether the program chooses the solver's step.
+    /// Whether the solver's step is chosen automatically.
     pub auto_step: bool,
-    /// Step between inputs, which is then the solver's too [s].
+    /// Step between inputs and of the solver [s].
     pub step_s: Option<f64>,
-    /// Longest step while rope is near the whale [s], where the scenario chooses one.
+    /// Greatest step while rope is near the whale [s].
     pub contact_step_s: Option<f64>,
-    /// What push and friction may miss by in a step near the whale, as a share of the greatest, where the scenario says.
+    /// Tolerance of contact forces in a step near the whale, as a share of the greatest.
     pub contact_tolerance: Option<f64>,
-    /// How many rope nodes there are in all.
+    /// Total number of rope nodes.
     pub rope_nodes: Option<At<u64>>,
-    /// Longest segment [m], where no node count is given.
+    /// Longest segment [m], without a number of nodes.
     pub segment_m: Option<At<f64>>,
-    /// Lines with another longest segment; of two that name a line, the later counts.
+    /// Lines with another longest segment; a later entry overrides an earlier one.
     pub line_segments: Vec<LineSegments>,
-    /// How segment lengths follow the whale, where they do.
+    /// Segment lengths by distance from the whale.
     pub resolution: Option<Resolution>,
     /// Whether weak links can part.
     pub weak_links: bool,
@@ -77,13 +61,13 @@ pub struct Scenario {
     pub bodies_on_bodies: bool,
     /// Whether rope touches rope.
     pub rope_on_rope: bool,
-    /// Whether momentum and energy of the gear are told by source, where the scenario says.
+    /// Whether momentum and energy of the gear are reported by source.
     pub balance: Option<bool>,
-    /// Friction of rope on rope, where the scenario says.
+    /// Friction of rope on rope.
     pub rope_friction: Option<At<f64>>,
     /// Whether the run starts as its parts are placed, without statics.
     pub as_placed: bool,
-    /// Condition of every rope whose line names none.
+    /// Default condition of ropes.
     pub rope_condition: Condition,
     /// Whether rope resists bending.
     pub rope_bending: bool,
@@ -101,13 +85,13 @@ pub struct Scenario {
     pub ropes: Vec<Entry>,
     /// Fixed and driven points.
     pub fixtures: Vec<Fixture>,
-    /// Free joints written in place: id and first guess of the place [m].
+    /// Free joints written in place: id and initial place [m].
     pub joints: Vec<(At<String>, DVec3)>,
-    /// Solid things that stand still.
+    /// Fixed solids.
     pub obstacles: Vec<ObstacleOf>,
     /// Bodies written in place.
     pub bodies: Vec<FreeBody>,
-    /// Lines written in place, with their start shape.
+    /// Lines written in place, with their initial shape.
     pub lines: Vec<(PartLine, LineStart)>,
     /// Weak links written in place.
     pub links: Vec<PartLink>,
@@ -117,17 +101,8 @@ pub struct Scenario {
 
 impl Scenario {
     /// Reads a scenario's text; `name` is its path as shown in messages.
-    ///
-    /// # Errors
-    /// Everything wrong with it that can be seen without the library.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        let problems = Problems::default();
-        let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
-        let scenario = Self::from_node(&node, &problems);
-        match scenario {
-            Some(scenario) if !problems.any_error() => Ok(scenario),
-            _ => Err(problems.into_sorted()),
-        }
+        read_file(name, text, |node, problems| Self::from_node(node, problems))
     }
 
     fn from_node(node: &Node, problems: &Problems) -> Option<Self> {
@@ -171,17 +146,17 @@ impl Scenario {
             strength_variation: flag("strength_scatter", true),
             sea: sea::read(&fields),
             gear: each("gear").filter_map(|node| gear::placed_gear(node, problems)).collect(),
-            resolution: resolution.map(|table| resolution::read(&table, whale.is_some())),
+            resolution: resolution.map(|table| gear::resolution(&table, whale.is_some())),
             whale: whale.as_ref().and_then(PlacedWhale::read),
-            friction: fields.table("friction").as_ref().and_then(friction::read),
+            friction: fields.table("friction").as_ref().and_then(whale::friction),
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
             joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
             obstacles: each("obstacle")
-                .filter_map(|node| obstacle::obstacle(node, &file, problems))
+                .filter_map(|node| parts::obstacle(node, &file, problems))
                 .collect(),
             bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
-            lines: each("line").filter_map(|node| lines::free_line(node, problems)).collect(),
+            lines: each("line").filter_map(|node| gear::free_line(node, problems)).collect(),
             links: each("link").filter_map(|node| link(node, problems, true)).collect(),
             probes: each("probe").filter_map(|node| parts::probe(node, problems)).collect(),
         };
@@ -192,23 +167,23 @@ impl Scenario {
 
     fn check_whole(&self, fields: &Fields<'_>) {
         if let (Some(nodes), Some(_)) = (&self.rope_nodes, &self.segment_m) {
-            let message = "both `rope_nodes` and `segment` are given";
-            fields.problems().push(nodes.place.error(message, "keep the one that is meant"));
+            let message = "both `rope_nodes` and `segment` are present";
+            fields.problems().push(nodes.place.error(message, "keep one of them"));
         }
         if let (Some(lines), None) = (self.line_segments.first(), &self.segment_m) {
-            let message = "[[segments]] is given, but no `segment` for the other lines";
-            let help = "write one, such as segment = \"1 m\", in place of `rope_nodes`";
+            let message = "[[segments]] needs a `segment` for the other lines";
+            let help = "write one, such as segment = \"1 m\", instead of `rope_nodes`";
             fields.problems().push(lines.line.place.error(message, help));
         }
         if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
-            let message = "`rope_friction` is given, but ropes pass through each other here";
+            let message = "`rope_friction` has no effect: ropes pass through each other here";
             fields
                 .problems()
-                .push(friction.place.error(message, "take it out, or `rope_on_rope = false`"));
+                .push(friction.place.error(message, "remove it, or `rope_on_rope = false`"));
         }
         if self.gear.len() > 1 {
             for gear in self.gear.iter().filter(|gear| gear.id.is_none()) {
-                let message = "this gear has no `id`, and there is more than one";
+                let message = "this gear needs an `id`, because there are several";
                 fields.problems().push(gear.assembly.place.error(
                     message,
                     "write an id such as id = \"north\"; its parts are then north/trap …",
@@ -223,7 +198,7 @@ fn is_auto(fields: &Fields<'_>) -> bool {
     matches!(fields.get("step"), Some(Node { content: tree::Content::Text(word), .. }) if word == "auto")
 }
 
-/// `step`: a time, or "auto" for the step the program chooses.
+/// `step`: a time, or "auto" for an automatic step.
 fn step(fields: &Fields<'_>) -> Option<f64> {
     if is_auto(fields) {
         return None;
@@ -231,12 +206,12 @@ fn step(fields: &Fields<'_>) -> Option<f64> {
     seconds(fields, "step")
 }
 
-/// A step of time of at most a second [s].
+/// A time step [s].
 fn seconds<'a>(fields: &Fields<'a>, key: &'a str) -> Option<f64> {
     fields.value(key, Quantity::Time, Range::Within(&limits::STEP)).map(|step| step.value)
 }
 
-/// `contact_tolerance`: what push and friction may miss by in a step near the whale, as a share of the greatest.
+/// `contact_tolerance`, a share of the greatest contact force.
 fn contact_tolerance(fields: &Fields<'_>) -> Option<f64> {
     let tolerance = fields.value("contact_tolerance", Quantity::Ratio, Range::Between(1e-4, 0.2));
     tolerance.map(|tolerance| tolerance.value)

@@ -1,8 +1,9 @@
-//! Parts written into a scenario: fixtures, bodies and ropes of validation problems; probes.
+//! Parts written into a scenario: ropes, fixtures, joints, bodies, obstacles and probes.
 
 use endline_sdk::LineEnd;
-use endline_sim::DVec3;
-use endline_sim::model::{EnergyForm, WhaleFigure};
+use endline_sim::geometry::shape::SolidShape;
+use endline_sim::model::{EnergyForm, ROPE_ON_HARD_N_M2, WhaleFigure};
+use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
@@ -14,41 +15,41 @@ use crate::units::Quantity;
 
 use super::{WrapOf, place3};
 
-/// A point that is held, driven at a steady velocity between two times, or held and then pulled by a steady force.
+/// A point that is fixed, driven with constant velocity between two times, or first fixed and then pulled by a constant force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
     /// Id.
     pub id: At<String>,
     /// Place [m].
     pub position_m: DVec3,
-    /// Velocity [m/s] and from when until when [s], where driven.
+    /// Velocity [m/s], start and end [s] of a driven point.
     pub drive: Option<(DVec3, f64, f64)>,
-    /// Force [N] and from when on [s], where pulled.
+    /// Force [N] and start [s] of a pulled point.
     pub pull: Option<(DVec3, f64)>,
 }
 
-/// A body written in place: a sphere or a box with given figures, the line at its middle.
+/// A body written in place: a sphere or a box; lines are made fast at its middle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeBody {
     /// Id.
     pub id: At<String>,
     /// Whether it is drawn and reported as a buoy; else as a weight.
     pub buoy: bool,
-    /// Start place [m].
+    /// Initial place [m].
     pub position_m: DVec3,
-    /// Start angular velocity in the world [rad/s].
+    /// Initial angular velocity in the world [rad/s].
     pub spin_rad_s: DVec3,
     /// Radius [m].
     pub radius_m: f64,
-    /// Half extents, where it is a box [m].
+    /// Half extents of a box [m].
     pub half_m: Option<DVec3>,
     /// Mass [kg].
     pub mass_kg: f64,
-    /// Principal moments of inertia, where they are given [kg m²].
+    /// Principal moments of inertia, if written [kg m²].
     pub inertia_kg_m2: Option<DVec3>,
     /// Displaced volume [m³].
     pub volume_m3: f64,
-    /// Height over which it goes under evenly, if that is given [m].
+    /// Height over which it is immersed linearly, if written [m].
     pub float_height_m: Option<f64>,
     /// Drag coefficient times area [m²].
     pub drag_area_m2: f64,
@@ -56,11 +57,11 @@ pub struct FreeBody {
     pub added_mass: f64,
     /// Whether drag and added mass scale with the wet share.
     pub wetted_drag: bool,
-    /// Held in place until this time [s].
+    /// End of the time in which it is held [s].
     pub held_until_s: Option<f64>,
 }
 
-/// The shape a line starts in.
+/// The initial shape of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LineStart {
     /// Straight between its ends.
@@ -71,12 +72,12 @@ pub enum LineStart {
     Around {
         /// Id of the obstacle.
         obstacle: At<String>,
-        /// How often round; below zero is left-handed about its axis.
+        /// Turns; negative for left-handed about its axis.
         turns: f64,
-        /// Whether two turns cross over themselves to two half hitches.
+        /// Whether two turns form two half hitches.
         hitched: bool,
     },
-    /// Wrapped about the whale, wrap by wrap from its `from` end.
+    /// Wrapped about the whale, from its `from` end.
     Wrapped(Vec<WrapOf>),
 }
 
@@ -85,11 +86,11 @@ pub enum LineStart {
 pub struct ProbeOf {
     /// Id.
     pub id: At<String>,
-    /// What it reads.
+    /// Its reading.
     pub part: ProbePart,
 }
 
-/// What a probe reads, by id.
+/// The reading of a probe, by id.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ProbePart {
     /// Tension at an end of a line.
@@ -98,7 +99,7 @@ pub enum ProbePart {
     TensionAt(At<String>, f64),
     /// A coordinate of a line at an unstretched length from its end A [m].
     LineAt(At<String>, f64, usize),
-    /// Greatest height of a line above the seabed, with this unstretched length left out at each end [m].
+    /// Greatest height of a line above the seabed, without this unstretched length at each end [m].
     Height(At<String>, f64),
     /// Mechanical energy of all rope and bodies.
     Energy(EnergyForm),
@@ -106,7 +107,7 @@ pub enum ProbePart {
     Middle(At<String>, usize),
     /// A coordinate of a body, joint or fixture.
     Place {
-        /// Which.
+        /// Id of the part.
         part: At<String>,
         /// A point of a body other than its middle, in its frame [m].
         point_m: Option<DVec3>,
@@ -131,7 +132,7 @@ pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
     fields.tables("rope").iter().filter_map(read).collect()
 }
 
-/// Reads a `[[fixture]]`; `None` where something needed is missing, which is reported.
+/// Reads a `[[fixture]]`; `None` if a required field is missing, which is reported.
 pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"anchor\"");
@@ -142,18 +143,16 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let force = fields.values("force", Quantity::Force, &[3]);
     match (&velocity, &force, from.as_ref().or(until.as_ref()), &until) {
         (Some(_), Some(force), ..) => {
-            problems.push(
-                force.place.error("both a `velocity` and a `force`", "keep the one that is meant"),
-            );
+            problems.push(force.place.error("both a `velocity` and a `force`", "keep one of them"));
         }
         (None, None, Some(lone), _) => problems.push(lone.place.error(
             "a time without a `velocity`",
-            "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or take the time out",
+            "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or remove the time",
         )),
         (None, Some(_), _, Some(until)) => {
             problems.push(until.place.error(
                 "a `force` has no `until`",
-                "take it out: a force acts from `from` on to the end",
+                "remove it: a force acts from `from` to the end",
             ));
         }
         _ => {}
@@ -167,7 +166,7 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     Some(Fixture { id: id?, position_m: position?, drive, pull })
 }
 
-/// `[[joint]]`: a free end, or a place where lines meet.
+/// Reads a `[[joint]]`: a free end, or a place where lines meet.
 pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVec3)> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"tail\"");
@@ -176,7 +175,7 @@ pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVe
     Some((id?, position?))
 }
 
-/// Reads a `[[body]]`; `None` where something needed is missing, which is reported.
+/// Reads a `[[body]]`; `None` if a required field is missing, which is reported.
 pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"bob\"");
@@ -189,9 +188,7 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
     let inertia = above_zero(&fields, "inertia", Quantity::Inertia);
     let row = provenance_over(&fields, file);
     let figure = |key, quantity, range| fields.figure(key, quantity, range, &row);
-    if fields.get("mass").is_none() {
-        fields.missing("mass", "expected a mass such as 20 kg");
-    }
+    fields.require("mass", "expected a mass such as 20 kg");
     let mass = figure("mass", Quantity::Mass, Range::Positive);
     let radius = figure("radius", Quantity::Length, Range::Within(&limits::BODY_SIZE));
     let volume = figure("volume", Quantity::Volume, Range::NotNegative);
@@ -241,14 +238,15 @@ fn within<'a>(fields: &Fields<'a>, key: &'a str, limit: &'static Limit) -> Optio
     None
 }
 
-/// Reads a `[[probe]]`; `None` where something needed is missing, which is reported.
+/// Reads a `[[probe]]`; `None` if a required field is missing, which is reported.
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"anchor tension\"");
-    let of = fields.need_text("of", "write tension, middle, line, height, place, energy or whale");
-    let of = of.and_then(|_| {
-        fields.word("of", &["tension", "middle", "line", "height", "place", "energy", "whale"])
-    });
+    let of = fields.need_word(
+        "of",
+        "write tension, middle, line, height, place, energy or whale",
+        &["tension", "middle", "line", "height", "place", "energy", "whale"],
+    );
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(&fields),
         "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
@@ -263,26 +261,28 @@ pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     Some(ProbeOf { id: id?, part: part? })
 }
 
-/// At an end, or with `at` at a length from end A.
+/// Tension at an end, or with `at` at a length from end A.
 fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
     let line = fields.need_text("line", "write the id of a line");
     if fields.get("at").is_some() {
         return Some(ProbePart::TensionAt(line?, length_at(fields)?));
     }
-    let end =
-        fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
-    let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
+    let end = fields.need_word(
+        "end",
+        "write from or to; or `at`, a length of rope from its end `from`",
+        &["from", "to"],
+    )?;
     Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
 }
 
-/// Of a body's middle or another `point` of it, of a joint or a fixture.
+/// A coordinate of a body or a `point` of it, of a joint or a fixture.
 fn place(fields: &Fields<'_>) -> Option<ProbePart> {
     let point = fields.values("point", Quantity::Length, &[3]);
     let (part, axis) = coordinate(fields, "part")?;
     Some(ProbePart::Place { part, point_m: point.map(|point| place3(&point.value)), axis })
 }
 
-/// Of a whole line, or of what lies farther than `away` from its ends.
+/// Height of a line, without the length `away` at its ends.
 fn height(fields: &Fields<'_>) -> Option<ProbePart> {
     let line = fields.need_text("line", "write the id of a line");
     let away = fields.value("away", Quantity::Length, Range::NotNegative);
@@ -304,9 +304,11 @@ fn energy_form(fields: &Fields<'_>) -> EnergyForm {
 }
 
 fn whale_figure(fields: &Fields<'_>) -> Option<At<WhaleFigure>> {
-    let figure = fields.need_text("figure", "write speed, thrust, power or body-drag");
-    let figure =
-        figure.and_then(|_| fields.word("figure", &["speed", "thrust", "power", "body-drag"]))?;
+    let figure = fields.need_word(
+        "figure",
+        "write speed, thrust, power or body-drag",
+        &["speed", "thrust", "power", "body-drag"],
+    )?;
     let value = match figure.value.as_str() {
         "speed" => WhaleFigure::Speed,
         "thrust" => WhaleFigure::Thrust,
@@ -318,16 +320,119 @@ fn whale_figure(fields: &Fields<'_>) -> Option<At<WhaleFigure>> {
 
 fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usize)> {
     let part = fields.need_text(key, "write an id");
-    let axis = fields.need_text("axis", "write x (east), y (north) or z (up)");
-    let axis = axis.and_then(|_| fields.word("axis", &["x", "y", "z"]))?;
+    let axis = fields.need_word("axis", "write x (east), y (north) or z (up)", &["x", "y", "z"])?;
     Some((part?, ["x", "y", "z"].iter().position(|name| *name == axis.value)?))
 }
 
-/// `position`: east, north and up [m]; `None` where it is missing, which is reported.
+/// `position`: east, north and up [m]; `None` if it is missing, which is reported.
 pub(super) fn position(fields: &Fields<'_>) -> Option<DVec3> {
     let position = fields.values("position", Quantity::Length, &[3]);
-    if fields.get("position").is_none() {
-        fields.missing("position", "write east, north and up as [\"0 m\", \"0 m\", \"-30 m\"]");
-    }
+    fields.require("position", "write east, north and up as [\"0 m\", \"0 m\", \"-30 m\"]");
     position.map(|position| place3(&position.value))
+}
+
+/// Allowed dimensions of an obstacle [m].
+const MEASURE: Range = Range::Between(1e-3, 1e4);
+
+/// An obstacle as written: a fixed solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObstacleOf {
+    /// Id.
+    pub id: At<String>,
+    /// Shape, in its own frame.
+    pub shape: SolidShape,
+    /// Place [m].
+    pub position_m: DVec3,
+    /// Rotation from its frame to the world.
+    pub orientation: DQuat,
+    /// Friction of rope and bodies on it.
+    pub friction: f64,
+    /// Stiffness under rope, by length of rope [N/m²].
+    pub stiffness_n_m2: f64,
+}
+
+/// Reads an `[[obstacle]]`.
+pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> Option<ObstacleOf> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_id("id", "write an id such as \"rock\"");
+    let word = fields.need_word(
+        "shape",
+        "write plane, sphere, cylinder or box",
+        &["plane", "sphere", "cylinder", "box"],
+    );
+    let position_m = position(&fields);
+    let row = provenance_over(&fields, file);
+    fields.require(
+        "friction",
+        "write the friction of rope and bodies on it, such as 0.3; 0 is smooth",
+    );
+    let friction = fields.figure("friction", Quantity::Ratio, Range::Between(0.0, 10.0), &row);
+    let stiffness = fields.figure("stiffness", Quantity::Pressure, Range::Positive, &row);
+    // The dimensions depend on the shape.
+    let shape = match word?.value.as_str() {
+        "plane" => direction(&fields, "normal").map(|turn| (SolidShape::Plane, turn)),
+        "sphere" => {
+            measure(&fields, "radius").map(|radius| (SolidShape::Sphere(radius), DQuat::IDENTITY))
+        }
+        "cylinder" => cylinder(&fields),
+        _ => cuboid(&fields),
+    };
+    fields.finish();
+    let (shape, orientation) = shape?;
+    Some(ObstacleOf {
+        id: id?,
+        shape,
+        position_m: position_m?,
+        orientation,
+        friction: friction?.value,
+        stiffness_n_m2: stiffness.map_or(ROPE_ON_HARD_N_M2, |stiffness| stiffness.value),
+    })
+}
+
+fn cylinder(fields: &Fields<'_>) -> Option<(SolidShape, DQuat)> {
+    let (radius, length) = (measure(fields, "radius"), measure(fields, "length"));
+    let turn = direction(fields, "axis");
+    Some((SolidShape::Cylinder { radius_m: radius?, half_length_m: 0.5 * length? }, turn?))
+}
+
+/// A box by length, width and height, with the length along `heading` and a nose-up `pitch`.
+fn cuboid(fields: &Fields<'_>) -> Option<(SolidShape, DQuat)> {
+    let size = fields.values("size", Quantity::Length, &[3]);
+    fields.require("size", "write length, width and height as [\"2 m\", \"1 m\", \"0.5 m\"]");
+    let heading = fields
+        .value("heading", Quantity::Angle, Range::Any)
+        .map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value);
+    let pitch = fields.value("pitch", Quantity::Angle, Range::Any).map_or(0.0, |pitch| pitch.value);
+    let size = size?;
+    let half = 0.5 * place3(&size.value);
+    if half.min_element() <= 0.0 {
+        fields.problems().push(size.place.error(
+            "a `size` is not above zero",
+            "write length, width and height, each above zero",
+        ));
+        return None;
+    }
+    let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - heading)
+        * DQuat::from_rotation_y(-pitch);
+    Some((SolidShape::Box(half), turn))
+}
+
+fn measure(fields: &Fields<'_>, key: &'static str) -> Option<f64> {
+    fields.need_value(key, Quantity::Length, MEASURE).map(|value| value.value)
+}
+
+/// The rotation from z to a direction; none by default.
+fn direction(fields: &Fields<'_>, key: &'static str) -> Option<DQuat> {
+    if fields.get(key).is_none() {
+        return Some(DQuat::IDENTITY);
+    }
+    let values = fields.values(key, Quantity::Ratio, &[3])?;
+    let Some(direction) = place3(&values.value).try_normalize() else {
+        let message = format!("`{key}` has no length");
+        fields
+            .problems()
+            .push(values.place.error(message, "write east, north and up, such as [0, 0, 1]"));
+        return None;
+    };
+    Some(DQuat::from_rotation_arc(DVec3::Z, direction))
 }

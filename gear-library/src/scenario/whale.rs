@@ -1,18 +1,17 @@
-//! The whale of a scenario: which, where, how it swims, what its pilot does.
+//! The whale of a scenario, its pilot program, and the friction on it.
 
+use endline_sdk::{BodyPart, Controls};
 use endline_sim::DVec3;
 use endline_sim::whale::kinetic::Effort;
 
-use crate::attributes::Attributes;
-use crate::diagnostic::At;
+use crate::assembly::Attributes;
+use crate::diagnostic::{At, Place, hint};
 use crate::fields::{Fields, Problems, Range};
-use crate::items::YEAR_S;
+use crate::items::{YEAR_S, read_surfaces};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
-use super::pilot::{self, PilotOf};
-
-/// Force on one part from which a whale feels rope, where a scenario says nothing else [N]; an estimate.
+/// Default of the force on one part that a whale feels [N]; an estimate.
 const FELT_N: f64 = 1.0;
 
 /// A whale in a scenario.
@@ -20,60 +19,60 @@ const FELT_N: f64 = 1.0;
 pub struct PlacedWhale {
     /// Id of the library's whale.
     pub item: At<String>,
-    /// Body length, over the library's [m].
+    /// Body length, overrides the library's [m].
     pub length_m: Option<f64>,
-    /// Age, from which the length follows [s].
+    /// Age, which determines the length [s].
     pub age_s: Option<At<f64>>,
-    /// Volume over that of a whale of its length in middling condition [1].
+    /// Volume over that of a whale of its length in average condition [1].
     pub condition: f64,
     /// Whether it is late in pregnancy.
     pub pregnant: bool,
-    /// Start of mid-body: east, north, up [m].
+    /// Initial place of mid-body: east, north, up [m].
     pub position_m: DVec3,
     /// Compass bearing of its snout [rad].
     pub heading_rad: f64,
-    /// Nose up [rad].
+    /// Pitch, nose up [rad].
     pub pitch_rad: f64,
     /// Roll to starboard [rad].
     pub roll_rad: f64,
     /// Speed through the water [m/s].
     pub speed_m_s: f64,
-    /// Stiffness of skin and blubber, over the library's [N/m²].
+    /// Stiffness of skin and blubber, overrides the library's [N/m²].
     pub contact_stiffness_n_m2: Option<f64>,
-    /// Whether it is dead; then it floats, whatever its motion.
+    /// Whether it is dead; then it floats without motion.
     pub dead: bool,
     /// Whether it is kinetic.
     pub kinetic: bool,
-    /// How a kinetic one keeps up its effort.
+    /// What a kinetic whale keeps constant.
     pub effort: Effort,
     /// Id of the motion plugin.
     pub motion: At<String>,
     /// Its attributes.
     pub attributes: Attributes,
-    /// Acts of the library it can do, in the order of their numbers; `None` for all.
+    /// Its acts of the library, in the order of their numbers; `None` for all.
     pub acts: Option<Vec<At<String>>>,
-    /// What it does when rope touches it.
+    /// Its answer to touch.
     pub answer: Option<AnswerToTouch>,
-    /// What its pilot does.
+    /// Its pilot program.
     pub pilot: Vec<PilotOf>,
 }
 
-/// What a whale does of itself when rope touches it.
+/// The reaction of a whale to contact with rope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnswerToTouch {
     /// Id of the act.
     pub act: At<String>,
-    /// Normal force on one part above which it feels a touch [N].
+    /// Normal force on one part above which it reacts [N].
     pub above_n: f64,
-    /// It answers again after this long while the touch lasts [s]; infinite for never.
+    /// Time between reactions during contact [s]; infinite for a single one.
     pub again_s: f64,
 }
 
-/// Stands for the motion of a dead whale.
+/// Placeholder for the motion of a dead whale.
 const NO_MOTION: &str = "org.endline.motion.swim";
 
 impl PlacedWhale {
-    /// Reads `[whale]`; `None` where something needed is missing, which is reported.
+    /// Reads `[whale]`; `None` if a required field is missing, which is reported.
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
         let item = fields
             .need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
@@ -97,7 +96,7 @@ impl PlacedWhale {
         let attributes = Attributes::read(fields, "attributes");
         let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
         let answer = answer(fields);
-        let pilot = pilot::pilot(fields);
+        let pilot = pilot(fields);
         fields.finish();
         Some(Self {
             item: item?,
@@ -123,22 +122,22 @@ impl PlacedWhale {
     }
 }
 
-/// The length is given, or follows from the age.
+/// Reports both a length and an age.
 fn check_age(fields: &Fields<'_>, length: Option<&At<f64>>, age: Option<&At<f64>>) {
     if let (Some(_), Some(age)) = (length, age) {
         let help =
-            "leave one of them out: the length follows from the age by the law of the whale's file";
-        fields.problems().push(age.place.error("both `length` and `age` are given", help));
+            "remove one of them: the age determines the length by the law in the whale's file";
+        fields.problems().push(age.place.error("both `length` and `age` are present", help));
     }
 }
 
-/// `position` and `depth`: start of mid-body, east, north and up [m].
+/// `position` and `depth`: initial place of mid-body, east, north and up [m].
 fn mid_body(fields: &Fields<'_>) -> Option<DVec3> {
     let position = fields.values("position", Quantity::Length, &[2]);
     if position.is_none() && fields.get("position").is_none() {
         fields.missing(
             "position",
-            "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]",
+            "write the initial place of mid-body, east and north, such as [\"-20 m\", \"0 m\"]",
         );
     }
     let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
@@ -165,7 +164,7 @@ fn acts(node: &Node, problems: &Problems) -> Vec<At<String>> {
     items.iter().filter_map(id).collect()
 }
 
-/// `answer_to_touch`, and what belongs to it.
+/// `answer_to_touch` with its parameters.
 fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
     let act = fields.text("answer_to_touch");
     let above = fields.value("answer_above", Quantity::Force, Range::NotNegative);
@@ -188,7 +187,7 @@ fn under_way(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
     (speed.map(|speed| speed.value), motion)
 }
 
-/// A dead whale lies still, and its motion is never asked.
+/// Speed and motion of a dead whale; the motion is not used.
 fn adrift(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
     (Some(0.0), Some(At { value: NO_MOTION.to_owned(), place: fields.place.clone() }))
 }
@@ -199,4 +198,252 @@ fn effort_of(word: Option<&str>) -> Effort {
         Some("speed") => Effort::Speed,
         _ => Effort::Power,
     }
+}
+
+/// An entry of the pilot program; [`assemble`](crate::assemble) resolves its names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PilotOf {
+    /// Its trigger.
+    pub trigger: TriggerOf,
+    /// Time from the trigger to its start [s].
+    pub delay_s: f64,
+    /// Duration of its controls; may be infinite [s].
+    pub hold_s: f64,
+    /// Time of the transition of controls at both ends [s].
+    pub ramp_s: f64,
+    /// Its controls, in the order of [`Controls::NAMES`], without `act`.
+    pub controls: [Option<f64>; Controls::COUNT],
+    /// Id of its act.
+    pub act: Option<At<String>>,
+}
+
+/// The trigger of an entry.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TriggerOf {
+    /// A time [s].
+    Time(f64),
+    /// First contact of rope with a body part, or with any.
+    Touch(Option<BodyPart>),
+    /// A distance [m] to a line, body or joint by id, or to any line.
+    Within(f64, Option<At<String>>),
+    /// Mid-body at a depth [m].
+    Depth(f64),
+    /// The heading at a compass bearing [rad].
+    Heading(f64),
+    /// The start of another entry, by its index.
+    After(usize),
+}
+
+/// Keys of triggers, each with an example.
+const TRIGGERS: [(&str, &str); 6] = [
+    ("at", "at = \"12 s\""),
+    ("touch", "touch = \"any\""),
+    ("within", "within = \"5 m\""),
+    ("depth", "depth = \"10 m\""),
+    ("heading", "heading = \"90 deg\""),
+    ("after", "after = \"turn\""),
+];
+
+/// Ids of the entries read so far.
+type Ids = Vec<Option<At<String>>>;
+
+/// Reads the entries; invalid ones are reported and omitted.
+fn pilot(fields: &Fields<'_>) -> Vec<PilotOf> {
+    let (mut entries, mut ids, mut latest_s) = (Vec::new(), Ids::new(), f64::NEG_INFINITY);
+    for node in fields.tables("pilot") {
+        let (id, entry) = entry(node, &ids, fields.problems());
+        if let Some(PilotOf { trigger: TriggerOf::Time(at_s), .. }) = entry {
+            if at_s <= latest_s {
+                let place = place_of(node, "at");
+                fields.problems().push(place.error(
+                    "commands are not in rising order of `at`",
+                    "put them in the order of time",
+                ));
+            }
+            latest_s = at_s;
+        }
+        ids.push(id);
+        entries.push(entry);
+    }
+    // An omitted entry shifts the indices of `after`, but its error prevents the assembly.
+    entries.into_iter().flatten().collect()
+}
+
+fn entry(node: &Node, ids: &Ids, problems: &Problems) -> (Option<At<String>>, Option<PilotOf>) {
+    let fields = Fields::of(node, problems);
+    let id = own_id(&fields, ids);
+    let trigger = trigger(&fields, ids);
+    let time = |key, range| fields.value(key, Quantity::Time, range);
+    let (delay, hold, ramp) = (
+        time("delay", Range::NotNegative),
+        time("hold", Range::Positive),
+        time("ramp", Range::NotNegative),
+    );
+    if let (Some(TriggerOf::Time(_)), Some(delay)) = (&trigger, &delay) {
+        problems.push(delay.place.error("an entry with `at` has no `delay`", "add it to `at`"));
+    }
+    let controls = controls(&fields);
+    let act = fields.text("act");
+    if act.is_none()
+        && controls.iter().all(Option::is_none)
+        && Controls::NAMES.iter().all(|name| fields.get(name).is_none())
+    {
+        problems.push(fields.place.error(
+            "the entry sets no control",
+            format!("write one or more of {}", Controls::NAMES.join(", ")),
+        ));
+    }
+    fields.finish();
+    let or = |value: Option<At<f64>>, default| value.map_or(default, |value| value.value);
+    let entry = trigger.map(|trigger| PilotOf {
+        trigger,
+        delay_s: or(delay, 0.0),
+        hold_s: or(hold, f64::INFINITY),
+        ramp_s: or(ramp, 0.0),
+        controls,
+        act,
+    });
+    (id, entry)
+}
+
+fn own_id(fields: &Fields<'_>, ids: &Ids) -> Option<At<String>> {
+    let id = fields.id("id")?;
+    if ids.iter().flatten().any(|known| known.value == id.value) {
+        let message = format!("there are two entries with the id `{}`", id.value);
+        fields.problems().push(id.place.error(message, "give one of them another id"));
+    }
+    Some(id)
+}
+
+/// The controls except `act`, in the order of their names.
+fn controls(fields: &Fields<'_>) -> [Option<f64>; Controls::COUNT] {
+    std::array::from_fn(|index| {
+        let [least, most] = Controls::RANGES[index];
+        let is_amount = index != Controls::ACT;
+        is_amount
+            .then(|| {
+                fields.value(Controls::NAMES[index], Quantity::Ratio, Range::Between(least, most))
+            })?
+            .map(|value| value.value)
+    })
+}
+
+/// The trigger of an entry, exactly one.
+fn trigger(fields: &Fields<'_>, ids: &Ids) -> Option<TriggerOf> {
+    let triggers: Vec<_> =
+        TRIGGERS.iter().filter_map(|(key, _)| Some((*key, fields.get(key)?))).collect();
+    let of = fields.text("of");
+    let Some((key, _)) = triggers.first() else {
+        let examples = TRIGGERS.map(|(_, example)| example).join(", ");
+        fields.problems().push(
+            fields.place.error(
+                "this entry of the pilot has no trigger",
+                format!("write one of {examples}"),
+            ),
+        );
+        return None;
+    };
+    if let Some((other, node)) = triggers.get(1) {
+        let message = format!("this entry has two triggers, `{key}` and `{other}`");
+        fields.problems().push(node.place.error(message, "keep one, or write another entry"));
+    }
+    if let Some(of) = of.as_ref().filter(|_| *key != "within") {
+        fields
+            .problems()
+            .push(of.place.error("`of` without `within`", "write within = \"5 m\", or remove it"));
+    }
+    Some(match *key {
+        "at" => TriggerOf::Time(fields.value("at", Quantity::Time, Range::NotNegative)?.value),
+        "touch" => TriggerOf::Touch(touch(fields)?),
+        "within" => {
+            TriggerOf::Within(fields.value("within", Quantity::Length, Range::Positive)?.value, of)
+        }
+        "depth" => {
+            TriggerOf::Depth(fields.value("depth", Quantity::Length, Range::NotNegative)?.value)
+        }
+        "heading" => {
+            TriggerOf::Heading(fields.value("heading", Quantity::Angle, Range::Any)?.value)
+        }
+        _ => TriggerOf::After(after(fields, ids)?),
+    })
+}
+
+/// A body part by name; `None` for any.
+fn touch(fields: &Fields<'_>) -> Option<Option<BodyPart>> {
+    let words: Vec<&str> =
+        std::iter::once("any").chain(BodyPart::ALL.map(BodyPart::name)).collect();
+    let word = fields.word("touch", &words)?;
+    Some(BodyPart::ALL.into_iter().find(|part| part.name() == word.value))
+}
+
+/// The index of the earlier entry with an id.
+fn after(fields: &Fields<'_>, ids: &Ids) -> Option<usize> {
+    let after = fields.text("after")?;
+    let found = ids.iter().position(|id| id.as_ref().is_some_and(|id| id.value == after.value));
+    if found.is_none() {
+        let message = format!("no earlier entry has the id `{}`", after.value);
+        let known = ids.iter().flatten().map(|id| id.value.as_str());
+        fields.problems().push(after.place.error(message, hint(&after.value, known)));
+    }
+    found
+}
+
+/// The place of a key of a table.
+fn place_of(node: &Node, key: &str) -> Place {
+    let problems = Problems::default();
+    Fields::of(node, &problems)
+        .get(key)
+        .map_or_else(|| node.place.clone(), |value| value.place.clone())
+}
+
+/// The friction model of a scenario, and those of some surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrictionChoice {
+    /// Id of the plugin.
+    pub model: At<String>,
+    /// Its attributes, which override those of rope materials.
+    pub attributes: Attributes,
+    /// Models of some surfaces; a later entry overrides an earlier one.
+    pub on: Vec<FrictionOn>,
+}
+
+/// A friction model for some surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrictionOn {
+    /// Its surfaces, at least one, such as `baleen`.
+    pub surfaces: Vec<At<String>>,
+    /// Id of the plugin.
+    pub model: At<String>,
+    /// Its attributes.
+    pub attributes: Attributes,
+}
+
+/// Reads the table `[friction]`.
+pub(super) fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
+    let model = fields.need_text(
+        "model",
+        "write the id of a friction model, such as \"org.endline.friction.coulomb\"",
+    );
+    let attributes = Attributes::read(fields, "attributes");
+    let on = fields
+        .tables("on")
+        .iter()
+        .filter_map(|node| friction_on(node, fields.problems()))
+        .collect();
+    fields.finish();
+    Some(FrictionChoice { model: model?, attributes, on })
+}
+
+/// `[[friction.on]]`: a model for some surfaces.
+fn friction_on(node: &Node, problems: &Problems) -> Option<FrictionOn> {
+    let fields = Fields::of(node, problems);
+    fields.require("surfaces", "write the surfaces of this model, such as [\"baleen\"]");
+    let surfaces = read_surfaces(&fields, "surfaces");
+    let model = fields.need_text(
+        "model",
+        "write the id of a friction model, such as \"org.endline.friction.baleen\"",
+    );
+    let attributes = Attributes::read(&fields, "attributes");
+    fields.finish();
+    (!surfaces.is_empty()).then_some(FrictionOn { surfaces, model: model?, attributes })
 }

@@ -1,16 +1,8 @@
-//! What each kind of library file holds: its figures with quantity, range and help.
+//! The fields of each kind of library file: figures with quantity, range and help.
 //!
-//! One table per kind, in a file of its own, serves the reader, the checks and the help shown beside a
-//! field.
+//! One table per kind serves the reader, the checks and the help shown beside a field.
 
-mod act;
-mod box_gear;
-mod buoy;
-mod friction;
-mod knot;
-mod rope;
-mod site;
-mod weak_link;
+mod gear;
 mod whale;
 
 use crate::fields::Range;
@@ -52,7 +44,7 @@ pub struct Field {
     pub quantity: Quantity,
     /// Values it may take.
     pub range: Range,
-    /// Whether it must be there.
+    /// Whether it is required.
     pub needed: bool,
     /// Help shown beside it.
     pub help: &'static str,
@@ -63,7 +55,7 @@ pub struct Field {
 pub struct Word {
     /// Key.
     pub key: &'static str,
-    /// Words it may be; empty where any will do.
+    /// Allowed words; empty for any text.
     pub allowed: &'static [&'static str],
     /// Help shown beside it.
     pub help: &'static str,
@@ -85,43 +77,38 @@ impl Kind {
         Self::Assembly,
     ];
 
-    /// Its folder of the library.
-    #[must_use]
+    /// Its folder in the library.
     pub fn folder(self) -> &'static str {
         self.names().0
     }
 
     /// The word of a file's `kind` field.
-    #[must_use]
     pub fn word(self) -> &'static str {
         self.names().1
     }
 
-    /// The kind whose files lie in a folder.
-    #[must_use]
+    /// The kind of the files in a folder.
     pub fn in_folder(folder: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.folder() == folder)
     }
 
     /// Its figures, in the order shown.
-    #[must_use]
     pub fn fields(self) -> &'static [Field] {
         match self {
-            Self::Rope => rope::FIELDS,
-            Self::Trap | Self::Anchor => box_gear::FIELDS,
-            Self::Buoy => buoy::FIELDS,
-            Self::WeakLink => weak_link::FIELDS,
-            Self::Knot => knot::FIELDS,
-            Self::Site => site::FIELDS,
-            Self::Friction => friction::FIELDS,
-            Self::Whale => whale::FIELDS,
-            Self::Act => act::FIELDS,
+            Self::Rope => gear::ROPE,
+            Self::Trap | Self::Anchor => gear::BOX_GEAR,
+            Self::Buoy => gear::BUOY,
+            Self::WeakLink => gear::WEAK_LINK,
+            Self::Knot => gear::KNOT,
+            Self::Site => gear::SITE,
+            Self::Friction => whale::FRICTION,
+            Self::Whale => whale::WHALE,
+            Self::Act => whale::ACT,
             Self::Assembly => &[],
         }
     }
 
-    /// Its texts that must be there, besides the name.
-    #[must_use]
+    /// Its required texts, apart from the name.
     pub fn words(self) -> &'static [Word] {
         match self {
             Self::Rope => &[Word {

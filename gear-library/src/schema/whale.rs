@@ -1,18 +1,19 @@
-//! The figures of a whale.
+//! Figures of whales, of their acts and of friction on their skin, each table in the order shown.
 
-use super::{COEFFICIENT, Field, SHARE, may, need};
 use crate::fields::Range::{Between, Positive};
 use crate::units::Quantity as Q;
 
-/// Every figure, in the order shown.
-pub(super) const FIELDS: &[Field] = &[
+use super::{COEFFICIENT, Field, SHARE, may, need};
+
+/// Figures of a whale.
+pub(super) const WHALE: &[Field] = &[
     need(
         "length",
         Q::Length,
         Between(1.0, 35.0),
         "body length, snout to fluke notch; a scenario may choose another",
     ),
-    need("burst_speed", Q::Speed, Between(0.1, 15.0), "greatest speed it can swim"),
+    need("burst_speed", Q::Speed, Between(0.1, 15.0), "greatest swimming speed"),
     need(
         "contact_stiffness",
         Q::Pressure,
@@ -23,24 +24,24 @@ pub(super) const FIELDS: &[Field] = &[
         "breadth_scale",
         Q::Ratio,
         Between(0.3, 2.0),
-        "factor on widths and heights of the sections; found from the mass where [mass] is given",
+        "factor on widths and heights of the sections; computed from [mass] if that is present",
     ),
-    need("mass.length", Q::Length, Between(1.0, 35.0), "length at which the mass is given"),
+    need("mass.length", Q::Length, Between(1.0, 35.0), "length at which the mass applies"),
     need(
         "mass.mass",
         Q::Mass,
         Between(10.0, 300_000.0),
-        "mass of a whale of that length in middling condition",
+        "mass of a whale of that length in average condition",
     ),
-    need("mass.exponent", Q::Ratio, Between(2.0, 4.0), "exponent of length in the law of mass"),
+    need("mass.exponent", Q::Ratio, Between(2.0, 4.0), "exponent of length in the mass law"),
     need("age.birth", Q::Length, Between(0.5, 15.0), "length at birth"),
     need("age.one_year", Q::Length, Between(0.5, 35.0), "length at one year"),
-    need("age.tenfold", Q::Length, Between(0.0, 20.0), "growth for each tenfold age after that"),
+    need("age.tenfold", Q::Length, Between(0.0, 20.0), "growth per tenfold age after that"),
     may(
         "density",
         Q::Density,
         Between(500.0, 1500.0),
-        "mass over displaced volume; that of sea water, 1025 kg/m3, where not given",
+        "mass over displaced volume; default: sea water, 1025 kg/m3",
     ),
     need("peduncle_start", Q::Ratio, SHARE, "where the tail stock begins, as a share of length"),
     need("head.share", Q::Ratio, SHARE, "length of the head, as a share of length"),
@@ -55,7 +56,7 @@ pub(super) const FIELDS: &[Field] = &[
         "head.width",
         Q::Ratio,
         SHARE,
-        "width of the head at a tenth of length, as a share of length; the sections' own where not given",
+        "width of the head at a tenth of length, as a share of length; default: from the sections",
     ),
     may("head.width_offset", Q::Length, Between(-5.0, 5.0), "length added to that width"),
     need(
@@ -68,7 +69,7 @@ pub(super) const FIELDS: &[Field] = &[
         "head.lip_arch",
         Q::Ratio,
         SHARE,
-        "how far the lower lips stand off from the baleen at their foot, as a share of the baleen's length there",
+        "distance of the lower lips from the baleen at their foot, as a share of the length of the baleen there",
     ),
     need(
         "head.baleen",
@@ -86,7 +87,7 @@ pub(super) const FIELDS: &[Field] = &[
         "head.callosities",
         Q::Length,
         Between(0.0, 0.5),
-        "relief of the highest callosity, the bonnet; no callosities where not given",
+        "relief of the highest callosity, the bonnet; default: no callosities",
     ),
     need(
         "flippers.insertion",
@@ -133,14 +134,14 @@ pub(super) const FIELDS: &[Field] = &[
         "strength.sustained",
         Q::Force,
         Positive,
-        "thrust it sustains, of a whale 1 m long; it grows with length by `exponent`",
+        "sustained thrust of a whale 1 m long; it grows with length by `exponent`",
     ),
     need("strength.burst", Q::Force, Positive, "greatest thrust in a burst, of a whale 1 m long"),
     may(
         "strength.jaw",
         Q::Ratio,
         Between(0.001, 1.0),
-        "greatest force with which the jaws close at their tip, as a share of the thrust in a burst; without it and `lip` they close whatever lies between",
+        "greatest force with which the jaws close at their tip, as a share of the thrust in a burst; without it and `lip` they close with unlimited force",
     ),
     may(
         "strength.lip",
@@ -148,8 +149,13 @@ pub(super) const FIELDS: &[Field] = &[
         Between(0.001, 1.0),
         "greatest force with which a lower lip closes at its rim, as a share of the thrust in a burst",
     ),
-    need("strength.exponent", Q::Ratio, Between(0.0, 4.0), "power of length by which thrust grows"),
-    need("strength.efficiency", Q::Ratio, Between(0.01, 1.0), "useful power over the power put in"),
+    need(
+        "strength.exponent",
+        Q::Ratio,
+        Between(0.0, 4.0),
+        "exponent of length in the law of thrust",
+    ),
+    need("strength.efficiency", Q::Ratio, Between(0.01, 1.0), "useful power over input power"),
     need(
         "strength.stroke",
         Q::Ratio,
@@ -160,26 +166,26 @@ pub(super) const FIELDS: &[Field] = &[
         "strength.steering_arm",
         Q::Ratio,
         SHARE,
-        "arm of the tail as it holds course, as a share of length; the force is the thrust it sustains",
+        "lever arm of the tail that holds course, as a share of length; the force is the sustained thrust",
     ),
     need(
         "strength.rolling_arm",
         Q::Ratio,
         SHARE,
-        "the same of the flippers as they hold it upright",
+        "lever arm of the flippers that hold it upright, as a share of length",
     ),
     need(
         "strength.steering_time",
         Q::Time,
         Positive,
-        "time in which it takes back what rope turned",
+        "time constant with which it corrects a turn caused by rope",
     ),
     need("drag.diameter", Q::Ratio, Between(0.01, 1.0), "greatest diameter by length"),
     need(
         "drag.diameter_offset",
         Q::Length,
         Between(-2.0, 5.0),
-        "greatest diameter besides that, for a whale of no length",
+        "length added to the greatest diameter",
     ),
     need(
         "drag.wetted_area",
@@ -187,22 +193,17 @@ pub(super) const FIELDS: &[Field] = &[
         Between(1e-3, 10.0),
         "wetted area in m2 of a whale of 1 kg; it grows with mass by `wetted_area_exponent`",
     ),
-    need("drag.wetted_area_exponent", Q::Ratio, SHARE, "power of mass by which wetted area grows"),
     need(
-        "drag.appendages",
+        "drag.wetted_area_exponent",
         Q::Ratio,
-        Between(1.0, 3.0),
-        "factor of flippers and flukes on the body's drag",
+        SHARE,
+        "exponent of mass in the law of wetted area",
     ),
-    need("drag.oscillation", Q::Ratio, Between(1.0, 5.0), "factor of its beating as it swims"),
-    need("drag.open_mouth", Q::Ratio, Between(1.0, 20.0), "factor of a mouth wide open"),
-    need(
-        "drag.wide_mouth",
-        Q::Angle,
-        Between(0.01, 1.6),
-        "jaw drop at which its mouth is wide open",
-    ),
-    need("drag.cross", Q::Ratio, COEFFICIENT, "drag coefficient crossways"),
+    need("drag.appendages", Q::Ratio, Between(1.0, 3.0), "drag factor of flippers and flukes"),
+    need("drag.oscillation", Q::Ratio, Between(1.0, 5.0), "drag factor of the swimming motion"),
+    need("drag.open_mouth", Q::Ratio, Between(1.0, 20.0), "drag factor of a wide-open mouth"),
+    need("drag.wide_mouth", Q::Angle, Between(0.01, 1.6), "jaw drop of a wide-open mouth"),
+    need("drag.cross", Q::Ratio, COEFFICIENT, "drag coefficient across the body"),
     need("drag.side_area", Q::Ratio, SHARE, "area seen from the side, over length squared"),
     need("drag.plan_area", Q::Ratio, SHARE, "area seen from above, over length squared"),
     need(
@@ -215,7 +216,7 @@ pub(super) const FIELDS: &[Field] = &[
         "dead.weight_above",
         Q::Ratio,
         Between(-0.1, 0.1),
-        "how far its centre of mass lies toward the back from that of its volume, as a share of length",
+        "distance of the centre of mass from the centre of volume towards the back, as a share of length",
     ),
     need("dead.jaw", Q::Angle, Between(0.0, 1.0), "jaw drop of a dead whale"),
     need(
@@ -224,4 +225,24 @@ pub(super) const FIELDS: &[Field] = &[
         Between(-0.2, 0.2),
         "net buoyancy alive and under water, as a share of its weight",
     ),
+];
+
+/// Figures of an act.
+pub(super) const ACT: &[Field] = &[
+    need("fade", Q::Time, Between(0.1, 30.0), "time of the transition into the act and out of it"),
+    may(
+        "turn_rate",
+        Q::TurnRate,
+        Between(0.01, 1.0),
+        "greatest rate of turn to a bank or climb; default 15 deg/s",
+    ),
+];
+
+/// Figures of the friction of a rope material on a whale.
+pub(super) const FRICTION: &[Field] = &[
+    need("rostrum", Q::Ratio, COEFFICIENT, "on the rostrum with its callosities"),
+    need("baleen", Q::Ratio, COEFFICIENT, "on the baleen plates"),
+    need("lips", Q::Ratio, COEFFICIENT, "on the lower lips"),
+    need("head", Q::Ratio, COEFFICIENT, "on the rest of the head"),
+    need("skin", Q::Ratio, COEFFICIENT, "on body, peduncle, flippers and flukes"),
 ];

@@ -1,30 +1,29 @@
-//! Events a study counts: an outcome, or rope on a part of the whale.
+//! Events that a study counts: an outcome, or rope on a part of the whale.
 
 use endline_sdk::{BodyPart, Limb};
 
-use crate::diagnostic::At;
+use crate::diagnostic::{At, hint};
 use crate::fields::Fields;
-use crate::nearest::hint;
 
 use super::option::texts;
 
-/// Turns about a part from which it counts as wrapped; as `docs/entanglement.md` has it, half a turn hooks. An estimate.
+/// Smallest number of turns of a wrapped part: half a turn hooks (`docs/entanglement.md`). An estimate.
 pub const HOOKED_TURNS: f64 = 0.5;
 
-/// Something an encounter did or did not come to.
+/// An event of an encounter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StudyEvent {
     /// Rope touched the whale.
     Contact,
-    /// Rope touched and let go, nothing parted.
+    /// Rope touched and released, nothing parted.
     Shed,
-    /// Rope still held at the end, parted or not.
+    /// Rope held at the end, parted or not.
     Entangled,
     /// A link or line parted after the first contact.
     Parted,
-    /// It parted and the whale came free.
+    /// Something parted and the whale was free.
     PartedFree,
-    /// It parted and rope still held.
+    /// Something parted and rope still held.
     PartedEntangled,
     /// Rope lodged in the mouth at some time.
     Lodged,
@@ -36,43 +35,43 @@ pub enum StudyEvent {
     HeldLodged,
     /// Rope held at the end with a whole turn about some part.
     HeldTurn,
-    /// Rope held at the end, and the whale hung at gear that is fast.
+    /// Rope held at the end, and the whale was anchored by fixed gear.
     Anchored,
-    /// Rope held at the end, and the whale towed what hung on it.
+    /// Rope held at the end, and the whale towed gear.
     Towing,
     /// Rope on any of these parts.
     On(RegionEvent, Vec<BodyPart>),
 }
 
-/// What rope did on a part.
+/// Rope on a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegionEvent {
     /// It touched.
     Contact,
     /// It went round at least [`HOOKED_TURNS`] at some time.
     Wrap,
-    /// It pressed harder than blubber bears, at some time.
+    /// Its pressure exceeded the strength of blubber at some time.
     Injury,
 }
 
-/// How an event is counted in the table of a study.
+/// The condition of an event in the table of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Counted<'a> {
-    /// By the outcome, which is one of these.
+    /// The outcome is one of these.
     Outcome(&'a [&'a str]),
-    /// By a column that has a number where the event came.
+    /// A column has a number.
     Present(&'a str),
-    /// By a column that says yes.
+    /// A column is true.
     Flag(&'a str),
-    /// By a column of any of these parts, whose number is at least so much.
+    /// A column of any of these parts is at least this.
     AtLeast(&'a str, &'a [BodyPart], f64),
-    /// By a column whose number is above so much.
+    /// A column is above this.
     Above(&'a str, f64),
-    /// By a column whose number is not above so much.
+    /// A column is not above this.
     NotAbove(&'a str, f64),
-    /// Where all of these came.
+    /// All of these.
     All(&'a [Counted<'a>]),
-    /// Where any of these came.
+    /// Any of these.
     Any(&'a [Counted<'a>]),
 }
 
@@ -82,12 +81,12 @@ const HELD: Counted<'static> = Counted::Outcome(&["entangled", "parted_entangled
 const LODGED: Counted<'static> = Counted::Flag("lodged_in_mouth");
 /// A whole turn about some part at the end.
 const TURN: Counted<'static> = Counted::AtLeast("wraps", &BodyPart::ALL, 1.0);
-/// Speed made good up to which a whale held by tethered rope hangs at anchor [m/s]; an estimate.
+/// Greatest speed made good of a whale that is anchored by tethered rope [m/s]; an estimate.
 pub const ANCHORED_M_S: f64 = 0.1;
-/// Pressure that blubber bears: its strength is 0.25 to 0.44 MPa (Raymond 2007, in whalestrike), the greater taken [Pa].
+/// Strength of blubber: 0.25 to 0.44 MPa (Raymond 2007, in whalestrike), here the upper value [Pa].
 pub const INJURY_PA: f64 = 4.4e5;
 
-/// What is declared of an event that concerns the whole whale.
+/// Declaration of an event of the whole whale.
 struct Declared {
     event: StudyEvent,
     /// Name in files and tables.
@@ -95,11 +94,11 @@ struct Declared {
     /// Name as shown to the user.
     words: &'static str,
     counted: Counted<'static>,
-    /// Whether the chart at the head of a report has it.
+    /// Whether it is in the chart at the head of a report.
     in_chart: bool,
 }
 
-/// Every event that concerns the whole whale, in the order in which a report lists them.
+/// Events of the whole whale, in the order of a report.
 static WHOLE: [Declared; 13] = [
     Declared {
         event: StudyEvent::Contact,
@@ -198,7 +197,7 @@ static WHOLE: [Declared; 13] = [
     },
 ];
 
-/// Groups of parts that have a name of their own.
+/// Named groups of parts.
 fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
     let tailstock = std::iter::once(BodyPart::Peduncle).chain(Limb::Fluke.parts());
     [
@@ -209,8 +208,7 @@ fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
 }
 
 impl StudyEvent {
-    /// Every event there is.
-    #[must_use]
+    /// All events.
     pub fn all() -> Vec<Self> {
         let mut all = Self::of_the_whole();
         for kind in [RegionEvent::Contact, RegionEvent::Wrap, RegionEvent::Injury] {
@@ -221,22 +219,18 @@ impl StudyEvent {
         all
     }
 
-    /// Events that concern the whole whale, in the order in which a report lists them.
-    #[must_use]
+    /// Events of the whole whale, in the order of a report.
     pub fn of_the_whole() -> Vec<Self> {
         WHOLE.iter().map(|declared| declared.event.clone()).collect()
     }
 
     /// Events of the chart at the head of a report.
-    #[must_use]
     pub fn of_the_chart() -> Vec<Self> {
         let charted = WHOLE.iter().filter(|declared| declared.in_chart);
         charted.map(|declared| declared.event.clone()).collect()
     }
 
-    /// Names of the places on the whale that a report lists, as they stand in names of events: each part of the trunk,
-    /// and each pair of limbs as one.
-    #[must_use]
+    /// Names of places on the whale in names of events, in the order of a report: parts of the trunk and pairs of limbs.
     pub fn places() -> Vec<&'static str> {
         let place = |part: BodyPart| match part.limb() {
             Limb::Trunk => part.name(),
@@ -248,7 +242,6 @@ impl StudyEvent {
     }
 
     /// Its name in files and tables, such as `entangled`, `contact_head` or `wrap_flipper`.
-    #[must_use]
     pub fn name(&self) -> String {
         match self {
             Self::On(RegionEvent::Contact, parts) => format!("contact_{}", place(parts)),
@@ -259,7 +252,6 @@ impl StudyEvent {
     }
 
     /// Its name as shown to the user, such as `rope on head` or `wrap on flipper`.
-    #[must_use]
     pub fn words(&self) -> String {
         match self {
             Self::On(RegionEvent::Contact, parts) => {
@@ -275,8 +267,7 @@ impl StudyEvent {
         }
     }
 
-    /// How it is counted in the table of a study.
-    #[must_use]
+    /// Its condition in the table of a study.
     pub fn counted(&self) -> Counted<'_> {
         match self {
             Self::On(RegionEvent::Contact, parts) => {
@@ -297,7 +288,6 @@ impl StudyEvent {
     }
 
     /// The event of a name.
-    #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|event| event.name() == name)
     }
@@ -310,25 +300,25 @@ fn place(parts: &[BodyPart]) -> String {
     groups().iter().find(|(_, group)| group == parts).map_or("any", |(name, _)| name).to_owned()
 }
 
-/// An event that must be named under a key.
+/// A required event.
 pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent> {
     fields
         .need_text(key, "write an event such as \"entangled\", \"parted\" or \"wrap_flipper\"")?;
     maybe(fields, key)
 }
 
-/// An event under a key, if it is there.
+/// An event, if present.
 pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent> {
     find(&fields.text(key)?, fields)
 }
 
-/// Events in a list under a key.
+/// A list of events.
 pub(super) fn list(fields: &Fields<'_>, key: &'static str) -> Vec<At<StudyEvent>> {
     let at = |word: At<String>| Some(At { value: find(&word, fields)?, place: word.place });
     texts(fields, key).into_iter().filter_map(at).collect()
 }
 
-/// The event of a word, or the problem that there is none.
+/// The event of a word; an unknown one is reported.
 fn find(word: &At<String>, fields: &Fields<'_>) -> Option<StudyEvent> {
     let found = StudyEvent::find(&word.value);
     if found.is_none() {

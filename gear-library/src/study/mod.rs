@@ -1,52 +1,43 @@
 //! The study document: options compared on the same encounters, as data.
 //!
-//! A study names a baseline scenario, options as differences from it, and how encounters are drawn. The session draws
-//! and runs them; nothing in a study hangs on the order of its tables. The format is described in `docs/studies.md`.
+//! A study names a baseline scenario, options as differences from it, and distributions of encounters. The session draws
+//! and runs them. The order of tables does not matter: the hash of a study is that of its canonical text, with sorted keys and
+//! options and without texts that do not change a run. The format is described in `docs/studies.md`.
 
-mod axis;
-mod canon;
-mod claim;
-mod discretisation;
+mod comparison;
 mod event;
-mod observation;
 mod option;
-mod options;
 mod prior;
-mod threat;
 
-use crate::diagnostic::{At, Diagnostic, Place};
-use crate::entry;
-use crate::fields::{Fields, Problems, Range};
-use crate::limits;
-use crate::names;
-use crate::nearest::hint;
-use crate::tree::{self, Node};
+use std::fmt::Write;
+
+use crate::diagnostic::{At, Diagnostic, Place, hint};
+use crate::entry::{self, FORMER_CONFIDENCE};
+use crate::fields::{Fields, Problems, Range, id_of, read_file};
+use crate::tree::{Content, Node};
 use crate::units::Quantity;
+use crate::{limits, names};
 
-pub use claim::Claim;
-pub use discretisation::Discretisation;
+pub use comparison::{Claim, Discretisation, ObservedShare};
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
-pub use observation::ObservedShare;
 pub(crate) use option::texts;
-pub use option::{Setting, StudyOption};
+pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow};
 pub use prior::{Law, Level, Prior, Target};
-pub use threat::{ThreatLabels, ThreatRow};
 
-/// Most encounters: the Sobol sequence used has this many points.
+/// Greatest number of encounters: the number of points of the Sobol sequence.
 pub const MOST_ENCOUNTERS: u64 = limits::ENCOUNTERS.most as u64;
 
-/// Share of encounters drawn from the priors themselves, where a study does not say: no encounter then weighs more than
-/// four times the mean.
+/// Default share of encounters drawn from the priors: no weight then exceeds four times the mean.
 const FROM_PRIORS: f64 = 0.25;
 
-/// A study as read; what it names in the library is looked up by the session.
+/// A study as read; the session resolves the names of library items.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// Id: the file's name without `.toml`.
     pub id: String,
     /// Name shown to the user.
     pub name: String,
-    /// What it asks, and what its numbers do not say; may be empty.
+    /// Its question, and limits of its results; may be empty.
     pub notes: String,
     /// The file itself.
     pub place: Place,
@@ -54,46 +45,46 @@ pub struct Study {
     pub scenario: At<String>,
     /// Seed of the draws.
     pub seed: u64,
-    /// How many encounters.
+    /// Number of encounters.
     pub encounters: u64,
-    /// Id of the option that others are compared with.
+    /// Id of the reference option.
     pub baseline: At<String>,
-    /// What options are ranked by.
+    /// Event by which options are ranked.
     pub event: StudyEvent,
-    /// Other events by which options are to be compared, decided before the first run.
+    /// Other events for comparison, registered before the first run.
     pub registered: Vec<At<StudyEvent>>,
-    /// Prior by whose levels results are also listed apart.
+    /// Prior by whose levels results are also listed.
     pub split: Option<At<String>>,
     /// When a run ends.
     pub run: RunRule,
-    /// When the study has seen enough, where it asks so.
+    /// Stopping rule of the study, if any.
     pub enough: Option<Enough>,
     /// Options, by id.
     pub options: Vec<StudyOption>,
-    /// Where the whale is aimed.
+    /// Aim of the whale.
     pub aim: Aim,
-    /// What is drawn, by name.
+    /// Priors, by name.
     pub priors: Vec<Prior>,
-    /// Share of encounters drawn from the priors themselves where a prior has a proposal.
+    /// Share of encounters drawn from the priors, if a prior has a proposal.
     pub from_priors: f64,
-    /// Statements whose sign is looked at, by id.
+    /// Claims, by id.
     pub claims: Vec<Claim>,
-    /// Shares seen on real whales against which its own are held, by id.
+    /// Shares observed on real whales, by id.
     pub observations: Vec<ObservedShare>,
-    /// What finer segments and steps change.
+    /// Effects of finer segments and steps.
     pub discretisations: Vec<Discretisation>,
-    /// What defines the runs, in one order whatever the file's: for the study's hash.
+    /// Canonical text of the definition of the runs, for the hash of the study.
     pub canonical: String,
 }
 
-/// When a run ends before its scenario's time is over: nothing more can happen.
+/// When a run ends before the duration of its scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunRule {
-    /// A whale that rope has not touched by then has passed [s].
+    /// Time after which a whale without contact has passed [s].
     pub passed_s: f64,
-    /// How long an entangled whale is followed from the first contact on [s].
+    /// Time from the first contact for which an entangled whale is simulated [s].
     pub held_s: f64,
-    /// An entangled whale about which nothing has changed for so long is held for good [s].
+    /// Time without change after which an entangled whale counts as permanently held [s].
     pub settled_s: Option<f64>,
 }
 
@@ -103,40 +94,32 @@ impl Default for RunRule {
     }
 }
 
-/// When the study has seen enough.
+/// Stopping rule of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enough {
-    /// The rate that counts.
+    /// Event whose rate counts.
     pub event: StudyEvent,
-    /// Width of its 95 % interval below which the study ends, in every option.
+    /// Width of its 95 % interval at which the study ends, in all options.
     pub width: f64,
-    /// Encounters that are run in any case.
+    /// Minimum number of encounters.
     pub least: u64,
 }
 
-/// Where the whale is aimed.
+/// Aim of the whale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Aim {
-    /// Lines as the gear lies at rest; any where none is named.
+    /// Target lines of the gear at rest; empty for any.
     pub lines: Vec<At<String>>,
-    /// Whether each option's own gear is aimed at; else all options meet the whale that the baseline does.
+    /// Whether the whale is aimed at each option's own gear; else at that of the baseline.
     pub own: bool,
-    /// From the snout to the rope at the start [m].
+    /// Initial distance from snout to rope [m].
     pub gap_m: f64,
 }
 
 impl Study {
     /// Reads a study's text; `name` is its path as shown in messages.
-    ///
-    /// # Errors
-    /// Everything wrong with it that can be seen without its scenario.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        let problems = Problems::default();
-        let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
-        match Self::from_node(name, &node, &problems) {
-            Some(study) if !problems.any_error() => Ok(study),
-            _ => Err(problems.into_sorted()),
-        }
+        read_file(name, text, |node, problems| Self::from_node(name, node, problems))
     }
 
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
@@ -145,21 +128,20 @@ impl Study {
         let scenario = scenario(&fields);
         let seed = fields.count("seed", &limits::SEED);
         let encounters = encounters(&fields);
-        let baseline = fields
-            .need_text("baseline", "write the id of the option that others are compared with");
+        let baseline = fields.need_text("baseline", "write the id of the reference option");
         let event = event::maybe(&fields, "event");
         let registered = event::list(&fields, "registered");
         let split = fields.text("split");
         let run = run_rule(&fields);
         let enough = fields.table("enough").and_then(|fields| enough(&fields));
-        let options = options::read_all(&fields);
+        let options = option::read_options(&fields);
         let (aim, priors, from_priors) = encounter(&fields);
-        let claims = claim::read_all(&fields, &options);
-        let observations = observation::read_all(&fields, &options);
-        let discretisations = discretisation::read_all(&fields);
+        let claims = comparison::read_claims(&fields, &options);
+        let observations = comparison::read_observations(&fields, &options);
+        let discretisations = comparison::read_discretisations(&fields);
         fields.finish();
         let study = Self {
-            id: path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml").to_owned(),
+            id: id_of(path),
             name,
             notes,
             place: node.place.clone(),
@@ -179,7 +161,7 @@ impl Study {
             claims,
             observations,
             discretisations,
-            canonical: canon::of(node),
+            canonical: defining_text(node),
         };
         study.check_whole(problems);
         Some(study)
@@ -202,14 +184,14 @@ impl Study {
         if let Some(split) =
             self.split.as_ref().filter(|split| !choices().any(|name| name == split.value))
         {
-            let message = format!("`{}` is no prior with a `choice`", split.value);
+            let message = format!("`{}` is not a prior with a `choice`", split.value);
             problems.push(split.place.error(message, hint(&split.value, choices())));
         }
     }
 }
 
-/// The baseline: an id of the library, or a file beside the study or below its folder. A study is copied with what it names, so
-/// that a path out of its folder would be written to elsewhere.
+/// The baseline: an id of the library, or a file in or below the study's folder. A study is copied with its files, so that a
+/// path out of its folder would be written elsewhere.
 fn scenario(fields: &Fields<'_>) -> Option<At<String>> {
     let help = "write the id of a scenario of the library, such as \"hello-endline\"";
     let named = fields.need_text("scenario", help)?;
@@ -226,12 +208,10 @@ fn scenario(fields: &Fields<'_>) -> Option<At<String>> {
 }
 
 fn encounters(fields: &Fields<'_>) -> Option<u64> {
-    if fields.get("encounters").is_none() {
-        fields.missing(
-            "encounters",
-            "write how many encounters every option meets, such as encounters = 1000",
-        );
-    }
+    fields.require(
+        "encounters",
+        "write the number of encounters of each option, such as encounters = 1000",
+    );
     let count = fields.count("encounters", &limits::ENCOUNTERS)?;
     Some(count.value)
 }
@@ -251,7 +231,7 @@ fn run_rule(fields: &Fields<'_>) -> RunRule {
     }
 }
 
-/// `[enough]`: when the study has seen enough.
+/// `[enough]`: the stopping rule.
 fn enough(table: &Fields<'_>) -> Option<Enough> {
     let event = event::need(table, "event");
     let width = table.need_value("narrower", Quantity::Ratio, Range::Between(1e-4, 1.0));
@@ -264,10 +244,10 @@ fn enough(table: &Fields<'_>) -> Option<Enough> {
     })
 }
 
-/// `[encounter]`: where the whale is aimed, and one table for each prior.
+/// `[encounter]`: aim of the whale, and one table per prior.
 fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
     let Some(table) = fields.table("encounter") else {
-        fields.missing("encounter", "write how encounters are drawn, such as [encounter.speed] with uniform = [\"0.5 m/s\", \"1.6 m/s\"]");
+        fields.missing("encounter", "write the distribution of encounters, such as [encounter.speed] with uniform = [\"0.5 m/s\", \"1.6 m/s\"]");
         return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), FROM_PRIORS);
     };
     let lines = texts(&table, "aim");
@@ -282,4 +262,49 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
     let priors = prior::read_all(&table);
     table.finish();
     (aim, priors, from_priors.map_or(FROM_PRIORS, |share| share.value))
+}
+
+/// Top-level tables and keys that define the runs.
+const DEFINING: [&str; 6] = ["scenario", "seed", "run", "option", "axis", "encounter"];
+
+/// Keys that do not affect the runs.
+const EXPLAINING: [&str; 7] =
+    ["confidence", "curve", "name", "notes", "source", "threat", FORMER_CONFIDENCE];
+
+/// The text of which the hash of a study is computed.
+fn defining_text(study: &Node) -> String {
+    let Content::Table(entries) = &study.content else { return String::new() };
+    let mut text = String::new();
+    for key in DEFINING {
+        for (_, _, node) in entries.iter().filter(|(name, _, _)| name == key) {
+            let _ = writeln!(text, "{key} = {}", canonical(node));
+        }
+    }
+    text
+}
+
+fn canonical(node: &Node) -> String {
+    match &node.content {
+        Content::Text(text) => format!("{text:?}"),
+        Content::Number(number) => format!("{number:?}"),
+        Content::Flag(flag) => flag.to_string(),
+        Content::Date(date) => date.clone(),
+        Content::List(items) => list(items),
+        Content::Table(entries) => {
+            let defining = entries.iter().filter(|(key, _, _)| !EXPLAINING.contains(&key.as_str()));
+            let mut pairs: Vec<String> =
+                defining.map(|(key, _, value)| format!("{key:?}={}", canonical(value))).collect();
+            pairs.sort();
+            format!("{{{}}}", pairs.join(","))
+        }
+    }
+}
+
+/// Lists of tables, such as options, are sorted; other lists keep their order.
+fn list(items: &[Node]) -> String {
+    let mut texts: Vec<String> = items.iter().map(canonical).collect();
+    if items.iter().all(|item| matches!(item.content, Content::Table(_))) {
+        texts.sort();
+    }
+    format!("[{}]", texts.join(","))
 }

@@ -1,61 +1,62 @@
-//! An option: differences from the baseline, each a dotted path with its value.
+//! Options of a study: differences from the baseline, each a dotted path with its value.
+//!
+//! Axes generate options: all combinations of one value per axis, such as four ropes by four lengths of trawl.
+//! An option may represent a row of a threat table, with the columns of NOAA's decision support tool.
 
-use crate::diagnostic::{At, Place};
+use crate::diagnostic::{At, Place, hint};
 use crate::document::Setting as Value;
-use crate::fields::{Fields, Problems};
-use crate::nearest::hint;
+use crate::fields::{Fields, Problems, Range};
+use crate::limits;
 use crate::tree::{Content, Node};
-
-use super::threat::{self, ThreatLabels};
+use crate::units::Quantity;
 
 /// An option of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyOption {
     /// Id.
     pub id: At<String>,
-    /// Name shown to the user; the id where none is given.
+    /// Name shown to the user; the id by default.
     pub name: String,
-    /// Breaking strength that it stands for, for the curve of break-away against strength [N].
+    /// Breaking strength, for the curve of break-away against strength [N].
     pub strength_n: Option<f64>,
-    /// Which of the curves it belongs to, where strengths of several kinds are compared, such as `weak link`.
+    /// Its curve, if strengths of several kinds are compared, such as `weak link`.
     pub curve: Option<String>,
-    /// What it sets.
+    /// Fields that it sets.
     pub settings: Vec<Setting>,
-    /// Fields it takes out of the scenario.
+    /// Fields that it removes from the scenario.
     pub removes: Vec<At<String>>,
-    /// What it says of the row of a threat table that it stands for.
+    /// Labels of its row of a threat table.
     pub threat: ThreatLabels,
 }
 
-/// A field set over the baseline.
+/// A field that overrides the baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// Dotted path in the scenario, such as `gear.0.attributes.buoy`; or of a library item, such as `ropes/sink-3-8.strength`.
     pub field: At<String>,
-    /// Its value as it stands in the file.
+    /// Its value as written.
     pub value: Value,
 }
 
 impl Setting {
-    /// The library file a setting goes to with the field in it; `None` for one of the scenario.
-    #[must_use]
+    /// Library file and field of a setting; `None` for the scenario.
     pub fn library_field(&self) -> Option<(String, &str)> {
         library_field(&self.field.value)
     }
 }
 
-/// The library file a dotted path leads to with the field in it; `None` for one of the scenario.
+/// Library file and field of a dotted path; `None` for the scenario.
 pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
     let (item, field) = path.split_once('.').filter(|(item, _)| item.contains('/'))?;
     Some((format!("{item}.toml"), field))
 }
 
-/// Reads options, or values of an axis, sorted by id; `what` they are stands in messages.
+/// Reads options, or values of an axis, sorted by id; `what` is their name in messages.
 pub(super) fn read_each(nodes: &[Node], what: &str, problems: &Problems) -> Vec<StudyOption> {
-    sorted(nodes.iter().filter_map(|node| read(node, problems)).collect(), what, problems)
+    sorted(nodes.iter().filter_map(|node| read_option(node, problems)).collect(), what, problems)
 }
 
-/// In order of id; reports an id that stands twice.
+/// Sorts by id; reports duplicate ids.
 pub(super) fn sorted(
     mut options: Vec<StudyOption>,
     what: &str,
@@ -70,15 +71,14 @@ pub(super) fn sorted(
     options
 }
 
-fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
+fn read_option(node: &Node, problems: &Problems) -> Option<StudyOption> {
     let fields = Fields::of(node, problems);
     let id = fields.need_id("id", "write an id such as \"link-600\"");
     let name = fields.text("name");
-    let strength =
-        fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);
+    let strength = fields.value("strength", Quantity::Force, Range::Positive);
     let curve = fields.text("curve");
     let removes = texts(&fields, "remove");
-    let threat = threat::read(fields.get("threat"), problems);
+    let threat = read_threat(fields.get("threat"), problems);
     let mut settings = Vec::new();
     if let Some(set) = fields.get("set") {
         Fields::of(set, problems).rest();
@@ -92,7 +92,7 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     Some(StudyOption { id, name, strength_n, curve, settings, removes, threat })
 }
 
-/// Every leaf of a table with its dotted path; quoted and bare keys come to the same.
+/// Collects the leaves of a table with their dotted paths; quoted and bare keys are equal.
 fn flatten(node: &Node, path: &str, settings: &mut Vec<Setting>, problems: &Problems) {
     let Content::Table(entries) = &node.content else { return };
     for (key, place, value) in entries {
@@ -143,4 +143,208 @@ pub(crate) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
         }
     };
     items.iter().filter_map(text).collect()
+}
+
+/// Reads `[[option]]` and `[[axis]]`; options sorted by id.
+pub(super) fn read_options(fields: &Fields<'_>) -> Vec<StudyOption> {
+    let (written, axes) = (fields.tables("option"), fields.tables("axis"));
+    if written.is_empty() && axes.is_empty() {
+        fields.missing("option", "write each option under [[option]], including the baseline");
+    }
+    let mut options = read_each(written, "option", fields.problems());
+    options.extend(read_axes(axes, fields.problems()));
+    sorted(options, "option", fields.problems())
+}
+
+/// Greatest number of options from axes.
+const MOST_OPTIONS: usize = 256;
+
+/// An axis with its values by id.
+struct Axis {
+    id: At<String>,
+    values: Vec<StudyOption>,
+}
+
+/// Reads axes and combines their values, axes in the order of their ids.
+pub(super) fn read_axes(nodes: &[Node], problems: &Problems) -> Vec<StudyOption> {
+    let mut axes: Vec<Axis> = nodes.iter().filter_map(|node| read_axis(node, problems)).collect();
+    axes.sort_by(|one, other| one.id.value.cmp(&other.id.value));
+    let Some(first) = axes.first() else { return Vec::new() };
+    let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.values.len()));
+    if count > MOST_OPTIONS {
+        problems.push(first.id.place.error(
+            format!("the axes make {count} options"),
+            format!("at most {MOST_OPTIONS} are possible: remove some values"),
+        ));
+        return Vec::new();
+    }
+    let mut options = vec![None];
+    for axis in &axes {
+        options = options
+            .iter()
+            .flat_map(|option: &Option<StudyOption>| {
+                axis.values.iter().map(move |value| Some(joined(option.as_ref(), value)))
+            })
+            .collect();
+    }
+    let options: Vec<StudyOption> = options.into_iter().flatten().collect();
+    options.first().into_iter().for_each(|option| check_once(option, problems));
+    options
+}
+
+fn read_axis(node: &Node, problems: &Problems) -> Option<Axis> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_id("id", "write the difference of the options, such as id = \"rope\"");
+    let nodes = fields.tables("value");
+    if nodes.is_empty() {
+        fields.missing("value", "write each of its values under [[axis.value]]");
+    }
+    let values = read_each(nodes, "value", problems);
+    fields.finish();
+    Some(Axis { id: id?, values })
+}
+
+/// An option combined with a value: ids are joined by hyphens, names by commas; the later strength and curve apply.
+fn joined(option: Option<&StudyOption>, value: &StudyOption) -> StudyOption {
+    let Some(option) = option else { return value.clone() };
+    let both = |one: &str, other: &str, between: &str| format!("{one}{between}{other}");
+    StudyOption {
+        id: At {
+            value: both(&option.id.value, &value.id.value, "-"),
+            place: value.id.place.clone(),
+        },
+        name: both(&option.name, &value.name, ", "),
+        strength_n: value.strength_n.or(option.strength_n),
+        curve: value.curve.clone().or_else(|| option.curve.clone()),
+        settings: [option.settings.as_slice(), &value.settings].concat(),
+        removes: [option.removes.as_slice(), &value.removes].concat(),
+        threat: ThreatLabels::joined(&option.threat, &value.threat),
+    }
+}
+
+/// Reports a field that values of two axes set.
+fn check_once(option: &StudyOption, problems: &Problems) {
+    for (place, setting) in option.settings.iter().enumerate() {
+        if option.settings[..place].iter().any(|before| before.field.value == setting.field.value) {
+            problems.push(setting.field.place.error(
+                format!("two axes set `{}`", setting.field.value),
+                "set a field in the values of one axis only",
+            ));
+        }
+    }
+}
+
+/// Labels of an option, or of a value of an axis, for its row of a threat table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ThreatLabels {
+    rope: Option<String>,
+    diameter_m: Option<f64>,
+    traps: Option<u64>,
+    device: Option<String>,
+}
+
+/// A row of a threat table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThreatRow {
+    /// Rope by the table's own name, such as `3/8in` or `1,700` (column `Rope`).
+    pub rope: String,
+    /// Its diameter [m] (column `RopeDiam`, in inches there).
+    pub diameter_m: f64,
+    /// Traps of the trawl (column `TrawlLen`).
+    pub traps: u64,
+    /// Device in the endline, or `NA` (column `BuoylineDevice`).
+    pub device: String,
+}
+
+impl ThreatLabels {
+    /// The row, if all labels are present.
+    pub fn row(&self) -> Option<ThreatRow> {
+        Some(ThreatRow {
+            rope: self.rope.clone()?,
+            diameter_m: self.diameter_m?,
+            traps: self.traps?,
+            device: self.device.clone()?,
+        })
+    }
+
+    /// The labels of two values of axes; the later ones apply.
+    pub(super) fn joined(one: &Self, other: &Self) -> Self {
+        Self {
+            rope: other.rope.clone().or_else(|| one.rope.clone()),
+            diameter_m: other.diameter_m.or(one.diameter_m),
+            traps: other.traps.or(one.traps),
+            device: other.device.clone().or_else(|| one.device.clone()),
+        }
+    }
+}
+
+/// Reads `threat` of an option.
+pub(super) fn read_threat(node: Option<&Node>, problems: &Problems) -> ThreatLabels {
+    let Some(node) = node else { return ThreatLabels::default() };
+    let fields = Fields::of(node, problems);
+    let text = |key| fields.text(key).map(|At { value, .. }| value);
+    let labels = ThreatLabels {
+        rope: text("rope"),
+        diameter_m: fields
+            .value("diameter", Quantity::Length, Range::Positive)
+            .map(|diameter| diameter.value),
+        traps: fields.count("traps", &limits::TRAPS).map(|traps| traps.value),
+        device: text("device"),
+    };
+    fields.finish();
+    labels
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::study::Study;
+
+    const STUDY: &str = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 4\nbaseline = \"thick-3\"\n\
+        [[axis]]\nid = \"traps\"\n[[axis.value]]\nid = \"3\"\nthreat = { traps = 3 }\nset = { rope_nodes = 100 }\n\
+        [[axis.value]]\nid = \"12\"\nthreat = { traps = 12 }\nset = { rope_nodes = 200 }\n\
+        [[axis]]\nid = \"rope\"\n[[axis.value]]\nid = \"thick\"\nname = \"Thick\"\nset = { \"line.0.rope\" = \"pp-1-2\" }\n\
+        threat = { rope = \"1/2in\", diameter = \"1/2 in\", device = \"NA\" }\n\
+        [[axis.value]]\nid = \"thin\"\nset = { \"line.0.rope\" = \"pp-3-8\" }\n\
+        [encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n";
+
+    #[test]
+    fn options_are_all_combinations_and_their_order_in_the_file_does_not_matter() {
+        let study = Study::read("s.toml", STUDY).unwrap();
+        let ids: Vec<&str> = study.options.iter().map(|option| option.id.value.as_str()).collect();
+        assert_eq!(ids, ["thick-12", "thick-3", "thin-12", "thin-3"]);
+        let thick = &study.options[1];
+        assert_eq!((thick.name.as_str(), thick.settings.len()), ("Thick, 3", 2));
+        let row = thick.threat.row().unwrap();
+        assert_eq!((row.rope.as_str(), row.traps, row.device.as_str()), ("1/2in", 3, "NA"));
+        assert!((row.diameter_m - 0.0127).abs() < 1e-12);
+        assert!(study.options[3].threat.row().is_none(), "a rope without labels has no row");
+
+        let [traps, rope] = [STUDY.find("[[axis]]").unwrap(), STUDY.rfind("[[axis]]").unwrap()];
+        let end = STUDY.find("[encounter").unwrap();
+        let swapped =
+            [&STUDY[..traps], &STUDY[rope..end], &STUDY[traps..rope], &STUDY[end..]].concat();
+        let swapped = Study::read("s.toml", &swapped).unwrap();
+        assert_eq!(swapped.canonical, study.canonical);
+        let expected = STUDY.replace("threat = { traps = 3 }\n", "");
+        assert_eq!(Study::read("s.toml", &expected).unwrap().canonical, study.canonical);
+        let other = STUDY.replace("rope_nodes = 100", "rope_nodes = 101");
+        assert_ne!(Study::read("s.toml", &other).unwrap().canonical, study.canonical);
+    }
+
+    #[test]
+    fn an_error_of_an_axis_has_its_place() {
+        for (from, to, expected) in [
+            ("id = \"12\"", "id = \"3\"", "there are two values `3`"),
+            ("\"line.0.rope\" = \"pp-1-2\"", "rope_nodes = 3", "two axes set `rope_nodes`"),
+            ("id = \"traps\"\n", "", "`id` is missing"),
+            ("traps = 12", "trap = 12", "unknown field `trap`"),
+            ("baseline = \"thick-3\"", "baseline = \"thick\"", "there is no option `thick`"),
+        ] {
+            let problems = Study::read("s.toml", &STUDY.replace(from, to)).unwrap_err();
+            assert!(
+                problems.iter().any(|problem| problem.message.contains(expected)),
+                "{expected}: {problems:?}"
+            );
+        }
+    }
 }

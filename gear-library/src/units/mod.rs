@@ -1,18 +1,17 @@
-//! Units: text such as `"3/8 in"` in, SI numbers out, and back.
+//! Units: conversion between texts such as `"3/8 in"` and SI numbers.
 //!
-//! This is the one place where a unit other than SI exists, besides labels. A value is a number
-//! followed by its unit: `3/8 in`, `1 1/2 in`, `1,700 lbf`, `40 fathom`, `4.5 lb/100ft`, `58 deg`, `75 %`.
+//! Other units than SI exist only here and in labels. A value is a number followed by its unit:
+//! `3/8 in`, `1 1/2 in`, `1,700 lbf`, `40 fathom`, `4.5 lb/100ft`, `58 deg`, `75 %`.
 
-mod parse;
 mod table;
 
 use std::fmt;
 
-pub(crate) use parse::odd_fraction;
-pub use parse::parse;
+use crate::diagnostic::nearest;
+
 pub use table::Unit;
 
-/// What a number measures.
+/// The physical quantity of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// A pure number: a ratio or a coefficient; may be written in percent.
@@ -55,7 +54,7 @@ pub enum Quantity {
     Frequency,
 }
 
-/// Why a text is not a value of the wanted quantity.
+/// Why a text is not a value of the expected quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
     /// What is wrong.
@@ -97,33 +96,33 @@ impl Quantity {
     ];
 
     /// Its name with an article, for messages: `a length`.
-    #[must_use]
     pub fn noun(self) -> &'static str {
         self.words().0
     }
 
-    /// Values a user may copy, for messages: `3/8 in, 9.5 mm, 40 fathom`.
-    #[must_use]
+    /// Example values for messages: `3/8 in, 9.5 mm, 40 fathom`.
     pub fn examples(self) -> &'static str {
         self.words().1
     }
 
+    /// Help on a value: `expected a length such as 3/8 in, 9.5 mm, …`.
+    pub fn expected(self) -> String {
+        format!("expected {} such as {}", self.noun(), self.examples())
+    }
+
     /// Its SI unit: `m/s`; `1` for a pure number.
-    #[must_use]
     pub fn si_unit(self) -> &'static str {
         self.units().first().map_or("1", |unit| unit.name())
     }
 
-    /// The quantity a plugin means by an SI unit such as `m/s`, `rad` or `1`.
-    #[must_use]
+    /// The quantity of an SI unit in a plugin, such as `m/s`, `rad` or `1`.
     pub fn from_si_unit(unit: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|quantity| table::plain(quantity.si_unit()) == table::plain(unit))
     }
 
-    /// The units it may be written in, the SI unit first; none for a pure number.
-    #[must_use]
+    /// Its units, the SI unit first; empty for a pure number.
     pub fn units(self) -> &'static [Unit] {
         table::units(self)
     }
@@ -155,9 +154,8 @@ impl Quantity {
 
 /// Writes an SI value in a unit of its quantity, such as `3/8 in` or `0.5 m/s`.
 ///
-/// Inches under three feet that are whole sixteenths come out as a fraction, as rope sizes are
-/// written. The shortest decimal that reads back to nine digits is used.
-#[must_use]
+/// Whole sixteenths of an inch under three feet are written as fractions, as rope sizes are; other numbers as the
+/// shortest decimal that agrees to ten digits.
 pub fn format(value: f64, unit: &Unit) -> String {
     let number = value / unit.factor();
     let written = if unit.name() == "in" { inches(number) } else { None };
@@ -165,13 +163,11 @@ pub fn format(value: f64, unit: &Unit) -> String {
 }
 
 /// Writes an SI value in the SI unit of its quantity.
-#[must_use]
 pub fn format_si(value: f64, quantity: Quantity) -> String {
     quantity.units().first().map_or_else(|| short(value), |unit| format(value, unit))
 }
 
 /// The unit of a quantity by any of its names.
-#[must_use]
 pub fn find(name: &str, quantity: Quantity) -> Option<&'static Unit> {
     table::find(name, quantity)
 }
@@ -186,7 +182,7 @@ fn short(number: f64) -> String {
     }
 }
 
-/// Inches as a rope maker writes them: `3/8`, `1 1/2`; `None` where not whole sixteenths.
+/// Inches as a fraction, such as `3/8` or `1 1/2`; `None` if they are not whole sixteenths.
 fn inches(number: f64) -> Option<String> {
     let sixteenths = (number * 16.0).round();
     if !(0.0..576.0).contains(&number)
@@ -201,4 +197,147 @@ fn inches(number: f64) -> Option<String> {
         (above, below) = (above / 2.0, below / 2.0);
     }
     Some(if whole > 0.0 { format!("{whole} {above}/{below}") } else { format!("{above}/{below}") })
+}
+
+/// Reads a value such as `3/8 in`, `1,700 lbf` or `0.5 m/s` into SI.
+pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
+    let (number, unit) = split(text.trim());
+    let value = read_number(number).ok_or_else(|| bad_number(text, number, quantity))?;
+    let factor = read_unit(text, unit, quantity)?;
+    Ok(value * factor)
+}
+
+/// Splits `1 1/2 in` into `1 1/2` and `in`.
+fn split(text: &str) -> (&str, &str) {
+    let mut end = 0;
+    let bytes = text.as_bytes();
+    while end < bytes.len() {
+        let exponent = matches!(bytes[end], b'e' | b'E') && exponent_follows(bytes, end);
+        let sign = matches!(bytes[end], b'+' | b'-')
+            && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
+        let part = bytes[end].is_ascii_digit()
+            || matches!(bytes[end], b'.' | b',' | b' ')
+            || exponent
+            || sign;
+        let fraction =
+            bytes[end] == b'/' && end > 0 && bytes.get(end + 1).is_some_and(u8::is_ascii_digit);
+        if !part && !fraction {
+            break;
+        }
+        end += 1;
+    }
+    (text[..end].trim(), text[end..].trim())
+}
+
+fn exponent_follows(bytes: &[u8], at: usize) -> bool {
+    let after = bytes.get(at + 1).copied().unwrap_or(b' ');
+    let digits = after.is_ascii_digit()
+        || (matches!(after, b'+' | b'-') && bytes.get(at + 2).is_some_and(u8::is_ascii_digit));
+    at > 0 && bytes[at - 1].is_ascii_digit() && digits
+}
+
+/// A decimal, a fraction, or a whole number with a fraction; thousands may have commas.
+fn read_number(text: &str) -> Option<f64> {
+    let mut parts = text.split_whitespace();
+    let (first, second) = (parts.next()?, parts.next());
+    if parts.next().is_some() {
+        return None;
+    }
+    let value = match second {
+        None => read_fraction(first).or_else(|| read_decimal(first))?,
+        Some(fraction) => {
+            let whole = read_decimal(first).filter(|_| !first.contains('.'))?;
+            let part = read_fraction(fraction)?;
+            if first.starts_with('-') { whole - part } else { whole + part }
+        }
+    };
+    value.is_finite().then_some(value)
+}
+
+fn read_fraction(text: &str) -> Option<f64> {
+    let (above, below) = text.split_once('/')?;
+    let (above, below) = (read_decimal(above)?, read_decimal(below)?);
+    (below > 0.0).then(|| above / below)
+}
+
+/// The common size nearest to an uncommon fraction of an inch, such as `5/17 in`; `None` for other texts.
+pub(crate) fn odd_fraction(text: &str) -> Option<String> {
+    let (number, unit) = split(text.trim());
+    let unit = table::find(unit, Quantity::Length).filter(|unit| unit.name() == "in")?;
+    let (_, below) = number.split_whitespace().last()?.split_once('/')?;
+    if ["2", "4", "8", "16", "32", "64"].contains(&below) {
+        return None;
+    }
+    let sixteenths = (read_number(number)? * 16.0).round().max(1.0);
+    Some(format(sixteenths / 16.0 * unit.factor(), unit))
+}
+
+fn read_decimal(text: &str) -> Option<f64> {
+    let well_grouped = text.split('.').next().is_some_and(|whole| {
+        let mut groups = whole.split(',');
+        let first = groups.next().unwrap_or_default();
+        !whole.contains(',') || (!first.is_empty() && groups.all(|group| group.len() == 3))
+    });
+    let fraction_has_comma =
+        text.split_once('.').is_some_and(|(_, fraction)| fraction.contains(','));
+    if !well_grouped || fraction_has_comma {
+        return None;
+    }
+    text.replace(',', "").parse().ok()
+}
+
+fn bad_number(text: &str, number: &str, quantity: Quantity) -> UnitError {
+    let message = if number.is_empty() {
+        format!("`{text}` has no number")
+    } else {
+        format!("`{number}` is not a number")
+    };
+    let comma = if number.contains(',') {
+        "; write decimals with a point, commas only between thousands"
+    } else {
+        ""
+    };
+    UnitError { message, help: quantity.expected() + comma }
+}
+
+/// The factor of a unit.
+fn read_unit(text: &str, unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
+    let expected = quantity.expected();
+    if quantity == Quantity::Ratio {
+        let message = format!("`{text}` has the unit `{unit}`, but this is a pure number");
+        return match unit {
+            "" => Ok(1.0),
+            "%" => Ok(0.01),
+            _ => Err(UnitError { message, help: expected }),
+        };
+    }
+    if unit.is_empty() {
+        return Err(UnitError { message: format!("`{text}` has no unit"), help: expected });
+    }
+    if let Some(found) = table::find(unit, quantity) {
+        return Ok(found.factor());
+    }
+    let other = Quantity::ALL.into_iter().find(|other| table::find(unit, *other).is_some());
+    let message = match other {
+        Some(other) => {
+            format!("`{unit}` is a unit of {}, not of {}", other.noun(), quantity.noun())
+        }
+        None => format!("unknown unit `{unit}`"),
+    };
+    let names = quantity.units().iter().flat_map(Unit::names).copied();
+    let known: Vec<&str> = quantity.units().iter().map(Unit::name).collect();
+    let meant = match other {
+        None => nearest(unit, names),
+        // Forces in pounds are often written without the `f`.
+        Some(Quantity::Mass) if quantity == Quantity::Force && unit.starts_with("lb") => {
+            Some("lbf")
+        }
+        Some(_) => None,
+    };
+    let number = text.trim().trim_end_matches(unit).trim();
+    let hint = meant.map_or_else(
+        || format!("; known units are {}", known.join(", ")),
+        |name| format!("; did you mean `{number} {name}`?"),
+    );
+    Err(UnitError { message, help: expected + &hint })
 }

@@ -1,8 +1,8 @@
-//! Names and exact factors of every unit the library reads.
+//! Names and exact factors of the units.
 
 use super::Quantity;
 
-/// A unit: the names it goes by and its size in SI.
+/// A unit: its names and its factor to SI.
 #[derive(Debug)]
 pub struct Unit {
     names: &'static [&'static str],
@@ -14,20 +14,17 @@ impl Unit {
         Self { names, factor }
     }
 
-    /// Its own name, the first it goes by.
-    #[must_use]
+    /// Its first name.
     pub fn name(&self) -> &'static str {
         self.names[0]
     }
 
-    /// Every name it goes by.
-    #[must_use]
+    /// All its names.
     pub fn names(&self) -> &'static [&'static str] {
         self.names
     }
 
-    /// How many SI units it is.
-    #[must_use]
+    /// Its factor to SI.
     pub fn factor(&self) -> f64 {
         self.factor
     }
@@ -175,7 +172,7 @@ pub(super) fn find(name: &str, quantity: Quantity) -> Option<&'static Unit> {
     named(|a, b| a == b).or_else(|| named(|a, b| a.eq_ignore_ascii_case(b)))
 }
 
-/// A unit's name without spaces, dots and superscripts: `N·m²` and `N m2` read the same.
+/// A unit's name without spaces, dots and superscripts: `N·m²` and `N m2` are equal.
 pub(super) fn plain(name: &str) -> String {
     name.chars()
         .filter(|c| !matches!(c, ' ' | '·' | '*' | '^'))

@@ -1,19 +1,21 @@
-//! The skeleton: which bones there are, where they turn, and how they share the skin.
+//! The skeleton: bones, their joints, and their weights on the skin of trunk and head.
+
+use std::f64::consts::PI;
 
 use endline_sdk::SPINE_JOINTS;
 use endline_sim::whale::{Angle, Bone, Channel};
 use glam::{DQuat, DVec2, DVec3};
 
-use super::curve::smooth_step;
+use super::Builder;
 use super::form::WhaleForm;
-use super::layout::{CORNER_ANGLE, corner_at};
-use super::section::Sections;
+use super::head::Jaws;
+use super::trunk::{CORNER_ANGLE, Sections, corner_at, smooth_step};
 
 /// Bones that move a vertex, with weights that sum to 1.
 pub type Weights = [(u16, f64); 4];
 
-/// Bones and where to find them. The middle of the body, where the whale's frame has its origin, is
-/// the control bone; the spine bends from there both ways.
+/// Bones and their indices. The root bone is at mid-body, the origin of the whale's frame; the spine bends from there both
+/// ways.
 pub struct Skeleton {
     /// All bones, parents before children.
     pub bones: Vec<Bone>,
@@ -21,35 +23,34 @@ pub struct Skeleton {
     pub skull: u16,
     /// Lower jaw with the lips.
     pub jaw: u16,
-    /// Left lower lip; the right one follows.
+    /// Left lower lip; the right one is next.
     pub lip: u16,
-    /// Bone of each stretch of the body from the head to the flukes.
+    /// Bone of each section of the body from the head to the flukes.
     stretches: Vec<u16>,
-    /// Where one of those stretches bends on the next [share of length from the snout].
+    /// Joints between those sections [share of length from the snout].
     bends: Vec<f64>,
-    /// Left fluke and its tip; the right ones follow.
+    /// Left fluke and its tip; the right ones are next.
     pub fluke: [u16; 2],
-    /// Left flipper's shoulder, blade and tip; the right ones follow.
+    /// Left flipper's shoulder, blade and tip; the right ones are next.
     pub flipper: [u16; 3],
 }
 
-/// Spine joints that two bones share half and half: those of the tail stock, which is thin and bends far.
+/// Spine joints that are divided equally between two bones: those of the thin tail stock, which bends strongly.
 const SHARED: std::ops::Range<usize> = 4..SPINE_JOINTS;
-/// How far on either side of such a joint its two bones turn [share of the way to the nearest joint].
+/// Distance of the two bones from such a joint [share of the distance to the nearest joint].
 const APART: f64 = 0.25;
 
 /// Angle from the back of the foot about which a lower lip turns [rad].
 const LIP_FOOT: f64 = 2.0;
-/// Where the fluke blades bend [share of half span].
+/// Joints of the fluke blades [share of half span].
 pub const FLUKE_BENDS: [f64; 2] = [0.22, 0.60];
-/// How far behind the middle of its base the flipper turns [share of root chord].
+/// Distance of the shoulder joint behind the middle of the base [share of root chord].
 const HINGE_AFT: f64 = 0.5;
-/// Where the flipper bends [share of span].
+/// Joints of the flipper [share of span].
 pub const FLIPPER_BENDS: [f64; 3] = [0.0, 0.40, 0.72];
 
 impl Skeleton {
     /// The skeleton of a form.
-    #[must_use]
     pub fn of(form: &WhaleForm, sections: &Sections) -> Self {
         let mut skeleton = Self {
             bones: vec![control()],
@@ -71,8 +72,7 @@ impl Skeleton {
         skeleton
     }
 
-    /// Weights of a point of the body: the two stretches that meet at the nearest bend.
-    #[must_use]
+    /// Weights of a place of the body: the two sections at the nearest joint.
     pub fn along_body(&self, at: f64) -> Weights {
         let mut weights = [(self.stretches[0], 1.0), (0, 0.0), (0, 0.0), (0, 0.0)];
         for (index, &bend) in self.bends.iter().enumerate() {
@@ -90,7 +90,7 @@ impl Skeleton {
         weights
     }
 
-    /// How far a bend spreads, so that it ends before its neighbours begin.
+    /// Half width of a bend, limited by the neighbouring joints.
     fn reach(&self, bend: usize) -> f64 {
         let here = self.bends[bend];
         let gap = |other: Option<&f64>| other.map_or(f64::INFINITY, |place| (place - here).abs());
@@ -98,17 +98,16 @@ impl Skeleton {
             .min(gap(bend.checked_sub(1).and_then(|before| self.bends.get(before))))
     }
 
-    /// Hands part of a vertex's weights over to another bone; the least of five bones gives way.
-    #[must_use]
+    /// Transfers a share of a vertex's weights to another bone; the smallest of five weights is dropped.
     pub fn hand_over(weights: Weights, bone: u16, share: f64) -> Weights {
         if share <= 0.0 {
             return weights;
         }
-        let mut kept = weights.map(|(mover, weight)| (mover, weight * (1.0 - share)));
-        kept.sort_by(|left, right| right.1.total_cmp(&left.1));
-        kept[3] = (bone, share);
-        let sum: f64 = kept.iter().map(|(_, weight)| weight).sum();
-        kept.map(|(mover, weight)| (mover, weight / sum))
+        let mut moved = weights.map(|(mover, weight)| (mover, weight * (1.0 - share)));
+        moved.sort_by(|left, right| right.1.total_cmp(&left.1));
+        moved[3] = (bone, share);
+        let sum: f64 = moved.iter().map(|(_, weight)| weight).sum();
+        moved.map(|(mover, weight)| (mover, weight / sum))
     }
 
     fn push(
@@ -129,7 +128,7 @@ impl Skeleton {
         u16::try_from(self.bones.len() - 1).unwrap_or(u16::MAX)
     }
 
-    /// From the middle forward: each joint carries what lies ahead of it, so it turns the other way.
+    /// The spine from the middle forward: each joint carries the part ahead of it and turns in the opposite sense.
     fn add_fore_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
         let mut parent = 0;
         for joint in (0..middle).rev() {
@@ -241,14 +240,13 @@ impl Skeleton {
         }
     }
 
-    /// The bone that carries most of the body at a place.
+    /// The bone with the greatest weight at a place of the body.
     fn chest(&self, at: f64) -> u16 {
         let weights = self.along_body(at);
         if weights[1].1 > weights[0].1 { weights[1].0 } else { weights[0].0 }
     }
 
-    /// The bone of the other side that mirrors a bone.
-    #[must_use]
+    /// The mirror image of a bone.
     pub fn other_side(&self, bone: u16) -> u16 {
         if bone == self.lip {
             bone + 1
@@ -266,7 +264,7 @@ fn control() -> Bone {
     Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }
 }
 
-/// Side number, name, and which way along y it lies.
+/// Side number, name and sign of y.
 fn sides() -> [(usize, &'static str, f64); 2] {
     [(0, "left", 1.0), (1, "right", -1.0)]
 }
@@ -294,12 +292,86 @@ fn bends_of(form: &WhaleForm, joint: usize) -> Vec<(String, f64, f64)> {
     ]
 }
 
-/// A positive pitch bends what lies aft down, a positive yaw swings it to starboard, a positive roll turns its starboard side
-/// down; `way` is 1 for a bone that carries what lies ahead, -1 for one that carries what lies aft.
+/// The channels of a spine joint. The aft part moves down for positive pitch, to starboard for positive yaw and starboard
+/// side down for positive roll; `way` is 1 for a bone that carries the fore part, -1 for the aft part.
 fn spine_turns(joint: usize, share: f64, way: f64) -> [(Angle, f64, DVec3); 3] {
     [
         (Angle::SpinePitch(joint), share, DVec3::Y * way),
         (Angle::SpineYaw(joint), share, DVec3::NEG_Z * way),
         (Angle::SpineRoll(joint), share, DVec3::NEG_X * way),
     ]
+}
+
+/// Range of the shoulder on the skin of the trunk [share of length].
+const SHOULDER_REACH: f64 = 0.1;
+/// Weight of the shoulder at the rim of the flipper's base.
+pub const SHOULDER_RIM: f64 = 0.5;
+
+impl Builder<'_> {
+    /// Bones of a place on the trunk.
+    pub fn trunk_weights(&self, place: DVec3, at: f64, angle: f64) -> Weights {
+        let weights = Skeleton::hand_over(
+            self.skeleton.along_body(at),
+            self.skeleton.jaw,
+            self.jaw_share(at, angle, 0),
+        );
+        Skeleton::hand_over(weights, self.skeleton.flipper[0], self.shoulder_share(place, at))
+    }
+
+    /// Bones of the lower jaw: `inside` counts vertices from the rim inwards, 0 for the outside.
+    pub fn lower_jaw_weights(&self, at: f64, angle: f64, inside: usize) -> Weights {
+        let weights = Skeleton::hand_over(
+            self.skeleton.along_body(at),
+            self.skeleton.jaw,
+            self.jaw_share(at, angle, inside),
+        );
+        Skeleton::hand_over(weights, self.skeleton.lip, self.lip_share(at, angle, inside))
+    }
+
+    /// Weight of the jaw: it ends at the corner of the mouth, and farther aft below it.
+    fn jaw_share(&self, at: f64, angle: f64, inside: usize) -> f64 {
+        let corner = corner_at(self.form);
+        if inside > 0 {
+            return 1.0 - smooth_step(corner - 0.05, corner, at);
+        }
+        let below = smooth_step(CORNER_ANGLE, PI, angle.max(0.0));
+        let gape = if at < corner { self.jaws().gape(at) } else { CORNER_ANGLE };
+        let rim = smooth_step(gape - 0.3, gape, angle);
+        let from = corner - 0.05 + 0.02 * below;
+        let to = corner + 0.08 * below;
+        (1.0 - smooth_step(from, to.max(from + 0.02), at)) * rim
+    }
+
+    /// Weight of the lip, which turns about its foot: 1 at the rim, 0 at the height of the groove inside.
+    fn lip_share(&self, at: f64, angle: f64, inside: usize) -> f64 {
+        let ahead = 1.0 - at / corner_at(self.form);
+        let along = smooth_step(0.06, 0.3, ahead) * (1.0 - smooth_step(0.7, 0.93, ahead));
+        let gape = self.jaws().gape(at);
+        let up = if inside > 0 {
+            1.0 - smooth_step(0.0, 5.0, inside as f64)
+        } else {
+            1.0 - smooth_step(gape, 2.0, angle)
+        };
+        along * up
+    }
+
+    /// Weight of the shoulder, decreasing around the flipper's base.
+    fn shoulder_share(&self, place: DVec3, at: f64) -> f64 {
+        let flippers = &self.form.flippers;
+        let root = self.flipper_root();
+        let off = place - root;
+        let half = flippers.root_chord / 2.0 / libm::cos(flippers.sweep).max(0.3);
+        let along = (off.x.abs() / self.form.length_m - half).max(0.0);
+        let off = DVec3::new(along * self.form.length_m, off.y, off.z);
+        let behind =
+            smooth_step(self.layout.rows[0], self.layout.rows[self.layout.hole_rows[0]], at);
+        let behind = behind * smooth_step(0.0, 0.03, place.y / self.form.length_m);
+        SHOULDER_RIM
+            * behind
+            * (1.0 - smooth_step(0.005, SHOULDER_REACH, off.length() / self.form.length_m))
+    }
+
+    fn jaws(&self) -> Jaws<'_> {
+        Jaws::of(self.form, &self.sections)
+    }
 }

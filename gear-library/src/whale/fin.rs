@@ -1,8 +1,20 @@
-//! The section of a fin: a flat lens with rounded edges, and how it ends at a tip.
+//! Fins: their section (a flat lens with rounded edges), their tips, and the measured radius of edges of a skin.
+//!
+//! The radius about which rope bends at the edge of a skin is
+//!
+//! ```text
+//! r = (h₁ + h₂)/2 / (2 sin(θ/2))
+//! ```
+//!
+//! with the angle `θ` between two adjacent triangles and their heights `h` over the common side. For a prism around a circle
+//! of radius `r` the formula is exact for any number of sides. Concave sides do not count.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use glam::DVec2;
+use endline_sdk::Region;
+use endline_sim::whale::Skin;
+use glam::{DVec2, DVec3};
 
 /// Least half chord and half thickness, so that any form has a section [m].
 const LEAST_M: f64 = 1e-6;
@@ -21,12 +33,11 @@ pub struct Section {
 }
 
 impl Section {
-    /// The corner at a share of the way round, from the leading edge over the upper side, and its
+    /// The point at a share of the outline, from the leading edge over the upper side, and its
     /// place along the chord from -1 (trailing edge) to 1 (leading edge).
     ///
-    /// A flat lens rolled round by a disc of the edge's radius: the edges are as blunt as asked for,
-    /// and equal steps crowd where the outline turns.
-    #[must_use]
+    /// The outline is a flat lens offset by a disc of the edge's radius: the edges have that radius, and equal steps are
+    /// denser at the edges.
     pub fn corner(&self, share: f64) -> (f64, f64, f64) {
         let half_chord = ((self.lead - self.trail) / 2.0).max(LEAST_M);
         let half_thickness = self.half_thickness.max(LEAST_M);
@@ -44,21 +55,18 @@ impl Section {
     }
 }
 
-/// How much of chord and of thickness is left near a tip that rounds off; `blunt` is high for a square tip.
-#[must_use]
+/// Share of chord and thickness near a rounded tip; `blunt` is large for a square tip.
 pub fn tip_rounding(s: f64, blunt: f64) -> f64 {
     libm::sqrt((1.0 - libm::pow(s.clamp(0.0, 1.0), blunt)).max(0.0))
 }
 
-/// Exponent that rounds a tip of some half thickness to a radius over a span.
-#[must_use]
+/// Exponent of [`tip_rounding`] for a tip of a half thickness and radius over a span.
 pub fn tip_bluntness(radius: f64, span: f64, half_thickness: f64) -> f64 {
     (2.0 * radius * span / (half_thickness * half_thickness).max(LEAST_M * LEAST_M))
         .clamp(8.0, 80.0)
 }
 
-/// Shares of the span at which a fin's rings stand, without its root (0) and tip (1): close at the root's fillet and at the tip.
-#[must_use]
+/// Rings of a fin as shares of the span, without root (0) and tip (1): dense at the fillet of the root and at the tip.
 pub fn spans(rings: usize) -> Vec<f64> {
     (1..rings)
         .map(|ring| {
@@ -69,9 +77,87 @@ pub fn spans(rings: usize) -> Vec<f64> {
         .collect()
 }
 
-/// How much of a fillet is left at a share of the span, 1 at the root; `s` runs out slowly at first, so the skin bends round smoothly.
-#[must_use]
+/// Weight of a fillet at a share of the span, 1 at the root, with a smooth start.
 pub fn fillet(s: f64, reach: f64) -> f64 {
     let left = (1.0 - libm::pow((s / reach).clamp(0.0, 1.0), 0.6)).max(0.0);
     left * left
+}
+
+/// Smallest radius over the convex sides between triangles in regions selected by `of`, and the middle of that side [m].
+/// `None` if there is no such side.
+pub fn smallest_radius(skin: &Skin, of: impl Fn(Region) -> bool) -> Option<(f64, DVec3)> {
+    let mut first = BTreeMap::new();
+    let mut least: Option<(f64, DVec3)> = None;
+    for (triangle, _) in skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| of(**region))
+    {
+        for turn in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|step| triangle[(turn + step) % 3]);
+            let Some(other) = first.remove(&(b, a)) else {
+                first.insert((a, b), c);
+                continue;
+            };
+            let [a, b, c, other] = [a, b, c, other].map(|corner| skin.vertices[corner as usize]);
+            let Some(radius) = radius([a, b], [c, other]) else { continue };
+            if least.is_none_or(|(known, _)| radius < known) {
+                least = Some((radius, (a + b) / 2.0));
+            }
+        }
+    }
+    least
+}
+
+/// Radius at the side `[a, b]` of the triangles `a b c` and `b a d`; `None` if they are flat or concave.
+fn radius([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Option<f64> {
+    let along = b - a;
+    let (one, other) = (along.cross(c - a), (d - a).cross(along));
+    let (from, to) = (one.normalize_or_zero(), other.normalize_or_zero());
+    if from.dot(d - a) >= 0.0 {
+        return None;
+    }
+    let reach = (one.length() + other.length()) / (2.0 * along.length());
+    // The distance of two unit vectors is twice the sine of half their angle.
+    let bend = from.distance(to);
+    (bend > 0.0 && reach > 0.0).then(|| reach / bend)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    /// A prism of `sides` round the x axis, of radius 0.02 m.
+    fn prism(sides: u32) -> Skin {
+        let rim = |x: f64| {
+            (0..sides).map(move |side| {
+                let angle = TAU * f64::from(side) / f64::from(sides);
+                DVec3::new(x, 0.02 * libm::cos(angle), 0.02 * libm::sin(angle))
+            })
+        };
+        let triangles = (0..sides).flat_map(|side| {
+            let next = (side + 1) % sides;
+            [[side, sides + side, next], [next, sides + side, sides + next]]
+        });
+        let triangles: Vec<[u32; 3]> = triangles.map(|[a, b, c]| [a, c, b]).collect();
+        Skin {
+            regions: vec![Region::LeftFluke; triangles.len()],
+            vertices: rim(0.0).chain(rim(0.3)).collect(),
+            triangles,
+            ..Skin::default()
+        }
+    }
+
+    #[test]
+    fn a_prism_has_the_radius_of_its_circle() {
+        for sides in [5, 8, 30] {
+            let skin = prism(sides);
+            let (radius, place) = smallest_radius(&skin, |_| true).unwrap();
+            assert!((radius / 0.02 - 1.0).abs() < 1e-9, "{sides} sides: {radius}");
+            assert!((0.0..=0.3).contains(&place.x));
+            assert!(smallest_radius(&skin, |region| region == Region::Body).is_none());
+            let mut hollow = skin.clone();
+            hollow.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            assert!(smallest_radius(&hollow, |_| true).is_none(), "from inside it is hollow");
+        }
+    }
 }

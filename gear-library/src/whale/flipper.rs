@@ -1,27 +1,25 @@
-//! The flipper: a paddle that grows out of the hole in the trunk's side by a fillet.
+//! The flipper: a paddle, joined to the hole in the trunk's side by a fillet.
 
 use endline_sdk::Region;
 use endline_sim::whale::Mark;
 use glam::{DQuat, DVec3};
 
 use super::Builder;
-use super::bones::{FLIPPER_BENDS, Skeleton, Weights};
-use super::curve::{MonotoneCubic, smooth_step};
+use super::bones::{FLIPPER_BENDS, SHOULDER_RIM, Skeleton, Weights};
 use super::fin::{Section, fillet, spans, tip_bluntness, tip_rounding};
 use super::form::WhaleForm;
-use super::layout::HOLE;
 use super::mesh::Corner;
-use super::weights::SHOULDER_RIM;
+use super::trunk::{HOLE, MonotoneCubic, smooth_step};
 
 /// Rings between root and tip.
 const RINGS: usize = 17;
 /// Share of the span over which the base blends into the body.
 const FILLET: f64 = 0.22;
-/// Share of the half chord, from its middle, where an edge begins.
+/// Start of an edge [share of the half chord from its middle].
 pub const EDGE: f64 = 0.8;
-/// Share of the span from which the shoulder moves the blade alone.
+/// Start of the part of the blade that follows the shoulder only [share of span].
 const FREE: f64 = 0.25;
-/// Share of the span where the tip begins.
+/// Start of the tip [share of span].
 const TIP: f64 = 0.9;
 /// Share of a flipper's chord that lies ahead of its axis.
 const LEAD: f64 = 0.46;
@@ -55,12 +53,12 @@ pub fn add(build: &mut Builder, hole: &[u32]) {
     build.half.fan_in(&before, tip, |_| Region::LeftFlipperTip);
 }
 
-/// A share of the way round the section for a vertex of the hole's rim, which starts at its upper front corner and runs down.
+/// Share of the outline of a section for a vertex of the hole's rim, which begins at its upper front corner and runs down.
 fn share(vertex: f64, of: usize) -> f64 {
     (HOLE[1] as f64 / 2.0 - vertex) / of as f64
 }
 
-/// Where the unblended flipper meets the body [m].
+/// Intersection of the flipper without fillet with the body [m].
 fn base(build: &Builder, chords: &MonotoneCubic, vertex: usize, of: usize) -> DVec3 {
     let (x, z, _) = section(build.form, chords, 0.0).corner(share(vertex as f64, of));
     let (from, along) = (build.flipper_place(x, 0.0, z), build.flipper_axis());
@@ -132,7 +130,7 @@ fn section(form: &WhaleForm, chords: &MonotoneCubic, s: f64) -> Section {
     }
 }
 
-/// The base goes with body and shoulder, the rest with shoulder, blade and tip.
+/// Weights: the base follows body and shoulder, the rest shoulder, blade and tip.
 fn weights(build: &Builder, place: DVec3, s: f64) -> Weights {
     let [shoulder, blade, tip] = build.skeleton.flipper;
     if s > FLIPPER_BENDS[1] - 0.15 {
@@ -147,14 +145,12 @@ fn weights(build: &Builder, place: DVec3, s: f64) -> Weights {
 }
 
 impl Builder<'_> {
-    /// Where the left flipper's axis meets the body [m].
-    #[must_use]
+    /// Intersection of the left flipper's axis with the body [m].
     pub fn flipper_root(&self) -> DVec3 {
         self.sections.flipper_root(self.form)
     }
 
     /// Unit vector along the left flipper at rest.
-    #[must_use]
     pub fn flipper_axis(&self) -> DVec3 {
         self.flipper_turn() * DVec3::Y
     }
@@ -164,7 +160,7 @@ impl Builder<'_> {
         DQuat::from_rotation_z(flippers.sweep) * DQuat::from_rotation_x(-flippers.droop)
     }
 
-    /// A place on the flipper's own axes: `x` ahead along the chord [m], share of the span out, `z` across [m].
+    /// A place in the flipper's frame: `x` forward along the chord [m], share of the span, `z` across [m].
     fn flipper_place(&self, x: f64, s: f64, z: f64) -> DVec3 {
         let span = self.form.flippers.span * self.form.length_m;
         self.flipper_root() + self.flipper_turn() * DVec3::new(x, s * span, z)

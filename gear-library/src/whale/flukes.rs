@@ -1,7 +1,7 @@
-//! The flukes: the trunk's last row parts along the midplane, and each half grows out into a blade.
+//! The flukes: two blades from the halves of the trunk's last row.
 //!
-//! The root of a blade is half the last row and the midline's outline from there over the notch and back. Rings run out from it:
-//! the plain sections of a fluke, with what the root differs from the plain section at the midplane fading out.
+//! The root of a blade is half the last row and the outline of the midline from there over the notch and back. The rings of
+//! the blade are plain sections of a fluke plus the difference between root and plain section, which decreases outward.
 
 use std::f64::consts::PI;
 
@@ -11,16 +11,15 @@ use glam::{DVec2, DVec3};
 
 use super::Builder;
 use super::bones::{FLUKE_BENDS, Skeleton, Weights};
-use super::curve::smooth_step;
 use super::fin::{Section, fillet, spans, tip_bluntness, tip_rounding};
 use super::flipper::EDGE;
 use super::form::WhaleForm;
-use super::layout::{HALF_AROUND, flukes_at};
 use super::mesh::Corner;
+use super::trunk::{HALF_AROUND, flukes_at, smooth_step};
 
 /// Rings between midline and tip.
 const RINGS: usize = 18;
-/// Vertices of the midline on the belly's side of the notch, and as many on the back's.
+/// Vertices of the midline on each side of the notch.
 const MIDLINE: usize = 7;
 /// Vertices around a section.
 const AROUND: usize = HALF_AROUND + 2 * MIDLINE + 2;
@@ -57,18 +56,18 @@ pub fn add(build: &mut Builder, back: &[u32]) {
     build.half.fan_in(&before, tip, |_| Region::LeftFluke);
 }
 
-/// How far round from the leading edge over the upper side a vertex of the root lies, as a share of
-/// the whole. The middle of the half row is the leading edge, the notch the trailing edge.
+/// Share of the outline of a vertex of the root, from the leading edge over the upper side. The middle of the half row is
+/// the leading edge, the notch the trailing edge.
 fn share(vertex: f64) -> f64 {
     (HALF_AROUND as f64 / 2.0 - vertex) / AROUND as f64
 }
 
-/// The midline's outline from the belly over the notch to the back, without the ends on the trunk's last row.
+/// Outline of the midline from the belly over the notch to the back, without its ends on the trunk's last row.
 fn midline(build: &Builder, vertex: usize) -> Corner {
     let from = flukes_at(build.form);
     let steps = (MIDLINE + 1) as f64;
     let off = (vertex as f64 + 1.0 - steps) / steps;
-    // Even along the outline, then crowded at the notch: at from the row (|off| = 1) to the notch (0).
+    // `at` from the row (|off| = 1) to the notch (0), denser at the notch.
     let at = from + (1.0 - from) * (1.0 - off * off * (0.55 + 0.45 * off.abs()));
     let round = tip_rounding((at - from) / (1.0 - from), 20.0);
     let (middle, half) = (build.sections.height(at), build.sections.halves(at).y * round);
@@ -88,14 +87,14 @@ fn corner(build: &Builder, s: f64, vertex: usize, root: DVec3) -> Corner {
     Corner { place, weights: weights(build, &place, s), mark: Mark::Skin }
 }
 
-/// A place on the plain fluke: share of the half span out, `x` ahead of the snout's place (so negative) and height [m].
+/// A place on the plain fluke: share of the half span, `x` relative to the snout (negative) and height [m].
 fn plain(build: &Builder, s: f64, x: f64, z: f64) -> DVec3 {
     let form = build.form;
     let height = form.flukes.height * build.sections.breadth() * form.length_m;
     DVec3::new(form.length_m / 2.0 + x, s * form.flukes.span / 2.0 * form.length_m, height + z)
 }
 
-/// Section of the flukes; `x` is ahead of the snout's place and so negative [m].
+/// Section of the flukes; `x` is relative to the snout and negative [m].
 fn section(form: &WhaleForm, out: f64) -> Section {
     let flukes = &form.flukes;
     let reach = libm::tan(flukes.sweep) * flukes.span / 2.0;
@@ -119,7 +118,7 @@ fn section(form: &WhaleForm, out: f64) -> Section {
     }
 }
 
-/// The middle goes with the peduncle's end, the rest with blade and tip.
+/// Weights: the middle follows the end of the peduncle, the rest blade and tip.
 fn weights(build: &Builder, place: &DVec3, s: f64) -> Weights {
     let [blade, tip] = build.skeleton.fluke;
     let to_blade = smooth_step(FLUKE_BENDS[0] - 0.18, FLUKE_BENDS[0] + 0.18, s);
@@ -128,7 +127,7 @@ fn weights(build: &Builder, place: &DVec3, s: f64) -> Weights {
     Skeleton::hand_over(Skeleton::hand_over(body, blade, to_blade), tip, to_tip)
 }
 
-/// The edges are what lies near the ends of a section, by where the patch stands and not by its number: at the root the two differ.
+/// Region by the place of a patch along the chord, which differs from its number at the root.
 fn region(section: &Section, x: f64) -> Region {
     let along = (2.0 * x - section.lead - section.trail) / (section.lead - section.trail);
     match along {
@@ -138,7 +137,7 @@ fn region(section: &Section, x: f64) -> Region {
     }
 }
 
-/// Middle of a patch between two rings, ahead of the snout's place [m].
+/// Middle of a patch between two rings, relative to the snout [m].
 fn patch_x(build: &Builder, rings: &[&[u32]; 2], patch: usize) -> f64 {
     let places = rings.iter().flat_map(|ring| [ring[patch], ring[(patch + 1) % AROUND]]);
     places.map(|vertex| build.half.place(vertex).x).sum::<f64>() / 4.0 - build.form.length_m / 2.0

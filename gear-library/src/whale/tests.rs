@@ -24,13 +24,13 @@ fn the_skin_is_closed() {
         assert!(edges.contains_key(&(to, from)), "edge {from} to {to} has one triangle");
     }
     assert!((13_000..15_000).contains(&skin.triangles.len()), "{} triangles", skin.triangles.len());
-    // One sphere, without handles: vertices - edges + faces is 2 for each closed piece, and there is one.
+    // A single sphere without handles: vertices - edges + faces is 2 per closed piece.
     assert_eq!(skin.vertices.len() + skin.triangles.len() - edges.len() / 2, 2);
     assert_eq!(pieces(&skin), 1);
     assert_eq!(skin.regions.len(), skin.triangles.len());
 }
 
-/// How many pieces hang together.
+/// Number of connected pieces.
 fn pieces(skin: &Skin) -> usize {
     let mut heads: Vec<usize> = (0..skin.vertices.len()).collect();
     fn head(heads: &[usize], mut vertex: usize) -> usize {
@@ -61,7 +61,7 @@ fn weights_are_shares_of_known_bones() {
     for (index, bone) in skin.bones.iter().enumerate() {
         assert!(
             bone.parent.is_none_or(|parent| parent < index),
-            "{} stands before its parent",
+            "{} is before its parent",
             bone.name
         );
         assert!(bone.turns.iter().all(|(_, axis)| (axis.length() - 1.0).abs() < 1e-12));
@@ -91,7 +91,7 @@ fn left_and_right_mirror_one_another() {
     }
 }
 
-/// A mirrored posture gives the mirrored whale: sides turn the way the posture says.
+/// A mirrored posture gives the mirrored whale.
 #[test]
 fn sides_move_as_mirror_images() {
     let skin = whale();
@@ -128,9 +128,9 @@ fn posed(skin: &Skin, posture: &Posture) -> Vec<DVec3> {
     places
 }
 
-/// The signs the posture promises, seen on the skin.
+/// The skin moves in the directions that the posture documents.
 #[test]
-fn angles_turn_the_way_the_posture_says() {
+fn angles_have_the_documented_signs() {
     let skin = whale();
     let rest = posed(&skin, &Posture::default());
     let most = |value: fn(DVec3) -> f64| {
@@ -168,8 +168,8 @@ fn angles_turn_the_way_the_posture_says() {
     assert!(lowest(&open) < lowest(&rest) - 0.3, "the jaw drops");
 }
 
-/// A full posture with the mouth closed tears nothing: neighbours on the skin stay neighbours.
-/// (An opening mouth draws out the strip between rostrum and lip on purpose: it stands for the baleen.)
+/// With a full posture and the mouth closed, adjacent vertices remain adjacent.
+/// (An opening mouth stretches the strip between rostrum and lip, which represents the baleen.)
 #[test]
 fn skinning_is_continuous() {
     let skin = whale();
@@ -243,7 +243,7 @@ fn mass_properties_agree_with_parry() {
     assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t: {own} m³");
 }
 
-/// The spine, flukes, flippers and jaw answer to every angle of a posture.
+/// Every angle of a posture moves a bone.
 #[test]
 fn every_angle_has_a_bone() {
     let skin = whale();
@@ -274,7 +274,7 @@ fn every_angle_has_a_bone() {
     }
 }
 
-/// Files may hold any share from 0 to 1: odd whales come of it, but never a number that is none.
+/// Files may contain any share from 0 to 1: unusual whales, but finite numbers.
 #[test]
 fn odd_forms_stay_finite() {
     let changes: [fn(&mut WhaleForm, f64); 16] = [
@@ -312,4 +312,18 @@ fn odd_forms_stay_finite() {
             );
         }
     }
+}
+
+/// Caches more forms than there is room for, and requests the first one again at the end.
+#[test]
+fn a_cached_skin_equals_a_new_one() {
+    let whale = WhaleForm::right_whale(12.0);
+    let wide = |n: usize| WhaleForm { breadth_scale: 1.0 + 0.01 * n as f64, ..whale.clone() };
+    for n in (0..SKINS + 2).chain([0, SKINS + 1]) {
+        let (cached, built) = (skin_of(&wide(n)), build_skin(&wide(n)));
+        assert!(*cached == built, "form {n}");
+        let volume = Measures::of(&built, 1.0).volume_m3;
+        assert_eq!(volume_of(&wide(n)).to_bits(), volume.to_bits());
+    }
+    assert!(Arc::ptr_eq(&skin_of(&wide(0)), &skin_of(&wide(0))));
 }

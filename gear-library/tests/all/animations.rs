@@ -1,4 +1,4 @@
-//! Acts as glTF animations: what comes back is what the bones were keyed to, however they lie along themselves; and what is told of a bad file.
+//! Acts as glTF animations: the angles that are read equal those of the keys for any local axes of the bones; problems of files.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -54,14 +54,14 @@ fn keys() -> Vec<(f64, Posture)> {
     [0.0, 0.5, 1.25, 2.0].map(at).to_vec()
 }
 
-/// A bone's own turn, as `pose` has it.
+/// The rotation of a bone, as in `pose`.
 fn turn(bone: &Bone, posture: &Posture) -> DQuat {
     bone.turns.iter().fold(DQuat::IDENTITY, |before, (channel, axis)| {
         DQuat::from_axis_angle(*axis, channel.share * angle_of(posture, channel.angle)) * before
     })
 }
 
-/// A file of bones alone, each lying along itself by `lie`, keyed to those postures.
+/// A file of bones with the local rotation `lie`, and keys of those postures.
 fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     let (mut data, mut views, mut accessors) = (Vec::new(), Vec::new(), Vec::new());
     let mut store = |numbers: Vec<f64>, kind: &str, count: usize| {
@@ -101,14 +101,14 @@ fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     })
 }
 
-/// The act `wave` of a library that has this file; or what is told of it.
+/// The act `wave` of a library with this file, or its problems.
 fn read(act: &str, file: &Value) -> Result<ActItem, String> {
     let mut sources = sources();
     sources.set("acts/wave.toml", act);
     sources.set_mesh("acts/wave.gltf", file.to_string().into_bytes());
     let (library, problems) = Library::read(&sources);
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    library.acts.into_iter().find(|act| act.entry.id == "wave").ok_or(told.join("\n"))
+    let reported: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    library.acts.into_iter().find(|act| act.entry.id == "wave").ok_or(reported.join("\n"))
 }
 
 fn clip(act: &ActItem) -> &Clip {
@@ -119,7 +119,8 @@ fn clip(act: &ActItem) -> &Clip {
 fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
     let (bones, keys) = (skin().bones, keys());
     for lie in [DQuat::IDENTITY, DQuat::from_scaled_axis(glam::DVec3::new(0.4, -1.1, 2.0))] {
-        let act = read(ACT, &file(&bones, lie, &keys)).unwrap_or_else(|told| panic!("{told}"));
+        let act =
+            read(ACT, &file(&bones, lie, &keys)).unwrap_or_else(|reported| panic!("{reported}"));
         assert!((clip(&act).length_s - 2.0).abs() < 1e-12);
         for (time_s, asked) in &keys {
             let shown = clip(&act).posture(*time_s, false, &Posture::default());
@@ -144,10 +145,10 @@ fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
 }
 
 #[test]
-fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
+fn problems_of_an_animation_have_a_place_and_a_correction() {
     let (bones, keys) = (skin().bones, keys());
     let good = file(&bones, DQuat::IDENTITY, &keys);
-    let told =
+    let reported =
         |act: &str, file: &Value| read(act, file).err().unwrap_or_else(|| panic!("it is taken"));
     for (from, to, parts) in [
         (
@@ -155,12 +156,12 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
             "wav.gltf",
             ["there is no file `acts/wav.gltf`", "did you mean `acts/wave.gltf`?"],
         ),
-        ("wave.gltf", "wave.fbx", ["`wave.fbx` is no name of an animation", ".glb or .gltf"]),
+        ("wave.gltf", "wave.fbx", ["`wave.fbx` is not the name of a glTF file", ".glb or .gltf"]),
         ("fade", "clip = \"Wav\"\nfade", ["has no animation `Wav`", "did you mean `Wave`?"]),
         (
             "fade",
             "after = \"repeat\"\nfade",
-            ["ends elsewhere than it begins", "the pose of the first"],
+            ["has different values at the start and the end", "the pose of the first"],
         ),
         (
             "animation",
@@ -168,7 +169,7 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
             ["both `animation` and [[key]]", "leave one of them out"],
         ),
     ] {
-        let message = told(&ACT.replacen(from, to, 1), &good);
+        let message = reported(&ACT.replacen(from, to, 1), &good);
         assert!(
             parts.iter().all(|part| message.contains(part)) && message.contains("acts/wave.toml:"),
             "{to}: {message}"
@@ -182,10 +183,10 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
             channel["target"]["node"] = json!(jaw);
         }
     }
-    let message = told(ACT, &twisted);
+    let message = reported(ACT, &twisted);
     assert!(
         message.contains("turns `jaw`")
-            && message.contains("axis that it does not have")
+            && message.contains("axis that the bone does not have")
             && message.contains("lock"),
         "{message}"
     );
@@ -195,12 +196,13 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
         .unwrap()
         .iter_mut()
         .for_each(|node| node["name"] = json!("bone"));
-    assert!(told(ACT, &strange).contains("turns no bone of the whale"));
+    assert!(reported(ACT, &strange).contains("rotates no bone of the whale"));
     let mut two = good.clone();
     let again = two["animations"][0].clone();
     two["animations"].as_array_mut().unwrap().push(again);
     assert!(
-        told(ACT, &two).contains("has 2 animations")
-            && told(ACT, &json!({ "asset": { "version": "2.0" } })).contains("has no animation")
+        reported(ACT, &two).contains("has 2 animations")
+            && reported(ACT, &json!({ "asset": { "version": "2.0" } }))
+                .contains("has no animation")
     );
 }

@@ -1,10 +1,10 @@
-//! The whale's mesh against the tables it is built from, and its fins against the ranges they are written to have.
+//! The whale's mesh compared with its tables, and its fins with their published ranges.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 use std::f64::consts::PI;
 use std::path::Path;
 
-use endline_gear::whale::edges::smallest_radius;
+use endline_gear::whale::fin::smallest_radius;
 use endline_gear::whale::{Station, WhaleForm, build_skin};
 use endline_gear::{Library, Sources, WhaleItem};
 use endline_sdk::{BodyPart, Region};
@@ -18,7 +18,7 @@ fn whale(id: &str) -> WhaleItem {
     Library::read(&sources).0.whales.into_iter().find(|whale| whale.entry.id == id).unwrap()
 }
 
-/// The cut through a skin at a share of length from the snout, to port and up [m]; fins left out, but for the midline between the flukes.
+/// The cut through a skin at a share of length from the snout, to port and up [m]; without fins, except the midline between the flukes.
 fn cut(skin: &Skin, length_m: f64, at: f64) -> Vec<[f64; 2]> {
     let x = (0.5 - at) * length_m;
     let fin = |region: Region| {
@@ -39,7 +39,7 @@ fn cut(skin: &Skin, length_m: f64, at: f64) -> Vec<[f64; 2]> {
     points
 }
 
-/// Width, height and girth (a tape drawn tight) of a cut [m].
+/// Width, height and girth (length of a taut tape) of a cut [m].
 fn measured(points: &[[f64; 2]]) -> [f64; 3] {
     let reach = |axis: usize| {
         points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
@@ -74,7 +74,7 @@ fn ellipse(form: &WhaleForm, station: &Station) -> [f64; 3] {
 
 /// Width, height and girth of the table (facts 4.2) at every 5 % of length, at three lengths, within 2 %.
 ///
-/// Aft of 0.87 the flukes grow out of the peduncle: there the height is asked alone. The ends are rounded.
+/// Aft of 0.87 the flukes begin: only the height is compared there. The ends are rounded.
 #[test]
 fn every_section_is_that_of_the_table() {
     for length_m in LENGTHS_M {
@@ -96,7 +96,7 @@ fn every_section_is_that_of_the_table() {
     }
 }
 
-/// Published digest of the table: stacked ellipses hold 0.01877 L³ and have 0.445 L² of skin, fins and mouth apart.
+/// Published values of the table: stacked ellipses have a volume of 0.01877 L³ and a skin of 0.445 L², without fins and mouth.
 #[test]
 fn the_body_holds_and_wets_what_its_table_does() {
     let form = WhaleForm { breadth_scale: 1.0, ..whale("right-whale").form_at(10.0) };
@@ -112,7 +112,7 @@ fn the_body_holds_and_wets_what_its_table_does() {
             (b - a).cross(c - a).length() / 2.0
         })
         .sum();
-    // The flukes take the last 13 % of the body's skin, a fortieth of it, and hide the fins' roots.
+    // The flukes replace the last 13 % of the body, a fortieth of its skin, and cover the roots of the fins.
     assert!((area / 44.5 - 1.0).abs() < 0.05, "{area} m² against 44.5");
 }
 
@@ -181,7 +181,7 @@ fn flank(skin: &Skin, length_m: f64, at: f64) -> DVec3 {
     DVec3::new((0.5 - at) * length_m, outer, -0.047 * length_m)
 }
 
-/// The skin displaces the mass that law and condition ask for, within 2 %: 36.4 t at 13.7 m (Christiansen et al. 2019 give 36 t).
+/// The skin displaces the mass of the law and the condition within 2 %: 36.4 t at 13.7 m (Christiansen et al. 2019 give 36 t).
 #[test]
 fn the_skin_displaces_the_mass_it_should() {
     let right_whales = LENGTHS_M.into_iter().flat_map(|length_m| {

@@ -1,4 +1,4 @@
-//! Files with mistakes, and files being edited.
+//! Files with mistakes, and edits of files.
 
 use std::collections::BTreeMap;
 
@@ -109,9 +109,15 @@ fn a_number_without_unit_is_refused() {
 fn a_figure_needs_source_and_confidence() {
     let text =
         ROPE.replace("source = \"mill sheet 7\"\n", "").replace("3/8 in\"   # nominal", "3/8 in\"");
-    let told: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
-    assert!(told.iter().any(|told| told.contains("`diameter` has no source")), "{told:?}");
-    assert!(!told.iter().any(|told| told.contains("`density` has no source")), "{told:?}");
+    let reported: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
+    assert!(
+        reported.iter().any(|reported| reported.contains("`diameter` has no source")),
+        "{reported:?}"
+    );
+    assert!(
+        !reported.iter().any(|reported| reported.contains("`density` has no source")),
+        "{reported:?}"
+    );
     only(
         &ROPE.replace("\"estimate\"", "\"hearsay\""),
         11,
@@ -121,7 +127,7 @@ fn a_figure_needs_source_and_confidence() {
     );
 }
 
-/// Files of users, and recordings, from before the key was called `confidence`.
+/// Files of users, and recordings, with the former key of `confidence`.
 #[test]
 fn the_former_key_of_confidence_is_still_read_and_edited() {
     let former = ROPE.replace("confidence = ", "sureness = ");
@@ -182,7 +188,7 @@ fn a_site_has_one_law_of_its_current() {
         (
             &height,
             height.replace("1.5 m", "31 m"),
-            ["out of the water, which is 30 m deep", "above the seabed"],
+            ["above the surface: the water is 30 m deep", "above the seabed"],
         ),
     ] {
         let problems = Library::check_file("sites/test.toml", &shipped.replace(from.as_str(), &to));
@@ -206,7 +212,7 @@ fn strength_should_agree_with_stiffness_and_stretch() {
 }
 
 #[test]
-fn all_problems_of_a_file_are_told_at_once() {
+fn all_problems_of_a_file_are_reported_at_once() {
     let text = ROPE
         .replace("3/8 in", "3/8 furlong")
         .replace("2,440 lbf", "2,440 lb")
@@ -216,7 +222,7 @@ fn all_problems_of_a_file_are_told_at_once() {
 }
 
 #[test]
-fn broken_toml_is_told_with_its_place() {
+fn invalid_toml_is_reported_with_its_place() {
     let problems = problems_of(&ROPE.replace("\"2,440 lbf\"", "2,440 lbf"));
     assert_eq!((problems.len(), problems[0].line), (1, 13), "{problems:#?}");
 }
@@ -243,7 +249,7 @@ fn a_newer_format_is_refused() {
 }
 
 #[test]
-fn a_missing_folder_is_told() {
+fn a_missing_folder_is_reported() {
     let problems = Sources::from_folder(std::path::Path::new("/nowhere/at/all"))
         .expect_err("nothing is there");
     assert!(problems[0].to_string().contains("no gear library in this folder"), "{}", problems[0]);

@@ -1,4 +1,4 @@
-//! Jaws of the right whale that close on a buoy: they stand still on it with the moment they have, and close once it is gone.
+//! Jaws of the right whale that close on a buoy: they stop with the moment of their muscles, and close after its removal.
 #![allow(
     clippy::panic,
     clippy::unwrap_used,
@@ -28,7 +28,7 @@ fn room(skin: &[[DVec3; 3]]) -> (DVec3, f64) {
     let away = |place: DVec3| {
         head.iter().map(|corners| point_triangle(place, **corners).0).fold(f64::INFINITY, f64::min)
     };
-    // In the water of the mouth, not in the flesh of a jaw: a line up and a line down each go into a jaw and out of it.
+    // In the water of the mouth, not inside a jaw: lines up and down each enter and leave a jaw.
     let covered = |place: &DVec3| {
         let beside = *place + DVec3::new(0.0031, 0.0127, 0.0);
         let met = |sign: f64| {
@@ -72,7 +72,7 @@ fn jaws_stand_still_on_a_buoy_and_close_once_it_is_gone() {
     println!("{strength:?}");
     for radius_m in [0.07, 0.11, 0.15] {
         assert!(radius_m < room_m, "{radius_m} m fits");
-        // Rough enough to stay where it is.
+        // Rough enough to stay in place.
         let model = Model::new(spec(&skin, ball(radius_m, place - DVec3::Z * 20.0), 2.0)).unwrap();
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
         state.whale.as_mut().unwrap().posture = open();
@@ -102,7 +102,7 @@ fn jaws_stand_still_on_a_buoy_and_close_once_it_is_gone() {
         let bears = whale.mouth_moment_n_m[0] / strength.moment_n_m[0];
         assert!((bears - 1.0).abs() < 0.02, "{radius_m} m: {bears} of what the jaw has");
         assert!(swing[0] > 0.01 && swing[1] - swing[0] < 2e-3, "{radius_m} m: {swing:?} rad");
-        // The buoy is taken out.
+        // The buoy is removed.
         state.bodies[0].position.x += 5.0;
         for _ in 0..150 {
             step(&model, &Input::default(), &mut state, &mut workspace).unwrap();

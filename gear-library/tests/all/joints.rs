@@ -1,4 +1,4 @@
-//! Joint ranges as a whale's file gives them.
+//! Joint ranges of a whale's file.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -14,7 +14,7 @@ fn text() -> String {
     sources.get(FILE).unwrap().to_owned()
 }
 
-/// Every range is there, holds the rest posture, and comes from somewhere.
+/// Every range exists, includes the rest posture and has a source.
 #[test]
 fn the_right_whale_has_ranges_with_sources() {
     let sources = Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap();
@@ -51,24 +51,24 @@ fn the_right_whale_bends_as_far_as_is_written_of_it() {
     assert!((ranges.of(Angle::FlukePitch)[1].to_degrees() - 45.0).abs() < 1e-9);
 }
 
-/// What is wrong with a file after a change, and where.
+/// The problems of a changed file with their places.
 #[track_caller]
 fn refused(from: &str, to: &str, message: &str, help: &str) {
     let good = text();
     assert!(good.contains(from), "`{from}` is no longer in {FILE}");
     let problems = Library::check_file(FILE, &good.replacen(from, to, 1));
-    let told: Vec<String> = problems
+    let reported: Vec<String> = problems
         .iter()
         .map(|problem| format!("{} | {} | {}", problem.line, problem.message, problem.help))
         .collect();
     let found = problems.iter().any(|problem| {
         problem.line > 0 && problem.message.contains(message) && problem.help.contains(help)
     });
-    assert!(found, "wanted `{message}` and `{help}`, got {told:#?}");
+    assert!(found, "wanted `{message}` and `{help}`, got {reported:#?}");
 }
 
 #[test]
-fn wrong_ranges_are_told_with_their_place() {
+fn invalid_ranges_are_reported_with_their_places() {
     assert!(Library::check_file(FILE, &text()).is_empty());
     refused("jaw = { least = \"0 deg\"", "jaw = { least = \"5 deg\"", "`least` is", "between");
     refused(

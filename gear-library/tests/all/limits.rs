@@ -1,4 +1,4 @@
-//! Numbers far beyond sense are refused where they stand, before memory is taken for them.
+//! Extreme numbers are rejected with their places before memory is allocated.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -21,15 +21,15 @@ fn problems(text: &str, options: &Options) -> Vec<Diagnostic> {
     made.err().unwrap_or_default()
 }
 
-/// The scenario with one text in place of another is refused on the line of that text, with these words.
+/// The scenario with a replaced text is rejected at the line of that text, with these words.
 fn refused(from: &str, to: &str, words: &[&str]) {
     let text = WRAPPED.replacen(from, to, 1);
     let line = 1 + text[..text.find(to).unwrap()].matches('\n').count();
     let found = problems(&text, &Options::default());
-    let told = found.iter().find(|problem| problem.line == line);
-    let told = told.unwrap_or_else(|| panic!("{to}: {found:#?}")).to_string();
+    let reported = found.iter().find(|problem| problem.line == line);
+    let reported = reported.unwrap_or_else(|| panic!("{to}: {found:#?}")).to_string();
     for word in words {
-        assert!(told.contains(word), "`{told}` lacks `{word}`");
+        assert!(reported.contains(word), "`{reported}` lacks `{word}`");
     }
 }
 
@@ -102,8 +102,8 @@ fn problems_of_a_hostile_file_are_counted_and_do_not_copy_its_line() {
         assert!((1..=DIAGNOSTICS + 1).contains(&found.len()), "{path}: {}", found.len());
         let longest = found.iter().map(|one| one.excerpt.chars().count()).max().unwrap();
         assert!(longest <= EXCERPT_CHARS, "{path}: {longest}");
-        let told: usize = found.iter().map(|one| one.to_string().len()).sum();
-        assert!(told < 400_000, "{path}: {told} bytes");
+        let reported: usize = found.iter().map(|one| one.to_string().len()).sum();
+        assert!(reported < 400_000, "{path}: {reported} bytes");
     }
     let found = Library::check_file("ropes/hostile.toml", &rope_of(20_000));
     let last = found.last().unwrap();

@@ -1,4 +1,4 @@
-//! Tests of the gear library through the crate's own door: files, assembly, the whale's skin, encounters.
+//! Tests of the gear library through its public interface: files, assembly, the whale's skin, encounters.
 
 #![allow(
     clippy::disallowed_methods,

@@ -1,4 +1,4 @@
-//! Whales as glTF files: out, in, and every way in which one can be wrong.
+//! Whales as glTF files: writing, reading, and all problems of files.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -116,8 +116,8 @@ fn the_same_skin_gives_the_same_bytes() {
     );
 }
 
-/// As Blender saves: each material with vertices of its own, so that seams are split; copies' numbers after names; bones
-/// turned along themselves; a bone of its own that moves nothing.
+/// As saved by Blender: each material has its own vertices, so that seams are split; names have numbers of copies; bones are
+/// aligned with their length; an additional bone without vertices.
 #[test]
 fn a_file_as_blender_saves_it_gives_the_same_pose() {
     let skin = skin();
@@ -153,7 +153,7 @@ fn a_file_as_blender_saves_it_gives_the_same_pose() {
         back.vertices.len()
     );
     assert_eq!(back.triangles.len(), skin.triangles.len());
-    // The order is another, so each vertex is looked for by its rest place.
+    // The order differs, so each vertex is found by its rest place.
     let order: Vec<usize> = skin.vertices.iter().map(|place| nearest(&back, *place)).collect();
     let mut same = back.clone();
     (same.vertices, same.weights) =
@@ -171,7 +171,7 @@ fn nearest(skin: &Skin, place: DVec3) -> usize {
     (0..skin.vertices.len()).min_by(near).unwrap()
 }
 
-/// Turns the axes of every bone in a file, so that they no longer are the whale's, and adds a bone that moves nothing.
+/// Rotates the axes of all bones in a file away from the whale's, and adds a bone without vertices.
 fn turn_bones(file: &mut Value, turn: DQuat) {
     let uri = file["buffers"][0]["uri"].as_str().unwrap();
     let mut bytes = STANDARD.decode(uri.split_once(',').unwrap().1).unwrap();
@@ -207,19 +207,19 @@ fn turn_bones(file: &mut Value, turn: DQuat) {
     file["nodes"].as_array_mut().unwrap().push(json!({ "name": "neutral_bone" }));
 }
 
-/// The faults of a file, each as message and help.
+/// The problems of a file, each as message and help.
 fn faults(bytes: &[u8], like: &Skin) -> String {
     let faults = read(bytes, like).err().unwrap_or_default();
     faults.iter().map(|fault| format!("{} | {}\n", fault.message, fault.help)).collect()
 }
 
 #[track_caller]
-fn told(bytes: &[u8], wanted: &[&str]) {
+fn assert_problems(bytes: &[u8], wanted: &[&str]) {
     let faults = faults(bytes, &skin());
     assert!(wanted.iter().all(|part| faults.contains(part)), "wanted {wanted:?}, got {faults}");
 }
 
-/// A file's text with one thing changed.
+/// A changed text of a file.
 fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
     let mut file = text(&skin());
     change(&mut file);
@@ -235,15 +235,18 @@ fn bones_and_regions_are_asked_for_by_name() {
             named.unwrap()["name"] = json!(to);
         })
     };
-    told(&renamed("nodes", "jaw", "jaww"), &["has no bone `jaw`", "did you mean `jaww`"]);
-    told(
+    assert_problems(
+        &renamed("nodes", "jaw", "jaww"),
+        &["has no bone `jaw`", "did you mean `jaww`"],
+    );
+    assert_problems(
         &renamed("materials", "lips", "lipps"),
-        &["has a material `lipps`, which is no region", "did you mean `lips`", "left_fluke_tr"],
+        &["has a material `lipps`, which is not a region", "did you mean `lips`", "left_fluke_tr"],
     );
     let nameless = changed(|file| {
         file["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
     });
-    told(&nameless, &["without a material", "rostrum"]);
+    assert_problems(&nameless, &["without a material", "rostrum"]);
     let stranger = changed(|file| {
         let fluke = file["nodes"]
             .as_array()
@@ -257,7 +260,7 @@ fn bones_and_regions_are_asked_for_by_name() {
         file["skins"][0]["joints"].as_array_mut().unwrap().push(json!(last));
         file["skins"][0].as_object_mut().unwrap().remove("inverseBindMatrices");
     });
-    told(&stranger, &["vertices on the bone `tassel`"]);
+    assert_problems(&stranger, &["vertices on the bone `tassel`"]);
 }
 
 #[test]
@@ -267,21 +270,21 @@ fn the_mesh_must_be_whole_and_of_the_whales_size() {
     let mut open = skin.clone();
     open.triangles.pop();
     open.regions.pop();
-    told(&file(&open), &["is not closed: 3 edges", "in the region `", "Fill Holes"]);
-    told(&file(&scaled(&skin, 0.01)), &["is 0.1", "m was expected", "metres"]);
+    assert_problems(&file(&open), &["is not closed: 3 edges", "in the region `", "Fill Holes"]);
+    assert_problems(&file(&scaled(&skin, 0.01)), &["is 0.1", "expected", "metres"]);
     let mut moved = skin.clone();
     moved.vertices.iter_mut().for_each(|place| place.y += 4.0);
-    told(&file(&moved), &["lies 4.00 m from where the whale lies"]);
-    // On its side it is as long, and its middle moves by little.
+    assert_problems(&file(&moved), &["is 4.00 m away from the whale's place"]);
+    // Rolled on its side, its length is unchanged and its middle moves little.
     let mut rolled = skin.clone();
     rolled.vertices.iter_mut().for_each(|place| *place = DVec3::new(place.x, -place.z, place.y));
-    told(&file(&rolled), &["is turned: the region `", "lies 4.26 m", "the back is up"]);
+    assert_problems(&file(&rolled), &["is rotated: the region `", "is 4.26 m away", "the back up"]);
     let mut rolled = skin.clone();
     rolled.bones.iter_mut().for_each(|bone| bone.origin.y = -bone.origin.y);
-    told(&file(&rolled), &["is turned: the bone `", "lies 4.46 m", "the back is up"]);
+    assert_problems(&file(&rolled), &["is rotated: the bone `", "is 4.46 m away", "the back up"]);
     let mut inward = skin.clone();
     inward.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-    told(&file(&inward), &["faces inward", "Recalculate Outside"]);
+    assert_problems(&file(&inward), &["faces inward", "Recalculate Outside"]);
 }
 
 #[test]
@@ -293,44 +296,50 @@ fn weights_must_be_there_and_be_four_at_most() {
             own.insert("WEIGHTS_1".into(), own["WEIGHTS_0"].clone());
         }
     });
-    told(&more, &["vertices on more than four bones", "Limit Total"]);
+    assert_problems(&more, &["vertices on more than four bones", "Limit Total"]);
     let none = changed(|file| {
         for primitive in file["meshes"][0]["primitives"].as_array_mut().unwrap() {
             primitive["attributes"].as_object_mut().unwrap().remove("WEIGHTS_0");
         }
     });
-    told(&none, &["vertices without weights", "Skinning"]);
+    assert_problems(&none, &["vertices without weights", "Skinning"]);
     let off = changed(|file| {
         for primitive in file["meshes"][0]["primitives"].as_array_mut().unwrap() {
             let own = primitive["attributes"].as_object_mut().unwrap();
             own.insert("WEIGHTS_0".into(), own["COLOR_0"].clone());
         }
     });
-    told(&off, &["rows of 3, not 4 numbers"]);
+    assert_problems(&off, &["rows of 3, not 4 numbers"]);
     let unskinned = changed(|file| {
         file["nodes"][0].as_object_mut().unwrap().remove("skin");
     });
-    told(&unskinned, &["has a mesh without a skin, `skin`", "parent the mesh to the armature"]);
+    assert_problems(
+        &unskinned,
+        &["has a mesh without a skin, `skin`", "parent the mesh to the armature"],
+    );
     let elsewhere = changed(|file| file["buffers"][0]["uri"] = json!("whale.bin"));
-    told(&elsewhere, &["keeps its numbers in another file, `whale.bin`", ".glb"]);
+    assert_problems(&elsewhere, &["has its data in another file, `whale.bin`", ".glb"]);
 }
 
 #[test]
-fn a_file_that_is_not_sound_is_told_in_a_few_words() {
+fn problems_of_an_invalid_file_are_summarised() {
     let compressed = changed(|file| {
         file["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
         for accessor in file["accessors"].as_array_mut().unwrap() {
             accessor.as_object_mut().unwrap().remove("bufferView");
         }
     });
-    told(&compressed, &["is compressed by KHR_draco_mesh_compression", "without Compression"]);
+    assert_problems(
+        &compressed,
+        &["is compressed by KHR_draco_mesh_compression", "without Compression"],
+    );
     let astray = changed(|file| {
         for node in file["nodes"].as_array_mut().unwrap() {
             node["children"] = json!([1_000]);
         }
     });
     let faults = faults(&astray, &skin());
-    assert!(faults.contains("is not sound glTF 2.0") && faults.contains("and 26 more"), "{faults}");
+    assert!(faults.contains("is not valid glTF 2.0") && faults.contains("and 26 more"), "{faults}");
     assert!(faults.len() < 500, "{faults}");
 }
 
@@ -341,16 +350,19 @@ fn a_file_alone_is_checked_with_its_mesh() {
     std::fs::create_dir_all(folder.join("whales")).unwrap();
     let text = sources().get(FILE).unwrap().replacen("name =", "mesh = \"my.glb\"\nname =", 1);
     std::fs::write(&file, &text).unwrap();
-    let told = |bytes: Option<&[u8]>| {
+    let reported = |bytes: Option<&[u8]>| {
         if let Some(bytes) = bytes {
             std::fs::write(folder.join("whales/my.glb"), bytes).unwrap();
         }
         let found = Library::check_file_with(FILE, &text, &Sources::beside(&file).0);
         found.iter().map(ToString::to_string).collect::<String>()
     };
-    assert!(told(None).contains("there is no file `whales/my.glb`"));
-    assert_eq!(told(Some(&written(&skin(), Form::Binary))), "");
-    assert!(told(Some(&written(&scaled(&skin(), 0.01), Form::Binary))).contains("m was expected"));
+    assert!(reported(None).contains("there is no file `whales/my.glb`"));
+    assert_eq!(reported(Some(&written(&skin(), Form::Binary))), "");
+    assert!(
+        reported(Some(&written(&scaled(&skin(), 0.01), Form::Binary)))
+            .contains("long from snout to fluke tips, expected")
+    );
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -361,10 +373,10 @@ fn one_mesh_at_thousands_of_nodes_is_refused_before_it_is_read() {
         let mesh = nodes.iter().find(|node| node.get("mesh").is_some()).unwrap().clone();
         nodes.extend(std::iter::repeat_n(mesh, 3_000));
     });
-    told(&many, &["more than 2000000 corners", "each mesh at one node"]);
+    assert_problems(&many, &["more than 2000000 corners", "each mesh at one node"]);
 }
 
-/// Whatever the bytes, the answer is a skin or a fault.
+/// Any bytes give a skin or a problem.
 #[test]
 fn damaged_files_are_faults() {
     let like = skin();
@@ -382,7 +394,7 @@ fn damaged_files_are_faults() {
         let mut bad = good.clone();
         for _ in 0..3 {
             let digits: Vec<usize> = (0..8).map(|_| 20 + roll(text)).collect();
-            // Digits and names of the text, where lengths, offsets and indices stand.
+            // Digits and names of the text: lengths, offsets and indices.
             let at =
                 digits.into_iter().find(|at| bad[*at].is_ascii_digit()).unwrap_or(20 + roll(text));
             bad[at] = b'0' + (roll(10) as u8);
@@ -391,12 +403,12 @@ fn damaged_files_are_faults() {
     }
 }
 
-/// In the library: a whale's file names its mesh; the mesh stands in for the one made from measures, at any length.
+/// A whale's file names its mesh, which replaces the one built from measures, at any length.
 #[test]
 fn a_whales_file_may_name_a_mesh() {
     let mut sources = sources();
     let own = sources.get(FILE).unwrap().to_owned();
-    let told = |sources: &Sources| {
+    let reported = |sources: &Sources| {
         Library::read(sources)
             .1
             .into_iter()
@@ -405,21 +417,21 @@ fn a_whales_file_may_name_a_mesh() {
     };
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1));
     sources.set_mesh("whales/mien.glb", Vec::new());
-    let missing = told(&sources);
+    let missing = reported(&sources);
     assert!(missing.iter().any(|one| one.line > 5
         && one.message == "there is no file `whales/mine.glb`"
         && one.help.contains("mien.glb")));
     sources.set_mesh("whales/mine.glb", b"nothing of the kind".to_vec());
     assert!(
-        told(&sources)
+        reported(&sources)
             .iter()
-            .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not sound glTF"))
+            .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not valid glTF"))
     );
 
     let mut mine = skin();
     mine.vertices.iter_mut().for_each(|place| place.z *= 1.05);
     sources.set_mesh("whales/mine.glb", written(&mine, Form::Binary));
-    assert!(told(&sources).is_empty(), "{:?}", told(&sources));
+    assert!(reported(&sources).is_empty(), "{:?}", reported(&sources));
     let whale = Library::read(&sources)
         .0
         .whales
@@ -437,9 +449,7 @@ fn a_whales_file_may_name_a_mesh() {
     );
 
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"../mine.obj\"\nlength =", 1));
-    assert!(
-        told(&sources)
-            .iter()
-            .any(|one| one.message.contains("no name of a mesh") && one.help.contains(".glb"))
-    );
+    assert!(reported(&sources).iter().any(|one| {
+        one.message.contains("not the name of a glTF file") && one.help.contains(".glb")
+    }));
 }

@@ -1,4 +1,4 @@
-//! Rope in the mouth of the right whale: jaws that close on it, and rope that enters at speed, let none through lips or baleen.
+//! Rope in the mouth of the right whale: neither closing jaws nor fast rope make it pass through lips or baleen.
 #![allow(
     clippy::panic,
     clippy::unwrap_used,
@@ -29,7 +29,7 @@ pub fn open() -> Posture {
     Posture { jaw: 0.2618, lips: [0.3491; 2], ..Posture::default() }
 }
 
-/// A steady way forward with the mouth open, which closes between two times.
+/// Constant forward speed with the mouth open, which closes between two times.
 pub struct Closing {
     descriptor: Descriptor,
     speed_m_s: f64,
@@ -56,7 +56,7 @@ impl WhaleMotion for Closing {
     }
 }
 
-/// What came of a run.
+/// The result of a run.
 struct Came {
     audit: Audit,
     /// Whether rope lies through skin at the end.

@@ -1,4 +1,4 @@
-//! Obstacles of a scenario: what is read, what is refused and where, rope laid round a drum.
+//! Obstacles of a scenario: reading, problems, rope laid round a drum.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -11,7 +11,7 @@ use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::JointKind;
 use endline_sim::{DVec3, ModelSpec};
 
-/// The drum as its file has it, and a box in its place.
+/// The drum of the file, and a box instead.
 const DRUM: &str = "shape = \"cylinder\"\nposition = [\"0 m\", \"0 m\", \"-10 m\"]\nradius = \"0.495 m\"\nlength = \"2 m\"";
 const BOX: &str = "shape = \"box\"\nposition = [\"9 m\", \"0 m\", \"-10 m\"]\nsize = [\"2 m\", \"1 m\", \"1 m\"]\nheading = \"0 deg\"\npitch = \"30 deg\"";
 
@@ -85,7 +85,7 @@ fn rope_starts_round_the_drum_and_its_slack_end_is_pulled() {
 }
 
 #[test]
-fn mistakes_are_told_with_their_place() {
+fn mistakes_are_reported_with_their_places() {
     refused(
         "friction = 0.3",
         "friction = -0.3",
@@ -111,7 +111,7 @@ fn mistakes_are_told_with_their_place() {
         "\"0.5 m\", \"-2 m\", \"-10.01 m\"",
         "\"0.3 m\", \"0 m\", \"-10.01 m\"",
         "around = \"drum\"",
-        &["lies within `drum`"],
+        &["is inside `drum`"],
     );
     refused(
         "force = [",
@@ -123,7 +123,7 @@ fn mistakes_are_told_with_their_place() {
 }
 
 #[test]
-fn a_box_points_where_it_is_told() {
+fn a_box_has_the_written_orientation() {
     let straight = "start = \"around\"\naround = \"drum\"\nturns = 1.0";
     let text = drum();
     assert!(text.contains(DRUM) && text.contains(straight));

@@ -1,7 +1,7 @@
 //! The whale's skin never passes through itself: at rest, and in postures drawn from the whole range of its joints.
 //!
-//! Two triangles meet where an edge of one runs through the other. Broad phase: boxes sorted along the body.
-//! Triangles with a common edge cannot cross but only fold; of those with one common corner the edges away from it are asked.
+//! Two triangles intersect if an edge of one passes through the other. Broad phase: boxes sorted along the body.
+//! Triangles with a common edge can only fold; for those with one common corner the opposite edges are tested.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 use std::path::Path;
@@ -37,7 +37,7 @@ fn no_skin_passes_through_itself_at_rest() {
                 found.is_empty(),
                 "{} of {length_m} m: {}",
                 whale.entry.id,
-                tell(&skin, &found)
+                describe(&skin, &found)
             );
         }
     }
@@ -48,7 +48,7 @@ fn nor_in_any_posture_its_joints_allow() {
     for whale in whales() {
         for length_m in [4.2, 13.7] {
             let skin = build_skin(&whale.form_at(length_m));
-            let (mut bad, mut told) = (0, String::new());
+            let (mut bad, mut reported) = (0, String::new());
             for seed in 0..POSTURES {
                 let posture = drawn(&whale.joints.ranges, seed);
                 let found = meetings(&posed(&skin, &posture), &skin.triangles);
@@ -61,19 +61,22 @@ fn nor_in_any_posture_its_joints_allow() {
                         posture.lips,
                         [posture.jaw; 2],
                     ];
-                    told = format!("{told}seed {seed}: {limbs:.2?}: {}\n", tell(&skin, &found));
+                    reported = format!(
+                        "{reported}seed {seed}: {limbs:.2?}: {}\n",
+                        describe(&skin, &found)
+                    );
                 }
             }
             assert_eq!(
                 bad, 0,
-                "{} of {length_m} m in {bad} of {POSTURES} postures:\n{told}",
+                "{} of {length_m} m in {bad} of {POSTURES} postures:\n{reported}",
                 whale.entry.id
             );
         }
     }
 }
 
-/// Every other posture has its limbs and jaw at an end of their range: the corners are where skin would meet.
+/// Every second posture has its limbs and jaw at an end of their range, where skin is most likely to intersect.
 fn drawn(ranges: &JointRanges, seed: u64) -> Posture {
     let mut posture = ranges.random(seed);
     if seed % 2 == 1 {
@@ -104,7 +107,7 @@ fn drawn(ranges: &JointRanges, seed: u64) -> Posture {
     posture
 }
 
-/// A whale turned through itself is seen: a fin driven into the body by hand.
+/// The test detects a fin moved into the body.
 #[test]
 fn a_fin_in_the_body_is_found() {
     let skin = build_skin(&whales()[0].form_at(13.7));
@@ -112,7 +115,7 @@ fn a_fin_in_the_body_is_found() {
     assert!(meetings(&posed(&skin, &posture), &skin.triangles).len() > 20);
 }
 
-fn tell(skin: &Skin, found: &[[usize; 2]]) -> String {
+fn describe(skin: &Skin, found: &[[usize; 2]]) -> String {
     let mut pairs: Vec<String> = found
         .iter()
         .map(|pair| format!("{:?}", pair.map(|triangle| skin.regions[triangle])))
@@ -160,7 +163,7 @@ fn meet(places: &[DVec3], pair: [[u32; 3]; 2]) -> bool {
     })
 }
 
-/// Whether a segment runs through a triangle; one that lies in its plane within rounding does not.
+/// Whether a segment passes through a triangle; a coplanar one within rounding does not.
 fn runs_through([from, to]: [DVec3; 2], corners: [DVec3; 3]) -> bool {
     let volume = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| (b - a).cross(c - a).dot(d - a);
     let [a, b, c] = corners;

@@ -1,4 +1,4 @@
-//! How the skin follows the bones: shares of bones, what a swim does to the volume, and joints that the swim never overdoes.
+//! The skin and the bones: weights, the volume during a swim, joint angles of the swim within their ranges.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -93,7 +93,7 @@ fn every_vertex_is_shared_out_among_four_bones_at_most() {
     }
 }
 
-/// A swim bends the skin without drawing it out: the volume stays within 3 % through every beat.
+/// The volume of the skin changes by less than 3 % during the beats of a swim.
 #[test]
 fn a_swim_keeps_the_volume() {
     for whale in whales() {
@@ -110,7 +110,7 @@ fn a_swim_keeps_the_volume() {
     }
 }
 
-/// Nor does any posture within the joints' ranges, with the mouth closed.
+/// This limit applies to any posture within the joint ranges, with the mouth closed.
 #[test]
 fn no_posture_within_the_ranges_costs_much_volume() {
     for whale in whales() {
@@ -130,7 +130,7 @@ fn no_posture_within_the_ranges_costs_much_volume() {
     }
 }
 
-/// The shipped swim asks no joint for more than its range.
+/// The shipped swim does not exceed the joint ranges.
 #[test]
 fn a_swim_stays_within_the_joints_ranges() {
     let whales = whales();

@@ -1,4 +1,4 @@
-//! The right whale of the library's file and the one built in are the same animal.
+//! The right whale of the library equals the built-in one.
 
 use std::path::Path;
 

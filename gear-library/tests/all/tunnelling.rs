@@ -1,6 +1,6 @@
-//! No rope crosses the edge of a fin, however fast and taut; tests at the end of each step alone let most through.
+//! No rope crosses the edge of a fin at any speed and tension; with tests only at the end of each step most would cross.
 //!
-//! It takes long because it is a sample of ten thousand; more of the same: `cargo bench -p endline-gear --bench tunnelling -- 100000`.
+//! It is slow because the sample has ten thousand encounters; a larger sample: `cargo bench -p endline-gear --bench tunnelling -- 100000`.
 
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
@@ -11,7 +11,7 @@ use crate::fins::bodies::{self, Pieces};
 use crate::fins::tally::Tally;
 
 const ENCOUNTERS: u64 = 10_000;
-/// Of these, so many are run with discrete tests too.
+/// Number of encounters that are also run with discrete tests.
 const DISCRETE: u64 = 200;
 /// Parts that run at a time.
 const PARTS: u64 = 2;
@@ -23,7 +23,7 @@ fn fast_taut_rope_crosses_no_edge() {
     println!("{swept:?}\nwith discrete tests: {discrete:?}");
     assert!(swept.met > ENCOUNTERS * 99 / 100, "rope is met by nearly all: {swept:?}");
     assert_eq!(swept.crossed, 0, "{swept:?}");
-    // A run in which rope is crushed to nothing ends and says so; that is rare.
+    // A run with a crushed rope ends with an error, which is rare.
     assert!(swept.ended <= ENCOUNTERS / 500, "{swept:?}");
     assert!(swept.unconverged < swept.solver_steps / 10, "{swept:?}");
     assert!(discrete.crossed > DISCRETE * 7 / 10, "what the sweep is for: {discrete:?}");
@@ -61,7 +61,7 @@ fn no_body_goes_through_skin() {
     assert!(discrete.crossed > DISCRETE / 10, "what the path is looked at for: {discrete:?}");
 }
 
-/// Meetings with each kind of body that has a curved side: flat-ended buoy, spheroid, high-flyer.
+/// Encounters with each kind of curved body: flat-ended buoy, spheroid, high-flyer.
 const OF_EACH: u64 = 200;
 
 #[test]
@@ -78,7 +78,7 @@ fn no_buoy_of_any_shape_goes_through_skin() {
     }
 }
 
-/// Encounters of these numbers, in parts of which one runs beside the other.
+/// Runs the encounters of these numbers in parallel parts.
 fn run(fins: &Fins, numbers: Range<u64>, swept: bool) -> Tally {
     let each = (numbers.end - numbers.start) / PARTS;
     std::thread::scope(|scope| {

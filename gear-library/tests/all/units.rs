@@ -1,4 +1,4 @@
-//! Values with units: what reads, what does not, and why.
+//! Values with units: valid and invalid texts.
 
 use endline_gear::units::{self, Quantity as Q, Unit};
 
@@ -73,19 +73,19 @@ const REFUSED: &[(&str, Q, &[&str])] = &[
         Q::Force,
         &["`lb` is a unit of a mass, not of a force", "did you mean `1700 lbf`?"],
     ),
-    ("1,5 m", Q::Length, &["`1,5` does not read as a number", "decimals with a point"]),
-    ("3/0 in", Q::Length, &["`3/0` does not read"]),
-    ("1 2 3 m", Q::Length, &["`1 2 3` does not read"]),
+    ("1,5 m", Q::Length, &["`1,5` is not a number", "decimals with a point"]),
+    ("3/0 in", Q::Length, &["`3/0` is not a number"]),
+    ("1 2 3 m", Q::Length, &["`1 2 3` is not a number"]),
     ("0.3 m", Q::Ratio, &["pure number"]),
-    ("1e999 m", Q::Length, &["does not read as a number"]),
+    ("1e999 m", Q::Length, &["is not a number"]),
 ];
 
 #[test]
 fn what_does_not_read_says_what_was_expected() {
     for (text, quantity, parts) in REFUSED {
-        let told = units::parse(text, *quantity).expect_err(text).to_string();
+        let reported = units::parse(text, *quantity).expect_err(text).to_string();
         for part in *parts {
-            assert!(told.contains(part), "{text}: `{told}` lacks `{part}`");
+            assert!(reported.contains(part), "{text}: `{reported}` lacks `{part}`");
         }
     }
 }
@@ -97,7 +97,7 @@ fn every_unit() -> impl Iterator<Item = (Q, &'static Unit)> {
 }
 
 #[test]
-fn every_unit_comes_back_as_it_went_out() {
+fn every_unit_survives_a_round_trip() {
     for (quantity, unit) in every_unit() {
         for number in [1.0, 0.375, -2.5, 1234.5678, 3e-7, 4.25e9] {
             let value = number * unit.factor();
@@ -113,7 +113,7 @@ fn every_unit_comes_back_as_it_went_out() {
     }
 }
 
-/// No name stands for two units of one quantity, and the SI unit of each is its first, of factor 1.
+/// Names of the units of a quantity are unique, and its first unit is SI with the factor 1.
 #[test]
 fn names_are_not_shared_within_a_quantity() {
     for quantity in Q::ALL {
@@ -143,7 +143,7 @@ fn rope_sizes_are_written_as_fractions() {
     }
 }
 
-/// The units plugins declare their attributes in.
+/// Units of attributes of plugins.
 #[test]
 fn plugin_units_are_known() {
     for (unit, quantity) in [

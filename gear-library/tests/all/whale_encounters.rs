@@ -1,5 +1,5 @@
 //! Rope against the edges of a thrashing whale's fins: the sweep must stop every crossing that the
-//! independent cubic audit finds, on the mesh, the bones and the postures the program runs with.
+//! independent cubic audit finds, with the mesh, the bones and the postures of the program.
 
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ fn posture(dice: &mut Dice) -> Posture {
     }
 }
 
-/// The posture reached when every angle has gone a share of the way to another posture.
+/// The posture interpolated between two postures.
 fn towards(from: &Posture, to: &Posture, share: f64) -> Posture {
     let go = |from: f64, to: f64| from + share * (to - from);
     let pair = |from: [f64; 2], to: [f64; 2]| [go(from[0], to[0]), go(from[1], to[1])];
@@ -128,7 +128,7 @@ fn edge_vertices(skin: &Skin) -> Vec<usize> {
     on_edges.flat_map(|(corners, _)| corners.map(|corner| corner as usize)).collect()
 }
 
-/// What was seen in all encounters.
+/// Counts of all encounters.
 #[derive(Default, Debug)]
 struct Seen {
     encounters: usize,
@@ -160,7 +160,7 @@ fn the_sweep_stops_every_crossing_the_audit_finds() {
     assert!(seen.stopped >= seen.crossings, "{seen:?}");
 }
 
-/// The move cut to its safe fraction meets no triangle, and any crossing lies beyond it.
+/// The motion limited to its safe fraction meets no triangle, and any crossing is beyond it.
 fn encounter(surface: &mut Surface, segment: &SweptSegment, found: &[Candidate], seen: &mut Seen) {
     let (mut safe, mut crossing) = (1.0_f64, f64::INFINITY);
     for candidate in found {

@@ -1,4 +1,4 @@
-//! Rope wound about the right whale at the start: turns, clearance, rope used, what is refused.
+//! Rope wrapped about the right whale at the start: turns, distance from the skin, used rope, problems.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -78,7 +78,7 @@ fn rope_lies_clear_of_the_skin_with_all_its_length() {
                 line.segments_m.len(),
                 1e3 * least
             );
-            // The ends set the bends but for whole turns: where a wrap begins is chosen so that they come to the nearest number.
+            // The ends determine the bends except for whole turns; the azimuth is chosen for the nearest number.
             assert!(
                 part != BodyPart::Peduncle || (bends - turns.abs()).abs() < 0.55,
                 "{turns}: its bends are {bends}"
@@ -92,7 +92,7 @@ fn rope_lies_clear_of_the_skin_with_all_its_length() {
     }
 }
 
-/// The first and last node of the wrap: its segments are short and all of a length.
+/// The first and last node of the wrap, by its short segments of equal length.
 fn wrap_of(spec: &ModelSpec) -> (usize, usize) {
     let segments = &spec.lines[0].segments_m;
     let same = |from: usize| {
@@ -105,13 +105,13 @@ fn wrap_of(spec: &ModelSpec) -> (usize, usize) {
     (from, from + same(from))
 }
 
-/// A wrap whose rope goes straight on at both ends for a metre and a half.
+/// A wrap with straight rope of 1.5 m at both ends.
 fn wrapped(part: BodyPart, turns: f64, segment_m: f64) -> ModelSpec {
     let wrap = format!(
         "[[line.wrap]]\npart = \"{}\"\nturns = {turns}\nazimuth = \"60 deg\"\nsegment = \"{segment_m} m\"\n",
         part.name()
     );
-    // Where its ends are led does not matter yet, but their ways must be free.
+    // The places of its ends do not matter, but their paths must be free.
     let north = if part == BodyPart::LeftFlipper { 2.0 } else { -3.0 };
     let far = [DVec3::new(-4.0, north, -12.0), DVec3::new(-4.0, north, -28.0)];
     let pairs =
@@ -159,7 +159,7 @@ fn measured(spec: ModelSpec, part: BodyPart, turn: DQuat, shift: DVec3) -> f64 {
     metrics.summary(&model, &state).whale.unwrap().regions[part as usize].wraps
 }
 
-/// How far a rope's direction turns in all, seen along the whale's or the flipper's axis: the sum of its bends [turns].
+/// Total turn of a rope's direction about the axis of the whale or the flipper: the sum of its bends [turns].
 fn turned(spec: &ModelSpec, part: BodyPart) -> f64 {
     let whale = spec.whale.as_ref().unwrap();
     let (mut bones, mut axis) = (Vec::new(), PosedAxis::default());
@@ -167,14 +167,14 @@ fn turned(spec: &ModelSpec, part: BodyPart) -> f64 {
     let rest = axes_of(&whale.skin)[part as usize].clone().unwrap();
     rest.pose(&bones, &mut axis);
     let nodes = &spec.lines[0].start_m;
-    let along = axis.see(nodes[nodes.len() / 2]).unwrap().along();
+    let along = axis.locate(nodes[nodes.len() / 2]).unwrap().along();
     let flat = |way: DVec3| (way - along * way.dot(along)).normalize();
     let ways: Vec<DVec3> = nodes.windows(2).map(|pair| flat(pair[1] - pair[0])).collect();
     let bend = |pair: &[DVec3]| pair[0].cross(pair[1]).dot(along).atan2(pair[0].dot(pair[1]));
     ways.windows(2).map(bend).sum::<f64>().abs() / std::f64::consts::TAU
 }
 
-/// The number laid, the sum of the rope's bends and the measure agree, on a round trunk and on a thin blade.
+/// The laid turns, the sum of the bends and the measured wraps agree, on a round trunk and on a thin blade.
 #[test]
 fn wraps_laid_by_construction_are_counted_on_the_right_whale() {
     let (turn, shift) = (
@@ -246,7 +246,7 @@ fn pretension_and_slack_are_in_the_rope() {
 }
 
 #[test]
-fn what_cannot_be_wound_is_told_with_its_place() {
+fn an_impossible_wrap_is_reported_with_its_place() {
     let ends = [DVec3::new(-6.0, 0.0, -26.0), DVec3::new(-6.0, 1.0, -14.0)];
     let good = "[[line.wrap]]\npart = \"peduncle\"\nturns = 2\n";
     let refused = |text: &str, line: &str, words: &str| {
@@ -265,7 +265,7 @@ fn what_cannot_be_wound_is_told_with_its_place() {
     };
     let with = |from: &str, to: &str| scenario(ends, 50.0, &good.replace(from, to));
     refused(&with("peduncle", "pedunkle"), "part =", "did you mean `peduncle`");
-    refused(&with("turns = 2", "turns = 0"), "turns =", "next to nothing");
+    refused(&with("turns = 2", "turns = 0"), "turns =", "almost zero");
     refused(&with("turns = 2", "turns = 2\nstation = 1.2"), "station =", "between 0 and 1");
     refused(
         &with("turns = 2", "turns = 2\nslack = 0.1\npretension = \"5 N\""),
@@ -274,11 +274,15 @@ fn what_cannot_be_wound_is_told_with_its_place() {
     );
     refused(&with("turns = 2", "turns = 2\nloops = 3"), "loops =", "unknown field `loops`");
     refused(&scenario(ends, 50.0, ""), "[[line]]", "`wrap` is missing");
-    refused(&scenario(ends, 12.0, good), "id = \"rope\"", "its way round the whale takes");
+    refused(&scenario(ends, 12.0, good), "id = \"rope\"", "its path needs");
     refused(
         &scenario(ends, 50.0, good).replace("start = \"placed\"\n", ""),
         "id = \"rope\"",
         "starts where it is laid",
     );
-    refused(&with("turns = 2", "turns = 20\npitch = \"2 m\""), "[[line.wrap]]", "to lie on");
+    refused(
+        &with("turns = 2", "turns = 20\npitch = \"2 m\""),
+        "[[line.wrap]]",
+        "there is no skin of the",
+    );
 }

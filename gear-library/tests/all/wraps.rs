@@ -1,4 +1,4 @@
-//! Wraps on the right whale's own mesh: a rope laid once round a part, wherever and however tilted, is one wrap.
+//! Wraps on the right whale's mesh: a rope laid once round a part, at any place and tilt, is one wrap.
 #![allow(clippy::panic, reason = "a test fails by panicking, in its helpers too")]
 
 use std::sync::Arc;
@@ -133,7 +133,7 @@ fn closed_loop(mut cuts: Vec<Cut>) -> Option<Vec<Cut>> {
     meets(at, start).then_some(ordered)
 }
 
-/// Wraps on a part of a rope that follows a loop of cuts once and ends where it began.
+/// Wraps on a part of a rope that follows a loop of cuts once and ends at its start.
 fn wraps(skin: &Skin, part: BodyPart, mut cuts: Vec<Cut>) -> f64 {
     cuts.extend(cuts.first().copied());
     let lengths: Vec<f64> = cuts.iter().map(|cut| cut.2[0].distance(cut.2[1]).max(1e-4)).collect();
@@ -175,8 +175,8 @@ fn reach(skin: &Skin, part: BodyPart, along: DVec3) -> [f64; 2] {
     })
 }
 
-/// Fins are cut across the whale, the trunk across its length. The head is left out: a plane through it
-/// cuts its mouth too, and no single loop.
+/// Fins are cut across the whale, the trunk across its length. The head is excluded: a plane through it
+/// cuts its mouth too, so that its cut is not a single loop.
 #[test]
 fn a_loop_round_any_part_of_the_right_whale_is_one_wrap() {
     let skin = build_skin(&WhaleForm::right_whale(13.0));

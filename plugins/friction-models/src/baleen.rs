@@ -1,8 +1,8 @@
 //! Baleen: a rope slides more easily along the plates than across them, and may wedge between them until it is pulled out.
 //!
-//! Symbols as in `bristle.rs`; `g` unit vector along the plates, `h = n x g` across them, `l` length of rope, `k` stick stiffness per
+//! Symbols as in `law.rs`; `g` unit vector along the plates, `h = n x g` across them, `l` length of rope, `k` stick stiffness per
 //! metre of rope, `mu` coefficient of the library (along the plates), `rho` across over along, `N` normal force, `w` wedged (1) or
-//! free (0) as the step began, `mu_w` what a wedge holds, `p` pull-out force per metre of rope.
+//! free (0) at the start of the step, `mu_w` effective coefficient of a wedge, `p` pull-out force per metre of rope.
 //!
 //! ```text
 //! free:    Q(t) = sqrt(((t . g)/mu)² + ((t . h)/(rho mu))²),   L = N/Q(t)
@@ -10,22 +10,22 @@
 //! wedged:  L = max(N/Q(t), min(mu_w N, p l))
 //! ```
 //!
-//! A rope that lies along the plates, presses on them harder than the wedging pressure and does not slip goes in between, and the next
-//! step finds it wedged. It holds, however little presses, by `mu_w`, up to the pull-out force; once it slips it is out, and slides free until it
-//! comes to rest again. Pulled any way, the bristle shortens along itself, so no energy comes out (`bristle.rs`).
+//! A rope along the plates that does not slip and exceeds the wedging pressure is wedged in the next step. A wedge holds by
+//! `mu_w` up to the pull-out force, independent of the pressure. After a slip the rope is free until it sticks again. The
+//! bristle shortens along its own direction, so the contact releases no energy (`law.rs`).
 //!
 //! Reference for the order of ropes: Cavatorta, Starczak, Prada and Moore, "Friction of different ropes in right whale baleen: An
-//! entanglement issue", J. Cetacean Res. Manage. (SC/57). For the plates' place and set: `docs/whale.md`.
+//! entanglement issue", J. Cetacean Res. Manage. (SC/57). Place and orientation of the plates: `docs/whale.md`.
 
 use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
 
-use crate::bristle::{Bristle, Limit};
-use crate::contact::{Contact, Vec3, dot, values};
-use crate::law::{self, Law, coefficient_scale, friction_model};
+use crate::law::{
+    self, Bristle, Contact, Law, Limit, Vec3, coefficient_scale, dot, friction_model, values,
+};
 
-/// Least cosine between a rope and the plates at which it can go in between: 45 degrees.
+/// Smallest cosine between rope and plates for wedging: 45 degrees.
 const LIES_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Greatest effective coefficient of a wedge over that of the library; the program takes more for no friction.
+/// Greatest effective coefficient of a wedge over that of the library, as the program accepts it.
 const MOST_WEDGE: f64 = 10.0;
 
 /// The baleen model.
@@ -58,7 +58,7 @@ fn descriptor() -> Descriptor {
             "N/m",
             [0.0, 1e6],
             500.0,
-            "Normal force by length of rope above which a rope that lies along the plates goes in between.",
+            "Normal force by length of rope above which a rope that lies along the plates enters between them.",
         ),
         Attribute::number(
             "wedge_coefficient",
@@ -90,7 +90,7 @@ struct Plates {
 }
 
 impl Law for Plates {
-    /// The bristle [m], world frame; 1 where the rope is wedged.
+    /// The bristle [m], world frame; and 1 for a wedged rope.
     const STATE_LEN: usize = 4;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {

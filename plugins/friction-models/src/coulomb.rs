@@ -1,8 +1,8 @@
-//! Coulomb friction that really sticks: an elastic-plastic bristle.
+//! Coulomb friction with true sticking: an elastic-plastic bristle.
 //!
 //! Symbols, for one contact: `n` unit normal, `P = I - n nᵀ`, `N` normal force, `mu` coefficient,
-//! `l` length of rope, `k` stick stiffness per metre of rope, `s` slip since the step began,
-//! `z` bristle (tangential stretch of the tissue under the rope) as the step began.
+//! `l` length of rope, `k` stick stiffness per metre of rope, `s` slip since the start of the step,
+//! `z` bristle (tangential stretch of the tissue under the rope) at the start of the step.
 //!
 //! ```text
 //! z* = P (z + s)                       trial bristle
@@ -11,9 +11,9 @@
 //! end of step:                         z = z* in stick, mu N / (k l) t in slip
 //! ```
 //!
-//! The force is continuous across the two branches, never exceeds `mu N`, and a rope held below
-//! that limit does not creep, which velocity-smoothed laws do. The stick stiffness stands for the
-//! shear compliance of skin and blubber; results are insensitive to it from 1e6 to 1e8 N/m².
+//! The force is continuous at the transition and at most `mu N`. A rope below this limit does not creep, unlike with
+//! velocity-smoothed laws. The stick stiffness represents the shear compliance of skin and blubber; results do not depend on
+//! it from 1e6 to 1e8 N/m².
 //!
 //! References: Dupont, Hayward, Armstrong and Altpeter, "Single state elastoplastic friction
 //! models", IEEE Trans. Automatic Control 47 (2002) 787-792; Winn et al., "Modeling whale
@@ -21,9 +21,7 @@
 
 use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
 
-use crate::bristle::{Bristle, Limit};
-use crate::contact::{Contact, values};
-use crate::law::{self, Law, coefficient_scale, friction_model};
+use crate::law::{self, Bristle, Contact, Law, Limit, coefficient_scale, friction_model, values};
 
 /// The Coulomb model.
 #[derive(Clone, Debug)]
@@ -40,7 +38,7 @@ fn descriptor() -> Descriptor {
         "N/m^2",
         [1e4, 1e10],
         1e7,
-        "How stiffly skin holds a sticking rope, per metre of rope; stands for the shear compliance of tissue.",
+        "How stiffly skin holds a sticking rope, per metre of rope; represents the shear compliance of tissue.",
     );
     law::descriptor(
         "org.endline.friction.coulomb",

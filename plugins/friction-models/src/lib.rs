@@ -1,15 +1,13 @@
-//! Endline's own friction models: how rope drags over skin, lips and baleen.
+//! The friction models of Endline for rope on skin, lips and baleen.
 //!
 //! | id | law |
 //! |---|---|
 //! | `org.endline.friction.coulomb` | [`Coulomb`]: sticks on a stiff bristle, slips at coefficient times normal force |
 //! | `org.endline.friction.stribeck` | [`Stribeck`]: wet skin; falls from static to kinetic with slip speed, then rises |
-//! | `org.endline.friction.tissue` | [`Tissue`]: skin goes with the rope over an elastic range, then the rope slips |
-//! | `org.endline.friction.baleen` | [`Baleen`]: along and across the plates; wedges between them until pulled out |
+//! | `org.endline.friction.tissue` | [`Tissue`]: skin follows the rope over an elastic range, then the rope slips |
+//! | `org.endline.friction.baleen` | [`Baleen`]: anisotropic along and across the plates, with wedging between them |
 
 pub mod baleen;
-mod bristle;
-mod contact;
 pub mod coulomb;
 mod law;
 pub mod stribeck;

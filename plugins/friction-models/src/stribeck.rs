@@ -1,20 +1,19 @@
-//! Stribeck friction: what a rope on wet, lubricated skin holds falls as a film of water forms, then rises with speed.
+//! Stribeck friction of rope on wet, lubricated skin: it decreases as a film of water forms, then rises with speed.
 //!
-//! Symbols as in `bristle.rs`; `mu` kinetic coefficient of the library, `rho` static over kinetic coefficient, `v` slip speed,
-//! `w` the slip speed that the film has followed, `v_s` Stribeck speed, `v_v` viscous speed, `tau` film time, `N` normal force.
+//! Symbols as in `law.rs`; `mu` kinetic coefficient of the library, `rho` static over kinetic coefficient, `v` slip speed,
+//! `w` slip speed of the film with its lag, `v_s` Stribeck speed, `v_v` viscous speed, `tau` film time, `N` normal force.
 //!
 //! ```text
 //! mu_film(w) = mu (1 + (rho - 1) exp(-(w/v_s)²))            Stribeck curve
-//! L          = (mu_film(w) + mu min(v/v_v, 1)) N            with the viscous part; at most as much again as the kinetic
+//! L          = (mu_film(w) + mu min(v/v_v, 1)) N            with the viscous part, at most equal to the kinetic
 //! dw/dt      = (v - w) / tau                                the film follows with a lag
 //! v          = (r - L/k) / dt                               slip beyond the stretch of the bristle
 //! ```
 //!
-//! The film is kept from step to step, so that within a step the force only rises with slip. A law that
-//! falls with the speed of the same step has several solutions, and a solver may find any of them. The
-//! lag is seen in measurements (Hess and Soom); steady slip has the plain Stribeck curve.
+//! The film is a state, so that within a step the force only rises with slip. A law that decreases with the speed of the same
+//! step would have several solutions. The lag is measured (Hess and Soom); steady slip has the plain Stribeck curve.
 //!
-//! In a bristle's own terms the viscous part is implicit: with `a = mu/(v_v dt)`,
+//! In terms of the bristle the viscous part is implicit: with `a = mu/(v_v dt)`,
 //! `L = (mu_film + a r) N / (1 + a N/k)`, `L_r = a N / (1 + a N/k)`, `L_N = (mu_film + a r) / (1 + a N/k)²`.
 //!
 //! References: Stribeck, Z. VDI 46 (1902) 1341-1348; Hess and Soom, "Friction at a lubricated line contact operating at oscillating
@@ -23,9 +22,7 @@
 
 use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
 
-use crate::bristle::{Bristle, Limit};
-use crate::contact::{Contact, values};
-use crate::law::{self, Law, coefficient_scale, friction_model};
+use crate::law::{self, Bristle, Contact, Law, Limit, coefficient_scale, friction_model, values};
 
 /// Greatest viscous part, as a share of the kinetic coefficient.
 const MOST_VISCOUS: f64 = 1.0;
@@ -92,7 +89,7 @@ struct Film {
 }
 
 impl Law for Film {
-    /// The bristle [m], world frame, and the slip speed that the film has followed [m/s].
+    /// The bristle [m], world frame, and the lagged slip speed of the film [m/s].
     const STATE_LEN: usize = 4;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {

@@ -1,9 +1,9 @@
-//! Tissue stick-slip: skin goes with the rope over an elastic range of draw, then the rope slips.
+//! Tissue stick-slip: skin follows the rope over an elastic range of draw, then the rope slips.
 //!
-//! Under a tangential load the edge of a flipper or fluke gives way reversibly, up to a limit, before the rope slips over the
-//! skin (Winn et al.: the tissue compliance limit). Symbols as in `bristle.rs`; `l` length of rope, `k` shear stiffness of tissue per
+//! Under a tangential load the edge of a flipper or fluke deforms elastically up to a limit before the rope slips over the
+//! skin (Winn et al.: the tissue compliance limit). Symbols as in `law.rs`; `l` length of rope, `k` shear stiffness of tissue per
 //! metre of rope, `D` elastic range of draw, `q` times stiffer beyond it (taut collagen), `mu` kinetic coefficient of the library,
-//! `rho` static over kinetic coefficient, `h` held (0) or slipping (1) as the step began.
+//! `rho` static over kinetic coefficient, `h` held (0) or slipping (1) at the start of the step.
 //!
 //! ```text
 //! F(r) = k l r            r <= D          L = rho mu N where held, mu N where slipping
@@ -12,20 +12,21 @@
 //! end of step: z = z* and h = 0 in stick, F⁻¹(L) t and h = 1 in slip
 //! ```
 //!
-//! The force drops from static to kinetic with the step after the slip began: within a step it changes without a jump. The draw is
-//! kept by its parts along and across the skin's grain, for it lasts, and turns with the whale. `F` grows with `r`, so its energy is
-//! convex, and none comes out: with `z = c z*`, `f . (z* - z0) + E(z) - E(z0) <= -F(|z|) t . (z* - z) <= 0`.
+//! The force decreases from static to kinetic in the step after the start of the slip: within a step it is continuous. The draw
+//! is stored by its components along and across the direction of the skin, because it persists and rotates with the whale. `F`
+//! grows with `r`, so its energy is convex and the contact releases none: with `z = c z*`, `f . (z* - z0) + E(z) - E(z0) <= -F(|z|) t . (z* - z) <= 0`.
 //!
 //! Reference: Winn, Woodward, Moore, Peterson and Riley, "Modeling whale entanglement injuries: An experimental study of tissue
 //! compliance, line tension, and draw-length", Marine Mammal Science 24 (2008) 326-340.
 
 use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
 
-use crate::bristle::{Bristle, Limit, matrix, projector};
-use crate::contact::{Contact, Vec3, across, dot, values};
-use crate::law::{self, Law, coefficient_scale, friction_model};
+use crate::law::{
+    self, Bristle, Contact, Law, Limit, Vec3, across, coefficient_scale, dot, friction_model,
+    matrix, projector, values,
+};
 
-/// The model of tissue that gives way.
+/// The model of elastic tissue.
 #[derive(Clone, Debug)]
 pub struct Tissue {
     descriptor: Descriptor,
@@ -35,7 +36,7 @@ friction_model!(Tissue, Drawn);
 
 fn descriptor() -> Descriptor {
     let help =
-        "Skin goes with the rope over an elastic range, then the rope breaks loose and slips.";
+        "Skin moves with the rope over an elastic range, then the rope breaks loose and slips.";
     let own = vec![
         Attribute::number(
             "stiffness",
@@ -49,7 +50,7 @@ fn descriptor() -> Descriptor {
             "m",
             [1e-4, 0.5],
             0.05,
-            "Elastic range: how far skin goes with the rope before it is taut.",
+            "Elastic range: distance that skin moves with the rope before it is taut.",
         ),
         Attribute::number(
             "taut_ratio",
@@ -80,7 +81,7 @@ struct Drawn {
 }
 
 impl Law for Drawn {
-    /// Draw along the grain and across it [m]; 1 where the rope slips.
+    /// Draw along and across the direction of the skin [m]; and 1 for a slipping rope.
     const STATE_LEN: usize = 3;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {

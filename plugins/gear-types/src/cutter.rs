@@ -1,11 +1,11 @@
-//! The time-tension cutter: a device in each endline that parts it when the tension there has stayed above `T0` for `t0`.
+//! The time-tension cutter: a device in each endline that cuts it after the tension has exceeded `T0` for a time `t0`.
 //!
 //! ```text
 //! t(k+1) = t(k) + dt  where T >= T0, else 0        cut when t >= t0
 //! ```
 //!
-//! Hauling is quick and jerks are short; a whale pulls on. The device sits at the endline's foot (the whole line goes with
-//! the whale, but no trap), at the splice, or at the buoy. Floats: for each endline the time `t` [s] and whether it was cut.
+//! Hauling and jerks are short, but a whale pulls for a long time. The device is at the endline's foot (the whale takes the whole
+//! line without a trap), at the splice or at the buoy. Floats: for each endline the time `t` [s] and whether it was cut.
 
 use endline_sdk::{
     Attribute, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig,
@@ -69,7 +69,7 @@ impl GearType for TimeTensionCutter {
     }
 }
 
-/// Where the device sits in its endline.
+/// Place of the device in its endline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Seat {
     Foot,
@@ -132,14 +132,14 @@ impl Cutter {
         }
     }
 
-    /// Lets the time run over one step; whether the device cuts now.
+    /// Advances the time by one step; returns whether the device cuts now.
     fn parts(&self, tension_n: f64, dt_s: f64, floats: &mut [f64]) -> bool {
         let [above_s, done] = floats else { return false };
         if *done > 0.0 {
             return false;
         }
         *above_s = if tension_n >= self.tension_n { *above_s + dt_s } else { 0.0 };
-        // Half a step is left for what sums of steps lose to rounding.
+        // Tolerance of half a step for rounding of the sum of steps.
         let parts = *above_s > 0.0 && *above_s >= self.hold_s - 0.5 * dt_s;
         *done = f64::from(u8::from(parts));
         parts

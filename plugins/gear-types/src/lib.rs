@@ -1,4 +1,4 @@
-//! Endline's own gear types: kinds of gear that build themselves from a few attributes.
+//! The gear types of Endline, which build gear from a few attributes.
 //!
 //! | id | gear |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `org.endline.gear.on-demand` | [`OnDemand`]: an endline stowed at the trap until an acoustic release opens |
 //! | `org.endline.gear.time-tension-cutter` | [`TimeTensionCutter`]: traps with a cutter in each endline |
 //!
-//! What they share is in [`lay`].
+//! Common parts are in [`lay`].
 
 pub mod cutter;
 pub mod gillnet;

@@ -1,6 +1,6 @@
-//! On-demand gear: no rope stands in the water until the gear is called.
+//! On-demand gear: no rope is in the water column until the gear is released.
 //!
-//! The endline lies stowed at the trap, and an acoustic release holds its buoy down. At the commanded
+//! The endline is stowed at the trap, and an acoustic release holds its buoy down. At the commanded
 //! time the release opens, and the buoy rises and pays the rope out.
 //!
 //! ```text
@@ -10,10 +10,9 @@
 //!   ====  trap  ====                         trap
 //! ```
 //!
-//! The stowage (bag, spool or cage) is modelled by what it does. The endline lies beside the trap in
-//! flakes, and a tie holds it to the trap where one flake meets the next. Release and ties open
-//! together, once, at the commanded time. Rope in flakes lies on the seabed, so it is sinking rope;
-//! floating rope would stand above the trap in bights.
+//! The stowage (bag, spool or cage) is modelled by its effect. The endline lies beside the trap in flakes, with a tie to the
+//! trap between adjacent flakes. Release and ties open together, once, at the commanded time. The rope is sinking rope;
+//! floating rope would form bights above the trap.
 //!
 //! Floats: one for each endline, 1 once it has been released.
 
@@ -24,14 +23,14 @@ use endline_sdk::{
 
 use crate::lay::{FAR, Foot, Ground, Lay, Values, depth_of};
 
-/// Most endlines: one at each end.
+/// Greatest number of endlines: one at each end.
 const MOST_ENDLINES: usize = 2;
-/// Where the flakes meet, from the foot of the trap: along and to either side of the gear, and up [m].
+/// Ends of the flakes relative to the foot of the trap: along the gear, to each side, and up [m].
 const TIED_AT_M: [f64; 3] = [0.6, 0.4, 0.1];
-/// Height of the buoy's middle above the end of its hold line at first [m].
+/// Initial height of the buoy's middle above the end of its hold line [m].
 const BUOY_UP_M: f64 = 0.5;
 
-/// The gear type of traps whose endline lies stowed until it is called.
+/// The gear type of traps with a stowed endline.
 #[derive(Clone, Debug)]
 pub struct OnDemand {
     descriptor: Descriptor,
@@ -88,7 +87,7 @@ impl GearType for OnDemand {
     }
 }
 
-/// A stowed endline. Its links are the release and a tie between each two flakes: as many as there are flakes.
+/// A stowed endline. Its links are the release and a tie between adjacent flakes: as many as flakes.
 struct Stow<'a> {
     endlines: usize,
     buoy: &'a str,
@@ -120,7 +119,7 @@ impl<'a> Stow<'a> {
         })
     }
 
-    /// Puts the endline beside the body at a foot; `prefix` goes before its ids.
+    /// Adds the endline beside the body at a foot; `prefix` is put before its ids.
     fn lay(&self, into: &mut Lay, foot: &Foot, site: &Site, prefix: &str) -> Result<(), HookError> {
         let flake_m = self.scope * depth_of(site)? / f64::from(self.flakes);
         let at = |x: f64, y: f64, z: f64| {
@@ -135,7 +134,7 @@ impl<'a> Stow<'a> {
         self.hold(into, &format!("{prefix}release"), [foot.body.clone(), buoy.clone()]);
         let mut from = foot.body.clone();
         for flake in 1..=self.flakes {
-            // Flakes lie to either side in turn; each goes out and comes back.
+            // Flakes lie alternately on both sides; each leads out and back.
             let side = if flake.is_multiple_of(2) { 1.0 } else { -1.0 };
             let [x, y, z] = TIED_AT_M;
             let (start, turn, end) =
@@ -206,7 +205,7 @@ fn stowed_attributes() -> Vec<Attribute> {
     ]
 }
 
-/// The acoustic release and the times at which it is called.
+/// The acoustic release and its times.
 fn release_attributes() -> Vec<Attribute> {
     vec![
         Attribute::item(

@@ -1,10 +1,10 @@
-//! The trawl: traps on gangions along a groundline, an endline at one end or at both, anchors where wanted.
+//! The trawl: traps on gangions along a groundline, an endline at one end or at both, optional anchors.
 
 use endline_sdk::{Attribute, AttributeValue, Descriptor, GearType, HookError, Rig, Site};
 
 use crate::lay::{Endline, FAR, Ground, Lay, Values};
 
-/// Most traps that fish with one endline (NOAA Decision Support Tool, `EndlinesPerTrawlModel`: two from 6 traps up).
+/// Greatest number of traps with one endline (NOAA Decision Support Tool, `EndlinesPerTrawlModel`: two from 6 traps up).
 const MOST_ON_ONE_ENDLINE: u32 = 5;
 
 /// The gear type of traps along a groundline.
@@ -38,18 +38,18 @@ impl GearType for Trawl {
     }
 }
 
-/// A set of traps with its endlines; what a trawl is, and what a cutter is put into.
+/// A set of traps with its endlines: a trawl, also with cutters.
 pub(crate) struct Set<'a> {
-    /// What lies on the seabed.
+    /// Gear on the seabed.
     pub ground: Ground<'a>,
     /// Each of the endlines.
     pub endline: Endline<'a>,
-    /// How many endlines: one or two.
+    /// Number of endlines: one or two.
     pub endlines: usize,
 }
 
 impl<'a> Set<'a> {
-    /// The attributes of a set of so many traps with gangions of a usual length [m].
+    /// The attributes of a set, with defaults of the number of traps and the length of gangions [m].
     pub fn attributes(traps: u32, gangion_m: f64, buoy: &'static str) -> Vec<Attribute> {
         let mut attributes = Ground::attributes(traps, gangion_m);
         attributes.push(endlines_attribute());
@@ -57,7 +57,7 @@ impl<'a> Set<'a> {
         attributes
     }
 
-    /// The set that the values ask for.
+    /// The set of the attribute values.
     ///
     /// # Errors
     /// With a message that names the attribute to fix.
@@ -79,19 +79,19 @@ impl<'a> Set<'a> {
         Ok(rig.rig)
     }
 
-    /// Index of the first line of an endline: what lies on the seabed is built before.
+    /// Index of the first line of an endline, after the lines on the seabed.
     pub fn first_line(&self, endline: usize) -> usize {
         self.ground.line_count() + endline * self.endline.line_count()
     }
 }
 
-/// The attribute that says how many endlines there are.
+/// The attribute of the number of endlines.
 pub(crate) fn endlines_attribute() -> Attribute {
     let help = "Number of endlines; 0 for the usual number: one up to 5 traps and two from 6.";
     Attribute::count("endlines", [0, 2], 0, help)
 }
 
-/// How many endlines the values ask for.
+/// The number of endlines of the attribute values.
 pub(crate) fn endlines(values: &Values<'_>, ground: &Ground<'_>) -> Result<usize, HookError> {
     Ok(match values.count("endlines")? {
         0 => 1 + usize::from(ground.traps() > MOST_ON_ONE_ENDLINE),

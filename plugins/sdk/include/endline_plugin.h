@@ -38,7 +38,7 @@
 // Status: could not be done; the message says why.
 #define ENDLINE_STATUS_ERROR 1
 
-// Status: the plugin failed inside (in Rust, panicked); the message says what is known.
+// Status: the plugin failed inside (in Rust, panicked); the message has the known details.
 #define ENDLINE_STATUS_CRASH 2
 
 // Kind of attribute: a number in its SI unit.
@@ -50,7 +50,7 @@
 // Kind of attribute: a whole number.
 #define ENDLINE_ATTRIBUTE_COUNT 2
 
-// Kind of attribute: one of a few words.
+// Kind of attribute: one of several words.
 #define ENDLINE_ATTRIBUTE_CHOICE 3
 
 // Kind of body: trap.
@@ -74,7 +74,7 @@
 // End B of a line, its `to` end.
 #define ENDLINE_END_B 1
 
-// A labelled patch of skin: where a contact is, as fine as friction needs.
+// A labelled patch of skin: where a contact is, at the resolution of friction.
 enum endline_region
 #if __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -154,11 +154,11 @@ typedef enum endline_body_part endline_body_part;
 typedef uint32_t endline_body_part;
 #endif // __STDC_VERSION__ >= 202311L
 
-// Text: UTF-8, `length` bytes, no NUL needed; null stands for empty.
+// Text: UTF-8, `length` bytes, not NUL-terminated; null means empty.
 typedef struct {
   // First byte.
   const char *text;
-  // How many bytes.
+  // Number of bytes.
   size_t length;
 } endline_text_t;
 
@@ -172,7 +172,7 @@ typedef struct {
   size_t length;
 } endline_message_t;
 
-// What a plugin library exports under the name `endline_plugin_entry`.
+// The entry that a plugin library exports as `endline_plugin_entry`.
 typedef struct {
   // `ENDLINE_ABI_MAJOR` it was built for.
   uint32_t abi_major;
@@ -202,15 +202,15 @@ typedef struct {
   double least;
   // Number, count: greatest allowed value.
   double greatest;
-  // Number, count: value where a file names none.
+  // Number, count: default value.
   double default_number;
   // Item: folder of the library, such as `ropes`. Choice: the words, with `|` between.
   endline_text_t library;
-  // Item: id where a file names none; empty for no item. Choice: the word.
+  // Item: default id; empty for no item. Choice: default word.
   endline_text_t default_item;
 } endline_attribute_t;
 
-// Something a whale motion does of itself when asked.
+// An action of a whale motion on request.
 typedef struct {
   // Id in files, such as `roll-away`.
   endline_text_t id;
@@ -220,7 +220,7 @@ typedef struct {
   endline_text_t help;
 } endline_act_t;
 
-// One plugin: who it is, what it takes, and its functions; lives as long as the library.
+// A plugin: identity, attributes and functions; lives as long as the library.
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
@@ -234,19 +234,19 @@ typedef struct {
   endline_text_t name;
   // One sentence of help.
   endline_text_t help;
-  // Declared attributes, in the order in which values are handed over.
+  // Declared attributes, in the order of their values.
   const endline_attribute_t *attributes;
-  // How many attributes.
+  // Number of attributes.
   size_t attribute_count;
-  // Floats of state the engine keeps: in all for a motion or gear type, for each contact for a friction model.
+  // Floats of state, stored by the engine: in total for a motion or gear type, for each contact for a friction model.
   size_t state_len;
-  // Handed back as the first argument of every function of the table; the plugin's own, may be null.
+  // First argument of every function of the table; owned by the plugin, may be null.
   const void *context;
   // `endline_motion_t`, `endline_friction_t` or `endline_gear_t`, as `kind` says.
   const void *table;
   // Acts of a whale motion, in the order of the control `act`; may be null for none.
   const endline_act_t *acts;
-  // How many acts.
+  // Number of acts.
   size_t act_count;
 } endline_plugin_t;
 
@@ -254,17 +254,17 @@ typedef struct {
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
-  // How many plugins there are.
+  // Number of plugins.
   uint32_t plugin_count;
   // A pointer to each.
   const endline_plugin_t *const *plugins;
-  // What the library says of itself: who made it, where its laws and figures come from. Since 3.1; may be null.
+  // Author of the library, and sources of its laws and figures. Since 3.1; may be null.
   endline_text_t about;
 } endline_factory_t;
 
 // The pilot's controls: one vocabulary for pad, keyboard, recording and pilot program.
 typedef struct {
-  // Swim speed wanted, 0 (glide) to 1 (cruise).
+  // Swim speed, 0 (glide) to 1 (cruise).
   double speed;
   // Pitch, -1 (nose down) to 1 (nose up).
   double pitch;
@@ -272,7 +272,7 @@ typedef struct {
   double roll;
   // Yaw, -1 (to starboard) to 1 (to port).
   double yaw;
-  // Burst, 0 or 1: the greatest speed it can swim.
+  // Burst, 0 or 1: the greatest swimming speed.
   double burst;
   // Mouth, 0 (closed) to 1 (open).
   double mouth;
@@ -282,11 +282,11 @@ typedef struct {
   double flipper_twist;
   // Flippers swept forward (1) or aft (-1).
   double flipper_sweep;
-  // Act asked for: 0 none, n the n-th that the motion declares; a whole number.
+  // Requested act: 0 none, n the n-th that the motion declares; a whole number.
   double act;
 } endline_controls_t;
 
-// What a motion may look at.
+// Input of a motion.
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
@@ -306,16 +306,16 @@ typedef struct {
   endline_controls_t controls;
   // Normal contact force on each body part in the last step [N].
   const double *contact_force_n;
-  // How many body parts.
+  // Number of body parts.
   size_t body_part_count;
-  // Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
+  // Mean place of those forces on each part: distance to port from the midplane on the body at rest [m].
   const double *contact_port_m;
 } endline_motion_input_t;
 
 // Joint angles of a whale [rad]; all zero is the rest posture.
 //
-// The stretch of body at mid-length keeps to the whale's frame: joints ahead of it move the head,
-// joints aft of it the tail. Signs are as each field's words say.
+// The section at mid-body is fixed to the whale's frame: joints ahead of it move the head,
+// joints aft of it the tail. The documentation of each field states its sign.
 //
 // Index 0 of a pair is the left (port) side, 1 the right.
 typedef struct {
@@ -343,7 +343,7 @@ typedef struct {
   double lips[2];
 } endline_posture_t;
 
-// What a motion decides.
+// Output of a motion.
 typedef struct {
   // Speed through the water at the end of the step [m/s].
   double speed_m_s;
@@ -372,7 +372,7 @@ typedef struct {
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
-  // How many contacts.
+  // Number of contacts.
   size_t count;
   // Length of the step [s].
   double dt_s;
@@ -382,25 +382,25 @@ typedef struct {
   const double (*normal)[3];
   // Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
   const double (*grain)[3];
-  // Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
+  // Unit vector along the rope; for a contact of a trap, buoy or anchor: the normal.
   const double (*along)[3];
-  // Tangential displacement of rope against skin since the step began [m].
+  // Tangential displacement of rope against skin since the start of the step [m].
   const double (*slip_m)[3];
-  // Length of rope each contact stands for [m].
+  // Length of rope of each contact [m].
   const double *length_m;
   // Coefficient of friction.
   const double *coefficient;
   // Number of the skin region.
   const uint32_t *region;
-  // Index of the rope material; where a trap, buoy or anchor touches, 4294967295.
+  // Index of the rope material; for a contact of a trap, buoy or anchor: 4294967295.
   const uint32_t *rope;
-  // Floats as the step began, `state_len` for each contact.
+  // Floats at the start of the step, `state_len` for each contact.
   const double *state;
   // Floats for each contact.
   size_t state_len;
 } endline_contacts_t;
 
-// What a friction model answers for one contact.
+// Response of a friction model for one contact.
 typedef struct {
   // Force of skin on rope, in the plane across the normal [N].
   double force_n[3];
@@ -414,7 +414,7 @@ typedef struct {
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
-  // `[any-thread]` Forces and derivatives: writes `contacts.count` answers. Called many times a step.
+  // `[any-thread]` Forces and derivatives: writes `contacts.count` answers. Called many times per step.
   int32_t (*respond)(const void *context,
                      const double *attributes,
                      size_t attribute_count,
@@ -434,13 +434,13 @@ typedef struct {
 typedef struct {
   // Kind of the attribute, as declared.
   uint32_t kind;
-  // The number or count, where it is one.
+  // The number or count.
   double number;
-  // The item's id or the word, where it is one.
+  // The id of the item, or the word.
   endline_text_t item;
 } endline_value_t;
 
-// The place a rig is built for.
+// The site of a rig.
 typedef struct {
   // Water depth [m].
   double depth_m;
@@ -456,7 +456,7 @@ typedef struct {
   uint32_t kind;
   // Id of the library item.
   endline_text_t item;
-  // First guess of its place [m].
+  // Initial place [m].
   double position_m[3];
 } endline_body_t;
 
@@ -464,11 +464,11 @@ typedef struct {
 typedef struct {
   // Id within the rig.
   endline_text_t id;
-  // First guess of its place [m].
+  // Initial place [m].
   double position_m[3];
 } endline_joint_t;
 
-// Where a line ends.
+// An end of a line.
 typedef struct {
   // `ENDLINE_AT_BODY` or `ENDLINE_AT_JOINT`.
   uint32_t at;
@@ -496,7 +496,7 @@ typedef struct {
   endline_text_t id;
   // Id of the weak link in the library.
   endline_text_t item;
-  // Id of the line it sits in.
+  // Id of its line.
   endline_text_t line;
   // `ENDLINE_END_A` or `ENDLINE_END_B`.
   uint32_t end;
@@ -506,7 +506,7 @@ typedef struct {
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
-  // To be handed to each function.
+  // First argument of each function.
   void *host;
   // Adds a trap, buoy or anchor.
   int32_t (*add_body)(void *host, const endline_body_t *body);
@@ -516,11 +516,11 @@ typedef struct {
   int32_t (*add_line)(void *host, const endline_line_t *line);
   // Adds a weak link.
   int32_t (*add_link)(void *host, const endline_link_t *link);
-  // Gives a line added before the way it lies at first, `count` places from end A to end B [m].
+  // Sets the initial path of a line added before, `count` places from end A to end B [m].
   int32_t (*lay_line)(void *host, endline_text_t line, const double (*places_m)[3], size_t count);
 } endline_rig_host_t;
 
-// What a gear type may look at once a step.
+// Input of a gear type, once per step.
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
@@ -528,7 +528,7 @@ typedef struct {
   double time_s;
   // Length of the step [s].
   double dt_s;
-  // How many lines its rig has.
+  // Number of lines of its rig.
   size_t line_count;
   // Tension of each line, in the order built, at end A then end B [N].
   const double (*end_tension_n)[2];
@@ -538,7 +538,7 @@ typedef struct {
 typedef struct {
   // Size of this struct in bytes.
   uint32_t struct_size;
-  // To be handed to each function.
+  // First argument of each function.
   void *host;
   // Cuts a line at `ENDLINE_END_A` or `ENDLINE_END_B`.
   int32_t (*cut_line)(void *host, uint32_t line, uint32_t end);
@@ -570,7 +570,7 @@ typedef struct {
 
 #endif  /* ENDLINE_PLUGIN_H */
 
-/* Define this in the plugin: it is what the program looks for. */
+/* Define this in the plugin: the program loads this symbol. */
 #ifdef __cplusplus
 extern "C"
 #endif

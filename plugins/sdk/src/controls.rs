@@ -3,16 +3,16 @@
 use crate::motion::Controls;
 
 impl Controls {
-    /// How many controls there are.
+    /// Number of controls.
     pub const COUNT: usize = 10;
 
-    /// Place of [`act`](Self::act) in the list; it is a choice, the others are amounts.
+    /// Index of [`act`](Self::act) in the list; it is a choice, the others are amounts.
     pub const ACT: usize = 9;
 
     /// The greatest number of an act; no motion declares more.
     pub const MOST_ACTS: usize = 1000;
 
-    /// Their names in files, in the order in which they are listed and recorded.
+    /// Their names in files, in the order of lists and recordings.
     pub const NAMES: [&'static str; Self::COUNT] = [
         "speed",
         "pitch",

@@ -16,38 +16,38 @@ pub struct Contacts<'a> {
     /// Unit vector fixed to the skin, across the normal: athwart the whale at rest, and so on the racks of baleen along
     /// the plates. A bristle kept by its parts along this and along `normal x grain` turns with the whale.
     pub grain: &'a [[f64; 3]],
-    /// Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
+    /// Unit vector along the rope; for a contact of a trap, buoy or anchor: the normal.
     pub along: &'a [[f64; 3]],
-    /// Tangential displacement of rope against skin since the step began [m].
+    /// Tangential displacement of rope against skin since the start of the step [m].
     pub slip_m: &'a [[f64; 3]],
-    /// Length of rope this contact stands for [m].
+    /// Length of rope of the contact [m].
     pub length_m: &'a [f64],
     /// Coefficient of friction of this rope on this region, from the gear library.
     pub coefficient: &'a [f64],
     /// Number of the skin [`Region`](crate::Region).
     pub region: &'a [u32],
-    /// Index of the rope material in the model; where a trap, buoy or anchor touches, `u32::MAX`.
+    /// Index of the rope material in the model; for a contact of a trap, buoy or anchor: `u32::MAX`.
     pub rope: &'a [u32],
-    /// The model's floats as they stood when the step began, `state_len` for each contact;
-    /// all zero where a contact is new.
+    /// Floats of the model at the start of the step, `state_len` for each contact;
+    /// zero for a new contact.
     pub state: &'a [f64],
 }
 
 impl Contacts<'_> {
-    /// How many contacts there are.
+    /// Number of contacts.
     #[must_use]
     pub fn len(&self) -> usize {
         self.normal_force_n.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no contacts.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.normal_force_n.is_empty()
     }
 }
 
-/// What a friction model answers for one contact.
+/// Response of a friction model for one contact.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrictionResponse {
@@ -62,7 +62,7 @@ pub struct FrictionResponse {
 /// A law of friction, a pure function within a step: the solver may call
 /// [`respond`](Self::respond) many times; floats advance only in [`advance`](Self::advance).
 pub trait FrictionModel: Send + Sync {
-    /// Who it is and what it takes.
+    /// Identity and attributes.
     fn descriptor(&self) -> &Descriptor;
 
     /// Forces and derivatives for all contacts of one solver pass.

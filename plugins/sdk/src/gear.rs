@@ -2,7 +2,7 @@
 
 use crate::hook::{AttributeValue, Descriptor, HookError};
 
-/// What kind of body a rig part is; it names the library folder its item comes from.
+/// Kind of a body of a rig, with the library folder of its item.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BodyKind {
@@ -23,7 +23,7 @@ pub struct RigBody {
     pub kind: BodyKind,
     /// Id of the library item.
     pub item: String,
-    /// First guess of its place [m]; statics finds the real one.
+    /// Initial place [m]; statics computes the final one.
     pub position_m: [f64; 3],
 }
 
@@ -32,21 +32,21 @@ pub struct RigBody {
 pub struct RigJoint {
     /// Id within the rig.
     pub id: String,
-    /// First guess of its place [m].
+    /// Initial place [m].
     pub position_m: [f64; 3],
 }
 
-/// Where a line ends: the id of a body or joint of the same rig.
+/// An end of a line: the id of a body or joint of the same rig.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RigEnd {
-    /// At a body, with a colon and a point's name where it is not the usual one: `trap-1:bridle-port`.
+    /// At a body, with a colon and the name of a point other than the default: `trap-1:bridle-port`.
     /// `docs/gear-format.md` names the points of each kind.
     Body(String),
     /// At a joint.
     Joint(String),
 }
 
-/// Which end of a line.
+/// An end of a line.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LineEnd {
@@ -69,7 +69,7 @@ pub struct RigLine {
     pub to: RigEnd,
     /// Unstretched length [m].
     pub length_m: f64,
-    /// First guess of the way it lies, from end A to end B, such as the flakes of a stowed rope [m]; empty for straight.
+    /// Initial path from end A to end B, such as the flakes of a stowed rope [m]; empty for straight.
     pub laid_m: Vec<[f64; 3]>,
 }
 
@@ -80,13 +80,13 @@ pub struct RigLink {
     pub id: String,
     /// Id of the weak link in the library.
     pub item: String,
-    /// Id of the line it sits in.
+    /// Id of its line.
     pub line: String,
     /// At which end.
     pub end: LineEnd,
 }
 
-/// Parts and connections: what a gear type builds and an assembly file spells out.
+/// Parts and connections that a gear type or an assembly file defines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rig {
     /// Traps, buoys, anchors.
@@ -99,7 +99,7 @@ pub struct Rig {
     pub links: Vec<RigLink>,
 }
 
-/// The place a rig is built for.
+/// The site of a rig.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
@@ -109,7 +109,7 @@ pub struct Site {
     pub current_m_s: [f64; 2],
 }
 
-/// What a gear type may look at once a step.
+/// Input of a gear type, once per step.
 #[derive(Clone, Copy, Debug)]
 pub struct GearStep<'a> {
     /// Simulated time [s].
@@ -120,7 +120,7 @@ pub struct GearStep<'a> {
     pub end_tension_n: &'a [[f64; 2]],
 }
 
-/// What a gear type may do once a step; indices are in the order built.
+/// Actions of a gear type, once per step; indices are in the order built.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GearAction {
@@ -138,9 +138,9 @@ pub enum GearAction {
     },
 }
 
-/// A kind of gear: builds a rig from attributes, then may act once a step.
+/// A kind of gear: builds a rig from attributes, then may act once per step.
 pub trait GearType: Send + Sync {
-    /// Who it is and what it takes.
+    /// Identity and attributes.
     fn descriptor(&self) -> &Descriptor;
 
     /// Parts and connections from attributes in the declared order.

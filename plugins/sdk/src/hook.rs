@@ -1,9 +1,9 @@
-//! What every plugin says of itself: id, version, attributes, floats of state.
+//! The descriptor of a plugin: id, version, attributes, floats of state.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// Who a plugin is and what it takes.
+/// Identity and attributes of a plugin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descriptor {
     /// Reverse-domain id, such as `org.endline.friction.coulomb`.
@@ -14,9 +14,9 @@ pub struct Descriptor {
     pub name: Cow<'static, str>,
     /// One sentence of help.
     pub help: Cow<'static, str>,
-    /// Declared attributes, in the order in which values are handed over.
+    /// Declared attributes, in the order of their values.
     pub attributes: Vec<Attribute>,
-    /// Floats of state the engine keeps for it: in all for a motion and a gear
+    /// Floats of state, stored by the engine: in total for a motion and a gear
     /// type, for each contact for a friction model.
     pub state_len: usize,
     /// Acts a pilot may ask of a whale motion, in the order of [`Controls::act`](crate::Controls::act);
@@ -53,7 +53,7 @@ impl Descriptor {
     }
 }
 
-/// Something a whale motion does of itself when asked, such as rolling away.
+/// An action of a whale motion on request, such as rolling away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Act {
     /// Id in files, such as `roll-away`.
@@ -73,11 +73,11 @@ pub struct Attribute {
     pub unit: Cow<'static, str>,
     /// Help shown beside the field.
     pub help: Cow<'static, str>,
-    /// What values it takes.
+    /// Its kind of values.
     pub kind: AttributeKind,
 }
 
-/// The values an attribute takes.
+/// The kinds of attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AttributeKind {
     /// A number in the attribute's SI unit.
@@ -86,7 +86,7 @@ pub enum AttributeKind {
         min: f64,
         /// Greatest allowed value.
         max: f64,
-        /// Value taken where the file names none.
+        /// Default value.
         default: f64,
     },
     /// A whole number.
@@ -95,29 +95,29 @@ pub enum AttributeKind {
         min: u32,
         /// Greatest allowed value.
         max: u32,
-        /// Value taken where the file names none.
+        /// Default value.
         default: u32,
     },
-    /// One of a few words.
+    /// One of several words.
     Choice {
-        /// The words; none is empty or holds a `|`.
+        /// The words; none is empty or contains a `|`.
         words: Vec<Cow<'static, str>>,
-        /// The word taken where the file names none.
+        /// Default word.
         default: Cow<'static, str>,
     },
     /// The id of an item of the gear library.
     Item {
         /// Folder of the library: `ropes`, `traps`, `buoys`, `weak-links`, `anchors`.
         library: Cow<'static, str>,
-        /// Item taken where the file names none; empty for no item.
+        /// Default item; empty for no item.
         default: Cow<'static, str>,
     },
 }
 
-/// A value handed to a plugin, matching its [`AttributeKind`].
+/// A value of an attribute, of its [`AttributeKind`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AttributeValue {
-    /// Number in the attribute's SI unit; whole where it is a count.
+    /// Number in the attribute's SI unit; whole for a count.
     Number(f64),
     /// The word chosen.
     Choice(String),
@@ -160,7 +160,7 @@ impl Attribute {
         }
     }
 
-    /// An attribute that is one of a few words; the first is taken where a file names none.
+    /// An attribute that is one of several words; the first is the default.
     #[must_use]
     pub fn choice(key: &'static str, words: &[&'static str], help: &'static str) -> Self {
         let default = words.first().copied().unwrap_or_default().into();
@@ -185,7 +185,7 @@ impl Attribute {
         Self { key: key.into(), unit: "".into(), help: help.into(), kind }
     }
 
-    /// The value taken where a file names none.
+    /// The default value.
     #[must_use]
     pub fn default_value(&self) -> AttributeValue {
         match &self.kind {
@@ -198,7 +198,7 @@ impl Attribute {
 }
 
 impl AttributeValue {
-    /// The number, where it is one.
+    /// The number, if it is one.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         match self {
@@ -207,7 +207,7 @@ impl AttributeValue {
         }
     }
 
-    /// The word, where one was chosen.
+    /// The word, if it is one.
     #[must_use]
     pub fn choice(&self) -> Option<&str> {
         match self {
@@ -216,7 +216,7 @@ impl AttributeValue {
         }
     }
 
-    /// The item id, where it is one.
+    /// The item id, if it is one.
     #[must_use]
     pub fn item(&self) -> Option<&str> {
         match self {
@@ -234,10 +234,10 @@ impl Act {
     }
 }
 
-/// Why a hook could not do its work; the run ends with it and the plugin's id.
+/// The error of a hook; the run ends with it and the plugin's id.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HookError {
-    /// What went wrong, for the user.
+    /// The message for the user.
     pub message: String,
 }
 

@@ -1,16 +1,16 @@
-//! Endline's plugin vocabulary: all that a plugin may see.
+//! Endline's plugin vocabulary: the complete interface of plugins.
 //!
 //! Three hooks, each a trait with plain-data inputs and outputs:
 //!
 //! | hook | trait | called |
 //! |---|---|---|
-//! | whale motion | [`WhaleMotion`] | once a step, before contact |
+//! | whale motion | [`WhaleMotion`] | once per step, before contact |
 //! | friction model | [`FrictionModel`] | each solver pass, all contacts in one call |
-//! | gear type | [`GearType`] | at assembly, then once a step |
+//! | gear type | [`GearType`] | at assembly, then once per step |
 //!
 //! SI units, radians, z up with z = 0 the mean sea surface, x east, y north;
 //! whale frame x to the snout, y to port, z dorsal.
-//! A plugin keeps nothing between calls but the floats the engine hands it, so
+//! A plugin has no state between calls except the floats of the engine, so
 //! that a run can be recorded, replayed and run many times at once.
 
 pub mod abi;

@@ -7,7 +7,7 @@ use crate::whale::{BodyPart, Posture};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controls {
-    /// Swim speed wanted, 0 (glide) to 1 (cruise).
+    /// Swim speed, 0 (glide) to 1 (cruise).
     pub speed: f64,
     /// Pitch, -1 (nose down) to 1 (nose up).
     pub pitch: f64,
@@ -15,7 +15,7 @@ pub struct Controls {
     pub roll: f64,
     /// Yaw, -1 (to starboard) to 1 (to port).
     pub yaw: f64,
-    /// Burst, 0 or 1: the greatest speed it can swim.
+    /// Burst, 0 or 1: the greatest swimming speed.
     pub burst: f64,
     /// Mouth, 0 (closed) to 1 (open).
     pub mouth: f64,
@@ -25,11 +25,11 @@ pub struct Controls {
     pub flipper_twist: f64,
     /// Flippers swept forward (1) or aft (-1).
     pub flipper_sweep: f64,
-    /// Act asked for: 0 none, n the n-th that the motion declares; a whole number.
+    /// Requested act: 0 none, n the n-th that the motion declares; a whole number.
     pub act: f64,
 }
 
-/// What a motion may look at.
+/// Input of a motion.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionInput<'a> {
     /// Simulated time [s].
@@ -48,11 +48,11 @@ pub struct MotionInput<'a> {
     pub controls: Controls,
     /// Sum of the normal contact forces of the last step on each [`BodyPart`] [N].
     pub contact_force_n: &'a [f64; BodyPart::ALL.len()],
-    /// Where on each part those forces are: mean place to port of the midplane on the body at rest, negative to starboard [m].
+    /// Mean place of those forces on each part: distance to port from the midplane on the body at rest, negative to starboard [m].
     pub contact_port_m: &'a [f64; BodyPart::ALL.len()],
 }
 
-/// What a motion decides.
+/// Output of a motion.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionOutput {
@@ -64,9 +64,9 @@ pub struct MotionOutput {
     pub posture: Posture,
 }
 
-/// A way of moving. Pure but for the floats it is handed.
+/// A way of moving: a pure function except for its floats.
 pub trait WhaleMotion: Send + Sync {
-    /// Who it is and what it takes.
+    /// Identity and attributes.
     fn descriptor(&self) -> &Descriptor;
 
     /// Decides the whale's motion over one step from `input`, its attributes

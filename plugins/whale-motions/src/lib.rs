@@ -1,4 +1,4 @@
-//! Endline's own whale motions: how a pilot's controls become speed, turns and posture.
+//! The whale motions of Endline, which convert controls to speed, turn rates and posture.
 //!
 //! | id | motion |
 //! |---|---|

@@ -1,8 +1,5 @@
-//! The swim, measured from outside: from speeds, turn rates and joint angles alone.
-#![expect(
-    clippy::unwrap_used,
-    reason = "helpers of tests: where one cannot go on, the test fails there"
-)]
+//! The swim, measured from its output: speeds, turn rates and joint angles.
+#![expect(clippy::unwrap_used, reason = "helpers of tests: an error in one fails its test")]
 
 use endline_sdk::{
     BodyPart, Controls, FLUKE_STATION, MotionInput, MotionOutput, Posture, SPINE_STATIONS,
@@ -31,7 +28,7 @@ fn attribute(key: &str) -> f64 {
     attributes()[index]
 }
 
-/// Swims for a time under given controls; every step's output.
+/// Swims for a time with these controls; returns the output of every step.
 fn swim(
     seconds: f64,
     dt_s: f64,
@@ -70,7 +67,7 @@ fn forward() -> Controls {
 const AFT: usize = 3;
 
 /// Heights of the spine joints aft of mid-body, of the flukes' hinge and of the notch [m], and the
-/// flukes' own pitch (trailing edge down) [rad], by walking the chain of joints aft.
+/// flukes' own pitch (trailing edge down) [rad], by the chain of joints aft.
 fn heights(posture: &Posture) -> (Vec<f64>, f64) {
     let (mut z, mut pitch, mut heights) = (0.0, 0.0, vec![0.0]);
     for (joint, angle) in posture.spine_pitch.iter().enumerate().skip(AFT) {
@@ -84,7 +81,7 @@ fn heights(posture: &Posture) -> (Vec<f64>, f64) {
     (heights, pitch)
 }
 
-/// Height of the snout [m], walking ahead.
+/// Height of the snout [m], by the chain of joints ahead.
 fn snout_height(posture: &Posture) -> f64 {
     let (mut z, mut rise) = (0.0, 0.0);
     for joint in (0..AFT).rev() {
@@ -203,7 +200,7 @@ fn greatest_jump(out: &[MotionOutput]) -> f64 {
     out.windows(2).map(jump).fold(0.0, f64::max)
 }
 
-/// Controls that jump every 1.7 s, among all their corners.
+/// Controls that jump every 1.7 s between their limits.
 fn wild(time_s: f64) -> Controls {
     let beat = (time_s / 1.7) as u64;
     let sign = |bit: u64| if ((beat * 2_654_435_761) >> bit) & 1 == 0 { -1.0 } else { 1.0 };
@@ -247,7 +244,7 @@ fn speed_keeps_its_limits() {
     }
 }
 
-/// Where a turn rate carries a point of the whale: `omega x point`.
+/// Velocity of a point of the whale by the turn rate: `omega x point`.
 fn carried(out: &MotionOutput, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let [a, b, c] = out.turn_rate_rad_s;
     [b * z - c * y, c * x - a * z, a * y - b * x]
@@ -287,7 +284,7 @@ fn turns_go_the_way_the_controls_say() {
 }
 
 #[test]
-fn a_glide_comes_to_the_rest_posture() {
+fn a_glide_reaches_the_rest_posture() {
     let out = swim(
         40.0,
         0.01,

@@ -13,7 +13,7 @@ use crate::mutate::{Dice, damaged};
 use crate::targets::{self, Target};
 use crate::watch::{self, AtWork, HANGS};
 
-/// Most memory that the process may come to [MB].
+/// Greatest memory of the process [MB].
 const MOST_MEMORY_MB: u64 = 2_000;
 
 /// How long, from which seed.
@@ -77,7 +77,7 @@ impl Campaign {
         for _ in 0..self.turns {
             for target in targets {
                 let (begun, mut fed) = (Instant::now(), 0);
-                while self.turn.goes_on(fed, begun, target.is_slow()) {
+                while self.turn.continues(fed, begun, target.is_slow()) {
                     let input = target.input(&mut dice);
                     report.feed(target, &input, worker);
                     fed += 1;
@@ -91,14 +91,14 @@ impl Campaign {
 /// How much of a target makes a turn.
 #[derive(Clone, Copy)]
 pub enum Turn {
-    /// So many inputs, of a slow target so many: the same on every machine, however busy.
+    /// A number of inputs, and one for slow targets: equal on every machine, however busy.
     Inputs { quick: u32, slow: u32 },
     /// So long.
     Time(Duration),
 }
 
 impl Turn {
-    fn goes_on(self, fed: u32, begun: Instant, is_slow: bool) -> bool {
+    fn continues(self, fed: u32, begun: Instant, is_slow: bool) -> bool {
         match self {
             Self::Inputs { quick, slow } => fed < if is_slow { slow } else { quick },
             Self::Time(time) => begun.elapsed() < time,

@@ -8,7 +8,7 @@
 //! | `campaign` | targets by turns, for so long; the report |
 //!
 //! The test takes seconds. `cargo xtask fuzz --hours N` runs the same for hours, from a seed of the clock.
-//! What it finds is kept in the folder `fuzz` of the build; such a file belongs into `tests/corpus` once it is mended.
+//! A damaged file that causes a failure is saved in the folder `fuzz` of the build; after the correction it belongs in `tests/corpus`.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

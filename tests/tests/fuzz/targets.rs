@@ -1,4 +1,4 @@
-//! What is fed, and what it is fed from: the shipped files of each kind, and the corpus of what was found before.
+//! The targets and their inputs: the shipped files of each kind, and the corpus of inputs that failed before.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;

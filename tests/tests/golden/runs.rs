@@ -17,7 +17,7 @@ pub struct Case {
     pub name: &'static str,
     /// The scenario, without `.toml`.
     pub scenario: &'static str,
-    /// Parts of its text that are replaced, so that it comes to the event sooner.
+    /// Replacements in its text, by which the event occurs sooner.
     pub changes: &'static [(&'static str, &'static str)],
     /// How long it is run [s].
     pub seconds: f64,

@@ -18,8 +18,8 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../gear-library")
 }
 
-/// Diagnostics as a user reads them.
-pub fn told(problems: &[Diagnostic]) -> String {
+/// Returns the text of diagnostics as a user reads them.
+pub fn report(problems: &[Diagnostic]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
 }
 
@@ -27,7 +27,7 @@ pub fn told(problems: &[Diagnostic]) -> String {
 pub fn library() -> Library {
     let sources = Sources::from_folder(&root()).unwrap();
     let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     library
 }
 
@@ -40,9 +40,9 @@ pub fn scenario_text(name: &str) -> String {
 /// A scenario's text, assembled with the shipped library and plugins.
 pub fn spec_of(name: &str, text: &str) -> ModelSpec {
     let scenario =
-        Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", report(&problems)));
     assemble(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)))
 }
 
 /// A shipped scenario with parts of its text replaced, assembled.

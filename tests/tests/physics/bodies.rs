@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 use endline_gear::{Library, Options, Scenario, Sources, assemble, buoy_floats};
 
 use endline_sim::model::Shape;
@@ -21,15 +21,15 @@ fn spec(kind: &str, item: &str, height: f64, further: &str) -> ModelSpec {
     let mut sources = Sources::from_folder(&root()).unwrap();
     sources.set("assemblies/one.toml", assembly);
     let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     let text = format!(
         "format = 1\nkind = \"scenario\"\nname = \"Bodies\"\nduration = \"60 s\"\nsegment = \"0.25 m\"\n[site]\nitem = \"cape-cod-bay\"\n\
          depth = \"15 m\"\n[current]\nspeed = \"0 m/s\"\n[[gear]]\nassembly = \"one\"\n{further}"
     );
     let scenario = Scenario::read("bodies.toml", &text)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     assemble(&scenario, &library, &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)))
 }
 
 /// Steps until a time, looking at the state after each step.

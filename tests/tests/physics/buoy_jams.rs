@@ -56,7 +56,7 @@ impl Run {
 fn a_link_parts_at_its_rating_as_the_buoy_jams() {
     let mut run = Run::new(&[]);
     run.until(26.0, |_| false);
-    assert!(!run.workspace.body_contacts.is_empty(), "the buoy was to come to the whale");
+    assert!(!run.workspace.body_contacts.is_empty(), "the buoy must reach the whale");
 
     // What bodies keep of their touch is in the state alone.
     let (mut kept, mut workspace) = (run.state.clone(), Workspace::new(&run.model));

@@ -1,6 +1,6 @@
 //! Delivered strength: budgets by hand, and lines that are made to deliver one.
 
-use crate::linked::{Linked, library, told};
+use crate::linked::{Linked, library, report};
 use crate::ropes::{assembled, pulled, until_it_parts};
 use endline_gear::{Confidence, Options, Scenario, StrengthBudget, assemble_traced};
 
@@ -11,9 +11,9 @@ const PLAIN: &str = "strength_scatter = false\nrope_nodes = 80";
 
 fn budgets(text: &str) -> Vec<StrengthBudget> {
     let scenario =
-        Scenario::read("test.toml", text).unwrap_or_else(|found| panic!("{}", told(&found)));
+        Scenario::read("test.toml", text).unwrap_or_else(|found| panic!("{}", report(&found)));
     assemble_traced(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|found| panic!("{}", told(&found)))
+        .unwrap_or_else(|found| panic!("{}", report(&found)))
         .strengths
 }
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 use endline_gear::{Diagnostic, Library, Options, Scenario, Sources, assemble};
 use endline_sdk::Region;
 use endline_sim::model::{Friction, FrictionLaw};
@@ -22,7 +22,7 @@ fn assembled(library: &Library, text: &str) -> Result<endline_sim::ModelSpec, Ve
 
 fn friction(text: &str) -> Friction {
     assembled(&library(), text)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)))
         .friction
         .unwrap()
 }
@@ -109,7 +109,7 @@ fn the_later_of_two_tables_for_a_surface_counts() {
 }
 
 #[test]
-fn mistakes_in_a_scenarios_friction_are_told_with_their_place() {
+fn mistakes_in_a_scenarios_friction_are_reported_with_their_place() {
     let good = text("hello-friction.toml");
     for (from, to, part) in [
         ("surfaces = [\"baleen\"]", "surfaces = [\"balene\"]", "did you mean `baleen`?"),
@@ -140,17 +140,17 @@ fn mistakes_in_a_scenarios_friction_are_told_with_their_place() {
             .lines()
             .position(|line| to.lines().last().unwrap() == line || line.contains(to))
             .unwrap();
-        assert!(problems[0].to_string().contains(part), "{}", told(&problems));
+        assert!(problems[0].to_string().contains(part), "{}", report(&problems));
         assert!(
             problems.iter().any(|problem| problem.line.abs_diff(line) <= 1),
             "line {line}: {}",
-            told(&problems)
+            report(&problems)
         );
     }
 }
 
 #[test]
-fn mistakes_in_a_materials_file_are_told_in_that_file() {
+fn mistakes_in_a_materials_file_are_reported_in_that_file() {
     let sources = Sources::from_folder(&root()).unwrap();
     let good = std::fs::read_to_string(root().join("friction/pp.toml")).unwrap();
     let with = |from: &str, to: &str| {
@@ -179,9 +179,9 @@ fn mistakes_in_a_materials_file_are_told_in_that_file() {
         assert!(
             problems[0].file == "friction/pp.toml" && problems[0].line > 14,
             "{to}: {}",
-            told(&problems)
+            report(&problems)
         );
-        assert!(problems[0].to_string().contains(part), "{}", told(&problems));
+        assert!(problems[0].to_string().contains(part), "{}", report(&problems));
     }
     // A figure without a source of its own has that of the file; without either it is refused.
     let bare = good.replace(", confidence = \"estimate\" }", " }").replacen(
@@ -193,7 +193,7 @@ fn mistakes_in_a_materials_file_are_told_in_that_file() {
     assert!(
         problems.iter().any(|problem| problem.to_string().contains("has no confidence")),
         "{}",
-        told(&problems)
+        report(&problems)
     );
 }
 

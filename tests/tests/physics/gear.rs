@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, root, scenario_text, spec, spec_of, told};
+use crate::linked::{Linked, library, report, root, scenario_text, spec, spec_of};
 use endline_gear::{
     Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced,
 };
@@ -18,7 +18,7 @@ fn every_shipped_file_reads_without_a_word() {
         let path = entry.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
         if let Err(problems) = Scenario::read(&path.display().to_string(), &text) {
-            panic!("{}", told(&problems));
+            panic!("{}", report(&problems));
         }
     }
 }
@@ -161,22 +161,22 @@ fn a_line_is_made_fast_at_the_point_it_names() {
 }
 
 #[test]
-fn a_point_that_is_not_there_is_told_with_those_that_are() {
+fn a_point_that_is_not_there_is_reported_with_the_existing_ones() {
     let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"single-bridle\"");
     let scenario = Scenario::read("test.toml", &text).unwrap();
-    let told_of = |from: &str, to: &str| {
+    let message_of = |from: &str, to: &str| {
         let mut sources = Sources::from_folder(&root()).unwrap();
         let bridle = sources.get("assemblies/single-bridle.toml").unwrap().replace(from, to);
         let line = 1 + bridle.lines().position(|line| line.contains(to)).unwrap();
         sources.set("assemblies/single-bridle.toml", bridle);
         let (library, problems) = Library::read(&sources);
-        assert!(problems.is_empty(), "{}", told(&problems));
+        assert!(problems.is_empty(), "{}", report(&problems));
         let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
         assert_eq!(
             (problems[0].file.as_str(), problems[0].line),
             ("assemblies/single-bridle.toml", line),
             "{}",
-            told(&problems)
+            report(&problems)
         );
         problems[0].to_string()
     };
@@ -202,7 +202,7 @@ fn a_point_that_is_not_there_is_told_with_those_that_are() {
             ["joint `splice` has no point `end`", "only a body has points"],
         ),
     ] {
-        let message = told_of(from, to);
+        let message = message_of(from, to);
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     }
 }
@@ -220,7 +220,7 @@ fn an_item_may_have_points_of_its_own() {
         format!("[[point]]\nname = \"{name}\"\nat = [\"{x}\", \"0 m\", \"0.1 m\"]\n")
     };
     let (library, problems) = read(&(at("becket", "0.3 m") + &at("end", "0.4 m")));
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     let points =
         library.traps.iter().find(|trap| trap.entry.id == "wire-lobster-3ft").unwrap().points();
     assert!(
@@ -240,7 +240,7 @@ fn an_item_may_have_points_of_its_own() {
         assert!(
             problems.len() == 1 && problems[0].to_string().contains(part),
             "{points}: {}",
-            told(&problems)
+            report(&problems)
         );
     }
 }
@@ -325,9 +325,9 @@ fn files_used_are_named_and_are_enough_to_build_again() {
     let scenario = Scenario::read("test.toml", &text).unwrap();
     let sources = Sources::from_folder(&root()).unwrap();
     let first = assemble_traced(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let (again, problems) = Library::read(&sources.only(&first.files));
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     // The whale can do every act of the library, so their files are used, too.
     let gear = first.files.iter().filter(|path| !path.starts_with("acts/")).count();
     assert!(
@@ -336,7 +336,7 @@ fn files_used_are_named_and_are_enough_to_build_again() {
         first.files
     );
     let second = assemble(&scenario, &again, &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     assert_eq!(first.spec.bodies, second.bodies);
     assert_eq!(first.spec.lines, second.lines);
 }
@@ -352,7 +352,7 @@ fn options_come_before_the_scenario() {
         ..Options::default()
     };
     let spec = assemble(&scenario, &library(), &Linked, &options)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     assert_eq!((spec.settings.seed, spec.settings.step_s, spec.links[0].enabled), (7, 0.02, false));
     assert_eq!(Model::new(spec).unwrap().node_count, 60);
 }
@@ -369,20 +369,20 @@ fn the_program_chooses_the_step_where_the_scenario_says_so() {
     assert!(
         problems.len() == 1 && problems[0].to_string().contains("`step`"),
         "{}",
-        told(&problems)
+        report(&problems)
     );
 }
 
 #[test]
 fn the_tolerance_near_the_whale_is_what_the_scenario_says() {
     let text = scenario_text("hello-endline.toml");
-    let with = |told: &str| text.replacen("weak_links", &format!("{told}\nweak_links"), 1);
+    let with = |entry: &str| text.replacen("weak_links", &format!("{entry}\nweak_links"), 1);
     let tolerance = |text: &str| spec_of("test.toml", text).settings.contact_tolerance;
     let read = [tolerance(&text), tolerance(&with("contact_tolerance = 0.005"))];
     assert!((read[0] - CONTACT_TOLERANCE).abs() + (read[1] - 0.005).abs() < 1e-15, "{read:?}");
     for wrong in ["contact_tolerance = 0.5", "contact_tolerance = true"] {
-        let told: Vec<_> = refused(&with(wrong)).iter().map(ToString::to_string).collect();
-        assert!(told.len() == 1 && told[0].contains("test.toml:9:"), "{told:?}");
+        let messages: Vec<_> = refused(&with(wrong)).iter().map(ToString::to_string).collect();
+        assert!(messages.len() == 1 && messages[0].contains("test.toml:9:"), "{messages:?}");
     }
 }
 
@@ -409,13 +409,13 @@ fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
         assert!(
             problems.len() == 1 && problems[0].to_string().contains(part),
             "{}",
-            told(&problems)
+            report(&problems)
         );
     }
 }
 
 #[test]
-fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
+fn a_mistake_in_an_assembly_is_reported_in_its_own_file() {
     let mut sources = Sources::from_folder(&root()).unwrap();
     let body = |id: &str| {
         format!(
@@ -430,17 +430,17 @@ fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
     );
     sources.set("assemblies/pair.toml", pair);
     let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     let text = scenario_text("hello-endline.toml")
         .replace("\"single\"", "\"pair\"")
         .replace("part = \"buoy\"", "part = \"trap-1\"");
     let scenario = Scenario::read("test.toml", &text).unwrap();
     let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
-    assert_eq!(problems.len(), 2, "{}", told(&problems));
+    assert_eq!(problems.len(), 2, "{}", report(&problems));
     assert!(
         problems.iter().all(|problem| problem.file == "assemblies/pair.toml" && problem.line > 10),
         "{}",
-        told(&problems)
+        report(&problems)
     );
 }
 
@@ -452,7 +452,7 @@ fn every_kind_of_item_is_shipped() {
     }
 }
 
-/// Every shipped scenario, and each assembly in the first one's place, comes to rest.
+/// Every shipped scenario, and each assembly in the first one's place, reaches equilibrium.
 #[test]
 fn all_shipped_gear_settles() {
     let hello = scenario_text("hello-endline.toml");

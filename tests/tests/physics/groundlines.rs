@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 use endline_gear::{Options, Scenario, Sources, assemble};
 
 use endline_sim::model::BodyRole;
@@ -27,7 +27,7 @@ fn groundline(rope: &str, slack: f64, speed: f64, heading: f64) -> (Model, Settl
     );
     sources.set("assemblies/groundline.toml", text);
     let (library, problems) = endline_gear::Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     let scenario = format!(
         "format = 1\nkind = \"scenario\"\nname = \"Groundline\"\nduration = \"1 s\"\nrope_nodes = 150\n\
          [site]\nitem = \"jonesport\"\n[current]\nspeed = \"{speed} m/s\"\ntoward = \"90 deg\"\nexponent = 0.0\n\
@@ -35,9 +35,9 @@ fn groundline(rope: &str, slack: f64, speed: f64, heading: f64) -> (Model, Settl
         90.0 + heading
     );
     let scenario = Scenario::read("groundline.toml", &scenario)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let spec = assemble(&scenario, &library, &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let model = Model::new(spec).unwrap();
     let settled = settle(&model);
     (model, settled)
@@ -119,9 +119,9 @@ fn ball(speed: f64) -> (f64, f64) {
          [[gear]]\nassembly = \"single\"\n[gear.attributes]\nbuoy = \"polyball-60\"\n"
     );
     let scenario = Scenario::read("ball.toml", &scenario)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let mut spec = assemble(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     for body in spec.bodies.iter_mut().filter(|body| body.role == BodyRole::Trap) {
         body.held_until_s = Some(0.0);
     }

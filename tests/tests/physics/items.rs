@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{library, root, spec, told};
+use crate::linked::{library, report, root, spec};
 use endline_gear::{BuoyShape, Library, Sources, box_inertia, buoy_floats, shell_inertia};
 
 use endline_sim::DVec3;
@@ -147,8 +147,8 @@ fn a_trap_is_a_shell_with_ballast_on_its_floor() {
 }
 
 #[test]
-fn ballast_and_pieces_that_cannot_be_are_told() {
-    let told_of = |path: &str, from: &str, to: &str| {
+fn ballast_and_pieces_that_are_impossible_are_reported() {
+    let message_of = |path: &str, from: &str, to: &str| {
         let mut sources = Sources::from_folder(&root()).unwrap();
         let text = sources.get(path).unwrap().to_owned();
         assert!(text.contains(from), "{path}: {from}");
@@ -157,7 +157,7 @@ fn ballast_and_pieces_that_cannot_be_are_told() {
         assert!(
             problems.len() == 1 && problems[0].file == path && problems[0].line > 1,
             "{to}: {}",
-            told(&problems)
+            report(&problems)
         );
         problems[0].to_string()
     };
@@ -168,7 +168,7 @@ fn ballast_and_pieces_that_cannot_be_are_told() {
             trap,
             "\"6.6 kg\"",
             "\"11 kg\"",
-            "ballast and foam displace 5.50 L, more than the 4.77 L of the whole",
+            "ballast and foam displace 5.50 L, more than the 4.77 L of the body",
         ),
         (trap, "\"0.03 m\"", "\"0.4 m\"", "`ballast_height` 0.4 m is above the box"),
         (
@@ -178,9 +178,9 @@ fn ballast_and_pieces_that_cannot_be_are_told() {
             "`kg` is a unit of a mass, not of a length",
         ),
         (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L is more than the whole cylinder's 1.18 L"),
-        (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry its own mass"),
+        (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry the mass"),
     ] {
-        let message = told_of(path, from, to);
+        let message = message_of(path, from, to);
         assert!(message.contains(part), "{message}");
     }
 }

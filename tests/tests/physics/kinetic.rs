@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, model, scenario_text, told};
+use crate::linked::{Linked, library, model, report, scenario_text};
 use endline_gear::{Options, Scenario, assemble};
 use endline_sdk::LineEnd;
 use endline_sim::balance::Source;
@@ -133,8 +133,8 @@ fn a_carcass_floats_belly_up_and_drifts_with_its_gear() {
     assert_eq!(workspace.audit.tunnelled, 0);
 }
 
-/// The books of a whale that tows a trap straight on: steps miss next to nothing of momentum and energy, and what the gear gave the whale is what
-/// the whale gave the gear, as the solver's own balance of the gear has it.
+/// Balance of a whale that tows a trap straight ahead: the residuals of momentum and energy are small, and the impulse of the gear on
+/// the whale is opposite to that of the whale on the gear, as the solver's balance of the gear reports it.
 #[test]
 fn the_books_of_a_whale_close() {
     let mut spec = model("towing-trap.toml", &[]).spec;
@@ -148,7 +148,7 @@ fn the_books_of_a_whale_close() {
         step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
         metrics.fold_step(&model, &state, &workspace);
     }
-    let books = metrics.summary(&model, &state).whale.unwrap().kinetic.unwrap().books;
+    let books = metrics.summary(&model, &state).whale.unwrap().kinetic.unwrap().balance;
     let whale = state.whale.as_ref().unwrap();
     let ahead = whale.orientation * DVec3::X;
     let gear = workspace.balance.summary(&model, &state).unwrap();
@@ -186,14 +186,14 @@ fn a_kinetic_run_keeps_its_bits_without_its_workspace() {
 }
 
 #[test]
-fn what_a_whale_cannot_be_or_hold_is_told_with_its_place() {
+fn an_impossible_whale_is_reported_with_its_place() {
     let text = scenario_text("part-rope-10m.toml");
     let problems = |from: &str, to: &str| {
         assert!(text.contains(from), "the scenario says {from}");
         let changed = text.replace(from, to);
-        let told_of = Scenario::read("whale.toml", &changed)
+        let message_of = Scenario::read("whale.toml", &changed)
             .map(|scenario| assemble(&scenario, &library(), &Linked, &Options::default()).err());
-        told(&told_of.unwrap_or_else(Some).unwrap_or_else(|| panic!("{to} is taken")))
+        report(&message_of.unwrap_or_else(Some).unwrap_or_else(|| panic!("{to} is taken")))
     };
     let spot = problems("whale:peduncle", "whale:pedunkle");
     assert!(

@@ -1,13 +1,13 @@
-//! Mistakes in a scenario are told with their place.
+//! Mistakes in a scenario are reported with their place.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail the test")]
 
 use crate::gear::refused;
-use crate::linked::{scenario_text, told};
+use crate::linked::{report, scenario_text};
 
-/// A change to the scenario, where its problem is told, and what is said.
+/// Each entry is a change to the scenario, the place of its diagnostic, and words of its message.
 #[test]
-fn mistakes_in_a_scenario_are_told_with_their_place() {
+fn mistakes_in_a_scenario_are_reported_with_their_place() {
     let text = scenario_text("hello-endline.toml");
     for (from, to, parts) in [
         (
@@ -32,14 +32,14 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
             "org.endline.motion.swim",
             "org.endline.motion.swin",
             vec![
-                "no whale motion `org.endline.motion.swin`",
+                "no plugin with the whale motion `org.endline.motion.swin`",
                 "did you mean `org.endline.motion.swim`?",
             ],
         ),
         (
             "org.endline.friction.coulomb",
             "org.endline.friction.colomb",
-            vec!["no friction model", "did you mean"],
+            vec!["no plugin with the friction model", "did you mean"],
         ),
         (
             "cruise_speed = \"1.3 m/s\"",
@@ -67,7 +67,7 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
         let changed = text.replacen(from, to, 1);
         assert_ne!(changed, text, "{from}");
         let problems = refused(&changed);
-        assert_eq!(problems.len(), 1, "{to}: {}", told(&problems));
+        assert_eq!(problems.len(), 1, "{to}: {}", report(&problems));
         let line = 1 + changed.lines().position(|line| line.contains(to)).unwrap();
         assert_eq!(
             (problems[0].file.as_str(), problems[0].line),
@@ -81,9 +81,9 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
     }
 }
 
-/// Tables put into a scenario, the line of them that is told, and what is said.
+/// Each entry is tables put into a scenario, the line of the diagnostic in them, and words of its message.
 #[test]
-fn mistakes_in_segments_and_probes_are_told_with_their_place() {
+fn mistakes_in_segments_and_probes_are_reported_with_their_place() {
     let text = scenario_text("hello-endline.toml");
     let segments = |line: &str, longest: &str| {
         let table =
@@ -96,15 +96,15 @@ fn mistakes_in_segments_and_probes_are_told_with_their_place() {
     for (changed, line, parts) in [
         (segments("endlin", "10 cm"), "line = \"endlin\"", ["no line `endlin`", "endline"]),
         (segments("endline*", "0.1 mm"), "longest =", ["`longest` is 0.0001 m", "between"]),
-        (without_segment, "line = \"endline*\"", ["no `segment` for the other lines", "1 m"]),
+        (without_segment, "line = \"endline*\"", ["needs a `segment` for the other lines", "1 m"]),
         (
             text.replacen("[site]", probe, 1),
             "figure = \"thrust\"",
-            ["this whale has no effort", "dynamics = \"kinetic\""],
+            ["a kinematic whale has no thrust", "dynamics = \"kinetic\""],
         ),
     ] {
         let problems = refused(&changed);
-        assert_eq!(problems.len(), 1, "{line}: {}", told(&problems));
+        assert_eq!(problems.len(), 1, "{line}: {}", report(&problems));
         let at = 1 + changed.lines().position(|text| text.starts_with(line)).unwrap();
         assert_eq!(
             (problems[0].file.as_str(), problems[0].line),

@@ -1,4 +1,4 @@
-//! The balance of momentum of bundled scenarios: what sources give the gear is what its momentum changes by.
+//! The balance of momentum of bundled scenarios: the change of the gear's momentum equals the impulse of all sources.
 //!
 //! With ENDLINE_LONG set they run as long as the table of docs/lab-notebook.md says.
 
@@ -10,7 +10,7 @@ use crate::linked::{built, spec};
 /// Greatest residual, as a share of the greatest impulse.
 const MOST_SHARE: f64 = 1e-3;
 
-/// A scenario with parts of its text replaced, so that it comes to contact sooner.
+/// A scenario with replacements in its text, by which contact begins sooner.
 struct Case {
     name: &'static str,
     changes: &'static [(&'static str, &'static str)],
@@ -58,34 +58,36 @@ fn run(model: &Model, seconds: f64) -> (State, Workspace) {
     (state, workspace)
 }
 
-fn told(case: &Case, seconds: f64) -> BalanceSummary {
+fn summary_of(case: &Case, seconds: f64) -> BalanceSummary {
     let model = model(case, true);
     let (state, workspace) = run(&model, seconds);
-    let told = workspace.balance.summary(&model, &state).unwrap();
-    println!("{} {seconds} s: {:.2e}", case.name, told.residual_share());
+    let summary = workspace.balance.summary(&model, &state).unwrap();
+    println!("{} {seconds} s: {:.2e}", case.name, summary.residual_share());
     for source in Source::ALL {
-        let (impulse, work) = (told.impulse_ns[source as usize], told.work_j[source as usize]);
+        let (impulse, work) =
+            (summary.impulse_ns[source as usize], summary.work_j[source as usize]);
         println!("  {:9} {impulse:.2} N s  {work:.2} J", source.name());
     }
     println!(
         "  momentum {:.2} residual {:.2e} N s; kinetic {:.2} elastic {:.2} damping {:.2} contact {:.2} numerical {:.2} J; whale {:?}",
-        told.momentum_ns,
-        told.residual_ns,
-        told.kinetic_j,
-        told.elastic_j,
-        told.damping_j,
-        told.contact_j,
-        told.numerical_damping_j(),
-        told.whale_missed_ns
+        summary.momentum_ns,
+        summary.residual_ns,
+        summary.kinetic_j,
+        summary.elastic_j,
+        summary.damping_j,
+        summary.contact_j,
+        summary.numerical_damping_j(),
+        summary.whale_missed_ns
     );
-    told
+    summary
 }
 
 #[test]
 fn momentum_of_bundled_scenarios_is_balanced() {
     let long = std::env::var_os("ENDLINE_LONG").is_some();
     for case in &CASES {
-        let share = told(case, if long { case.long_s } else { case.seconds }).residual_share();
+        let share =
+            summary_of(case, if long { case.long_s } else { case.seconds }).residual_share();
         assert!(share < MOST_SHARE, "{}: {share}", case.name);
     }
 }

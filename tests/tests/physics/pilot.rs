@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::linked::{Linked, library, told};
+use crate::linked::{Linked, library, report};
 use endline_gear::{Hooks, Options, Scenario, assemble};
 use endline_sdk::{
     Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput,
@@ -123,9 +123,9 @@ speed = 1.0
 
 fn read(pilot: &str) -> Result<Model, String> {
     let scenario =
-        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| told(&problems))?;
+        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| report(&problems))?;
     let spec = assemble(&scenario, &library(), &WithPlain, &Options::default())
-        .map_err(|problems| told(&problems))?;
+        .map_err(|problems| report(&problems))?;
     Model::new(spec).map_err(|errors| format!("{errors:?}"))
 }
 
@@ -258,8 +258,8 @@ fn a_snapshot_goes_on_as_the_run_it_was_taken_from() {
 fn what_is_wrong_is_told_with_its_place() {
     let entry = |lines: &str| read(&format!("[[whale.pilot]]\n{lines}")).err().unwrap_or_default();
     for (lines, wanted) in [
-        ("yaw = 1.0", "nothing begins this entry"),
-        ("at = \"1 s\"\ntouch = \"any\"\nyaw = 1.0", "both `at` and `touch` begin this entry"),
+        ("yaw = 1.0", "this entry of the pilot has no trigger"),
+        ("at = \"1 s\"\ntouch = \"any\"\nyaw = 1.0", "two triggers, `at` and `touch`"),
         ("at = \"1 s\"", "the entry sets no control"),
         ("at = \"1 s\"\nyow = 1.0", "unknown field `yow`"),
         ("at = \"1 s\"\nyaw = 2.0", "it must be between -1 and 1"),
@@ -269,7 +269,7 @@ fn what_is_wrong_is_told_with_its_place() {
         ("touch = \"left_flippers\"\nyaw = 1.0", "did you mean `left_flipper`?"),
         ("within = \"5 m\"\nof = \"ropes\"\nyaw = 1.0", "there is no line, body or joint `ropes`"),
         ("within = \"5 s\"\nyaw = 1.0", "`within`"),
-        ("after = \"begin\"\nyaw = 1.0", "no entry above has the id `begin`"),
+        ("after = \"begin\"\nyaw = 1.0", "no earlier entry has the id `begin`"),
         ("at = \"1 s\"\nid = \"start\"\nyaw = 1.0", "there are two entries with the id `start`"),
         ("at = \"1 s\"\nact = \"rol-away\"", "has no act `rol-away`"),
         ("at = \"1 s\"\nact = \"rol-away\"", "did you mean `roll-away`?"),

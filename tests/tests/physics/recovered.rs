@@ -1,4 +1,4 @@
-//! A search finds an encounter again of which it is told the ending alone, blurred and with a part hidden.
+//! A search recovers an encounter from its ending alone, which is reported with errors and with a part hidden.
 
 use crate::recovery::{Way, hide, host, opened, recover};
 

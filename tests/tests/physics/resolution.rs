@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, scenario_text, spec_of, told};
+use crate::linked::{Linked, library, report, scenario_text, spec_of};
 use endline_gear::{Diagnostic, Options, Scenario, assemble};
 use endline_sim::Model;
 use endline_sim::model::Resolution;
@@ -38,12 +38,12 @@ fn resolution_follows_the_whale_by_lengths_in_order() {
         assert!(
             problems.len() == 1 && problems[0].to_string().contains(part),
             "{}",
-            told(&problems)
+            report(&problems)
         );
     }
     let whaleless =
         scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
-    assert!(refused(&whaleless)[0].to_string().contains("no whale for the resolution to follow"));
+    assert!(refused(&whaleless)[0].to_string().contains("the resolution needs a whale"));
 }
 
 /// With the lengths of `[resolution]` and no count, nodes come from lengths and whale alone, whatever a strength.

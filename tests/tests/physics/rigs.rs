@@ -21,7 +21,7 @@ const DRAWN: u64 = 300;
 /// Share of them for which statics may find neither rest nor that they drag: 1 of 300, 99 of 10,000 as measured.
 const UNKNOWN_SHARE: f64 = 0.0105;
 /// Share of them of which a trap may lie overturned where it was laid: none of 300, 10 of 4,000 as measured; 7 faults of
-/// another 6,000 were counted without being told apart.
+/// another 6,000 were counted without this distinction.
 const FALLEN_SHARE: f64 = 0.0031;
 /// First of their seeds.
 const FIRST_SEED: u64 = 1;
@@ -88,7 +88,7 @@ fn rolls(assembly: &str, speed: f64, heading: f64) -> bool {
     assembly == "trawl-45" && speed > 0.3 && heading > 179.0
 }
 
-/// At slack, half and full tide, along, across and against the current; at slack tide everything comes to rest.
+/// At slack, half and full tide, along, across and against the current; at slack tide every rig reaches equilibrium.
 ///
 /// Gear without an answer is left out, which saves a minute, unless the environment has `ENDLINE_OPEN`.
 #[test]
@@ -130,7 +130,7 @@ fn every_shipped_assembly_settles_in_every_current() {
                 }
                 Outcome::Drags(_) if speed > 0.0 => {}
                 Outcome::NotFound(_) if open => {
-                    assert!(settled.why().contains(" N is left at "), "{what}")
+                    assert!(settled.why().contains("the residual is "), "{what}")
                 }
                 _ => wrong.push(what),
             }
@@ -143,7 +143,7 @@ fn every_shipped_assembly_settles_in_every_current() {
 const SLICE: u64 = 500;
 
 /// A whole number of the environment, for a longer run.
-fn told_by(name: &str, usual: u64) -> u64 {
+fn count_of(name: &str, usual: u64) -> u64 {
     std::env::var(name).map_or(usual, |count| {
         count.parse().unwrap_or_else(|_| panic!("{name} = {count} is no whole number"))
     })
@@ -172,7 +172,7 @@ impl Tally {
         {
             self.wrong.push(format!("{what}: not finite"));
         }
-        let told = format!("{what}: {}, {} passes", settled.why(), settled.trace_n.len());
+        let message = format!("{what}: {}, {} passes", settled.why(), settled.trace_n.len());
         match settled.outcome {
             Outcome::AtRest => {
                 self.rest += 1;
@@ -184,16 +184,16 @@ impl Tally {
             }
             Outcome::Drags(_) => {
                 self.drag += 1;
-                println!("{told}");
+                println!("{message}");
             }
             Outcome::NotFound(_) => {
-                println!("{told}");
-                self.unknown.push(told);
+                println!("{message}");
+                self.unknown.push(message);
             }
         }
     }
 
-    fn told(&self) -> String {
+    fn text(&self) -> String {
         let Self { rest, drag, passes, unknown, wrong, fallen } = self;
         let count = rest + drag + unknown.len() as u64;
         let found = format!(
@@ -237,22 +237,23 @@ fn out_of_balance(model: &Model, settled: &Settled) -> Option<String> {
     (out_n.abs() > BALANCED_N).then(|| format!("{body} is {out_n} N out of vertical balance"))
 }
 
-/// Few may be left without an answer, none may leave numbers that are not finite; what comes to rest is in balance.
+/// Few may remain without a solution, none may have numbers that are not finite; equilibria are balanced.
 ///
 /// `ENDLINE_RIGS=10000 cargo test --release -p endline-tests --test physics random -- --nocapture` is the full run;
 /// `ENDLINE_FIRST_RIG` is the seed it begins at.
 #[test]
 fn rigs_drawn_at_random_settle_or_say_why() {
-    let (first, count) = (told_by("ENDLINE_FIRST_RIG", FIRST_SEED), told_by("ENDLINE_RIGS", DRAWN));
+    let (first, count) =
+        (count_of("ENDLINE_FIRST_RIG", FIRST_SEED), count_of("ENDLINE_RIGS", DRAWN));
     let (mut drawer, mut tally) = (Drawer::new(library()), Tally::default());
     for seed in first..first + count {
         let rig = drawer.rig(seed);
         tally.add(&rig, &settle(&rig.model));
         if (seed - first + 1) % SLICE == 0 {
-            println!("up to seed {seed}: {}", tally.told());
+            println!("up to seed {seed}: {}", tally.text());
         }
     }
-    println!("from seed {first}: {}", tally.told());
+    println!("from seed {first}: {}", tally.text());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
     assert!(
         tally.fallen.len() as f64 <= FALLEN_SHARE * count as f64,
@@ -262,7 +263,7 @@ fn rigs_drawn_at_random_settle_or_say_why() {
     assert!(
         tally.unknown.len() as f64 <= UNKNOWN_SHARE * count as f64,
         "{}:\n{}",
-        tally.told(),
+        tally.text(),
         tally.unknown.join("\n")
     );
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 use endline_gear::{Diagnostic, Options, Scenario, assemble};
 use endline_sdk::LineEnd;
 use endline_sim::model::RopeOnRope;
@@ -55,11 +55,11 @@ fn refused(text: &str) -> Vec<Diagnostic> {
 }
 
 pub(crate) fn assembled(text: &str, seed: Option<u64>) -> ModelSpec {
-    let scenario =
-        Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario = Scenario::read("test.toml", text)
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let options = Options { seed, ..Options::default() };
     assemble(&scenario, &library(), &Linked, &options)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)))
 }
 
 /// Greatest tension of any segment until something parts, and what parted: ids of lines and links.
@@ -284,14 +284,14 @@ fn gear_of_a_gear_type_takes_inserts_too() {
 }
 
 #[test]
-fn what_is_wrong_with_a_line_is_told_where_it_stands() {
+fn a_mistake_in_a_line_is_reported_with_its_place() {
     for (head, line, parts) in [
         ("", "to_knot = \"granny\"", vec!["no `granny` in knots/"]),
         ("", "to_knot = \"bowlin\"", vec!["did you mean `bowline`?"]),
         (
             "",
             "condition = \"old\"",
-            vec!["`old` is no value of `condition`", "secant, new, worked"],
+            vec!["`old` is not a value of `condition`", "secant, new, worked"],
         ),
         (
             "",
@@ -312,7 +312,7 @@ fn what_is_wrong_with_a_line_is_told_where_it_stands() {
         (
             "",
             "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nevery = \"2 ft\"\n",
-            vec!["inserts lie apart"],
+            vec!["inserts do not overlap"],
         ),
         (
             "",
@@ -322,17 +322,17 @@ fn what_is_wrong_with_a_line_is_told_where_it_stands() {
         (
             "",
             "start = \"catenary\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
-            vec!["takes no inserts"],
+            vec!["cannot have inserts"],
         ),
     ] {
         let problems = refused(&pulled(head, line));
         for part in parts {
-            assert!(told(&problems).contains(part), "{line}: {}", told(&problems));
+            assert!(report(&problems).contains(part), "{line}: {}", report(&problems));
         }
         assert!(
             problems.iter().all(|problem| problem.file == "test.toml" && problem.line > 25),
             "{}",
-            told(&problems)
+            report(&problems)
         );
     }
 }
@@ -352,14 +352,14 @@ fn rope_touches_rope_unless_a_scenario_says_no() {
     assert_eq!(law("rope_nodes = 40"), Some(RopeOnRope::default()));
     let rough = law("rope_nodes = 40\nrope_friction = 0.4").unwrap();
     assert!((rough.friction - 0.4).abs() < 1e-15);
-    for (head, told) in [
+    for (head, part) in [
         ("rope_on_rope = \"yes\"", "true or false"),
         ("seed = 2\nrope_friction = 7", "rope_friction"),
         ("seed = 2\nrope_friction = \"0.2 N\"", "rope_friction"),
         ("rope_on_rope = false\nrope_friction = 0.2", "ropes pass through each other"),
     ] {
         let problems = refused(&pulled(head, ""));
-        let here = problems.iter().find(|problem| problem.to_string().contains(told));
+        let here = problems.iter().find(|problem| problem.to_string().contains(part));
         let line = 5 + head.lines().position(|line| line.starts_with("rope_friction")).unwrap_or(0);
         assert!(
             here.is_some_and(|problem| problem.to_string().contains(&format!("test.toml:{line}"))),

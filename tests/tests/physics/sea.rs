@@ -1,11 +1,11 @@
-//! Tide, waves and slope as scenarios have them: read, told where wrong, and run with shipped gear.
+//! Tide, waves and slope of scenarios: reading, diagnostics with places, and runs with shipped gear.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, scenario_text, spec_of, told};
+use crate::linked::{Linked, library, report, scenario_text, spec_of};
 use endline_gear::{Options, Scenario, assemble};
-use endline_sim::water::profile::Profile;
-use endline_sim::water::tide::Tide;
+use endline_sim::water::current::Profile;
+use endline_sim::water::current::Tide;
 use endline_sim::water::waves::WaveKind;
 use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, settle, step};
 
@@ -113,13 +113,13 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[current]\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"0 s\"\nspeed = \"1 m/s\"",
         "speed",
-        ["beside a tide in rows", "take this out"],
+        ["beside a tide in rows", "remove this"],
     ),
     (
         "",
         "[current]\nexponent = 0.1\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
         "exponent",
-        ["beside a profile in rows", "take this out"],
+        ["beside a profile in rows", "remove this"],
     ),
     (
         "",
@@ -128,17 +128,12 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         ["both `exponent` and `roughness`", "keep"],
     ),
     ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
-    (
-        "",
-        "[current]\nspeed_height = \"2 m\"",
-        "speed_height",
-        ["without a `speed`", "take this out"],
-    ),
+    ("", "[current]\nspeed_height = \"2 m\"", "speed_height", ["without a `speed`", "remove this"]),
     (
         "",
         "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"",
         "speed_height",
-        ["out of the water", "25 m deep"],
+        ["outside the water", "25 m deep"],
     ),
     (
         "",
@@ -162,7 +157,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"",
         "height",
-        ["out of the water", "25 m deep"],
+        ["outside the water", "25 m deep"],
     ),
     (
         "",
@@ -199,7 +194,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[waves]\nspectrum = \"jonswop\"\nheight = \"1 m\"\nperiod = \"5 s\"",
         "spectrum",
-        ["no value of `spectrum`", "did you mean `jonswap`?"],
+        ["not a value of `spectrum`", "did you mean `jonswap`?"],
     ),
     (
         "",
@@ -211,7 +206,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
 
 /// Each mistake is reported at its line, with how to fix it.
 #[test]
-fn mistakes_in_the_sea_are_told_with_their_place() {
+fn mistakes_in_the_sea_are_reported_with_their_place() {
     for (site, tables, line, parts) in MISTAKES {
         let whole = single(site, tables);
         let problems = match Scenario::read("test.toml", &whole) {
@@ -220,7 +215,7 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
                 .err()
                 .unwrap_or_default(),
         };
-        let message = told(&problems);
+        let message = report(&problems);
         let first = problems.first().unwrap_or_else(|| panic!("this assembles:\n{whole}"));
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
         assert!(whole.lines().nth(first.line - 1).unwrap().starts_with(line), "{message}");

@@ -1,6 +1,6 @@
 //! An endline at slack water hangs in one plane: its sinking part and its floating part lie beside each other, not in each other.
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 use endline_gear::{Options, Scenario, assemble};
 use endline_sim::geometry::distance::segment_segment;
 use endline_sim::{Input, Model, State, Workspace, settle, step};
@@ -29,9 +29,9 @@ fn gear(assembly: &str) -> Model {
 
 fn assembled(text: &str) -> Model {
     let scenario =
-        Scenario::read("slack.toml", text).unwrap_or_else(|found| panic!("{}", told(&found)));
+        Scenario::read("slack.toml", text).unwrap_or_else(|found| panic!("{}", report(&found)));
     let spec = assemble(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|found| panic!("{}", told(&found)));
+        .unwrap_or_else(|found| panic!("{}", report(&found)));
     Model::new(spec).unwrap()
 }
 

@@ -18,7 +18,7 @@ const PREAMBLE: &str = "\
 
 /// After the last struct: the one thing a plugin defines.
 const TRAILER: &str = "\
-/* Define this in the plugin: it is what the program looks for. */
+/* Define this in the plugin: the program loads this symbol. */
 #ifdef __cplusplus
 extern \"C\"
 #endif

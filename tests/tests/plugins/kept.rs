@@ -1,4 +1,4 @@
-//! The promise of the frozen ABI: what was built for 3.0 goes on working, and so does what was built for a later 3.x.
+//! The promise of the frozen ABI: libraries built for 3.0 and for a later 3.x continue to work.
 //!
 //! `tests/plugins/kept` holds the header and a plugin as they were at 3.0; the header beside the sources is the one they are compiled with.
 

@@ -1,10 +1,6 @@
-//! The plugin boundary: what is linked and what is loaded give the same bits, a plugin in C works,
-//! and nothing that is wrong with a plugin takes the program with it.
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests: where one cannot go on, the test fails there"
-)]
+//! The plugin boundary: linked and loaded plugins give the same bits, a plugin in C works, and no bad plugin crashes the
+//! program.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 mod built;
 mod c_plugin;

@@ -1,4 +1,4 @@
-//! What cannot be used is named with its reason, and the rest goes on.
+//! A plugin that cannot be used is reported with the reason; the others are loaded.
 
 use std::fs;
 use std::path::Path;

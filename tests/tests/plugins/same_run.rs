@@ -22,8 +22,8 @@ fn scenarios() -> Vec<PathBuf> {
     files
 }
 
-/// A run of so many steps: its end as the hash that recordings keep, or what stopped it; and whether rope touched the whale. A whale
-/// that no rope touches so soon is set with its snout before the rope.
+/// Runs a number of steps. Returns the state hash of recordings, or the reason of the stop, and whether rope touched the whale. A
+/// whale without contact in this time is placed with its snout at the rope.
 fn run(
     library: &Library,
     text: &str,
@@ -32,7 +32,7 @@ fn run(
 ) -> (Result<String, String>, bool) {
     let first = match model(library, text, hooks, None) {
         Ok(model) => model,
-        Err(told) => return (Err(told), false),
+        Err(stop) => return (Err(stop), false),
     };
     let as_written = walk(&first, steps);
     if as_written.1 || first.spec.whale.is_none() {

@@ -98,7 +98,7 @@ fn every_plugin_that_ships_passes() {
 }
 
 #[test]
-fn what_cannot_be_written_is_told() {
+fn what_cannot_be_written_is_reported() {
     let place = folder("templates-refused");
     let refused = |name: &str, sdk: &str| {
         write_project(&place.join(name), PluginKind::Motion, Language::Rust, Some(Path::new(sdk)))

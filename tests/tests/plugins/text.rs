@@ -74,26 +74,22 @@ fn a_change_of_the_text_changes_its_hash() {
 }
 
 #[test]
-fn what_is_wrong_in_a_text_is_told_with_its_place() {
+fn a_mistake_in_a_text_is_reported_with_its_place() {
     let place = folder("text-wrong");
     let project = written(&place, PluginKind::Gear, "my-gear");
     let file = project.library.join("gear-types/simple.toml");
     let good = fs::read_to_string(&file).unwrap();
-    for (old, new, told) in [
+    for (old, new, part) in [
         (
             "length = \"scope * depth\"",
             "length = \"scope\"",
             "this is a pure number; expected a length",
         ),
-        (
-            "length = \"scope * depth\"",
-            "length = \"scop * depth\"",
-            "nothing is called `scop` here",
-        ),
-        ("rope = \"{rope}\"", "rope = \"{rop}\"", "nothing is called `rop` here"),
+        ("length = \"scope * depth\"", "length = \"scop * depth\"", "unknown name `scop`"),
+        ("rope = \"{rope}\"", "rope = \"{rop}\"", "unknown name `rop`"),
         ("key = \"spacing\"", "key = \"depth\"", "`depth` cannot be the key of an attribute"),
-        ("default = 3\n", "default = 90\n", "the default lies outside the range"),
-        ("items = \"ropes\"", "items = \"roops\"", "`roops` is no folder of items for gear"),
+        ("default = 3\n", "default = 90\n", "the default is outside the range"),
+        ("items = \"ropes\"", "items = \"roops\"", "`roops` is not a folder of items for gear"),
         ("height = 1\n", "hight = 1\n", "unknown field `hight`"),
     ] {
         let bad = good.replacen(old, new, 1);
@@ -102,11 +98,14 @@ fn what_is_wrong_in_a_text_is_told_with_its_place() {
         let problem = try_here(&project.library, &|_, _| ()).unwrap_err();
         let line = 1 + bad.lines().position(|line| line.contains(new.trim_end())).unwrap();
         assert!(
-            problem.contains(told) && problem.contains(&format!("gear-types/simple.toml:{line}:")),
+            problem.contains(part) && problem.contains(&format!("gear-types/simple.toml:{line}:")),
             "{new}: {problem}"
         );
         let (host, problems) = PluginHost::discover(std::slice::from_ref(&place));
-        assert!(host.list().is_empty() && problems.len() == 1, "left out, and the program goes on");
+        assert!(
+            host.list().is_empty() && problems.len() == 1,
+            "omitted, and the program continues"
+        );
     }
     // A row that the attributes make endless ends with a message.
     fs::write(&file, good.replace("repeat = \"traps - 1\"", "repeat = \"1 / (traps - traps)\""))

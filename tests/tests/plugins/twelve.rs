@@ -1,4 +1,4 @@
-//! Twelve bad plugins: each is tried in a child process and named by what is wrong with it, and the program goes on.
+//! Twelve bad plugins: each is tried in a child process and reported with its defect, and the program continues.
 #![cfg(unix)]
 
 use std::env;

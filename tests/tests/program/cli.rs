@@ -202,7 +202,7 @@ fn a_run_refuses_unsettled_gear_unless_told() {
     let place = Place::new("unsettled");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     edit(scenario.as_ref(), "speed", "speed = \"2 m/s\"");
-    let why = ["the gear drags", "more pull than", "`trap`"];
+    let why = ["the gear drags", "the load exceeds", "`trap`"];
     place.endline(&["settle", &scenario]).fails(1, &why);
     let refused = place.endline(&["run", &scenario, "--json"]);
     refused.fails(1, &why);

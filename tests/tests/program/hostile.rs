@@ -38,10 +38,10 @@ fn what_is_no_regular_file_is_not_read_and_links_that_lead_round_end() {
     symlink("/dev/zero", ropes.join("zero.toml")).unwrap();
     for name in ["pipe.toml", "zero.toml"] {
         let file = text(&ropes.join(name));
-        place.endline(&["check", &file]).fails(1, &[name, "it is no regular file"]);
+        place.endline(&["check", &file]).fails(1, &[name, "it is not a regular file"]);
     }
     let called = place.endline(&["check", library.to_str().unwrap()]);
-    called.fails(1, &["ropes/pipe.toml", "ropes/zero.toml", "it is no regular file"]);
+    called.fails(1, &["ropes/pipe.toml", "ropes/zero.toml", "it is not a regular file"]);
 
     let folder = place.path("round");
     fs::create_dir_all(&folder).unwrap();
@@ -59,7 +59,7 @@ fn a_file_with_thousands_of_mistakes_tells_the_first_and_counts_the_rest() {
     (0..5000).for_each(|key| writeln!(own, "unknown{key} = 1").unwrap());
     fs::write(&rope, own).unwrap();
     let called = place.endline(&["check", rope.to_str().unwrap()]);
-    called.fails(1, &["unknown0", "more problems, which are not shown"]);
+    called.fails(1, &["unknown0", "more problems are not shown"]);
     assert!(called.stdout.len() + called.stderr.len() < 200_000, "{}", called.stdout.len());
 
     // One line of 100 kB is not printed whole with each of its mistakes.

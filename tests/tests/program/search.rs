@@ -87,12 +87,7 @@ fn mistakes_are_told_where_they_stand_all_at_once() {
     };
     call(&["search", "wrong.toml"]).fails(
         1,
-        &[
-            "wrong.toml:8:8",
-            "`bodi` is no value of `part`",
-            "wrong.toml:9:9",
-            "no two rising values",
-        ],
+        &["wrong.toml:8:8", "`bodi` is not a value of `part`", "wrong.toml:9:9", "do not rise"],
     );
     call(&["check", "wrong.toml"])
         .fails(1, &["wrong.toml:8:8", "wrong.toml:9:9", "2 of the problems are errors"]);

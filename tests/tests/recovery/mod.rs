@@ -1,5 +1,5 @@
-//! Blind recovery: encounters with hidden parameters are run, what they left is told with noise and hidden parts, and a search that
-//! knows nothing else looks for encounters that end alike.
+//! Blind recovery: encounters with hidden parameters are run, and their endings are reported with noise and hidden parts. A search that
+//! has only these reports finds encounters with such endings.
 #![allow(
     clippy::unwrap_used,
     dead_code,
@@ -145,17 +145,17 @@ pub struct Recovered {
     pub after: Option<usize>,
 }
 
-/// How hidden encounters are searched for.
+/// Effort and folder of the searches.
 pub struct Way<'a> {
     /// Runs of a search whose net alone finds nothing like.
     pub trials: usize,
     /// Of these, draws from the priors before the first local search.
     pub net: usize,
-    /// Folder of the observations, the searches, and the draws that they share; the same call goes on from what it holds.
+    /// Folder of the observations, the searches, and the draws that they share; a repeated call continues from its contents.
     pub folder: &'a Path,
 }
 
-/// Searches for a hidden encounter by what is told of its ending.
+/// Searches for a hidden encounter by the report of its ending.
 pub fn recover(hidden: &Hidden, number: usize, way: &Way<'_>, host: &PluginHost) -> Recovered {
     let Way { trials, net, folder } = *way;
     std::fs::create_dir_all(folder).unwrap();

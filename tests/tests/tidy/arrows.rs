@@ -332,3 +332,24 @@ fn what_decides_a_run_repeats_the_lint_settings_of_the_house() {
         "files that a user names are read by `endline_gear::read`"
     );
 }
+
+/// Contact kinds see the solver through their trait's arguments alone.
+#[test]
+fn contact_never_names_the_solver() {
+    let files = sources(&[".rs"]).into_iter();
+    let contact = files.filter(|file| file.path.starts_with("app/sim/src/contact/"));
+    let named = contact.filter(|file| file.text.contains("crate::solver"));
+    none(&named.map(|file| file.path).collect::<Vec<_>>(), "contact must not name crate::solver");
+}
+
+/// Methods of the solver are in few files, so that a reader finds what changes its fields.
+#[test]
+fn methods_of_the_solver_are_in_few_files() {
+    let files = sources(&[".rs"]).into_iter();
+    let with = files.filter(|file| {
+        file.path.starts_with("app/sim/src/")
+            && file.text.lines().any(|line| line.starts_with("impl Solver"))
+    });
+    let with: Vec<_> = with.map(|file| file.path).collect();
+    assert!(!with.is_empty() && with.len() <= 8, "`impl Solver` is in {with:?}");
+}

@@ -23,7 +23,7 @@ fn values(attribute: &Attribute) -> [String; 2] {
         AttributeKind::Number { min, max, default } => {
             let unit =
                 if attribute.unit == "1" { String::new() } else { format!(" {}", attribute.unit) };
-            // Shares such as a third are told to four places.
+            // Fractions such as a third have four decimal places.
             let rounded = (default * 1e4).round() / 1e4;
             [format!("{min} to {max}{unit}"), format!("{rounded}{unit}")]
         }

@@ -12,8 +12,8 @@ mod code_mark;
 mod documents;
 mod figure_docs;
 mod gear_docs;
-mod headings;
 mod language;
+mod panels;
 mod rules_docs;
 mod text;
 

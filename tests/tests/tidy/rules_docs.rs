@@ -73,7 +73,7 @@ fn assemblies(packs: &Packs) -> String {
                 distance_m: Some(parse(distance, Quantity::Length).unwrap()),
                 traps: None,
             };
-            told(&check(&gear, packs, &fishing).unwrap())
+            report(&check(&gear, packs, &fishing).unwrap())
         };
         let cells: Vec<String> = PLACES.iter().map(cell).collect();
         writeln!(text, "| `{id}` | {} |", cells.join(" | ")).unwrap();
@@ -81,7 +81,7 @@ fn assemblies(packs: &Packs) -> String {
     text
 }
 
-fn told(sheet: &RuleSheet) -> String {
+fn report(sheet: &RuleSheet) -> String {
     let count = |verdict| sheet.with(verdict).count();
     let fails: Vec<String> =
         sheet.with(Verdict::Fail).map(|rule| format!("`{}`", rule.rule)).collect();

@@ -9,7 +9,7 @@ const LONGEST: usize = 600;
 const LONG: usize = 400;
 
 /// Most source files that ship. Lower it to the present count whenever that has decreased, until it is [`FEW_FILES`].
-const FILES: usize = 1045;
+const FILES: usize = 989;
 
 /// The number of shipped source files to reach.
 const FEW_FILES: usize = 750;

@@ -47,7 +47,7 @@ __all__ = [
 
 
 def plugin_problems(*, warn: bool = False) -> list[str]:
-    """Plugins that were left out and why, as the command line tells them; ``warn`` also warns of each."""
+    """Problems of omitted plugins, as the command line reports them; ``warn`` also issues warnings."""
     problems = _endline.problems()
     if warn:
         for problem in problems:

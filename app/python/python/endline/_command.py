@@ -1,4 +1,4 @@
-"""The command ``endline`` that comes with this package."""
+"""The command ``endline`` of this package."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PROGRAM = Path(__file__).parent / "bin" / ("endline.exe" if os.name == "nt" else
 
 
 def main() -> None:
-    """Gives this process to the program, with the same arguments."""
+    """Replaces this process by the program, with the same arguments."""
     if not PROGRAM.is_file():
         sys.exit(f"endline: {PROGRAM} is missing; this package was built without the command (`cargo xtask python` builds it)")
     os.execv(PROGRAM, ["endline", *sys.argv[1:]])

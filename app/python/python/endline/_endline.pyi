@@ -7,7 +7,7 @@ from typing import Any
 _Path = str | os.PathLike[str]
 
 class EndlineError(Exception):
-    """What Endline could not do, and where."""
+    """An error of Endline with its place."""
 
     file: str | None
     line: int | None

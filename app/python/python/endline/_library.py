@@ -13,8 +13,8 @@ from . import _endline
 class Library:
     """A folder of ropes, traps, whales, sites, scenarios and studies as text files.
 
-    ``path``: the folder. Without it, the library that the command line would find: ``ENDLINE_LIBRARY``, else the one that came
-    with this package, else ``gear-library`` in the working folder.
+    ``path``: the folder. Default: the library of the command line: ``ENDLINE_LIBRARY``, else the one of
+    this package, else ``gear-library`` in the working folder.
     """
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
@@ -45,7 +45,7 @@ class Library:
         return self.ids("assemblies")
 
     def check(self) -> list[dict[str, Any]]:
-        """Every problem of its files, as ``endline check`` finds them: file, line, column, field, message, help, is_error."""
+        """The problems of its files, as from ``endline check``: file, line, column, field, message, help, is_error."""
         return self._inner.check()
 
     def __repr__(self) -> str:
@@ -76,7 +76,7 @@ class Assembly:
     ) -> dict[str, Any]:
         """The assembly at rest in the sea of a scenario (id or file), under the keys of ``endline.settle/1``.
 
-        ``depth`` with its unit, such as ``"40 m"``, and ``current_m_s``, the speed at the surface [m/s], stand in place of the
+        ``depth`` with its unit, such as ``"40 m"``, and ``current_m_s``, the speed at the surface [m/s], override the
         scenario's.
         """
         return json.loads(self._inner.settle(os.fspath(scenario), depth, current_m_s))

@@ -1,4 +1,4 @@
-"""What a run leaves: figures, arrays, a recording, pictures."""
+"""The results of a run: figures, arrays, a recording, pictures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from . import _endline
 
 @dataclass(frozen=True)
 class Line:
-    """Where a line lies in the arrays of a run."""
+    """The indices of a line in the arrays of a run."""
 
     #: Its id.
     id: str
@@ -30,7 +30,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Contacts:
-    """Places where rope presses on skin, moment after moment: arrays of one length along axis 0."""
+    """Contacts of rope and skin at all moments: arrays of equal length along axis 0."""
 
     #: Index of the moment, on axis 0 of ``Result.time_s``.
     moment: np.ndarray
@@ -48,7 +48,7 @@ class Contacts:
     normal_force_N: np.ndarray
     #: Friction force of skin on rope [N], shape (n, 3).
     friction_N: np.ndarray
-    #: Length of rope that a contact stands for [m].
+    #: Length of rope of a contact [m].
     length_m: np.ndarray
 
     def __len__(self) -> int:
@@ -83,12 +83,12 @@ class Result:
 
     @functools.cached_property
     def node_position_m(self) -> np.ndarray:
-        """Places of the rope's nodes [m], shape (moments, nodes, 3); ``lines`` tells which are whose."""
+        """Places of the rope's nodes [m], shape (moments, nodes, 3); ``lines`` has the indices of each line."""
         return self._array("node_position_m")
 
     @functools.cached_property
     def tension_N(self) -> np.ndarray:
-        """Tension of each segment, never below zero [N], shape (moments, segments)."""
+        """Tension of each segment, not negative [N], shape (moments, segments)."""
         return self._array("tension_N")
 
     @functools.cached_property
@@ -123,7 +123,7 @@ class Result:
 
     @functools.cached_property
     def contacts(self) -> Contacts:
-        """Places where rope presses on skin at each moment."""
+        """Contacts of rope and skin at each moment."""
         names = ("moment", "line", "segment", "position_m", "normal", "normal_force_N", "friction_N", "length_m")
         region = np.array(self._inner.contact_regions(), dtype=str)
         return Contacts(region=region, **{name: self._array(f"contact_{name}") for name in names})
@@ -158,7 +158,7 @@ class Result:
         Without ``at_s``, the moment of the greatest tension. ``view`` is one of the views of ``endline render``. Needs EGL.
         """
         if len(self.time_s) == 0:
-            raise ValueError("no moments were kept, so there is none to draw; run with frames_hz above 0")
+            raise ValueError("no moments are stored; run with frames_hz above 0")
         if at_s is None:
             lines = self.figures["lines"]
             at_s = max(lines, key=lambda line: line["peak_tension_N"])["peak_at_s"] if lines else 0.0
@@ -169,7 +169,7 @@ class Result:
         return np.frombuffer(pixels, np.uint8).reshape(height, width, 4)
 
     def _repr_png_(self) -> bytes | None:
-        """The picture that Jupyter shows; none where nothing can be drawn."""
+        """The picture for Jupyter; None without moments."""
         try:
             return _png(self.render(size=(960, 600)))
         except (ValueError, _endline.EndlineError):
@@ -196,16 +196,16 @@ class Result:
 
 @dataclass(frozen=True)
 class Replayed:
-    """A recording run again."""
+    """A replayed recording."""
 
     #: The run, up to the first step that differs.
     result: Result
-    #: The first step that differs, its time [s] and the part of the state; None where every step gave the recorded bits.
+    #: The first step that differs, its time [s] and the part of the state; None if all steps have the recorded bits.
     differs: tuple[int, float, str] | None
 
     @property
     def verified(self) -> bool:
-        """Whether every step gave the recorded bits."""
+        """Whether all steps have the recorded bits."""
         return self.differs is None
 
 

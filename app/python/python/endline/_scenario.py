@@ -1,4 +1,4 @@
-"""Scenarios settled and run; recordings run again."""
+"""Scenarios: statics, runs, replays of recordings."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any
 from . import _endline
 from ._result import Replayed, Result
 
-#: Moments kept for each simulated second, as ``endline run --out`` keeps them [Hz].
+#: Stored moments per simulated second, as with ``endline run --out`` [Hz].
 FRAMES_HZ = 10.0
 
 
 class Scenario:
     """A scenario with its gear library, assembled and ready to run.
 
-    ``name``: its id in the library, or its file. ``library``: folder of the gear library. The others are set over what the
-    scenario says: ``seed``; ``step_s``, the step between inputs [s]; ``weak_links``, on or off; ``rating_N``, the rating of every
-    weak link [N]; ``kinetic``, whether the whale's motion answers to forces.
+    ``name``: its id in the library, or its file. ``library``: folder of the gear library. The other arguments override the
+    scenario: ``seed``; ``step_s``, the step between inputs [s]; ``weak_links``, on or off; ``rating_N``, the rating of every
+    weak link [N]; ``kinetic``, whether forces affect the whale's motion.
 
     Raises ``EndlineError`` with file, line and field where the files have errors.
     """
@@ -64,8 +64,8 @@ class Scenario:
     def run(self, *, frames_hz: float = FRAMES_HZ, unsettled: bool = False) -> Result:
         """Settles the gear and runs to the end of the scenario.
 
-        ``frames_hz``: moments kept for each simulated second [Hz]; 0 keeps none. ``unsettled``: start even where statics do not
-        come to rest. Other threads of Python go on meanwhile; Ctrl+C stops the run with ``KeyboardInterrupt``. A run that could
+        ``frames_hz``: stored moments per simulated second [Hz]; 0 for none. ``unsettled``: start even if statics do not
+        settle. Other threads of Python continue; Ctrl+C stops the run with ``KeyboardInterrupt``. A run that could
         not go on is no exception: ``figures["stopped"]`` says why.
         """
         return Result(self._inner.run(frames_hz, unsettled))
@@ -94,9 +94,9 @@ def settle(name: str | os.PathLike[str], library: str | os.PathLike[str] | None 
 def replay(
     recording: str | os.PathLike[str], *, frames_hz: float = FRAMES_HZ, other_plugins: bool = False
 ) -> Replayed:
-    """Runs a recording again and compares every step, up to the first that differs.
+    """Replays a recording and compares the steps up to the first that differs.
 
-    ``frames_hz``: moments kept for each simulated second [Hz]. ``other_plugins``: go on with plugins of another version or file
+    ``frames_hz``: stored moments per simulated second [Hz]. ``other_plugins``: allow plugins of another version or file
     than recorded.
     """
     result, differs = _endline.replay(recording, frames_hz, other_plugins)

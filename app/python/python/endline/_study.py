@@ -16,7 +16,7 @@ class Study:
     """A study, opened and checked.
 
     ``name``: its id in the library, or its file. ``library``: folder of the gear library. A folder of results, ``out``, is
-    ``results/<id>`` where it is not given, as on the command line; both may work on the same folder.
+    ``results/<id>`` by default, as on the command line; both may work on the same folder.
     """
 
     def __init__(self, name: PathLike, library: PathLike | None = None) -> None:
@@ -36,7 +36,7 @@ class Study:
 
     @property
     def encounters(self) -> int:
-        """Encounters asked for, the same for all options."""
+        """Number of encounters of each option."""
         return self._inner.encounters
 
     @property
@@ -45,7 +45,7 @@ class Study:
         return self._inner.options
 
     def plan(self) -> dict[str, Any]:
-        """What it will run, under the keys of ``endline.study_plan/1``."""
+        """Its plan, under the keys of ``endline.study_plan/1``."""
         return json.loads(self._inner.plan())
 
     def out(self, out: PathLike | None = None) -> Path:
@@ -55,20 +55,20 @@ class Study:
     def run(
         self, out: PathLike | None = None, *, part: int = 0, of: int = 1, threads: int | None = None
     ) -> tuple[int, int]:
-        """Runs the missing encounters, and answers how many are done and how many there are.
+        """Runs the missing encounters, and returns the number of done ones and of all.
 
-        ``part`` from 0, ``of`` so many: only each ``of``-th block (``--shard part+1/of``). ``threads``: one for each core where
-        None. Other threads of Python go on meanwhile. Ctrl+C ends it after the encounters under way; blocks that are written
-        stay, and another call goes on from them.
+        ``part`` (from 0) of ``of`` parts: only each ``of``-th block (``--shard part+1/of``). ``threads``: one for each core if
+        None. Other threads of Python continue. Ctrl+C ends it after the encounters in progress; written blocks remain, and
+        another call continues from them.
         """
         return self._inner.run(self.out(out), part, of, threads or os.cpu_count() or 1)
 
     def merge(self, out: PathLike | None = None) -> Path:
-        """Joins the blocks of encounters to ``table.parquet`` and ``table.csv``; answers the first."""
+        """Joins the blocks of encounters to ``table.parquet`` and ``table.csv``; returns the first."""
         return Path(self._inner.merge(self.out(out)))
 
     def report(self, out: PathLike | None = None) -> tuple[Path, dict[str, Any]]:
-        """Writes the report of a merged study; answers its page and the findings under the keys of ``endline study report --json``."""
+        """Writes the report of a merged study; returns its page and the findings under the keys of ``endline study report --json``."""
         page, findings = self._inner.report(self.out(out))
         return Path(page), json.loads(findings)
 
@@ -79,7 +79,7 @@ class Study:
         """
         file = self.out(out) / "table.parquet"
         if not file.is_file():
-            raise FileNotFoundError(f"{file} is not there: call merge() once the study was run")
+            raise FileNotFoundError(f"{file} does not exist: call merge() after the study has run")
         if to == "pyarrow":
             import pyarrow.parquet
 

@@ -10,7 +10,7 @@ from typing import Any
 from ._endline import EndlineError
 from ._study import Study
 
-#: Encounters of a task where none are named: long enough to hide a task's cost, short enough to lose.
+#: Default encounters of a task: many enough for a small overhead, few enough to repeat.
 ENCOUNTERS = 8
 
 
@@ -25,10 +25,10 @@ def run_study(
     shared: bool = True,
     progress: Any = None,
 ) -> Path:
-    """Runs a study on the workers of ``client`` (``distributed.Client``), merges it, and answers the table's file.
+    """Runs a study on the workers of ``client`` (``distributed.Client``), merges it, and returns the file of the table.
 
     The table has the same bytes as that of one machine. A worker that dies costs its tasks alone: they run again elsewhere, and
-    blocks that were written are kept. Blocks that are in ``out`` before are not run again.
+    completed blocks remain in ``out``. Blocks that exist in ``out`` are not run again.
 
     ``out``: folder of results, ``results/<id>`` where None. ``encounters``: how many of a task. ``retries``: how often a task that
     fails is tried again; a task whose worker dies is moved by Dask itself. ``shared``: workers see ``out`` and write there;
@@ -64,7 +64,7 @@ def _absolute(name: str | None) -> str | None:
 
 
 def _parts(study: Study, folder: Path, encounters: int) -> list[tuple[int, int]]:
-    """The parts of which a block is missing."""
+    """The parts with a missing block."""
     if encounters < 1:
         raise ValueError(f"encounters={encounters}: expected at least one for a task")
     of = -(-study.encounters // encounters)
@@ -72,12 +72,12 @@ def _parts(study: Study, folder: Path, encounters: int) -> list[tuple[int, int]]
     return [(part, of) for part in missing]
 
 
-#: Studies that this worker has open, by what names them.
+#: Open studies of this worker, by their arguments.
 _OPEN: dict[tuple[str, str | None, str], Study] = {}
 
 
 def _run_part(name: str, library: str | None, hash: str, out: Path | None, part: int, of: int) -> dict[str, bytes]:
-    """Runs a part on a worker; answers its blocks where the worker does not see the folder of results."""
+    """Runs a part on a worker; returns its blocks if the worker cannot access the folder of results."""
     study = _opened(name, library, hash)
     if out is not None:
         study.run(out, part=part, of=of, threads=1)

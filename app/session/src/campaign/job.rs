@@ -8,7 +8,7 @@ use super::threads::lower_priority;
 use crate::error::Error;
 use crate::task::{Waker, lock};
 
-/// How a job stands.
+/// The state of a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
     /// Not begun.
@@ -47,13 +47,13 @@ pub(crate) struct AtWork<F> {
 }
 
 impl<F> AtWork<F> {
-    /// Enters a state, and wakes whoever shows it.
+    /// Enters a state, and calls the waker.
     pub(crate) fn enter(&self, state: State) {
         *lock(&self.state) = state;
         (self.waker)();
     }
 
-    /// Changes what is found so far, and wakes whoever shows it.
+    /// Changes the results so far, and calls the waker.
     pub(crate) fn found(&self, change: impl FnOnce(&mut F)) {
         change(&mut lock(&self.found));
         (self.waker)();
@@ -135,6 +135,12 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
         )
     }
 
+    /// Whether it is unfinished and was not cancelled.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        self.is_unfinished() && self.state() != State::Cancelling
+    }
+
     /// Whether it waits, is at work or is paused.
     pub fn is_unfinished(&self) -> bool {
         !matches!(self.state(), State::Done | State::Cancelled | State::Failed(_))
@@ -204,6 +210,6 @@ mod tests {
         assert_eq!(job.state(), State::Paused);
         job.cancel();
         assert_eq!(job.state(), State::Cancelling);
-        assert!(job.at_work() && job.is_unfinished());
+        assert!(job.at_work() && job.is_unfinished() && !job.is_wanted());
     }
 }

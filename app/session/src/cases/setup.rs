@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use endline_gear::{Case, CaseHaul, Diagnostic, Document};
-use endline_sim::haul::{Came, Haul, Hauling, endlines};
+use endline_sim::haul::{Haul, HaulEvent, Hauling, endlines};
 use endline_sim::model::{BodyRole, Line, ModelError};
 use endline_sim::{DVec3, Model, settle};
 
@@ -133,9 +133,9 @@ pub(super) fn observe(model: &Model, haul: &CaseHaul, between_s: f64) -> Result<
     let (mut aboard, mut greatest_n) = (0, 0.0_f64);
     while aboard < haul.aboard.unwrap_or(traps) {
         let continues = up.advance().map_err(|stop| Error::Stopped(stop).to_string())?;
-        let traps = |came: &&Came| matches!(came, Came::Aboard(body) if is_trap(*body));
-        aboard += up.felt().came.iter().filter(traps).count() as u64;
-        greatest_n = greatest_n.max(up.felt().load_n);
+        let traps = |event: &&HaulEvent| matches!(event, HaulEvent::Aboard(body) if is_trap(*body));
+        aboard += up.last_step().events.iter().filter(traps).count() as u64;
+        greatest_n = greatest_n.max(up.last_step().load_n);
         let time_s = up.state().time_s;
         if observed.times_s.last().is_none_or(|last| time_s >= last + between_s - 1e-9) {
             observed.times_s.push(time_s);

@@ -27,6 +27,35 @@ pub enum EditAction {
         /// Its value as it is typed, with its unit.
         value: String,
     },
+    /// Set a field while a slider is moved: all values of one movement are one edit.
+    SetHeld {
+        /// The text, as for [`Set`](Self::Set).
+        path: String,
+        /// The field.
+        field: String,
+        /// Its value, with its unit.
+        value: String,
+    },
+    /// End the movement of a slider: its next value is an edit of its own.
+    LetGo,
+    /// Replace a text by an edited one.
+    Replace {
+        /// The text, as for [`Set`](Self::Set).
+        path: String,
+        /// The edited text.
+        text: String,
+    },
+    /// Put cells of the clipboard into the table of a kind.
+    Paste {
+        /// The kind of the table.
+        kind: Kind,
+        /// The cells, as a spreadsheet copies them.
+        cells: String,
+        /// Entries and fields from the chosen cell on; without, the cells have a head row.
+        at: Option<(Vec<String>, Vec<&'static str>)>,
+    },
+    /// Add an assembly of a gear type, by its id, to the library.
+    NewAssembly(String),
     /// Take the last edit back.
     Undo,
     /// Do it again.
@@ -74,6 +103,11 @@ impl EditAction {
     pub fn id(&self) -> &'static str {
         match self {
             Self::Set { .. } => "edit.set",
+            Self::SetHeld { .. } => "edit.set-held",
+            Self::LetGo => "edit.let-go",
+            Self::Replace { .. } => "edit.replace",
+            Self::Paste { .. } => "edit.paste",
+            Self::NewAssembly(_) => "edit.new-assembly",
             Self::Undo => "edit.undo",
             Self::Redo => "edit.redo",
             Self::Save => "edit.save",
@@ -184,6 +218,36 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("path, field, value"),
     ),
     Info::new(
+        "edit.set-held",
+        "Set a field while a slider is moved",
+        "Sets a field as a slider is moved; all values of one movement are one edit.",
+        Make::Values("path, field, value"),
+    ),
+    Info::new(
+        "edit.let-go",
+        "End the movement of a slider",
+        "Ends the movement of a slider; its next value is an edit of its own.",
+        Make::Values("nothing"),
+    ),
+    Info::new(
+        "edit.replace",
+        "Replace a text",
+        "Replaces a text by an edited one; one undo takes it back.",
+        Make::Values("path, text"),
+    ),
+    Info::new(
+        "edit.paste",
+        "Paste cells",
+        "Puts cells of the clipboard into a library table, from a cell on or by their head row.",
+        Make::Values("kind, cells, place"),
+    ),
+    Info::new(
+        "edit.new-assembly",
+        "New gear",
+        "Adds an assembly of a gear type to the library, with the usual values of its attributes.",
+        Make::Values("gear type"),
+    ),
+    Info::new(
         "edit.recover",
         "Recover unsaved edits",
         "Takes up the edits that a program which ended by a fault had not saved.",
@@ -241,6 +305,19 @@ pub(super) fn stem(path: &std::path::Path) -> String {
 pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(), String> {
     match action {
         EditAction::Set { path, field, value } => workbench.set_field(&path, &field, &value),
+        EditAction::SetHeld { path, field, value } => {
+            workbench.project.documents.set_held(&path, &field, &value)
+        }
+        EditAction::LetGo => {
+            workbench.project.documents.let_go();
+            Ok(())
+        }
+        EditAction::Replace { path, text } => {
+            workbench.project.documents.put_all(vec![(path, text)]);
+            Ok(())
+        }
+        EditAction::Paste { kind, cells, at } => workbench.paste(kind, &cells, at),
+        EditAction::NewAssembly(gear_type) => workbench.new_assembly(&gear_type),
         EditAction::Undo => workbench.undo(),
         EditAction::Redo => workbench.redo(),
         EditAction::Save => workbench.save(),

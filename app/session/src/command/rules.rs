@@ -5,11 +5,13 @@
 use super::info::Make;
 use super::info::{has_edit_of_all, has_edits, has_verdicts};
 use super::{Command, Info};
-use crate::workbench::Workbench;
+use crate::workbench::{RuleQuestion, Workbench};
 
 /// An action on rules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RuleAction {
+    /// Ask about another assembly, place, day or way to fish.
+    Ask(RuleQuestion),
     /// Make a proposed edit of the assembly checked, by its place among all proposals, from 0.
     Take(usize),
     /// Make all edits by which the assembly meets the rules that bind.
@@ -24,6 +26,7 @@ impl RuleAction {
     /// The identity it is declared by.
     pub fn id(&self) -> &'static str {
         match self {
+            Self::Ask(_) => "rules.ask",
             Self::Take(_) => "rules.take",
             Self::TakeAll => "rules.take-all",
             Self::Compare(_) => "rules.compare",
@@ -36,7 +39,7 @@ impl RuleAction {
 pub static COMMANDS: &[Info] = &[
     Info::new(
         "rules.take-all",
-        "Take all edits that rules ask for",
+        "Apply all edits that rules require",
         "Edits the assembly checked so that it complies with the rules that bind; one undo takes it back.",
         Make::Plain(|| Command::Rules(RuleAction::TakeAll)),
     )
@@ -48,6 +51,12 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("its place among the proposals"),
     )
     .only_if(has_edits),
+    Info::new(
+        "rules.ask",
+        "Ask rules about gear",
+        "Checks an assembly where, when and how it is fished.",
+        Make::Values("assembly, area, day, depth, distance, traps"),
+    ),
     Info::new(
         "rules.compare",
         "Compare options of rules",
@@ -67,6 +76,10 @@ pub static COMMANDS: &[Info] = &[
 /// Dispatches an action.
 pub(super) fn perform(workbench: &mut Workbench, action: RuleAction) -> Result<(), String> {
     match action {
+        RuleAction::Ask(question) => {
+            workbench.rules.question = question;
+            Ok(())
+        }
         RuleAction::Take(number) => workbench.take_rule_edit(Some(number)),
         RuleAction::TakeAll => workbench.take_rule_edit(None),
         RuleAction::Compare(rules) => workbench.compare_rules(rules),

@@ -10,7 +10,7 @@ use super::info::{has_stories, observation_opened, search_at_work, search_runs};
 use super::{Command, Info};
 use crate::locate;
 use crate::search::question::Length;
-use crate::workbench::Workbench;
+use crate::workbench::{SearchEffort, Workbench};
 
 /// An action on searches. A story is named by its place, 0 for the nearest.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub enum SearchAction {
     New,
     /// Open a copy of the open observation.
     Duplicate,
+    /// How long to search, and with what.
+    Effort(SearchEffort),
     /// Search for the open observation, or continue its search.
     Run,
     /// Pause the running search, or resume it.
@@ -42,6 +44,7 @@ impl SearchAction {
             Self::Open(_) => "search.open",
             Self::New => "search.new",
             Self::Duplicate => "search.duplicate",
+            Self::Effort(_) => "search.effort",
             Self::Run => "search.run",
             Self::Pause => "search.pause",
             Self::Cancel => "search.cancel",
@@ -112,6 +115,12 @@ pub static COMMANDS: &[Info] = &[
     )
     .only_if(search_at_work),
     Info::new(
+        "search.effort",
+        "Effort of the search",
+        "Sets how many runs the search makes at most, on how many threads, with how many neighbours, and at which priority.",
+        Make::Values("runs, threads, neighbours, priority"),
+    ),
+    Info::new(
         "search.replay",
         "Run a story",
         "Runs a story again, up to the moment at which the search held it against the observation.",
@@ -144,6 +153,10 @@ pub(super) fn perform(workbench: &mut Workbench, action: SearchAction) -> Result
         SearchAction::Open(path) => workbench.open_observation(&path),
         SearchAction::New => workbench.new_observation(),
         SearchAction::Duplicate => workbench.duplicate_observation(),
+        SearchAction::Effort(effort) => {
+            workbench.searches.effort = effort;
+            Ok(())
+        }
         SearchAction::Run => workbench.run_search(),
         SearchAction::Pause => workbench.pause_search(),
         SearchAction::Cancel => workbench.cancel_search(),

@@ -30,6 +30,14 @@ pub enum StudyAction {
     Pause,
     /// Take the study at work out of the queue.
     Cancel,
+    /// Pause a study of the queue, by its file, or continue it.
+    PauseJob(PathBuf),
+    /// Take a study out of the queue, by its file; what was run stays.
+    CancelJob(PathBuf),
+    /// Remove a study that has ended from the list, by its file.
+    ForgetJob(PathBuf),
+    /// Run studies at ordinary priority, or behind everything else.
+    FullSpeed(bool),
     /// Show the results in a folder.
     ShowResults(PathBuf),
     /// Write the files that reproduce the results shown, and their report, into a folder.
@@ -54,6 +62,10 @@ impl StudyAction {
             Self::Run => "study.run",
             Self::Pause => "study.pause",
             Self::Cancel => "study.cancel",
+            Self::PauseJob(_) => "study.pause-job",
+            Self::CancelJob(_) => "study.cancel-job",
+            Self::ForgetJob(_) => "study.forget-job",
+            Self::FullSpeed(_) => "study.full-speed",
             Self::ShowResults(_) => "study.results",
             Self::SaveBundle(_) => "study.save-bundle",
             Self::Replay { .. } => "study.replay",
@@ -135,6 +147,30 @@ pub static COMMANDS: &[Info] = &[
     )
     .only_if(study_at_work),
     Info::new(
+        "study.pause-job",
+        "Pause or continue a study of the queue",
+        "Pauses a study of the queue after the encounters in progress, or continues it.",
+        Make::Values("its file"),
+    ),
+    Info::new(
+        "study.cancel-job",
+        "Cancel a study of the queue",
+        "Takes a study out of the queue. Encounters that were run stay.",
+        Make::Values("its file"),
+    ),
+    Info::new(
+        "study.forget-job",
+        "Remove a study from the list",
+        "Removes a study that has ended from the list of the queue. Its results stay.",
+        Make::Values("its file"),
+    ),
+    Info::new(
+        "study.full-speed",
+        "Studies at full speed",
+        "Runs studies at ordinary priority, or behind everything else on the machine.",
+        Make::Values("on or off"),
+    ),
+    Info::new(
         "study.results",
         "Open a study's results",
         "Shows the results in a folder.",
@@ -180,6 +216,13 @@ pub(super) fn perform(workbench: &mut Workbench, action: StudyAction) -> Result<
         StudyAction::Run => workbench.queue_study(),
         StudyAction::Pause => workbench.pause_study(),
         StudyAction::Cancel => workbench.cancel_study(),
+        StudyAction::PauseJob(file) => workbench.pause_job(&file),
+        StudyAction::CancelJob(file) => workbench.cancel_job(&file),
+        StudyAction::ForgetJob(file) => workbench.forget_job(&file),
+        StudyAction::FullSpeed(on) => {
+            workbench.studies.queue.normal_priority = on;
+            Ok(())
+        }
         StudyAction::ShowResults(folder) => workbench.show_results(&folder),
         StudyAction::SaveBundle(folder) => workbench.save_bundle(&folder),
         StudyAction::Replay { option, encounter } => workbench.replay_encounter(option, encounter),

@@ -15,7 +15,7 @@ use crate::units::N_PER_LBF;
 use super::page::{bodies, command, force, probability, threat, unknown, where_and_when};
 use super::{ComplianceSheet, drawing};
 
-/// Height over the seabed above which a whale that swims along it meets rope [m].
+/// Height above the seabed of rope that a whale near the seabed meets [m].
 const CLEAR_M: f64 = 1.0;
 
 /// All that the page shows. The template escapes texts; `style` and figures are markup.
@@ -130,7 +130,7 @@ fn binding_rules(sheet: &ComplianceSheet) -> Cell {
     Cell::lines(lines)
 }
 
-/// The part that delivers least at running tide.
+/// The part of least delivered strength at running tide.
 fn weakest_of(sheet: &ComplianceSheet) -> Option<&PartStrength> {
     let parts = sheet.rest[1].shape.strengths.iter();
     parts.min_by(|one, other| one.delivered_N.total_cmp(&other.delivered_N))
@@ -173,7 +173,7 @@ fn held_fast(sheet: &ComplianceSheet) -> Cell {
     ])
 }
 
-/// Where the figures are from.
+/// Sources of the figures.
 fn sources(sheets: &[ComplianceSheet]) -> Vec<String> {
     let mut lines = Vec::new();
     for sheet in sheets {

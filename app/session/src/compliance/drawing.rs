@@ -17,7 +17,7 @@ const MARGINS: [f64; 4] = [56.0, 16.0, 26.0, 40.0];
 /// Widths of the water shown, in its depths.
 const MOST_DEPTHS: f64 = 2.4;
 
-/// Both shapes, the first drawn through and the second dashed.
+/// Both shapes, the first with solid and the second with dashed lines.
 pub(super) fn side_view(sheet: &ComplianceSheet) -> String {
     let depth_m = sheet.rules.depth_m;
     let shapes = sheet.rest.each_ref().map(|rest| &rest.shape);
@@ -37,7 +37,7 @@ pub(super) fn side_view(sheet: &ComplianceSheet) -> String {
     svg.done()
 }
 
-/// The stretch along the tide that is drawn [m].
+/// The range along the tide that is drawn [m].
 fn window(shapes: [&SettledShape; 2], depth_m: f64) -> [f64; 2] {
     let along = || {
         let lines = shapes.iter().flat_map(|shape| &shape.lines);
@@ -69,7 +69,7 @@ fn seen([along, _, height]: [f64; 3], [x, y]: [Axis; 2]) -> [f64; 2] {
     [x.places[0] + slope * (along - x.values[0]), y.at(height + depth_m)]
 }
 
-/// The parts of a line that lie in the picture.
+/// The parts of a line within the picture.
 fn runs_within(points: &[[f64; 2]], [x, _]: [Axis; 2]) -> Vec<Vec<[f64; 2]>> {
     let is_in = |point: &[f64; 2]| (x.places[0]..=x.places[1]).contains(&point[0]);
     let runs = points.split(|point| !is_in(point));

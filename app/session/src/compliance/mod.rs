@@ -36,7 +36,7 @@ pub use comparison::comparison;
 const SEA: &str = "format = 1\nkind = \"scenario\"\nname = \"compliance sheet\"\nduration = \"1 s\"\nstrength_scatter = false\n\
     [current]\nspeed = \"0 m/s\"\ntoward = \"90 deg\"\n";
 
-/// Speed of the running tide where none is given [m/s]: a shallow bay at its strongest, as the preview of an assembly begins.
+/// Default speed of the running tide [m/s]: a shallow bay at its strongest, as the preview of an assembly begins.
 pub const USUAL_TIDE_M_S: f64 = 0.25;
 
 /// The request for a sheet.

@@ -13,10 +13,10 @@ use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 use super::{ComplianceSheet, ThreatOfGear, drawing};
 use crate::page::Citations;
 
-/// Parts listed of a gear with many alike; a sentence names the others.
+/// Greatest number of parts in a list; a sentence names the others.
 const MOST_PARTS: usize = 14;
 
-/// Tension below which a line lies slack [N].
+/// Tension below which a line is slack [N].
 const SLACK_N: f64 = 0.5;
 
 /// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
@@ -123,7 +123,7 @@ pub(super) fn force(newtons: f64) -> String {
     format!("{:.0} lbf ({:.2} kN)", newtons / N_PER_LBF, newtons / 1000.0)
 }
 
-/// Lines at slack and at running tide that bear something in one of these seas.
+/// Lines at slack and at running tide that are taut in one of these seas.
 fn taut(sheet: &ComplianceSheet) -> Vec<[&LineShape; 2]> {
     let [slack, running] = sheet.rest.each_ref().map(|rest| &rest.shape.lines);
     let bears = |line: &LineShape| line.end_a_tension_N.max(line.end_b_tension_N) >= SLACK_N;
@@ -199,7 +199,7 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
     ]
 }
 
-/// Rules that apply and cannot be checked, with why.
+/// Rules that apply and cannot be checked, with the reason.
 fn not_checked(sheet: &ComplianceSheet, citations: &mut Citations) -> Vec<(String, String)> {
     let row = |rule: &RuleResult| {
         let asks = rule.asks.trim_end_matches('.');
@@ -293,7 +293,7 @@ pub(super) fn probability(share: f64) -> String {
     if share < 1e-4 { "below 0.0001".to_owned() } else { format!("{share:.4}") }
 }
 
-/// How it was hauled.
+/// Conditions of the haul.
 fn haul_source(sheet: &ComplianceSheet) -> String {
     let Ok(haul) = &sheet.haul else { return String::new() };
     format!(
@@ -357,7 +357,7 @@ pub(super) fn unknown(sheet: &ComplianceSheet) -> Vec<String> {
     lines
 }
 
-/// The command that makes the page again.
+/// The command that reproduces the page.
 pub(super) fn command(sheet: &ComplianceSheet) -> String {
     let fishing = &sheet.fishing;
     let mut words = format!(

@@ -26,7 +26,7 @@ fn sheet(assembly: &str, threat: Option<PathBuf>) -> Result<ComplianceSheet, Err
 }
 
 #[test]
-fn a_sheet_tells_rules_strength_and_what_makes_it_again() {
+fn a_sheet_has_rules_strengths_and_the_command_that_reproduces_it() {
     let sheet = sheet("massachusetts-single", None).unwrap();
     let page = sheet.html().unwrap();
     for text in [

@@ -357,10 +357,23 @@ impl Documents {
         path: &str,
         change: impl FnOnce(&mut Document) -> Result<(), String>,
     ) -> Result<(), String> {
+        let text = self.altered(path, change)?;
+        self.change(vec![(path.to_owned(), Some(text))]);
+        Ok(())
+    }
+
+    /// A text as a change would leave it.
+    ///
+    /// # Errors
+    /// As [`alter`](Self::alter).
+    pub fn altered(
+        &self,
+        path: &str,
+        change: impl FnOnce(&mut Document) -> Result<(), String>,
+    ) -> Result<String, String> {
         let mut document = self.document(path)?;
         change(&mut document)?;
-        self.change(vec![(path.to_owned(), Some(document.text()))]);
-        Ok(())
+        Ok(document.text())
     }
 
     /// Puts another scenario in the place of the open one, to be saved as a file of its own: named after the scenario and `what`,
@@ -377,7 +390,7 @@ impl Documents {
         &self.scenario_path
     }
 
-    /// The scenario, the study or the observation goes on under another file, which is not there yet.
+    /// Gives the scenario, the study or the observation another file, which is not there yet.
     pub(super) fn move_outside(&mut self, key: &str, file: PathBuf) {
         match key {
             Self::STUDY => self.study_path = Some(file),

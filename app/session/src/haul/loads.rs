@@ -6,7 +6,7 @@
 //! `T` is one record of one sea: the probability is that over pieces of rope, not over seas.
 
 use endline_sdk::LineEnd;
-use endline_sim::haul::{Came, Haul, LIFTED_M};
+use endline_sim::haul::{Haul, HaulEvent, LIFTED_M};
 use endline_sim::model::{BodyRole, JointKind, Link};
 use endline_sim::parting::link_segment;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -144,10 +144,10 @@ impl Loads {
         for greatest in [&mut self.greatest, &mut self.stage] {
             greatest.update(haul, hanging, &self.parts, &self.tension_n);
         }
-        self.work_j += haul.felt().work_j;
+        self.work_j += haul.last_step().work_j;
         self.sample(haul);
-        let came = haul.felt().came.clone();
-        came.into_iter().for_each(|came| self.event(came, haul, made));
+        let event = haul.last_step().events.clone();
+        event.into_iter().for_each(|event| self.record_event(event, haul, made));
     }
 
     /// Whether as many traps are aboard as asked, or all traps and anchors.
@@ -157,9 +157,9 @@ impl Loads {
 
     /// Ends the last stage.
     pub fn finish(&mut self, haul: &Haul, made: &Made) {
-        for came in haul.felt().came.clone() {
-            if matches!(came, Came::Aboard(_)) && haul.model().spec.lines.is_empty() {
-                self.event(came, haul, made);
+        for event in haul.last_step().events.clone() {
+            if matches!(event, HaulEvent::Aboard(_)) && haul.model().spec.lines.is_empty() {
+                self.record_event(event, haul, made);
             }
         }
         if self.stage.load_n > 0.0 {
@@ -167,17 +167,17 @@ impl Loads {
         }
     }
 
-    fn event(&mut self, came: Came, haul: &Haul, made: &Made) {
+    fn record_event(&mut self, event: HaulEvent, haul: &Haul, made: &Made) {
         let body = |body: usize| &made.model.spec.bodies[body];
-        match came {
-            Came::OffSeabed(index) if self.stages.is_empty() => {
+        match event {
+            HaulEvent::OffSeabed(index) if self.stages.is_empty() => {
                 self.end_stage(format!("{} off the seabed", body(index).id), haul);
             }
-            Came::Aboard(index) => {
+            HaulEvent::Aboard(index) => {
                 self.aboard += usize::from(body(index).role == BodyRole::Trap);
                 self.end_stage(format!("{} aboard", body(index).id), haul);
             }
-            Came::OffSeabed(_) | Came::Line(_) => {}
+            HaulEvent::OffSeabed(_) | HaulEvent::Line(_) => {}
         }
     }
 
@@ -199,14 +199,14 @@ impl Loads {
         let at = |(segment, _): &(usize, f64)| is_out[*segment].then_some(self.tension_n[*segment]);
         let tension_n = self.along.iter().map(at).collect();
         let (hauled_m, load_n, lead_rad) =
-            (haul.hauled_m(), haul.felt().load_n, haul.felt().lead_rad);
+            (haul.hauled_m(), haul.last_step().load_n, haul.last_step().lead_rad);
         self.samples.push(Sample { time_s, hauled_m, load_n, lead_rad, tension_n });
     }
 }
 
 impl Greatest {
     fn update(&mut self, haul: &Haul, hanging: usize, parts: &[Part], tension_n: &[f64]) {
-        let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.felt());
+        let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.last_step());
         if felt.load_n > self.load_n {
             (self.load_n, self.time_s, self.hauled_m) = (felt.load_n, time_s, hauled_m);
         }

@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_source_has_one_number_and_stands_once() {
+    fn a_source_has_one_number_and_is_listed_once() {
         let mut citations = Citations::default();
         let marks = ["a law", "a table", "a law"].map(|source| citations.mark(source));
         assert_eq!(marks, ["[1]", "[2]", "[1]"]);

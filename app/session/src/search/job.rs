@@ -1,6 +1,6 @@
-//! A search at work behind a window: opened, run and reported on threads of its own, paused, cancelled and gone on with.
+//! A search behind a window: opened, run and reported on threads of its own, paused, cancelled and resumed.
 //!
-//! Its rounds lie in a folder named after the observation and the hash of the search. An edited observation therefore begins a
+//! Its rounds are stored in a folder named after the observation and the hash of the search. An edited observation therefore begins a
 //! folder of its own, and a cancelled search continues from its folder.
 
 use std::path::{Path, PathBuf};
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_is_paused_stands_still_and_one_that_is_cancelled_goes_on_later() {
+    fn a_paused_search_does_not_advance_and_a_cancelled_one_continues_later() {
         let place = place("job-paused");
         let job = begin(request(&place, 96));
         job.pause();
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_an_observation_is_told() {
+    fn an_error_of_an_observation_names_its_file() {
         let place = place("job-wrong");
         let wrong = SearchRequest { text: "format = 1\n".into(), ..request(&place, 32) };
         let State::Failed(why) = ended(&begin(wrong)) else { panic!() };

@@ -19,6 +19,7 @@ use super::elites::{Elite, Trial};
 use super::ending::RunEnding;
 use super::folder::Folder;
 use super::question::Question;
+use super::stories::FinerRun;
 
 /// Runs of a kind that are compared.
 const CANDIDATES: usize = 4;
@@ -32,8 +33,8 @@ pub(super) struct Tried<'a> {
     pub(super) elite: &'a Elite,
     /// Share of its neighbours that are like the observation.
     pub(super) alike: f64,
-    /// Distance of the same encounter on a finer resolution.
-    pub(super) finer: f64,
+    /// The same encounter on a finer resolution.
+    pub(super) finer: FinerRun,
 }
 
 /// Greatest number of runs for one kind.
@@ -101,32 +102,35 @@ impl Runs<'_> {
         let one =
             |number| RunEnding::of(&question.opened, &neighbour(question, &elite.point, number));
         let name = format!("neighbours-{}", name(&elite.point));
-        let Some(distances) = self.distances(&name, count, one)? else { return Ok(None) };
-        let like = distances.iter().filter(|distance| **distance <= LIKE).count();
+        let Some(trials) = self.trials(&name, count, one)? else { return Ok(None) };
+        let like = trials.iter().filter(|trial| trial.distance <= LIKE).count();
         #[expect(clippy::cast_precision_loss, reason = "a few")]
         let share = like as f64 / f64::from(count);
         Ok(Some(share))
     }
 
-    /// Distance of a run's encounter on a finer resolution.
-    fn finer(&self, elite: &Elite) -> Result<Option<f64>, Error> {
+    /// A run's encounter on a finer resolution.
+    fn finer(&self, elite: &Elite) -> Result<Option<FinerRun>, Error> {
         let opened = &self.question.opened;
         let one = |_| RunEnding::finer(opened, &Encounter::at_point(&opened.study, &elite.point));
-        let distances = self.distances(&format!("finer-{}", name(&elite.point)), 1, one)?;
-        Ok(distances.and_then(|distances| distances.first().copied()))
+        let trials = self.trials(&format!("finer-{}", name(&elite.point)), 1, one)?;
+        let finer = |trial: &Trial| {
+            if trial.is_valid { FinerRun::Distance(trial.distance) } else { FinerRun::Invalid }
+        };
+        Ok(trials.and_then(|trials| trials.first().map(finer)))
     }
 
-    fn distances(
+    fn trials(
         &self,
         name: &str,
         count: u32,
         one: impl Fn(u32) -> RunEnding + Sync,
-    ) -> Result<Option<Vec<f64>>, Error> {
+    ) -> Result<Option<Vec<Trial>>, Error> {
         let Self { question, folder, effort, control } = self;
         let part = Part { store: &folder.rounds, name, numbers: 0..count };
         let ended = batch::run_one(part, effort, control, one)?;
-        let distance = |ended: &RunEnding| Trial::of(&question.observation, ended).distance;
-        Ok(ended.map(|ended| ended.iter().map(distance).collect()))
+        let trial = |ended: &RunEnding| Trial::of(&question.observation, ended);
+        Ok(ended.map(|ended| ended.iter().map(trial).collect()))
     }
 }
 

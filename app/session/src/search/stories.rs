@@ -1,7 +1,7 @@
 //! The stories of a search as JSON, and what is said of them in words.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::distance::LIKE;
 use super::elites::INVALID;
@@ -55,7 +55,8 @@ pub struct Story {
     /// Share of its neighbours that end alike; `None` if none was run.
     pub alike: Option<f64>,
     /// Distance of the same encounter on a finer resolution, 1000 for an invalid run; `None` if it was not run.
-    pub finer: Option<f64>,
+    #[schemars(with = "Option<f64>")]
+    pub finer: Option<FinerRun>,
     /// Draws from the priors that are of this kind and like the observation.
     pub draws_like: usize,
     /// Simulated time of its run [s].
@@ -66,6 +67,25 @@ pub struct Story {
     pub state_hash: String,
     /// Where in the unit cube of encounters.
     pub point: Vec<f64>,
+}
+
+/// An encounter on a finer resolution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FinerRun {
+    /// Its run is not valid.
+    Invalid,
+    /// Distance of its ending from the observation.
+    Distance(f64),
+}
+
+impl Serialize for FinerRun {
+    /// As a number, 1000 for an invalid run.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(match self {
+            Self::Invalid => INVALID,
+            Self::Distance(distance) => *distance,
+        })
+    }
 }
 
 impl Story {
@@ -109,10 +129,10 @@ impl Story {
     /// Its distance on a finer resolution, in words; `None` if it was not run.
     #[must_use]
     pub fn on_finer(&self) -> Option<String> {
-        self.finer.map(|distance| match distance {
-            INVALID.. => "no valid end".to_owned(),
-            ..=LIKE => format!("alike ({distance:.2})"),
-            _ => format!("not alike ({distance:.2})"),
+        self.finer.map(|finer| match finer {
+            FinerRun::Invalid => "no valid end".to_owned(),
+            FinerRun::Distance(distance @ ..=LIKE) => format!("alike ({distance:.2})"),
+            FinerRun::Distance(distance) => format!("not alike ({distance:.2})"),
         })
     }
 
@@ -142,5 +162,17 @@ impl Stories {
     #[must_use]
     pub fn json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `endline.stories/1` has a number for every run.
+    #[test]
+    fn an_invalid_finer_run_is_1000_in_json() {
+        let runs = [Some(FinerRun::Invalid), Some(FinerRun::Distance(0.5)), None];
+        assert_eq!(serde_json::to_string(&runs).unwrap(), "[1000.0,0.5,null]");
     }
 }

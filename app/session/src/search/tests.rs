@@ -173,7 +173,7 @@ fn another_search_does_not_mix_with_what_a_folder_holds() {
 
 /// Cancelled within a round: runs are stored, none runs twice, and the search continues to the same end.
 #[test]
-fn a_search_that_is_cancelled_between_trials_goes_on_from_them() {
+fn a_search_cancelled_between_trials_continues_from_them() {
     let place = place("cancelled");
     let question = asked(&place, 1);
     let effort = effort(300, 2, [0, 1]);

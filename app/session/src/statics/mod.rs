@@ -5,8 +5,10 @@
 //!
 //! | module | content |
 //! |---|---|
+//! | [`sweep`] | one gear over depths of water and currents |
 //! | [`worker`] | previews on a thread of their own |
 
+pub mod sweep;
 pub mod worker;
 
 use std::sync::Arc;

@@ -109,7 +109,7 @@ fn a_damaged_block_is_named_and_a_damaged_table_is_not_replaced_by_its_blocks() 
     );
     assert!(!folder.has(3) && folder.has(4));
     batch::run(&opened, &folder, Shard::WHOLE, 1, &Control::default()).unwrap();
-    assert!(folder.has(3), "the same command makes it anew");
+    assert!(folder.has(3), "the same command runs it again");
 
     let table = folder.path.join("table.parquet");
     let mut bytes = fs::read(&table).unwrap();

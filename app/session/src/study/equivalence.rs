@@ -203,7 +203,7 @@ fn same_friction(one: &Friction, other: &Friction) -> bool {
         && *law_of == other.law_of
         && *coefficients == other.coefficients
         && *law_of_bodies == other.law_of_bodies
-        && *coefficients_of_bodies == other.coefficients_of_bodies
+        && coefficients_of_bodies[..] == other.coefficients_of_bodies[..]
 }
 
 fn same_law(one: &FrictionLaw, other: &FrictionLaw) -> bool {

@@ -3,29 +3,26 @@
 //! ```text
 //! study file -> options (edited scenarios) x encounters (draws) -> runs -> rows -> blocks on disk -> table -> statistics -> report
 //! ```
-//! An option of the study's file goes through these files:
-//!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `open` | the study read, each option planned and checked |
+//! | `prepared` | the study read, each option planned and checked |
 //! | `plan` | an option as an edited scenario and library |
-//! | `encounters` | what is drawn for an encounter, and the fields that it sets |
-//! | `aim` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
-//! | `prepare` | plan, draws and aim together, assembled |
-//! | `play`, `equivalence`, `branch` | the run, or the run that another option has already |
-//! | `finer` | the run on a finer resolution |
-//! | `row` | the run's figures |
+//! | `prepare` | an option in an encounter: drawn values, gear at rest, the aim of the whale, assembled |
+//! | `play`, `equivalence` | the runs of an encounter, and which options share one |
+//! | `row`, `runs` | a run's figures as a row of the table, and rows read back as structs |
+//! | `batch`, `folder`, `registration` | blocks of encounters on threads and processes, and their folder |
+//! | `merge`, `results` | the table from the blocks, and its results for a window |
+//! | `stats`, `report`, `threat` | statistics, the report and the threat table |
+//! | `queue` | studies behind a window, one after the other |
 //!
 //! Run `i` of an option is defined by the study's hash and `i`. Blocks of encounters are written whole or not at all, so
 //! a killed study continues from its blocks, on one machine or on many, and the merged table has the same bytes.
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
 pub mod batch;
-
 #[cfg(test)]
 mod damaged;
 mod equivalence;
-
 pub mod folder;
 pub mod merge;
 mod plan;
@@ -33,7 +30,6 @@ mod play;
 pub(crate) mod prepare;
 pub(crate) mod prepared;
 pub mod queue;
-
 pub mod registration;
 pub mod report;
 pub mod results;

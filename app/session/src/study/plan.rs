@@ -17,7 +17,7 @@ pub struct OptionPlan {
     pub id: String,
     /// Name shown to the user.
     pub name: String,
-    /// Strength it stands for [N].
+    /// Strength that it represents [N].
     pub strength_n: Option<f64>,
     /// Which curve of break-away against strength it belongs to.
     pub curve: Option<String>,
@@ -31,7 +31,7 @@ pub struct OptionPlan {
     pub(super) scenario: Document,
     pub(super) scenario_name: String,
     pub(super) sources: Sources,
-    /// The option as it stands, for its library files and its plugins.
+    /// The option without drawn values, for its library files and its plugins.
     pub prepared: Prepared,
 }
 
@@ -79,7 +79,7 @@ pub(super) struct Base<'a> {
 }
 
 impl Base<'_> {
-    /// The plan of an option, checked by assembling it as it stands.
+    /// The plan of an option, checked by assembling it.
     pub fn option(&self, option: &StudyOption) -> Result<OptionPlan, Error> {
         let scenario = Document::parse(&self.text)
             .map_err(|error| Error::Message(format!("{}: {}", self.name, error.message)))?;
@@ -154,7 +154,7 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// The option assembled as it stands; an error caused by a setting is reported at that setting.
+    /// The option assembled; an error caused by a setting is reported at that setting.
     fn prepare(
         &self,
         option: &StudyOption,

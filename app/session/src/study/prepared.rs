@@ -243,7 +243,7 @@ pub(crate) struct Plan<'a> {
     hash: &'a str,
     /// Number of encounters.
     encounters: u64,
-    /// Number of blocks of encounters that are run and kept as one.
+    /// Number of blocks of encounters that are run and stored as one.
     blocks: u64,
     /// Ids of the options, in order.
     options: Vec<&'a str>,

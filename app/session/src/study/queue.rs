@@ -27,7 +27,7 @@ pub struct StudyRequest {
     pub file: PathBuf,
     /// The study's name.
     pub name: String,
-    /// The text that is run, whatever the file holds.
+    /// The text that is run, which may differ from the file.
     pub text: String,
     /// The library and the open scenario.
     pub files: Files,
@@ -61,14 +61,14 @@ impl Queue {
     /// The study at work, else the first that is paused or waits.
     #[must_use]
     pub fn current(&self) -> Option<&StudyJob> {
-        let at_work = self.jobs.iter().find(|job| job.at_work());
-        at_work.or_else(|| self.jobs.iter().find(|job| job.is_unfinished()))
+        let wanted = || self.jobs.iter().filter(|job| job.is_wanted());
+        wanted().find(|job| job.at_work()).or_else(|| wanted().next())
     }
 
-    /// The unfinished job of a study's file.
+    /// The unfinished job of a study's file, unless it was cancelled.
     #[must_use]
     pub fn unfinished(&self, file: &Path) -> Option<&StudyJob> {
-        self.jobs.iter().find(|job| job.request.file == file && job.is_unfinished())
+        self.jobs.iter().find(|job| job.request.file == file && job.is_wanted())
     }
 
     /// Begins the next study that waits, unless one is at work.

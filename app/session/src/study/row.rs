@@ -1,4 +1,4 @@
-//! The row of a run: the figures that declare a column, and what was drawn for the encounter.
+//! The row of a run: the figures that declare a column, and the values drawn for the encounter.
 
 use endline_sdk::BodyPart;
 
@@ -12,7 +12,7 @@ use crate::table::{Cell, Row};
 /// Place of the columns of the whale's parts among the others.
 const PARTS: u16 = 200;
 
-/// A column: where it stands, its name and its value. Columns of parts stand part by part.
+/// A column: its place, name and value. Columns of parts are in the order of the parts.
 type Placed = ([u16; 3], String, Cell);
 
 /// The row of an option in an encounter; `Err` says why there was no run.
@@ -99,6 +99,8 @@ mod tests {
 
     use super::*;
     use crate::figures::tests::made_up;
+    use crate::study::runs::Runs;
+    use crate::table::{Table, parquet};
 
     /// The columns of `table.parquet` before those of what was drawn; scripts depend on them.
     const COLUMNS: &str = "encounter option replay_key weight valid fault tunnelled unconverged simulated_s \
@@ -129,8 +131,8 @@ mod tests {
         COLUMNS.split_whitespace().flat_map(column).collect()
     }
 
-    /// Every figure of a list with a column stands in a row under the column's name.
-    fn stands<S>(row: &Row, figures: &[Figure<S>], source: &S, before: &str) -> usize {
+    /// Checks that every figure of a list with a column is in a row under the column's name.
+    fn check_list<S>(row: &Row, figures: &[Figure<S>], source: &S, before: &str) -> usize {
         let with_column = figures.iter().filter_map(|figure| Some((figure, figure.column?)));
         let check = |(figure, column): (&Figure<S>, crate::figures::Column)| {
             let name = format!("{before}{}", column.name);
@@ -146,14 +148,43 @@ mod tests {
         let whale = report.summary.whale.as_ref().unwrap();
         let row = cells(&attempt(), Some(&report));
         assert_eq!(row.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>(), names());
-        let mut count = stands(&row, ATTEMPT, &attempt(), "");
-        count += stands(&row, RUN, &report, "");
-        count += stands(&row, AUDIT, &report, "");
-        count += stands(&row, WHALE, whale, "");
+        let mut count = check_list(&row, ATTEMPT, &attempt(), "");
+        count += check_list(&row, RUN, &report, "");
+        count += check_list(&row, AUDIT, &report, "");
+        count += check_list(&row, WHALE, whale, "");
         for part in parts(whale, &[]) {
-            count += stands(&row, PART, &part, &format!("{}_", part.summary.part.name()));
+            count += check_list(&row, PART, &part, &format!("{}_", part.summary.part.name()));
         }
         assert_eq!(count, row.len(), "no column comes from elsewhere");
+    }
+
+    #[test]
+    fn a_run_read_from_a_stored_row_has_the_values_of_its_report() {
+        let report = made_up::report();
+        let whale = report.summary.whale.as_ref().unwrap();
+        let table = Table::of(vec![cells(&attempt(), Some(&report))]).unwrap();
+        let bytes = parquet::write(&table, &[]).unwrap();
+        let runs = Runs::read(parquet::read(bytes).unwrap().0).unwrap();
+        let run = runs.find("link-0600", 7).unwrap();
+        assert_eq!((run.weight.to_bits(), run.fault.as_str()), (1.0_f64.to_bits(), "a fault"));
+        assert_eq!((run.valid, run.state_hash.as_str()), (false, "0123456789abcdef"));
+        assert_eq!(run.simulated_s, Some(report.simulated_s));
+        let checks = (run.resolution_looks, run.resolution_missed);
+        assert_eq!(checks, (report.audit.resolution_looks, report.audit.resolution_missed));
+        assert_eq!((run.outcome.as_str(), run.decided), (whale.outcome.name(), whale.decided));
+        assert_eq!(run.first_contact_s, whale.first_contact_s);
+        assert_eq!(run.last_contact_s, whale.last_contact_s);
+        assert_eq!(run.tethered_m, Some(whale.tethered_m));
+        assert_eq!(run.lodged_in_mouth, whale.lodged_in_mouth);
+        let peaks = report.summary.lines.iter().map(|line| line.peak_tension_n);
+        assert_eq!(run.peak_tension_n, peaks.reduce(f64::max));
+        for region in &whale.regions {
+            let part = &run.parts[region.part as usize];
+            assert_eq!(part.wraps, Some(region.wraps), "{:?}", region.part);
+            assert_eq!(part.peak_wraps, Some(region.peak_wraps), "{:?}", region.part);
+            assert_eq!(part.peak_normal_n, Some(region.peak_normal_n), "{:?}", region.part);
+            assert_eq!(part.peak_pressure_pa, Some(region.peak_pressure_pa), "{:?}", region.part);
+        }
     }
 
     #[test]

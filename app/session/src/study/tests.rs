@@ -145,7 +145,7 @@ fn blocks_written(folder: &Folder) -> u32 {
 }
 
 #[test]
-fn a_paused_study_stands_still_and_its_table_is_that_of_one_never_paused() {
+fn a_paused_study_does_not_advance_and_its_table_is_that_of_one_never_paused() {
     let place = Place::new("paused");
     let opened = place.open();
     let whole = Folder::open(&place.0.join("whole"), &opened).unwrap();
@@ -163,7 +163,7 @@ fn a_paused_study_stands_still_and_its_table_is_that_of_one_never_paused() {
         let done = control.progress().encounters.done;
         std::thread::sleep(Duration::from_millis(300));
         assert!(control.is_paused() && !run.is_finished());
-        assert_eq!(control.progress().encounters.done, done, "a paused study stands still");
+        assert_eq!(control.progress().encounters.done, done, "a paused study does not advance");
         assert!(done < 24, "the study was over before it was paused");
         control.resume();
         run.join().unwrap().unwrap();
@@ -198,7 +198,7 @@ fn a_cancelled_study_keeps_whole_blocks_and_a_second_call_continues_from_them() 
 }
 
 #[test]
-fn progress_counts_each_encounter_and_block_once_and_tells_the_time_left() {
+fn progress_counts_each_encounter_and_block_once_and_estimates_the_time_left() {
     let place = Place::new("progress");
     let opened = place.open();
     let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
@@ -257,13 +257,15 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
     queue.add(job(place.study()));
     queue.add(job(second.clone()));
     queue.add(job(second.clone()));
-    assert_eq!(queue.jobs.len(), 2, "a study stands in the queue once");
+    assert_eq!(queue.jobs.len(), 2, "a study is in the queue once");
     queue.begin_next(&host);
     queue.begin_next(&host);
     assert_eq!(queue.jobs[1].state(), State::Waiting, "one study at a time");
     queue.jobs[0].pause();
     wait("the pause", || queue.jobs[0].state() == State::Paused);
     queue.jobs[0].cancel();
+    assert!(queue.unfinished(&place.study()).is_none(), "a cancelled study can be queued again");
+    assert_eq!(queue.current().unwrap().request.file, second, "the next study is current");
     wait("the end of its threads", || !queue.jobs[0].is_unfinished());
     assert_eq!(queue.jobs[0].state(), State::Cancelled);
     queue.begin_next(&host);

@@ -77,16 +77,19 @@ pub struct Table {
     pub columns: Vec<(String, Column)>,
 }
 
-impl Column {
-    fn of(cell: &Cell) -> Self {
+impl From<Cell> for Column {
+    /// A column of one value; a number that is not finite is missing.
+    fn from(cell: Cell) -> Self {
         match cell {
-            Cell::Whole(_) => Self::Whole(Vec::new()),
-            Cell::Real(_) => Self::Real(Vec::new()),
-            Cell::Text(_) => Self::Text(Vec::new()),
-            Cell::Flag(_) => Self::Flag(Vec::new()),
+            Cell::Whole(value) => Self::Whole(vec![value]),
+            Cell::Real(value) => Self::Real(vec![value.filter(|number| number.is_finite())]),
+            Cell::Text(value) => Self::Text(vec![value]),
+            Cell::Flag(value) => Self::Flag(vec![value]),
         }
     }
+}
 
+impl Column {
     /// Kind of its cells, in words.
     fn kind(&self) -> &'static str {
         match self {
@@ -95,20 +98,6 @@ impl Column {
             Self::Text(_) => "a text",
             Self::Flag(_) => "true or false",
         }
-    }
-
-    /// Adds a cell; `Err` has the kinds expected and found.
-    fn push(&mut self, cell: Cell) -> Result<(), [&'static str; 2]> {
-        match (self, cell) {
-            (Self::Whole(values), Cell::Whole(value)) => values.push(value),
-            (Self::Real(values), Cell::Real(value)) => {
-                values.push(value.filter(|number| number.is_finite()));
-            }
-            (Self::Text(values), Cell::Text(value)) => values.push(value),
-            (Self::Flag(values), Cell::Flag(value)) => values.push(value),
-            (column, cell) => return Err([column.kind(), Self::of(&cell).kind()]),
-        }
-        Ok(())
     }
 
     /// Adds the values of another column; `Err` has the kinds expected and found.
@@ -168,35 +157,11 @@ impl Table {
     /// Rows as columns.
     pub fn of(rows: Vec<Row>) -> Result<Self, WrongCell> {
         let mut table = Self::default();
-        if let Some(first) = rows.first() {
-            table.columns =
-                first.iter().map(|(name, cell)| (name.clone(), Column::of(cell))).collect();
-        }
-        for (number, row) in rows.into_iter().enumerate() {
-            table.same_names(number, row.iter().map(|(name, _)| name.as_str()))?;
-            for ((name, column), (_, cell)) in table.columns.iter_mut().zip(row) {
-                column
-                    .push(cell)
-                    .map_err(|[expected, found]| WrongCell::new(name, number, expected, found))?;
-            }
+        for row in rows {
+            let columns = row.into_iter().map(|(name, cell)| (name, Column::from(cell))).collect();
+            table.append(Self { columns })?;
         }
         Ok(table)
-    }
-
-    /// Whether a row or table has the columns of this one, in order.
-    fn same_names<'a>(
-        &self,
-        row: usize,
-        mut names: impl Iterator<Item = &'a str>,
-    ) -> Result<(), WrongCell> {
-        for (column, _) in &self.columns {
-            let found = names.next();
-            if found != Some(column) {
-                return Err(WrongCell::misplaced(column, row, found));
-            }
-        }
-        let more = |name| Err(WrongCell::new(name, row, "no such column", "a cell"));
-        names.next().map_or(Ok(()), more)
     }
 
     /// Number of rows.
@@ -216,12 +181,21 @@ impl Table {
             return Ok(());
         }
         let row = self.rows();
-        self.same_names(row, other.columns.iter().map(|(name, _)| name.as_str()))?;
-        for ((name, own), (_, more)) in self.columns.iter_mut().zip(other.columns) {
-            own.extend(more)
-                .map_err(|[expected, found]| WrongCell::new(name, row, expected, found))?;
+        let mut more = other.columns.into_iter();
+        for (name, own) in &mut self.columns {
+            match more.next() {
+                Some((other, values)) if other == *name => own
+                    .extend(values)
+                    .map_err(|[expected, found]| WrongCell::new(name, row, expected, found))?,
+                other => {
+                    let found = other.as_ref().map(|(name, _)| name.as_str());
+                    return Err(WrongCell::misplaced(name, row, found));
+                }
+            }
         }
-        Ok(())
+        let one_more =
+            more.next().map(|(name, _)| WrongCell::new(&name, row, "no such column", "a cell"));
+        one_more.map_or(Ok(()), Err)
     }
 
     /// The table as comma-separated values with a line of names.

@@ -30,45 +30,74 @@ pub mod searches;
 pub mod studies;
 pub mod study_check;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_sdk::{Act, GearType};
 
 use crate::edit::Documents;
+use crate::edit::recovery::{Autosave, UnsavedEdits};
 use crate::live::{Launch, LiveView, Status};
-use crate::plugins::PluginHost;
+use crate::plugins::{Ask, Loader, PluginHost, PluginProblem};
 use crate::task::Waker;
+use crate::units::Units;
 pub use comparison::Comparison;
 pub use notice::{Event, Notice, NoticeKind};
-pub use plugins::Plugins;
+pub use plugins::{Load, Plugins};
 pub use preferences::Preferences;
 pub use project::Project;
 pub use rules::{RuleAnswer, RuleChecks, RuleQuestion};
 pub use run::{CurrentRun, Direction, SPEEDS, Speed};
-pub use searches::Searches;
+pub use searches::{SearchEffort, Searches};
 pub use studies::Studies;
 
-/// What a user has open and does.
-pub struct Workbench {
-    /// The texts.
-    pub project: Project,
-    /// The run shown.
-    pub run: CurrentRun,
-    /// Studies at work and their results.
-    pub studies: Studies,
-    /// The search at work and the stories found.
-    pub searches: Searches,
-    /// An assembly checked under rules.
-    pub rules: RuleChecks,
-    /// Plugins in use, and those that are not.
-    pub plugins: Plugins,
-    /// What the user prefers.
-    pub preferences: Preferences,
-    /// Folder that runs are kept in; none are kept without one.
+/// Folders that a workbench writes to.
+#[derive(Clone, Debug, Default)]
+pub struct Folders {
+    /// Recordings of runs; no run is recorded without one.
     pub recordings: Option<PathBuf>,
-    /// What was said last.
-    pub notice: Option<Notice>,
+    /// Results of studies; `results` in the working folder without one.
+    pub studies: Option<PathBuf>,
+    /// Results of searches; `results` in the working folder without one.
+    pub searches: Option<PathBuf>,
+    /// Unsaved edits, for the case of a crash; they are not stored without one.
+    pub unsaved: Option<PathBuf>,
+}
+
+impl Folders {
+    /// The folders inside the folder of a user's data.
+    #[must_use]
+    pub fn within(data: &Path) -> Self {
+        let [recordings, studies, searches] =
+            ["recordings", "studies", "searches"].map(|name| Some(data.join(name)));
+        Self { recordings, studies, searches, unsaved: Some(data.to_owned()) }
+    }
+}
+
+/// What is on screen and is to be checked as it is edited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shown {
+    /// The open study.
+    pub study: bool,
+    /// An assembly under rules.
+    pub rules: bool,
+}
+
+/// What a user has open and does.
+///
+/// It is read by views, such as [`project`](Self::project), and changed by [commands](Self::perform). What else changes it is for
+/// the program around it: a window or a script.
+pub struct Workbench {
+    pub(crate) project: Project,
+    pub(crate) run: CurrentRun,
+    pub(crate) studies: Studies,
+    pub(crate) searches: Searches,
+    pub(crate) rules: RuleChecks,
+    pub(crate) plugins: Plugins,
+    pub(crate) preferences: Preferences,
+    /// Folder of the recordings of runs; no run is recorded without one.
+    pub(crate) recordings: Option<PathBuf>,
+    pub(crate) notice: Option<Notice>,
     events: Vec<Event>,
     waker: Waker,
 }
@@ -98,6 +127,116 @@ impl Workbench {
         workbench
     }
 
+    /// The open texts.
+    #[must_use]
+    pub fn project(&self) -> &Project {
+        &self.project
+    }
+
+    /// Studies at work and their results.
+    #[must_use]
+    pub fn studies(&self) -> &Studies {
+        &self.studies
+    }
+
+    /// The search at work and the stories found.
+    #[must_use]
+    pub fn searches(&self) -> &Searches {
+        &self.searches
+    }
+
+    /// An assembly checked under rules.
+    #[must_use]
+    pub fn rules(&self) -> &RuleChecks {
+        &self.rules
+    }
+
+    /// Plugins in use, and those that are not.
+    #[must_use]
+    pub fn plugins(&self) -> &Plugins {
+        &self.plugins
+    }
+
+    /// What the user prefers.
+    #[must_use]
+    pub fn preferences(&self) -> &Preferences {
+        &self.preferences
+    }
+
+    /// Folder of the recordings of runs.
+    #[must_use]
+    pub fn recordings(&self) -> Option<&Path> {
+        self.recordings.as_deref()
+    }
+
+    /// The last notice.
+    #[must_use]
+    pub fn notice(&self) -> Option<&Notice> {
+        self.notice.as_ref()
+    }
+
+    /// Shows a notice of the program around the workbench.
+    pub fn say(&mut self, notice: Notice) {
+        self.notice = Some(notice);
+    }
+
+    /// Takes the last notice away.
+    pub fn dismiss_notice(&mut self) {
+        self.notice = None;
+    }
+
+    /// Restores what the user preferred in an earlier session.
+    pub fn set_preferences(&mut self, preferences: Preferences) {
+        self.preferences = preferences;
+    }
+
+    /// Shows values in other units.
+    pub fn set_units(&mut self, units: Units) {
+        self.preferences.units = units;
+    }
+
+    /// Sets the folders that are given; the others stay.
+    pub fn write_to(&mut self, folders: Folders) {
+        let Folders { recordings, studies, searches, unsaved } = folders;
+        self.recordings = recordings.or(self.recordings.take());
+        self.studies.folder = studies.or(self.studies.folder.take());
+        self.searches.folder = searches.or(self.searches.folder.take());
+        if let Some(folder) = unsaved {
+            self.project.autosave = Autosave::in_folder(folder);
+        }
+    }
+
+    /// Stores unsaved edits where it is time. Returns the time after which to call again [s].
+    pub fn store_unsaved(&mut self, now_s: f64) -> Option<f64> {
+        self.project.autosave.keep(&self.project.documents, now_s)
+    }
+
+    /// Waits until unsaved edits that are being stored are on the disk.
+    pub fn finish_storing(&mut self) {
+        self.project.autosave.finish();
+    }
+
+    /// Deletes the stored unsaved edits: they are saved, or given up.
+    pub fn forget_unsaved(&mut self) {
+        self.project.autosave.clear();
+    }
+
+    /// Unsaved edits that crashed programs left, the newest first, with their files.
+    #[must_use]
+    pub fn left_behind(&self) -> Vec<(PathBuf, UnsavedEdits)> {
+        self.project.autosave.left_behind()
+    }
+
+    /// Loads plugins by a loader from now on; `problems` are those of the plugins loaded at the start.
+    pub fn load_plugins_with(&mut self, loader: Loader, load: Load, problems: Vec<PluginProblem>) {
+        self.plugins.load_with(loader, load, problems);
+    }
+
+    /// Asks about a new plugin no more in this session.
+    pub fn put_off_plugin(&mut self, ask: &Ask) {
+        self.plugins.put_off(ask);
+    }
+
     /// Takes in what other threads have ready.
     pub fn refresh(&mut self) {
         self.take_model();
@@ -109,6 +248,17 @@ impl Workbench {
         self.keep_finished_run();
         self.take_program();
         self.refresh_comparison();
+    }
+
+    /// Starts the checks of what is on screen, where it has changed since it was checked. A window calls it once a frame, a
+    /// script once after its edits.
+    pub fn check(&mut self, shown: Shown) {
+        if shown.study {
+            self.check_study();
+        }
+        if shown.rules {
+            self.ask_for_rules();
+        }
     }
 
     /// What came about since the last call.

@@ -46,6 +46,8 @@ pub enum Event {
     EntryAdded(usize),
     /// The run shown is kept as this recording.
     RunKept(std::path::PathBuf),
+    /// This assembly was added to the library.
+    AssemblyAdded(String),
     /// An entry of the library was copied.
     Duplicated {
         /// The entry.

@@ -21,7 +21,7 @@ pub struct Project {
     /// Every open text.
     pub documents: Documents,
     /// Keeps unsaved edits for the case of a crash.
-    pub autosave: Autosave,
+    pub(super) autosave: Autosave,
     /// Problems found in making the model last.
     pub(super) model_problems: Vec<Diagnostic>,
     /// The texts they were found in.
@@ -86,13 +86,7 @@ impl Project {
 }
 
 impl Workbench {
-    /// Sets a field of a text; the notice says what else changed, or why it failed.
-    pub fn set(&mut self, path: &str, field: &str, value: &str) {
-        if let Err(reason) = self.set_field(path, field, value) {
-            self.notice = Some(Notice::fault(reason));
-        }
-    }
-
+    /// Sets a field of a text; the notice says what else changed.
     pub(crate) fn set_field(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
         if let Some(said) = self.project.documents.set(path, field, value)? {
             self.notice = Some(Notice::done(said));
@@ -204,6 +198,21 @@ impl Workbench {
         Ok(())
     }
 
+    pub(crate) fn new_assembly(&mut self, gear_type: &str) -> Result<(), String> {
+        let gear = self.plugins.host.gear(gear_type);
+        let gear = gear.ok_or_else(|| format!("there is no gear type {gear_type}"))?;
+        let stem = gear_type.rsplit('.').next().unwrap_or("gear");
+        let documents = &mut self.project.documents;
+        let path = documents.fresh_path("assemblies", &format!("my-{stem}"));
+        let text = format!(
+            "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{gear_type}\"\n\n[attributes]\n",
+            gear.descriptor().name.to_lowercase(),
+        );
+        documents.put_all(vec![(path.clone(), text)]);
+        self.events.push(Event::AssemblyAdded(path));
+        Ok(())
+    }
+
     pub(crate) fn remove(&mut self, path: &str) -> Result<(), String> {
         let documents = &mut self.project.documents;
         if documents.text(path).is_none() {
@@ -228,6 +237,25 @@ impl Workbench {
             .map_err(|error| format!("{}: {error}", file.display()))?;
         let taken = library_table::import(&mut self.project.documents, kind, &text)
             .map_err(|reason| format!("not taken in: {reason}"))?;
+        let notice = if taken.left_out.is_empty() { Notice::done } else { Notice::hint };
+        self.notice = Some(notice(taken.sentence()));
+        Ok(())
+    }
+
+    /// Puts cells of the clipboard into a library table: over the entries and fields of `at`, or by their head row.
+    pub(crate) fn paste(
+        &mut self,
+        kind: Kind,
+        cells: &str,
+        at: Option<(Vec<String>, Vec<&'static str>)>,
+    ) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        let taken = match at {
+            Some((paths, keys)) => library_table::cells(cells)
+                .and_then(|cells| library_table::spread(documents, &paths, &keys, &cells)),
+            None => library_table::import(documents, kind, cells),
+        };
+        let taken = taken.map_err(|reason| format!("not pasted: {reason}"))?;
         let notice = if taken.left_out.is_empty() { Notice::done } else { Notice::hint };
         self.notice = Some(notice(taken.sentence()));
         Ok(())

@@ -55,7 +55,7 @@ impl Workbench {
     ///
     /// # Errors
     /// Where there is no run.
-    pub fn kept_frames(&mut self) -> Result<Receiver<Vec<Arc<Frame>>>, String> {
+    pub fn kept_frames(&self) -> Result<Receiver<Vec<Arc<Frame>>>, String> {
         let (sender, receiver) = channel();
         self.send(RunCommand::KeptFrames(sender))?;
         Ok(receiver)

@@ -150,8 +150,8 @@ impl RuleChecks {
 }
 
 impl Workbench {
-    /// Asks for the verdicts where the texts or the question have changed since; a window calls it while it shows them.
-    pub fn ask_for_rules(&mut self) {
+    /// Asks for the verdicts where the texts or the question have changed since.
+    pub(super) fn ask_for_rules(&mut self) {
         let version = self.project.documents.version();
         let checks = &mut self.rules;
         // Another scenario asks about its own gear, whatever was chosen before.
@@ -169,6 +169,7 @@ impl Workbench {
         checks.asked = Some(wanted);
         if let Err(why) = self.begin_check() {
             self.rules.why = why;
+            (self.waker)();
         }
     }
 

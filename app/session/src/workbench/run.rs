@@ -106,7 +106,7 @@ impl Workbench {
     ///
     /// # Errors
     /// Where there is no run to take it.
-    pub(super) fn send(&mut self, command: RunCommand) -> Result<(), String> {
+    pub(super) fn send(&self, command: RunCommand) -> Result<(), String> {
         let sent = self.run.engine.as_ref().is_some_and(|engine| engine.send(command));
         if sent { Ok(()) } else { Err("the run does not take commands now".to_owned()) }
     }

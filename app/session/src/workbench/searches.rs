@@ -29,10 +29,9 @@ const WHALE: &str = "right-whale";
 /// A scenario that was kept: its file, and library files that its story has otherwise than the library.
 type Kept = (PathBuf, Vec<String>);
 
-/// The search at work, and how long to search.
-pub struct Searches {
-    /// The search at work, or the one whose stories are shown.
-    pub job: Option<SearchJob>,
+/// How long to search, and with what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SearchEffort {
     /// Runs at most.
     pub trials: usize,
     /// Threads.
@@ -41,23 +40,25 @@ pub struct Searches {
     pub neighbours: usize,
     /// Whether it runs at normal priority rather than the lowest.
     pub normal_priority: bool,
+}
+
+impl Default for SearchEffort {
+    fn default() -> Self {
+        let threads = threads::default_count();
+        Self { trials: TRIALS, threads, neighbours: NEIGHBOURS, normal_priority: false }
+    }
+}
+
+/// The search at work, and how long to search.
+#[derive(Default)]
+pub struct Searches {
+    /// The search at work, or the one whose stories are shown.
+    pub job: Option<SearchJob>,
+    /// How long to search, and with what.
+    pub effort: SearchEffort,
     /// Folder that searches are kept in; `results` where the program was started, without one.
     pub folder: Option<PathBuf>,
     keeping: Task<Result<Kept, String>>,
-}
-
-impl Default for Searches {
-    fn default() -> Self {
-        Self {
-            job: None,
-            trials: TRIALS,
-            threads: threads::default_count(),
-            neighbours: NEIGHBOURS,
-            normal_priority: false,
-            folder: None,
-            keeping: Task::default(),
-        }
-    }
 }
 
 impl Searches {
@@ -170,10 +171,10 @@ impl Workbench {
             files: self.project.files(),
             study: documents.study_path().zip(documents.text(Documents::STUDY)).map(owned),
             root: searches.folder.clone().unwrap_or_else(|| PathBuf::from("results")),
-            trials: searches.trials,
-            threads: searches.threads,
-            neighbours: searches.neighbours,
-            normal_priority: searches.normal_priority,
+            trials: searches.effort.trials,
+            threads: searches.effort.threads,
+            neighbours: searches.effort.neighbours,
+            normal_priority: searches.effort.normal_priority,
             only_reads: false,
         })
     }

@@ -42,6 +42,7 @@ impl Workbench {
     pub(super) fn refresh_studies(&mut self) {
         let (host, _) = self.helpers();
         let studies = &mut self.studies;
+        studies.check.refresh();
         studies.queue.begin_next(&host);
         if let Some(Err(error)) = studies.results.take() {
             self.notice = Some(Notice::fault(error));
@@ -150,26 +151,43 @@ impl Workbench {
         self.notice = Some(Notice::done(text));
     }
 
-    /// Pauses the study at work, or goes on with it.
-    pub(crate) fn pause_study(&mut self) -> Result<(), String> {
-        let Some(job) = self.studies.queue.current() else {
-            return Err("no study is at work".into());
-        };
-        if job.state() == State::Paused {
-            job.resume()
-        } else {
-            job.pause()
-        }
+    /// Pauses the study at work, or continues it.
+    pub(crate) fn pause_study(&self) -> Result<(), String> {
+        pause_or_resume(self.studies.queue.current().ok_or("no study is at work")?);
         Ok(())
     }
 
     /// Takes the study at work out of the queue.
-    pub(crate) fn cancel_study(&mut self) -> Result<(), String> {
-        let Some(job) = self.studies.queue.current() else {
-            return Err("no study is at work".into());
-        };
-        job.cancel();
+    pub(crate) fn cancel_study(&self) -> Result<(), String> {
+        self.studies.queue.current().ok_or("no study is at work")?.cancel();
         Ok(())
+    }
+
+    /// Pauses a study of the queue, or continues it.
+    pub(crate) fn pause_job(&self, file: &Path) -> Result<(), String> {
+        pause_or_resume(self.job(file)?);
+        Ok(())
+    }
+
+    /// Takes a study out of the queue.
+    pub(crate) fn cancel_job(&self, file: &Path) -> Result<(), String> {
+        self.job(file)?.cancel();
+        Ok(())
+    }
+
+    /// Removes a study that has ended from the list.
+    pub(crate) fn forget_job(&mut self, file: &Path) -> Result<(), String> {
+        if self.job(file)?.is_unfinished() {
+            return Err("the study has not ended; cancel it first".to_owned());
+        }
+        self.studies.queue.jobs.retain(|job| job.request.file != file);
+        Ok(())
+    }
+
+    fn job(&self, file: &Path) -> Result<&StudyJob, String> {
+        let mut jobs = self.studies.queue.jobs.iter();
+        let job = jobs.find(|job| job.request.file == file);
+        job.ok_or_else(|| format!("{} is not in the queue", file.display()))
     }
 
     /// Goes on with a copy of the open study beside those of the library.
@@ -245,5 +263,13 @@ impl Workbench {
         let shown = studies.results.shown().filter(of_study);
         let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
         Some(queue::command_line(path, documents.root(), folder.as_deref()))
+    }
+}
+
+fn pause_or_resume(job: &StudyJob) {
+    if job.state() == State::Paused {
+        job.resume();
+    } else {
+        job.pause();
     }
 }

@@ -39,7 +39,8 @@ impl StudyCheck {
         self.problems.is_empty() && self.fault.is_none()
     }
 
-    fn take(&mut self) {
+    /// Takes in what was found.
+    pub(super) fn refresh(&mut self) {
         let Some(found) = self.task.poll() else { return };
         (self.problems, self.fault) = match found {
             Ok(Ok(())) => (Vec::new(), None),
@@ -53,9 +54,8 @@ impl StudyCheck {
 }
 
 impl Workbench {
-    /// Checks the open study where it or its gear has changed since; call it while the study is on screen.
-    pub fn check_study(&mut self) {
-        self.studies.check.take();
+    /// Checks the open study where it or its gear has changed since.
+    pub(super) fn check_study(&mut self) {
         let documents = &self.project.documents;
         let version = documents.version();
         let check = &self.studies.check;

@@ -1,46 +1,44 @@
-//! Momentum and energy of the gear: what each source gives rope and bodies together, and what the solver misses of it.
+//! Momentum and energy of the gear by source, and the residual of the solver.
 //!
-//! A source `s` pushes with the force `F_s` and the power `P_s = Σ F·v` of its points, both at the end of a solver step, where the
-//! solver balances forces. Its impulse `J_s` and work `W_s` are two more unknowns of the same time scheme (`trial/scheme.rs`):
-//! `dJ/dt = F`, `dW/dt = P` are integrated as `dx/dt = v` is. With `ĵ = J - J₋` what a step adds, `h` the scheme's and `e` the share of the earlier
-//! value in its history,
+//! A source `s` exerts the force `F_s` [N] and the power `P_s = Σ F·v` [W] on the gear, both at the end of a solver step, where
+//! the solver balances forces. Its impulse `J_s` [N s] and work `W_s` [J] follow the same time scheme as the state
+//! (`trial/scheme.rs`): `dJ/dt = F` and `dW/dt = P` are integrated like `dx/dt = v`. With `ĵ = J - J₋` the increment of a step,
+//! `h` the effective step of the scheme [s] and `e` the share of the previous increment in its history,
 //!
-//! `ĵ_s = h F_s + e ĵ_s,₋`, `ŵ_s = h P_s + e ŵ_s,₋`,
+//! `ĵ_s = h F_s + e ĵ_s,₋`, `ŵ_s = h P_s + e ŵ_s,₋`.
 //!
-//! which for backward Euler is force times step. The scheme's own law `M (v - v̂) = h Σ F` then reads, without any error of order,
+//! For backward Euler this is force times step. The law of the scheme, `M (v - v̂) = h Σ F`, then becomes exactly
 //!
 //! `Σ m (v - vₙ) = Σ_s ĵ_s`,
 //!
-//! because `v̂ - vₙ = e (vₙ - vₙ₋₁)`. What is left of it, the residual, is what the solver missed: forces between rope and rope, rope
-//! and bodies, or bodies and bodies that do not cancel, and forces of a source that are not those it was solved with. After the
-//! second stage of a step in two stages the earlier value is the whole step's, as it is for velocities.
+//! because `v̂ - vₙ = e (vₙ - vₙ₋₁)`. The difference of the two sides is the residual: internal forces (rope on rope, rope on
+//! bodies, bodies on bodies) that do not cancel, and forces of sources that differ from those in the solution. After the second
+//! stage of a two-stage step the previous increment is that of the whole step, as for velocities.
 //!
-//! Work has no such identity: kinetic energy is no linear function of the unknowns, and `ΔE` differs from `Σ_s ŵ_s` by what the scheme
-//! damps. `Σ_s ŵ_s + ŵ_damping + ŵ_contact - ΔE`, with `E` kinetic energy, stretch and bending, is told as numerical damping. Below zero the
-//! scheme has given energy, or merged segments or a parting have.
+//! No such identity holds for work: kinetic energy is not linear in the unknowns, and `ΔE` differs from `Σ_s ŵ_s` by the
+//! damping of the scheme. Numerical damping is `Σ_s ŵ_s + ŵ_damping + ŵ_contact - ΔE`, with `E` the kinetic, stretch and
+//! bending energy. A negative value means that the scheme, merged segments or a parting added energy.
 //! Reference: Hairer, Lubich and Wanner 2006, Geometric Numerical Integration, section IV.1 (linear invariants).
 
-mod energies;
 pub(crate) mod source_forces;
-mod summary;
 
 use core::ops::{Add, Mul};
 
 use glam::DVec3;
 
-use crate::model::Model;
+use crate::forces::bending::bending_energy;
+use crate::metrics::energy;
+use crate::model::{EnergyForm, Model};
 use crate::state::State;
-pub(crate) use energies::Energies;
-pub use summary::BalanceSummary;
 
-/// What gives the gear momentum and energy.
+/// Source of momentum and energy of the gear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Weight of rope and bodies.
     Weight,
     /// Buoyancy, drag, added mass and the water's acceleration.
     Water,
-    /// The whale's skin on rope and bodies, and lines made fast to the whale.
+    /// The whale's skin on rope and bodies, and lines attached to the whale.
     Skin,
     /// The seabed on rope and feet, with suction.
     Seabed,
@@ -54,11 +52,11 @@ pub enum Source {
 pub const SOURCES: usize = 6;
 
 impl Source {
-    /// All of them, in the order of arrays by source.
+    /// All sources, in the order of arrays by source.
     pub const ALL: [Self; SOURCES] =
         [Self::Weight, Self::Water, Self::Skin, Self::Seabed, Self::Obstacles, Self::Fixtures];
 
-    /// Its name in files.
+    /// Name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -79,14 +77,14 @@ pub(crate) struct Sums {
     pub push: [DVec3; SOURCES],
     /// Power [W] or work [J] of each source on the gear.
     pub work: [f64; SOURCES],
-    /// The same of the axial damping of rope.
+    /// Power [W] or work [J] of the axial damping of rope.
     pub damping: f64,
-    /// The same of push and friction of the gear on itself: rope on rope and on bodies, bodies on bodies.
+    /// Power [W] or work [J] of contact within the gear: rope on rope, rope on bodies, bodies on bodies.
     pub contact: f64,
 }
 
 impl Sums {
-    /// Takes in a force of a source at a point that moves with this velocity.
+    /// Adds a force of a source at a point with this velocity.
     pub fn add(&mut self, source: Source, force: DVec3, velocity: DVec3) {
         self.push[source as usize] += force;
         self.work[source as usize] += force.dot(velocity);
@@ -119,7 +117,7 @@ impl Add for Sums {
     }
 }
 
-/// What a solver step gave the gear.
+/// Momentum and energy that the gear received in a solver step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Given {
     /// Forces and powers at its end.
@@ -128,42 +126,42 @@ pub(crate) struct Given {
     pub momentum_ns: DVec3,
 }
 
-/// How the scheme of a solver step weighs what it gave.
+/// Weights of the time scheme of a solver step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights {
-    /// `h` [s].
+    /// Effective step `h` [s].
     pub h_s: f64,
-    /// Share of the earlier value in the history.
+    /// Share `e` of the previous increment.
     pub earlier: f64,
-    /// Whether the step is the second stage of a step in two stages.
+    /// Whether the step is the second stage of a two-stage step.
     pub second_stage: bool,
 }
 
-/// Momentum and energy of the gear since the run began.
+/// Momentum and energy of the gear since the start of the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Balance {
     sum: Sums,
-    /// What the last step added, as the scheme remembers it.
+    /// Increment of the last step, in the history of the scheme.
     last: Sums,
     momentum_ns: DVec3,
-    /// Greatest size that the impulse of any source had [N s].
+    /// Greatest magnitude of the impulse of any source so far [N s].
     greatest_ns: f64,
-    /// Greatest size that the residual had [N s].
+    /// Greatest magnitude of the residual so far [N s].
     residual_ns: f64,
-    /// Impulse that a kinetic whale was given [N s].
+    /// Impulse on a kinetic whale [N s].
     to_whale_ns: DVec3,
     start: Option<Energies>,
 }
 
 impl Balance {
-    /// Notes the energy with which the run begins, where it has not been.
+    /// Stores the initial energy on the first call.
     pub(crate) fn begin(&mut self, model: &Model, state: &State) {
         if self.start.is_none() {
             self.start = Some(Energies::of(model, state));
         }
     }
 
-    /// Takes in a solver step that is kept.
+    /// Adds an accepted solver step.
     pub(crate) fn take(&mut self, given: &Given, weights: Weights) {
         let step = given.at_end * weights.h_s + self.last * weights.earlier;
         self.sum = self.sum + step;
@@ -174,14 +172,93 @@ impl Balance {
         self.residual_ns = self.residual_ns.max(self.residual().length());
     }
 
-    /// Takes in the impulse that a kinetic whale was given in a step [N s].
+    /// Adds the impulse on a kinetic whale in a step [N s].
     pub(crate) fn take_whale(&mut self, impulse_ns: DVec3) {
         self.to_whale_ns += impulse_ns;
     }
 
-    /// Impulse of all sources less the change of momentum [N s].
-    #[must_use]
+    /// Impulse of all sources minus the change of momentum [N s].
     pub fn residual(&self) -> DVec3 {
         self.sum.push.iter().sum::<DVec3>() - self.momentum_ns
+    }
+}
+
+/// Energy of the gear [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Energies {
+    /// Kinetic energy.
+    pub kinetic_j: f64,
+    /// Energy of stretch and bending of rope.
+    pub elastic_j: f64,
+}
+
+impl Energies {
+    /// Energy of a state.
+    pub fn of(model: &Model, state: &State) -> Self {
+        let stretch_j = energy(model, state, EnergyForm::Stretch);
+        Self {
+            kinetic_j: energy(model, state, EnergyForm::Kinetic),
+            elastic_j: stretch_j + bending_energy(model, state),
+        }
+    }
+}
+
+/// Momentum and energy of the gear from the start of a run to a state, for reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BalanceSummary {
+    /// Impulse of each source, in the order of [`Source::ALL`] [N s].
+    pub impulse_ns: [DVec3; SOURCES],
+    /// Change of momentum of rope and bodies [N s].
+    pub momentum_ns: DVec3,
+    /// Greatest magnitude of the impulse of any source so far [N s].
+    pub greatest_ns: f64,
+    /// Greatest magnitude of the residual so far [N s].
+    pub residual_ns: f64,
+    /// Work of each source, in the same order [J].
+    pub work_j: [f64; SOURCES],
+    /// Work of the axial damping of rope, negative [J].
+    pub damping_j: f64,
+    /// Work of contact within the gear [J].
+    pub contact_j: f64,
+    /// Change of kinetic energy [J].
+    pub kinetic_j: f64,
+    /// Change of the energy of stretch and bending [J].
+    pub elastic_j: f64,
+    /// Magnitude of the sum of impulse on a kinetic whale and impulse of skin on the gear, zero if they balance; `None` if the
+    /// whale is not kinetic [N s].
+    pub whale_missed_ns: Option<f64>,
+}
+
+impl BalanceSummary {
+    /// Residual as a share of the greatest impulse; zero without impulse.
+    pub fn residual_share(&self) -> f64 {
+        if self.greatest_ns > 0.0 { self.residual_ns / self.greatest_ns } else { 0.0 }
+    }
+
+    /// Energy dissipated by the time scheme; negative if it added energy [J].
+    pub fn numerical_damping_j(&self) -> f64 {
+        let done_j = self.work_j.iter().sum::<f64>() + self.damping_j + self.contact_j;
+        done_j - self.kinetic_j - self.elastic_j
+    }
+}
+
+impl Balance {
+    /// Balance up to a state; `None` if it was not recorded.
+    pub fn summary(&self, model: &Model, state: &State) -> Option<BalanceSummary> {
+        let (start, now) = (self.start?, Energies::of(model, state));
+        let is_kinetic = model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some());
+        let missed = self.to_whale_ns + self.sum.push[Source::Skin as usize];
+        Some(BalanceSummary {
+            impulse_ns: self.sum.push,
+            momentum_ns: self.momentum_ns,
+            greatest_ns: self.greatest_ns,
+            residual_ns: self.residual_ns,
+            work_j: self.sum.work,
+            damping_j: self.sum.damping,
+            contact_j: self.sum.contact,
+            kinetic_j: now.kinetic_j - start.kinetic_j,
+            elastic_j: now.elastic_j - start.elastic_j,
+            whale_missed_ns: is_kinetic.then(|| missed.length()),
+        })
     }
 }

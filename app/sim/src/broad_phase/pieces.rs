@@ -9,8 +9,8 @@
 //! numbers. The list therefore omits nothing, and the boxes of the step remove what is too much: the result does not depend on the age
 //! of the list.
 
+use crate::bits::same_bits;
 use crate::model::Model;
-use crate::same_bits::same_bits;
 use crate::state::State;
 use crate::whale::Bounds;
 use glam::DVec3;

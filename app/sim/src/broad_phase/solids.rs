@@ -144,10 +144,10 @@ mod tests {
     use glam::{DQuat, DVec3};
 
     use super::*;
+    use crate::bits::unit;
     use crate::geometry::shape::SolidShape;
     use crate::metrics::tests::{model, spec};
     use crate::model::{Obstacle, ROPE_ON_HARD_N_M2, RopeOnRope};
-    use crate::random::unit;
 
     fn vector(seed: u64, index: usize) -> DVec3 {
         DVec3::from_array([0, 1, 2].map(|axis| 2.0 * unit(seed, 3 * index as u64 + axis) - 1.0))

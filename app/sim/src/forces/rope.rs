@@ -3,12 +3,12 @@
 //! Statics adds what the laws leave out: with `D` the drag, `d` the chord between a node's neighbours and `t` its direction,
 //! `∂D/∂t (1 - t tᵀ)/|d|` couples a node to its neighbours, and makes iterations converge quadratically.
 
+use crate::bits::same_bits;
 use crate::forces::Forces;
 use crate::forces::axial::Axial;
 use crate::forces::laws::{self as forces, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
 use crate::matrix::outer;
 use crate::model::Model;
-use crate::same_bits::same_bits;
 use crate::system::LinearSystem;
 use crate::system::lanes::space::Sym3;
 use crate::trial::Trial;

@@ -1,24 +1,29 @@
-//! Gear hauled over a block: rope goes aboard at the hauler's speed, and trap after trap with it.
+//! Hauling: rope is taken in over a block at the hauler's speed, and bodies come aboard with it.
 //!
-//! The hauler takes in the length `V dt` of rope in each step. The node of a line at the block is the piece of rope that
-//! reaches the block as the step ends: it begins the step `V dt` below the block and is driven up to it. With `x` its place,
-//! `n` the next node, `c = |n - x|` and `l` the chord and the unstretched length of the segment between them:
+//! In each step `dt` the hauler takes in a length `V dt` of rope. The node of a line at the block is the material point that
+//! reaches the block at the end of the step: it starts the step `V dt` below the block and is driven up to it. With `x` its
+//! position, `n` the next node, `c = |n - x|` and `l` the chord and the unstretched length of the segment between them:
 //!
 //! `f = V dt / max(c, l)`,  `x ← x + f (n - x)`,  `l ← (1 - f) l`,  `v = (P - x)/dt`
 //!
-//! with `P` the block at the end of the step. The strain stays, so that pieces of rope meet no jump at the block, and the rest is
-//! the solver's own ([`step`](fn@crate::step)): weight, drag at the speed of the rope, added mass of lifted traps, seabed, break-out.
-//! Where `f ≥ 1` the next node has come to the block, and the segment goes aboard; where it was the last of its line, the joint
-//! has, and all other lines that meet there are taken in together. A body that comes to the block is aboard and pulls no more.
-//! What is aboard is no part of the model any longer: each passage makes a new one from the rest (`layout.rs`).
+//! with `P` the position of the block at the end of the step. The strain is unchanged, so that the tension does not jump at the
+//! block.
+//! Weight, drag, added mass, seabed contact and suction follow from the solver ([`step`](fn@crate::step)).
+//! If `f ≥ 1`, the next node has reached the block and the segment is aboard. If that was the last segment of its line, all
+//! other lines at the joint are taken in together. A body that reaches the block is aboard and exerts no further force.
+//! Gear that is aboard is removed: each passage makes a new model of the rest (`take_in.rs`).
 //!
-//! Not in it: contact of the gear with itself, slip on the sheave, bending over it, and a hauler that slows under load.
-//! The boat: `boat.rs`. Sources and defaults: docs/hauling.md.
+//! The line is first lifted from the surface to the block at the hauler's speed; then the hauler accelerates to its speed `V`.
+//! The block moves with the sea surface `η` below it, `z = h + r η(x, y, t)`, with `h` its height and `r` the heave ratio. The
+//! boat follows the line. With `θ` the angle of the line from the vertical and `θ₀` the angle at which the boat keeps pace, the
+//! target speed is `V min(tan θ / tan θ₀, 1.5)` in the direction of the line; the actual speed approaches it with the time
+//! constant [`HELM_S`]. A drift velocity is added. This law of following is an estimate.
+//!
+//! Lengths are in metres, times in seconds. Not included: contact of the gear with itself, slip and bending on the sheave, and
+//! a hauler that slows under load. Sources and defaults: docs/hauling.md.
 
-mod boat;
-mod layout;
 mod setup;
-mod take;
+mod take_in;
 
 use endline_sdk::LineEnd;
 use glam::DVec3;
@@ -26,57 +31,57 @@ use glam::DVec3;
 use crate::model::Model;
 use crate::state::State;
 use crate::step::{Input, Stop, Workspace, step};
-use boat::Boat;
-use layout::Origin;
+use crate::water::Sea;
+use take_in::Origin;
 
 pub use setup::endlines;
 
-/// Rise at which a body is off the seabed: more than that of a trap that is tipped on its end [m].
+/// Rise above which a body counts as off the seabed: more than the rise of a trap tipped on its end [m].
 pub const LIFTED_M: f64 = 0.5;
 
-/// How gear is hauled.
+/// Settings of a haul.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hauling {
-    /// Rope taken in by the hauler, over the block [m/s].
+    /// Speed of rope over the block [m/s].
     pub speed_m_s: f64,
-    /// Time in which the hauler comes up to its speed [s].
+    /// Time in which the hauler reaches its speed [s].
     pub start_s: f64,
     /// Height of the block above the sea surface [m].
     pub block_m: f64,
-    /// Heave of the block over that of the surface below it [1].
+    /// Ratio of the heave of the block to that of the surface below it [1].
     pub heave: f64,
-    /// Angle of the line at the block from the vertical at which the boat keeps pace with the hauler; `None` for a boat
-    /// that does not follow the line [rad].
+    /// Angle of the line from the vertical at which the boat keeps pace with the hauler; `None` for a boat that does not
+    /// follow the line [rad].
     pub lead_rad: Option<f64>,
-    /// Drift of the boat besides [m/s].
+    /// Additional drift of the boat [m/s].
     pub drift_m_s: DVec3,
 }
 
-/// Something that came up in a step.
+/// An event of a haul.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Came {
-    /// This line of the gear begins to go over the block.
+pub enum HaulEvent {
+    /// The first rope of this line reaches the block.
     Line(usize),
-    /// This body of the gear rose by [`LIFTED_M`].
+    /// This body has risen by [`LIFTED_M`].
     OffSeabed(usize),
-    /// This body of the gear is aboard.
+    /// This body is aboard.
     Aboard(usize),
 }
 
-/// What the hauler and the line feel at the end of a step.
+/// Loads and events of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Felt {
-    /// Greatest pull of all rope on the block over the step [N].
+pub struct HaulStep {
+    /// Greatest load of all rope on the block during the step [N].
     pub load_n: f64,
     /// Angle of the line at the block from the vertical [rad].
     pub lead_rad: f64,
-    /// Work of the hauler in the step: pull times rope taken in [J].
+    /// Work of the hauler in the step: load times rope taken in [J].
     pub work_j: f64,
-    /// What came up.
-    pub came: Vec<Came>,
+    /// Events.
+    pub events: Vec<HaulEvent>,
 }
 
-/// A line's end at the block.
+/// A line end at the block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct End {
     line: usize,
@@ -84,7 +89,7 @@ struct End {
     joint: usize,
 }
 
-/// Gear on its way aboard. Lines, segments and bodies are numbered as in the model it began with.
+/// A haul in progress. Lines, segments and bodies are numbered as in the initial model.
 #[derive(Clone)]
 pub struct Haul {
     how: Hauling,
@@ -94,22 +99,22 @@ pub struct Haul {
     ends: Vec<End>,
     boat: Boat,
     origin: Origin,
-    /// Height of each body of the gear as the haul began [m].
+    /// Height of each body at the start of the haul [m].
     began_m: Vec<f64>,
     hauled_m: f64,
-    felt: Felt,
+    last_step: HaulStep,
 }
 
 impl Haul {
-    /// Takes the step; `false` once everything is aboard.
+    /// Advances by a step; returns `false` when everything is aboard.
     ///
     /// # Errors
-    /// Where the solver cannot go on.
+    /// Reports why the solver cannot continue.
     pub fn advance(&mut self) -> Result<bool, Stop> {
         if self.ends.is_empty() {
             return Ok(false);
         }
-        self.felt = Felt::default();
+        self.last_step = HaulStep::default();
         let rope_m = self.boat.rope_m(&self.how, self.state.time_s, self.step_s());
         let way = self.way();
         let block =
@@ -118,61 +123,55 @@ impl Haul {
         if self.ends.is_empty() {
             return Ok(false);
         }
-        let were = self.lifted();
+        let were_lifted = self.lifted();
         step(&self.model, &Input::default(), &mut self.state, &mut self.work)?;
-        self.feel(rope_m, &were);
+        self.record(rope_m, &were_lifted);
         self.hauled_m += rope_m;
         Ok(true)
     }
 
     /// Length of a step [s].
-    #[must_use]
     pub fn step_s(&self) -> f64 {
         self.model.spec.settings.step_s
     }
 
-    /// What the last step brought.
-    #[must_use]
-    pub fn felt(&self) -> &Felt {
-        &self.felt
+    /// Loads and events of the last step.
+    pub fn last_step(&self) -> &HaulStep {
+        &self.last_step
     }
 
     /// Rope taken in so far [m].
-    #[must_use]
     pub fn hauled_m(&self) -> f64 {
         self.hauled_m
     }
 
-    /// What is not aboard yet.
-    #[must_use]
+    /// State of the gear that is not aboard.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The gear that is not aboard yet.
-    #[must_use]
+    /// Model of the gear that is not aboard.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// Counters of the steps since something last went aboard.
-    #[must_use]
+    /// Number of unconverged solver steps.
     pub fn unconverged(&self) -> u64 {
         self.origin.unconverged + self.work.audit.unconverged
     }
 
-    /// Greatest tension of each segment that is not aboard over the last step: its number in the gear, tension [N].
+    /// Index and greatest tension over the last step of each segment that is not aboard [N].
     pub fn tensions(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.origin.segments.iter().copied().zip(self.work.peak_tension_n.iter().copied())
     }
 
-    /// Bodies that are not aboard: number in the gear, rise since the haul began [m].
+    /// Index of each body that is not aboard, and its rise since the start of the haul [m].
     pub fn risen(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let bodies = self.origin.bodies.iter().copied().zip(&self.state.bodies);
         bodies.map(|(body, at)| (body, at.position.z - self.began_m[body]))
     }
 
-    /// Direction of the pull of all lines at the block, away from the boat.
+    /// Direction of the total load of all lines at the block, away from the boat.
     fn way(&self) -> DVec3 {
         let pull = |end: &End| {
             let (tip, inner, segment) = self.tip(end);
@@ -182,7 +181,7 @@ impl Haul {
         self.ends.iter().map(pull).sum::<DVec3>().normalize_or(DVec3::NEG_Z)
     }
 
-    /// First node, second node and segment of a line's end.
+    /// First node, second node and segment at a line end.
     fn tip(&self, end: &End) -> (usize, usize, usize) {
         let nodes = &self.model.line_nodes[end.line];
         let segments = &self.model.line_segments[end.line];
@@ -197,8 +196,8 @@ impl Haul {
         self.risen().map(|(_, risen_m)| risen_m > LIFTED_M).collect()
     }
 
-    /// Reads what a step brought.
-    fn feel(&mut self, rope_m: f64, were_lifted: &[bool]) {
+    /// Records the loads and events of a step.
+    fn record(&mut self, rope_m: f64, were_lifted: &[bool]) {
         let pull = |end: &End| self.work.peak_tension_n[self.tip(end).2];
         let load_n: f64 = self.ends.iter().map(pull).sum();
         let at_end = |end: &End| self.state.rope.tension[self.tip(end).2].max(0.0);
@@ -206,8 +205,75 @@ impl Haul {
         let lead_rad = self.way().angle_between(DVec3::NEG_Z);
         let lifted = self.lifted().into_iter().zip(were_lifted).zip(&self.origin.bodies);
         let off = lifted.filter(|((now, before), _)| *now && !**before);
-        let off: Vec<Came> = off.map(|(_, body)| Came::OffSeabed(*body)).collect();
-        self.felt.came.extend(off);
-        (self.felt.load_n, self.felt.lead_rad, self.felt.work_j) = (load_n, lead_rad, work_j);
+        let off: Vec<HaulEvent> = off.map(|(_, body)| HaulEvent::OffSeabed(*body)).collect();
+        let step = &mut self.last_step;
+        step.events.extend(off);
+        (step.load_n, step.lead_rad, step.work_j) = (load_n, lead_rad, work_j);
     }
+}
+
+/// Time constant of the boat's speed; an estimate [s].
+const HELM_S: f64 = 3.0;
+
+/// Greatest ratio of the boat's target speed to the hauler's; an estimate.
+const MOST_PACE: f64 = 1.5;
+
+/// Least vertical share of the line's direction at the block.
+const LEAST_DROP: f64 = 0.02;
+
+/// The boat.
+#[derive(Clone, Copy, Debug)]
+struct Boat {
+    /// Position of the line end before it was lifted [m].
+    from: DVec3,
+    /// Position of the block without heave [m].
+    block: DVec3,
+    /// Speed of following the line [m/s].
+    following_m_s: DVec3,
+    /// Time of lifting the line to the block [s].
+    lift_s: f64,
+}
+
+impl Boat {
+    /// A boat above a line end.
+    pub fn at(from: DVec3, how: &Hauling) -> Self {
+        let lift_s = (how.block_m - from.z).max(0.0) / how.speed_m_s;
+        Self { from, block: from, following_m_s: DVec3::ZERO, lift_s }
+    }
+
+    /// Length of rope that the hauler takes in during a step [m].
+    pub fn rope_m(&self, how: &Hauling, time_s: f64, step_s: f64) -> f64 {
+        let since = time_s + 0.5 * step_s - self.lift_s;
+        how.speed_m_s * step_s * (since / how.start_s.max(step_s)).clamp(0.0, 1.0)
+    }
+
+    /// Advances by a step; returns the position of the block at its end [m].
+    pub fn advance(
+        &mut self,
+        how: &Hauling,
+        sea: &Sea,
+        way: DVec3,
+        time_s: f64,
+        step_s: f64,
+    ) -> DVec3 {
+        let end_s = time_s + step_s;
+        if end_s > self.lift_s {
+            let wanted = follow(how, way);
+            self.following_m_s += (wanted - self.following_m_s) * (step_s / HELM_S).min(1.0);
+            self.block += (self.following_m_s + how.drift_m_s) * step_s;
+        }
+        let lifted = if self.lift_s > 0.0 { (end_s / self.lift_s).min(1.0) } else { 1.0 };
+        self.block.z = self.from.z + (how.block_m - self.from.z) * lifted;
+        let surface_m = sea.at(DVec3::new(self.block.x, self.block.y, 0.0), end_s).surface_m;
+        self.block + DVec3::Z * (how.heave * lifted * surface_m)
+    }
+}
+
+/// Target velocity of the boat to follow the line [m/s].
+fn follow(how: &Hauling, way: DVec3) -> DVec3 {
+    let Some(lead_rad) = how.lead_rad else { return DVec3::ZERO };
+    let level = DVec3::new(way.x, way.y, 0.0);
+    let slant = level.length() / (-way.z).max(LEAST_DROP);
+    let pace = (slant / libm::tan(lead_rad)).min(MOST_PACE);
+    level.normalize_or_zero() * (how.speed_m_s * pace)
 }

@@ -1,16 +1,14 @@
-//! Gear made ready for hauling: the buoy and what floats with it come aboard, the line's end comes to the block.
+//! Start of a haul: the buoy and all that floats with it are taken aboard, and the line end is brought to the block.
 
 use endline_sdk::LineEnd;
 
-use super::boat::Boat;
-use super::layout::Origin;
-use super::{End, Felt, Haul, Hauling};
+use super::take_in::Origin;
+use super::{Boat, End, Haul, HaulStep, Hauling};
 use crate::model::{BodyRole, JointKind, Model, Settings};
 use crate::state::State;
 use crate::step::Workspace;
 
-/// Ends of lines at buoys near the surface from which gear can be hauled: body, line, end of the line.
-#[must_use]
+/// Returns the line ends at buoys near the surface from which gear can be hauled: body, line, end of the line.
 pub fn endlines(model: &Model) -> Vec<(usize, usize, LineEnd)> {
     let mut found = Vec::new();
     for (line, of) in model.spec.lines.iter().enumerate() {
@@ -26,13 +24,14 @@ pub fn endlines(model: &Model) -> Vec<(usize, usize, LineEnd)> {
     found
 }
 
-/// Whether the way along a line from a buoy comes to something that is no buoy, or to a branch, before another buoy.
+/// Whether a line from a buoy reaches a body other than a buoy, directly or over branches, before another buoy.
 fn reaches_down(model: &Model, buoy: usize, line: usize) -> bool {
     let (_, bodies) = beyond(model, buoy, false, |other| other == line);
     bodies.iter().any(|body| model.spec.bodies[*body].role != BodyRole::Buoy)
 }
 
-/// Lines and bodies that hang together with a body through those of its own lines that are let, past other buoys or not.
+/// Returns the lines and bodies connected to a body through those of its lines that `lets` accepts. `past_buoys` selects
+/// whether the search continues beyond other buoys.
 fn beyond(
     model: &Model,
     start: usize,
@@ -72,11 +71,11 @@ fn beyond(
 }
 
 impl Haul {
-    /// Begins with gear at rest, from one of its [`endlines`]; its links, plugins, probes and obstacles are left out, its rope
+    /// Starts a haul of gear at rest from one of its [`endlines`]. Links, plugins, probes and obstacles are removed, and rope
     /// cannot break.
     ///
     /// # Errors
-    /// Where what floats with the buoy holds the gear too.
+    /// Reports a buoy whose other lines also lead to the gear.
     pub fn begin(
         model: &Model,
         state: &State,
@@ -103,7 +102,7 @@ impl Haul {
             origin: Origin::of(model),
             began_m: state.bodies.iter().map(|body| body.position.z).collect(),
             hauled_m: 0.0,
-            felt: Felt::default(),
+            last_step: HaulStep::default(),
             model: bare,
         };
         haul.state.link_parted_s.clear();
@@ -114,7 +113,7 @@ impl Haul {
     }
 }
 
-/// The gear alone, of rope that cannot break.
+/// The gear alone, with unbreakable rope.
 fn bare(model: &Model) -> Model {
     let mut spec = model.spec.clone();
     spec.links.clear();

@@ -1,13 +1,13 @@
-//! The fluke beat as swum: how often, how far, and the Strouhal number.
+//! Fluke beat: frequency, excursion and Strouhal number.
 //!
-//! ```text
-//! St = f A / U     f beats over their time, A mean way of the fluke tips from top to bottom, U mean speed through the water
-//! ```
-//! Measured on the skin: the mean height of the two fluke tips above the whale's frame, from one top to the next.
-//! A turn counts once the tips have come back by [`TURN_SHARE`] of the body length, so that shivers are no beats.
-//! Glides before the first top and after the last are in none of the means.
+//! `St = f A / U`, with `f` the frequency of the beats [Hz], `A` the mean excursion of the fluke tips from top to bottom [m]
+//! and `U` the mean speed through the water [m/s].
 //!
-//! Reference: swimmers keep 0.2 to 0.4 (Taylor, Nudds and Thomas, Nature 425 (2003) 707-711).
+//! The height is the mean of the two fluke tips on the skin, in the whale's frame; a beat is from one top to the next. A
+//! reversal counts after the tips have returned by [`TURN_SHARE`] of the body length, which excludes small oscillations. Glides
+//! before the first top and after the last are not part of the means.
+//!
+//! Reference: Taylor, Nudds and Thomas 2003, Nature 425, 707-711 (swimmers have 0.2 to 0.4).
 
 use std::sync::Arc;
 
@@ -17,32 +17,32 @@ use super::summary::BeatSummary;
 use crate::state::WhaleState;
 use crate::whale::{Skin, pose, skin_vertex};
 
-/// Way back after which a turn of the tips counts, as a share of body length [1]; estimate.
+/// Return of the tips after which a reversal counts, as a share of body length; estimate.
 pub const TURN_SHARE: f64 = 0.02;
 
-/// Follows the fluke tips.
+/// Meter of the fluke beat.
 #[derive(Clone, Debug)]
 pub(super) struct FlukeMeter {
     skin: Arc<Skin>,
-    /// The vertices of the fluke tips, left and right; none for a skin without flukes.
+    /// Vertices of the fluke tips, left and right; `None` for a skin without flukes.
     tips: Option<[usize; 2]>,
-    /// Way back after which a turn counts [m].
+    /// Return after which a reversal counts [m].
     turn_m: f64,
     bones: Vec<DAffine3>,
-    /// Whether the tips are on their way up.
+    /// Whether the tips move up.
     rising: bool,
-    /// The farthest they came on their way: height [m], time [s], way swum by then [m].
+    /// Extremum of the current movement: height [m], time [s], distance swum [m].
     farthest: Option<[f64; 3]>,
-    /// Way swum through the water [m].
+    /// Distance swum through the water [m].
     swum_m: f64,
-    /// The first top: time [s] and way swum [m].
+    /// First top: time [s] and distance swum [m].
     first: Option<[f64; 2]>,
-    /// The last top: time [s] and way swum [m].
+    /// Last top: time [s] and distance swum [m].
     last: [f64; 2],
     /// Height of the last top and bottom [m].
     ends: [f64; 2],
     beats: u32,
-    /// Sum of the beats' ways from top to bottom [m].
+    /// Sum of the excursions of all beats [m].
     ways_m: f64,
 }
 
@@ -73,7 +73,7 @@ impl FlukeMeter {
         self.follow([height_m, time_s, self.swum_m]);
     }
 
-    /// Takes in a height of the tips [m] with its time [s] and the way swum [m].
+    /// Adds a height of the tips [m] with its time [s] and the distance swum [m].
     fn follow(&mut self, now: [f64; 3]) {
         let farthest = self.farthest.get_or_insert(now);
         let up = if self.rising { 1.0 } else { -1.0 };
@@ -91,6 +91,7 @@ impl FlukeMeter {
         }
     }
 
+    /// Adds a top of the tips.
     fn top(&mut self, [height_m, time_s, swum_m]: [f64; 3]) {
         if self.first.is_none() {
             self.first = Some([time_s, swum_m]);
@@ -102,7 +103,7 @@ impl FlukeMeter {
         self.last = [time_s, swum_m];
     }
 
-    /// The beat so far; none before one whole beat.
+    /// Mean beat so far; `None` before the first whole beat.
     pub(super) fn summary(&self) -> Option<BeatSummary> {
         let (from, beats) = (self.first.filter(|_| self.beats > 0)?, f64::from(self.beats));
         let time_s = self.last[0] - from[0];
@@ -113,7 +114,7 @@ impl FlukeMeter {
     }
 }
 
-/// The outermost vertices of the left and right fluke.
+/// Outermost vertices of the left and right fluke.
 fn tips(skin: &Skin) -> Option<[usize; 2]> {
     let moved_by = |vertex: usize, name: &str| {
         let heaviest = skin.weights[vertex].iter().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -132,9 +133,9 @@ mod tests {
 
     use super::*;
 
-    /// A sine of known frequency and way, with a shiver on it, at a known speed.
+    /// A sine of known frequency and amplitude with a small oscillation, at a known speed.
     #[test]
-    fn a_sines_frequency_way_and_strouhal_number_are_found() {
+    fn frequency_excursion_and_strouhal_number_of_a_sine_are_found() {
         let mut meter = FlukeMeter::new(&Arc::new(Skin::default()), 10.0);
         let (f, way, u, dt) = (0.13, 2.0, 1.2, 0.01);
         for step in 0..12_000 {

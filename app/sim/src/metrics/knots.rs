@@ -1,33 +1,35 @@
-//! Knots, splices and links on the whale and at other rope: whether one has jammed.
+//! Knots, splices and links on the whale and at other rope, and whether they have jammed.
 //!
-//! A knot has jammed where it has pressed on the whale, or been held by other rope, for [`CAUGHT_S`], but for gaps of less than [`LOST_S`],
-//! and has slid less than its own breadth meanwhile. Slip is that over skin or rope by the speed at the end of each step.
+//! A knot has jammed after it has pressed on the whale, or been held by other rope, for [`CAUGHT_S`] with gaps of less than
+//! [`LOST_S`], and has slid by less than its own diameter in that time. Slip is relative to skin or rope, by the speed at the
+//! end of each step.
 //!
-//! With push `N` and direction `n` of every touch of other rope and other knots, and direction `t` of its own rope there, rope holds it by
-//! `|t · Σ N n|`. Rope that lies beside a knot does not hold it.
+//! Other rope holds a knot with the force `|t · Σ N n|` [N], with `N` and `n` the normal force and direction of every contact
+//! of other rope and other knots, and `t` the direction of the knot's own rope. Rope that is only beside a knot does not hold
+//! it.
 
 use glam::DVec3;
 
 use super::CAUGHT_S;
-use super::event::{EventKind, Log};
-use super::outcome::LOST_S;
+use super::events::{EventKind, LOST_S, Log};
 use crate::contact::ContactPoint;
 use crate::contact::rope_on_rope::RopeTouch;
 use crate::model::{Knot, Model};
 use crate::state::State;
 
-/// Force along its own rope from which on other rope holds a knot [N].
+/// Force along its own rope above which other rope holds a knot [N].
 pub const HELD_N: f64 = 1.0;
 
-/// What is followed of every knot.
+/// Metrics of all knots.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KnotMeter(Vec<Pressed>);
 
 /// A knot on the whale or at other rope.
 #[derive(Clone, Copy, Debug, Default)]
 struct Pressed {
-    /// When the present spell at one place began, and when it last pressed [s].
+    /// Start of the contact at one place [s].
     since_s: Option<f64>,
+    /// Time of the last contact [s].
     last_s: f64,
     slid_m: f64,
     peak_n: f64,
@@ -39,7 +41,7 @@ impl KnotMeter {
         Self(vec![Pressed::default(); model.knots.len()])
     }
 
-    /// Takes in what touches at the end of a step of length `dt_s`.
+    /// Adds the contacts at the end of a step of length `dt_s`.
     pub fn fold(
         &mut self,
         model: &Model,
@@ -54,13 +56,13 @@ impl KnotMeter {
             let both = [on_skin[0].max(at_rope[0]), on_skin[1].max(at_rope[1])];
             if pressed.fold(knot, both, (time_s, dt_s)) {
                 let line = &model.spec.lines[model.segment_line[knot.segment]].id;
-                log.note(time_s, EventKind::JammedKnot, line, pressed.peak_n);
+                log.record(time_s, EventKind::JammedKnot, line, pressed.peak_n);
             }
         }
     }
 }
 
-/// Greatest push of skin on a knot [N], and speed over it [m/s].
+/// Greatest normal force of skin on a knot [N], and greatest slip speed [m/s].
 fn by_skin(knot: &Knot, contacts: &[ContactPoint]) -> [f64; 2] {
     let mine = contacts.iter().filter(|contact| contact.is_knot && contact.segment == knot.segment);
     let push_n = mine.clone().map(|contact| contact.normal_force_n).fold(0.0, f64::max);
@@ -68,7 +70,7 @@ fn by_skin(knot: &Knot, contacts: &[ContactPoint]) -> [f64; 2] {
     [push_n, mine.map(speed).fold(0.0, f64::max)]
 }
 
-/// Force by which other rope holds a knot [N], and greatest speed over it [m/s]; both nothing where it does not hold it.
+/// Force with which other rope holds a knot [N], and greatest slip speed [m/s]; both zero if it does not hold it.
 fn by_rope(model: &Model, state: &State, index: usize, ropes: &[RopeTouch]) -> [f64; 2] {
     let (mut push, mut speed_m_s) = (DVec3::ZERO, 0.0_f64);
     for touch in ropes.iter().filter(|touch| touch.knots.contains(&Some(index))) {
@@ -88,7 +90,7 @@ fn by_rope(model: &Model, state: &State, index: usize, ropes: &[RopeTouch]) -> [
 }
 
 impl Pressed {
-    /// Takes in its greatest push and speed over what it presses on in a step; whether it came to count as jammed.
+    /// Adds its greatest force and slip speed in a step; returns whether it has just jammed.
     fn fold(
         &mut self,
         knot: &Knot,
@@ -118,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_knot_that_stays_has_jammed_and_one_that_slides_has_not() {
+    fn a_knot_at_rest_jams_and_one_that_slides_does_not() {
         let knot = Knot { segment: 0, end: LineEnd::B, from_end_m: 0.0, radius_m: 0.015 };
         for (speed_m_s, push_n, jams) in
             [(0.0, 40.0, 1), (0.004, 40.0, 1), (0.02, 40.0, 0), (0.0, 0.0, 0)]

@@ -1,12 +1,17 @@
-//! Tension of lines and weak links.
+//! Tension of lines and weak links, and values at a length along a line.
+//!
+//! Tension `T` of a lumped segment is that at its middle. Between there and the end is the load of half a segment, so that the
+//! end carries
+//! `T + (l/2) (w e_z - f)` [N], with `e` the unit vector along the segment to the end, `w` the weight in water and `f` the drag
+//! along `e`, both per metre [N/m], and `l` the length [m].
 
 use std::ops::Range;
 
 use endline_sdk::LineEnd;
 use glam::DVec3;
 
-use super::event::{EventKind, Log};
-use super::gear_loads::line_drag;
+use super::events::{EventKind, Log};
+use super::loads::line_drag;
 use super::summary::{LineSummary, LinkSummary};
 use super::whale::WhaleMeter;
 use crate::model::Model;
@@ -19,27 +24,27 @@ pub(super) struct LineMeter {
     links: Vec<Peak>,
 }
 
-/// A peak, its time, and whether parting has been reported.
+/// A peak, its time, and whether the parting has been reported.
 #[derive(Clone, Copy, Debug, Default)]
 struct Peak {
     tension_n: f64,
     at_s: f64,
     /// Greatest tension in solver steps that did not converge [N].
     unconverged_n: f64,
-    told: bool,
+    reported: bool,
 }
 
 /// Greatest tensions of the segments over the solver steps of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peaks<'a> {
-    /// Over those that converged; zero where none did [N].
+    /// Over converged solver steps; zero without any [N].
     pub converged_n: &'a [f64],
-    /// Over those that did not; zero or empty where all did [N].
+    /// Over solver steps that did not converge; zero or empty without any [N].
     pub unconverged_n: &'a [f64],
 }
 
 impl Peaks<'_> {
-    /// Greatest tension of some segments, in solver steps that converged and in those that did not [N].
+    /// Greatest tension of a range of segments, in converged and in unconverged solver steps [N].
     fn of(&self, segments: Range<usize>) -> [f64; 2] {
         [self.converged_n, self.unconverged_n].map(|peaks| {
             let own = peaks.get(segments.clone()).unwrap_or_default();
@@ -56,7 +61,7 @@ impl Peak {
         self.unconverged_n = self.unconverged_n.max(unconverged_n);
     }
 
-    /// Greatest tension at all [N].
+    /// Greatest tension of all solver steps [N].
     fn greatest_n(&self) -> f64 {
         self.tension_n.max(self.unconverged_n)
     }
@@ -70,13 +75,14 @@ impl LineMeter {
         }
     }
 
-    /// Takes in a step with the greatest tension of each segment during it.
+    /// Adds a step with the greatest tension of each segment during it.
     pub(super) fn fold(&mut self, model: &Model, state: &State, peaks: &Peaks<'_>, log: &mut Log) {
+        debug_assert_eq!(peaks.converged_n.len(), model.segment_count, "one peak per segment");
         for (line, peak) in self.lines.iter_mut().enumerate() {
             peak.take(peaks.of(model.line_segments[line].clone()), state.time_s);
-            if state.line_parted[line].is_some() && !peak.told {
-                peak.told = true;
-                log.note(
+            if state.line_parted[line].is_some() && !peak.reported {
+                peak.reported = true;
+                log.record(
                     state.time_s,
                     EventKind::LineParted,
                     &model.spec.lines[line].id,
@@ -88,9 +94,9 @@ impl LineMeter {
             let borne = end_segment(model, link.line, link.end)
                 .map_or([0.0; 2], |(segment, ..)| peaks.of(segment..segment + 1));
             peak.take(borne, state.time_s);
-            if state.link_parted_s[index].is_some() && !peak.told {
-                peak.told = true;
-                log.note(state.time_s, EventKind::LinkParted, &link.id, peak.greatest_n());
+            if state.link_parted_s[index].is_some() && !peak.reported {
+                peak.reported = true;
+                log.record(state.time_s, EventKind::LinkParted, &link.id, peak.greatest_n());
             }
         }
     }
@@ -135,12 +141,7 @@ impl LineMeter {
     }
 }
 
-/// Tension that a line's end bears at its joint [N]; zero where it is slack, cut or empty.
-///
-/// The tension of a lumped segment is that at its middle. Between there and the end hangs half a
-/// segment's load, so the end bears `T + (l/2) (w e_z - f)`: `e` the unit vector along the segment to
-/// the end, `w` the weight in water and `f` the drag along `e`, both per metre, and `l` its length.
-#[must_use]
+/// Tension of a line at an end; zero if it is slack, cut or empty [N].
 pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
     let middle = end_segment_tension(model, state, line, end);
     let Some((segment, tip, inner)) = end_segment(model, line, end) else { return 0.0 };
@@ -173,14 +174,14 @@ fn load_along(model: &Model, state: &State, line: usize, node: usize, along: DVe
     drag - (rope.mass_kg_m - density * rope.displaced_m3_m) * water.gravity_m_s2 * along.z
 }
 
-/// Tension of the segment at an end, never below zero [N].
+/// Tension of the segment at an end, zero if slack [N].
 fn end_segment_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
     end_segment(model, line, end).map_or(0.0, |(segment, ..)| {
         if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) }
     })
 }
 
-/// The segment at an end, its node at the joint and its other node.
+/// Segment at an end, its node at the joint and its other node.
 fn end_segment(model: &Model, line: usize, end: LineEnd) -> Option<(usize, usize, usize)> {
     let (segments, nodes) = (&model.line_segments[line], &model.line_nodes[line]);
     match end {
@@ -188,4 +189,71 @@ fn end_segment(model: &Model, line: usize, end: LineEnd) -> Option<(usize, usize
         LineEnd::A => Some((segments.start, nodes.start, nodes.start + 1)),
         LineEnd::B => Some((segments.end - 1, nodes.end - 1, nodes.end - 2)),
     }
+}
+
+/// Position of the midpoint by unstretched length [m].
+pub(super) fn middle(model: &Model, state: &State, line: usize) -> Option<DVec3> {
+    let whole: f64 = state.rope.segment_length[model.line_segments.get(line)?.clone()].iter().sum();
+    place(model, state, line, 0.5 * whole)
+}
+
+/// Position at a length from end A, linear between nodes and constant beyond the ends [m].
+pub(super) fn place(model: &Model, state: &State, line: usize, length_m: f64) -> Option<DVec3> {
+    let lengths = &state.rope.segment_length[model.line_segments.get(line)?.clone()];
+    let nodes = &state.rope.position[model.line_nodes[line].clone()];
+    let mut left = length_m.max(0.0);
+    for (ends, length) in nodes.windows(2).zip(lengths) {
+        if left <= *length {
+            return Some(ends[0].lerp(ends[1], left / length));
+        }
+        left -= length;
+    }
+    nodes.last().copied()
+}
+
+/// Greatest height above the seabed of a line's nodes, excluding those within a length from an end [m].
+///
+/// Without other nodes it is the height of the midpoint; without a line, zero; without a seabed, the height above the water
+/// depth.
+pub(super) fn height(model: &Model, state: &State, line: usize, away_m: f64) -> f64 {
+    let Some(own) = model.line_segments.get(line) else { return 0.0 };
+    let lengths = &state.rope.segment_length[own.clone()];
+    let whole: f64 = lengths.iter().sum();
+    let above = |place: DVec3| {
+        place.z
+            - model
+                .spec
+                .seabed
+                .as_ref()
+                .map_or(-model.spec.water.depth_m, |bed| bed.height_at(place))
+    };
+    let starts =
+        lengths.iter().scan(0.0, |from, length| Some(std::mem::replace(from, *from + length)));
+    let nodes =
+        state.rope.position[model.line_nodes[line].clone()].iter().zip(starts.chain([whole]));
+    let kept = nodes
+        .filter(|(_, from)| *from >= away_m && whole - from >= away_m)
+        .map(|(place, _)| above(*place));
+    kept.reduce(f64::max).or_else(|| middle(model, state, line).map(above)).unwrap_or(0.0)
+}
+
+/// Tension at a length from end A, linear between the middles of segments and constant beyond them; zero if slack, cut or
+/// without a line [N].
+pub(super) fn tension(model: &Model, state: &State, line: usize, length_m: f64) -> f64 {
+    let Some(own) = model.line_segments.get(line) else { return 0.0 };
+    let pull = |segment: usize| {
+        if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) }
+    };
+    let (mut from, mut before) = (0.0, None);
+    for (segment, length) in own.clone().zip(&state.rope.segment_length[own.clone()]) {
+        let middle = from + 0.5 * length;
+        if length_m <= middle {
+            let Some((last_middle, last)) = before else { return pull(segment) };
+            return last
+                + (pull(segment) - last) * (length_m - last_middle) / (middle - last_middle);
+        }
+        before = Some((middle, pull(segment)));
+        from += length;
+    }
+    before.map_or(0.0, |(_, last)| last)
 }

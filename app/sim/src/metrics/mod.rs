@@ -1,62 +1,28 @@
-//! Measures of a run: tensions, bodies, probes, and what the rope did to the whale.
+//! Metrics of a run: tensions, bodies, probes, and the effects of rope on the whale.
 //!
-//! A [`Metrics`] is folded over a run, once after every step, and reads nothing but the model, the
-//! state and what the step left for readers: live and in replay it gives the same numbers. Fold the
-//! start state first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
+//! [`Metrics`] are updated once after every step. They depend only on the model, the state and the results of the step, so that
+//! a live run and its replay give the same numbers. Fold the initial state first to include it in means and peaks.
+//! Definitions and thresholds: `docs/entanglement.md`.
 
-mod along;
 mod bodies;
-mod body_on_whale;
-mod books;
-mod drag;
-mod energy;
-mod event;
-mod extent;
+mod events;
 mod flukes;
-mod gear_loads;
 mod knots;
 mod lines;
-mod made_good;
+mod loads;
 mod mouth;
-mod outcome;
-mod press;
+mod pressure;
 mod probes;
-mod regions;
 mod route;
 mod summary;
-mod touches;
 mod trailing;
-mod twist;
-mod unchanged;
 mod whale;
+mod whale_momentum;
 mod winding;
-mod window;
 mod wraps;
 
 #[cfg(test)]
 pub(crate) mod tests;
-
-pub use bodies::DRAGGED_M;
-pub use body_on_whale::CAUGHT_S;
-pub use books::WhaleBooks;
-pub use energy::energy;
-pub use event::{Event, EventKind};
-pub use flukes::TURN_SHARE;
-pub use knots::HELD_N;
-pub use lines::end_tension;
-pub use made_good::MADE_GOOD_S;
-pub use mouth::LODGED_S;
-pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
-pub use probes::{reading, unit};
-pub use route::{LeadsTo, Route, RouteEnd, Station, routes};
-pub use summary::{
-    BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
-    PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
-};
-pub use twist::BESIDE_M;
-pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
-pub use window::DRAG_WINDOW_S;
-pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
 use crate::contact::body_on_skin::sums::BodySums;
@@ -67,7 +33,24 @@ use crate::state::State;
 use crate::step::Workspace;
 use lines::Peaks;
 
-/// The measures of a run, folded step by step.
+pub use bodies::{CAUGHT_S, DRAGGED_M};
+pub use events::{Event, EventKind, LONG_CONTACT_S, LOST_S, RELEASE_S};
+pub use flukes::TURN_SHARE;
+pub use knots::HELD_N;
+pub use lines::end_tension;
+pub use loads::DRAG_WINDOW_S;
+pub use mouth::LODGED_S;
+pub use probes::{energy, reading, unit};
+pub use route::{LeadsTo, Route, RouteEnd, Station, routes};
+pub use summary::{
+    BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
+    PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+};
+pub use whale_momentum::{MADE_GOOD_S, MomentumBalance};
+pub use winding::{BESIDE_M, BRIDGED_GAP_M, WINDING_JUMP};
+pub use wraps::LOOSE_M;
+
+/// Metrics of a run, updated step by step.
 #[derive(Clone, Debug)]
 pub struct Metrics {
     time_s: f64,
@@ -76,11 +59,11 @@ pub struct Metrics {
     probes: probes::ProbeMeter,
     whale: Option<whale::WhaleMeter>,
     knots: knots::KnotMeter,
-    log: event::Log,
+    log: events::Log,
 }
 
 impl Metrics {
-    /// Measures of a run that has not begun.
+    /// Metrics before the start of a run.
     #[must_use]
     pub fn new(model: &Model) -> Self {
         Self {
@@ -90,12 +73,12 @@ impl Metrics {
             probes: probes::ProbeMeter::new(model),
             whale: whale::WhaleMeter::new(model),
             knots: knots::KnotMeter::new(model),
-            log: event::Log::default(),
+            log: events::Log::default(),
         }
     }
 
-    /// Takes in the step that `workspace` has just taken to `state`: its contacts, and the greatest
-    /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
+    /// Adds the last step of `workspace`, which ended at `state`: its contacts and the greatest tensions of its solver steps,
+    /// so that a peak between two states or at a parting is included.
     pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
         let Workspace { contacts, peak_tension_n, unconverged_peak_n, sums, body_sums, .. } =
             workspace;
@@ -104,10 +87,9 @@ impl Metrics {
         self.take(model, state, (contact, ropes), body_sums, &peaks);
     }
 
-    /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
+    /// Adds a state and its contacts without a step: tensions are those of the state.
     ///
-    /// `state` has the model's layout; the time since the fold before (since 0 at the first) is
-    /// what the step weighs in means and works.
+    /// Means and work are weighted by the time since the previous fold, or since 0 at the first.
     pub fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
         let step_s = (state.time_s - self.time_s).max(0.0);
         let sums =
@@ -137,8 +119,7 @@ impl Metrics {
         }
     }
 
-    /// The measures so far; `state` is that of the last fold.
-    #[must_use]
+    /// Metrics so far; `state` is that of the last fold.
     pub fn summary(&self, model: &Model, state: &State) -> Summary {
         let bodies = self.bodies.summary(model, state);
         Summary {
@@ -150,8 +131,7 @@ impl Metrics {
         }
     }
 
-    /// What happened so far, in the order of time.
-    #[must_use]
+    /// Events so far, in the order of time.
     pub fn events(&self) -> &[Event] {
         &self.log.events
     }

@@ -1,22 +1,21 @@
 //! Rope lodged in the mouth.
 //!
-//! Rope is *held in the mouth* where it presses on baleen, or where it presses on the inside of the mouth on one side and
-//! on inside or lips on the other. It is *lodged* once it has been held for [`LODGED_S`], and until it has not been held
-//! for [`LOST_S`]. Inside of the mouth are the triangles of the baleen, and those all of whose corners are marked so.
+//! Rope is *held in the mouth* if it presses on baleen, or on the inside of the mouth on one side and on inside or lips on the
+//! other. It is *lodged* after it has been held for [`LODGED_S`], until it has not been held for [`LOST_S`]. The inside of the
+//! mouth consists of the triangles of the baleen, and of those with all corners marked as mouth.
 
 use std::sync::Arc;
 
 use endline_sdk::Region;
 
-use super::event::{EventKind, Log};
-use super::outcome::LOST_S;
+use super::events::{EventKind, LOST_S, Log};
 use crate::contact::ContactPoint;
 use crate::whale::{Mark, Skin};
 
-/// Rope held in the mouth this long is lodged there [s]; estimate.
+/// Duration of hold after which rope is lodged; estimate [s].
 pub const LODGED_S: f64 = 1.0;
 
-/// Nearer to the midplane than this a place is on neither side [m]; estimate.
+/// Distance from the midplane below which a point is on neither side; estimate [m].
 const MIDDLE_M: f64 = 0.02;
 
 /// Rope in the mouth.
@@ -26,13 +25,13 @@ pub(super) struct Mouth {
     inside: Arc<[bool]>,
     since_s: Option<f64>,
     last_s: f64,
-    /// Whether rope is lodged there now.
+    /// Whether rope is lodged now.
     pub(super) lodged: bool,
-    /// Whether it ever was.
+    /// Whether rope was lodged at any time.
     pub(super) was_lodged: bool,
 }
 
-/// What presses in the mouth: on baleen, inside, and on each side (lips count there too) [N].
+/// Normal forces in the mouth: on baleen, inside, and on each side including the lips [N].
 #[derive(Clone, Copy, Debug, Default)]
 struct Grip {
     baleen: f64,
@@ -41,7 +40,7 @@ struct Grip {
 }
 
 impl Mouth {
-    /// Of a whale with these triangles inside its mouth.
+    /// Meter of a whale with these triangles inside its mouth.
     pub(super) fn new(inside: Arc<[bool]>) -> Self {
         Self { inside, since_s: None, last_s: 0.0, lodged: false, was_lodged: false }
     }
@@ -59,12 +58,12 @@ impl Mouth {
             self.last_s = time_s;
             if !self.lodged && time_s - since >= LODGED_S {
                 (self.lodged, self.was_lodged) = (true, true);
-                log.note(time_s, EventKind::Lodged, "head", grip.inside);
+                log.record(time_s, EventKind::Lodged, "head", grip.inside);
             }
         } else if self.since_s.is_some() && time_s - self.last_s >= LOST_S {
             self.since_s = None;
             if std::mem::take(&mut self.lodged) {
-                log.note(time_s, EventKind::Dislodged, "head", self.last_s);
+                log.record(time_s, EventKind::Dislodged, "head", self.last_s);
             }
         }
     }

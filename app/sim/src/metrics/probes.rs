@@ -1,13 +1,21 @@
-//! Probes: last, least, greatest and mean reading.
+//! Probes: last, least, greatest and mean reading; and mechanical energy of the gear.
+//!
+//! `E = Σ ½ m v² + ½ ω·Iω` (nodes and bodies) `+ Σ m g z + Σ (EA ε²/2 + EA2 ε³/3) l` (taut segments) [J], with `m` mass [kg],
+//! `v` velocity [m/s],
+//! `I` inertia [kg m²], `ω` spin [rad/s], `ε` the strain, `l` the unstretched length of a segment [m], and `EA`, `EA2` its
+//! stiffnesses [N]. A node has half of the mass of each adjacent segment. Buoyancy and added mass are not included: in a
+//! vacuum, only damping of rope and the time scheme dissipate this energy.
+//! Reference: the stretch energy is the integral of the rope law of [`Rope`](crate::model::Rope).
 
-use super::along;
-use super::energy::energy;
+use glam::DMat3;
+
+use super::lines;
 use super::lines::end_tension;
 use super::summary::ProbeSummary;
-use crate::model::{Model, ProbeTarget, WhaleFigure};
+use crate::model::{EnergyForm, Model, ProbeTarget, WhaleFigure};
 use crate::state::State;
 
-/// What every probe has read.
+/// Readings of all probes.
 #[derive(Clone, Debug)]
 pub(super) struct ProbeMeter {
     tracks: Vec<Track>,
@@ -18,7 +26,7 @@ struct Track {
     last: Option<f64>,
     min: f64,
     max: f64,
-    /// Reading times time, by the trapezium rule.
+    /// Integral of the readings over time, by the trapezium rule.
     sum: f64,
     time_s: f64,
 }
@@ -28,7 +36,7 @@ impl ProbeMeter {
         Self { tracks: vec![Track::default(); model.spec.probes.len()] }
     }
 
-    /// Takes one reading of each; `dt_s` is the time since the reading before.
+    /// Adds a reading of each probe; `dt_s` is the time since the previous one.
     pub(super) fn fold(&mut self, model: &Model, state: &State, dt_s: f64) {
         for (track, probe) in self.tracks.iter_mut().zip(&model.spec.probes) {
             track.take(reading(model, state, probe.target), dt_s);
@@ -65,7 +73,6 @@ impl Track {
 }
 
 /// Unit of a probe's readings: `N`, `m`, `J`, `m/s` or `W`.
-#[must_use]
 pub fn unit(target: ProbeTarget) -> &'static str {
     match target {
         ProbeTarget::EndTension(..)
@@ -82,21 +89,20 @@ pub fn unit(target: ProbeTarget) -> &'static str {
     }
 }
 
-/// What a probe reads in a state; zero where its target does not exist.
-#[must_use]
+/// Reading of a probe in a state; zero if its target does not exist.
 pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
     let coordinate = |place: Option<glam::DVec3>, axis: usize| {
         place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0)
     };
     match target {
         ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
-        ProbeTarget::TensionAt(line, length_m) => along::tension(model, state, line, length_m),
+        ProbeTarget::TensionAt(line, length_m) => lines::tension(model, state, line, length_m),
         ProbeTarget::LineAt(line, length_m, axis) => {
-            coordinate(along::place(model, state, line, length_m), axis)
+            coordinate(lines::place(model, state, line, length_m), axis)
         }
-        ProbeTarget::Height(line, away_m) => along::height(model, state, line, away_m),
+        ProbeTarget::Height(line, away_m) => lines::height(model, state, line, away_m),
         ProbeTarget::Energy(form) => energy(model, state, form),
-        ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
+        ProbeTarget::LineMiddle(line, axis) => coordinate(lines::middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(state.joint_place(model, joint), axis),
         ProbeTarget::Body { body, offset_m, axis } => coordinate(
             state.bodies.get(body).map(|body| body.position + body.orientation * offset_m),
@@ -114,4 +120,75 @@ fn of_whale(state: &State, figure: WhaleFigure) -> f64 {
         WhaleFigure::Power => whale.exertion.power_w,
         WhaleFigure::BodyDrag => whale.exertion.drag_n,
     }
+}
+
+/// Energy of a form in a state [J].
+pub fn energy(model: &Model, state: &State, form: EnergyForm) -> f64 {
+    match form {
+        EnergyForm::Total => kinetic(model, state) + height(model, state) + stretch(model, state),
+        EnergyForm::Kinetic => kinetic(model, state),
+        EnergyForm::Height => height(model, state),
+        EnergyForm::Stretch => stretch(model, state),
+    }
+}
+
+fn kinetic(model: &Model, state: &State) -> f64 {
+    let rope: f64 = node_masses(model, state)
+        .map(|(node, mass)| 0.5 * mass * state.rope.velocity[node].length_squared())
+        .sum();
+    let body = |(body, now): (&crate::model::Body, &crate::state::BodyState)| {
+        let axes = DMat3::from_quat(now.orientation);
+        let spin = axes.transpose() * now.spin;
+        0.5 * (body.mass_kg * now.velocity.length_squared() + spin.dot(body.inertia_kg_m2 * spin))
+    };
+    rope + model.spec.bodies.iter().zip(&state.bodies).map(body).sum::<f64>()
+}
+
+fn height(model: &Model, state: &State) -> f64 {
+    let rope: f64 =
+        node_masses(model, state).map(|(node, mass)| mass * state.rope.position[node].z).sum();
+    let bodies: f64 = model
+        .spec
+        .bodies
+        .iter()
+        .zip(&state.bodies)
+        .map(|(body, now)| body.mass_kg * now.position.z)
+        .sum();
+    (rope + bodies) * model.spec.water.gravity_m_s2
+}
+
+fn stretch(model: &Model, state: &State) -> f64 {
+    let of_segment = |(line, segment): (usize, usize)| {
+        let own = &model.line_segments[line];
+        let node = model.line_nodes[line].start + segment - own.start;
+        let length = state.rope.segment_length[segment];
+        let chord = (state.rope.position[node + 1] - state.rope.position[node]).length();
+        let strain = if state.rope.cut[segment] { 0.0 } else { (chord / length - 1.0).max(0.0) };
+        let rope = model.rope_of_segment(segment);
+        (rope.axial_stiffness_n / 2.0 + rope.axial_stiffening_n * strain / 3.0)
+            * strain
+            * strain
+            * length
+    };
+    let segments = model
+        .line_segments
+        .iter()
+        .enumerate()
+        .flat_map(|(line, own)| own.clone().map(move |segment| (line, segment)));
+    segments.map(of_segment).sum()
+}
+
+/// Nodes with the mass of rope of each [kg].
+fn node_masses(model: &Model, state: &State) -> impl Iterator<Item = (usize, f64)> {
+    model.spec.lines.iter().enumerate().flat_map(|(index, line)| {
+        let mass_kg_m = model.spec.ropes[line.rope].mass_kg_m;
+        let lengths = &state.rope.segment_length[model.line_segments[index].clone()];
+        let length = |segment: Option<usize>| {
+            segment.and_then(|segment| lengths.get(segment)).copied().unwrap_or(0.0)
+        };
+        let nodes = model.line_nodes[index].clone().enumerate();
+        nodes.map(move |(place, node)| {
+            (node, 0.5 * (length(place.checked_sub(1)) + length(Some(place))) * mass_kg_m)
+        })
+    })
 }

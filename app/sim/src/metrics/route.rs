@@ -1,8 +1,8 @@
-//! Routes: which places of the whale each strand of rope passes, in its order, and what its two ends lead to.
+//! Routes: the parts of the whale that each strand of rope passes, in order, and what its two ends lead to.
 //!
-//! Everything is read of one moment's contacts. A *station* is a body part, the inside of the mouth apart from the rest of the
-//! head, with the side on which rope presses where the part lies in the midplane. Neighbouring contacts on the same station are
-//! one. Rope beyond the outermost contacts leads to the first cut, or to what is at the strand's end.
+//! A route is determined by the contacts at one time. A *station* is a body part, with the inside of the mouth separate from
+//! the rest of the head, and for parts in the midplane the side on which rope presses. Consecutive contacts on the same station
+//! are one station. Rope beyond the outermost contacts leads to the first cut, or to the end of the strand.
 
 use endline_sdk::{BodyPart, LineEnd, Side};
 
@@ -13,57 +13,56 @@ use crate::state::State;
 use crate::strands::{Place, Strands, ends_at, joint_at};
 use crate::whale::Skin;
 
-/// Nearer to the midplane than this, rope on head, body or peduncle is on neither side [m]; estimate.
+/// Distance from the midplane below which rope on head, body or peduncle is on neither side; estimate [m].
 const MIDDLE_M: f64 = 0.05;
 
-/// The way of a strand over the whale.
+/// Route of a strand over the whale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// Places passed, in the order of the strand; neighbours differ.
+    /// Stations in the order of the strand; neighbours differ.
     pub stations: Vec<Station>,
-    /// What rope leads to before the first of them and after the last.
+    /// What rope leads to before the first station and after the last.
     pub ends: [RouteEnd; 2],
 }
 
-/// A place that rope passes.
+/// A station of a route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Station {
-    /// The body part.
+    /// Body part.
     pub part: BodyPart,
-    /// Whether rope is inside the mouth there.
+    /// Whether rope is inside the mouth.
     pub in_mouth: bool,
-    /// The side of a part in the midplane on which it presses; `None` near the middle, and on fins.
+    /// Side of a part in the midplane; `None` near the midplane and on fins.
     pub side: Option<Side>,
 }
 
-/// Where rope leads from the whale.
+/// End of a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RouteEnd {
-    /// What is there.
+    /// What rope leads to.
     pub leads_to: LeadsTo,
-    /// Rope up to there [m].
+    /// Length of rope to it [m].
     pub rope_m: f64,
 }
 
 /// What rope leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeadsTo {
-    /// A place where it parted.
+    /// A break.
     Broken,
-    /// Its bare end.
+    /// A bare end.
     Bare,
-    /// A body, by its index.
+    /// A body, by index.
     Body(usize),
-    /// What does not move, or moves by itself.
+    /// A fixture, fixed or driven.
     Fixture,
-    /// A place on the whale to which it is made fast.
+    /// A hitch on the whale.
     Whale,
     /// A joint with other lines.
     Junction,
 }
 
-/// Routes of all strands that press on the whale, in the order of the strands.
-#[must_use]
+/// Routes of all strands in contact with the whale, in the order of the strands.
 pub fn routes(model: &Model, state: &State, contacts: &[ContactPoint]) -> Vec<Route> {
     let Some(whale) = &model.spec.whale else { return Vec::new() };
     let mut strands = Strands::new(model);
@@ -119,7 +118,7 @@ struct Leg<'a> {
 }
 
 impl Leg<'_> {
-    /// From a place back to the first cut or the strand's start.
+    /// Follows the strand back to the first cut or its start.
     fn back(&self, from: &Place, arc_m: f64) -> RouteEnd {
         let before = self.segments[..from.order].iter().rev();
         let cut = before.copied().find(|segment| self.state.rope.cut[*segment]);
@@ -129,7 +128,7 @@ impl Leg<'_> {
         }
     }
 
-    /// From a place on to the first cut or the strand's end.
+    /// Follows the strand forward to the first cut or its end.
     fn onward(&self, from: &Place, arc_m: f64) -> RouteEnd {
         let mut after = self.segments[from.order + 1..].iter().copied();
         let cut = after.find(|segment| self.state.rope.cut[*segment]);

@@ -1,25 +1,33 @@
-//! Rope that leaves the whale: to loose ends (trailing) and to what holds it (tethered).
+//! Rope that leaves the whale, to loose ends (trailing) and to what holds it (tethered); and contact of the whale with seabed
+//! and surface.
+//!
+//! The extent of the trunk beyond a plane is that of ellipses across its axis: with the unit normal `n` of the plane in the
+//! whale's frame, a section with centre `c` and half widths `a`, `b` [m] reaches `c·n + √(a² n_y² + b² n_z²)` [m] (support
+//! function of an ellipse).
 
 use endline_sdk::LineEnd;
+use glam::DVec3;
 
+use super::events::{EventKind, Log};
 use crate::contact::ContactPoint;
 use crate::model::{BodyRole, JointKind, Model};
-use crate::state::State;
+use crate::state::{State, WhaleState};
 use crate::strands::{ends_at, joint_at, other};
-use crate::whale::hitch;
+use crate::whale::axes::trunk_axis;
+use crate::whale::{Skin, hitch};
 
-/// Lengths of rope beyond the outermost contacts [m].
+/// Rope beyond the outermost contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Beyond {
-    /// Rope that leads to loose ends only: broken or bare ends and buoys.
+    /// Length of rope that leads to loose ends only: broken or bare ends and buoys [m].
     pub(super) trailing_m: f64,
-    /// Rope that leads to a trap, anchor, weight or fixture.
+    /// Length of rope that leads to a trap, anchor, weight or fixture [m].
     pub(super) tethered_m: f64,
-    /// Bodies that hang on the whale by that rope, in the model's order.
+    /// Bodies attached to the whale by that rope, in the model's order.
     pub(super) bodies: Vec<usize>,
 }
 
-/// The outermost contacts of each line as rope length from its end A [m].
+/// Outermost contacts of each line, as lengths from its end A [m].
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
     touched: Vec<Option<(f64, f64)>>,
@@ -30,7 +38,7 @@ impl Reach {
         Self { touched: vec![None; model.spec.lines.len()] }
     }
 
-    /// Takes in the contacts of a step, and the ends made fast to the whale.
+    /// Updates the contacts of a step and the line ends attached to the whale.
     pub(super) fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
         self.touched.fill(None);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
@@ -49,7 +57,7 @@ impl Reach {
         }
     }
 
-    /// Rope beyond the outermost contacts.
+    /// Finds the rope beyond the outermost contacts.
     pub(super) fn beyond(&self, model: &Model, state: &State) -> Beyond {
         let mut walk = Walk {
             model,
@@ -71,14 +79,14 @@ impl Reach {
     }
 }
 
-/// Where a walk along rope led.
+/// What a walk along rope leads to.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Leads {
-    /// Back to the whale, or to rope walked before.
+    /// Back to the whale, or to rope already walked.
     Back,
-    /// To a loose end.
+    /// A loose end.
     Loose,
-    /// To something that holds.
+    /// Something that holds it.
     Held,
 }
 
@@ -91,7 +99,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Walks the last `length_m` of a line towards `end` and on; adds up the rope by where it leads.
+    /// Walks the last `length_m` of a line towards `end` and beyond; adds the length to that of its kind.
     fn follow(&mut self, line: usize, end: LineEnd, length_m: f64) -> Leads {
         let (walked, leads) = match self.to_cut(line, end, length_m) {
             Some(walked) => (walked, Leads::Loose),
@@ -105,25 +113,27 @@ impl Walk<'_> {
         leads
     }
 
-    /// Rope before the first cut in the last `length_m` of a line towards `end`; `None` where it is whole [m].
+    /// Length of rope before the first cut in the last `length_m` of a line towards `end`; `None` without a cut [m].
     fn to_cut(&self, line: usize, end: LineEnd, length_m: f64) -> Option<f64> {
         let lengths = &self.state.rope.segment_length[self.model.line_segments[line].clone()];
         let cut = &self.state.rope.cut[self.model.line_segments[line].clone()];
         let (mut left, mut nearest) = (0.0, None);
-        let mut look = |length: &f64, cut: &bool| {
+        let mut visit = |length: &f64, cut: &bool| {
             if *cut && left < length_m {
                 nearest = Some((length_m - left - length).max(0.0));
             }
             left += length;
         };
         match end {
-            LineEnd::A => lengths.iter().zip(cut).for_each(|(length, cut)| look(length, cut)),
-            LineEnd::B => lengths.iter().zip(cut).rev().for_each(|(length, cut)| look(length, cut)),
+            LineEnd::A => lengths.iter().zip(cut).for_each(|(length, cut)| visit(length, cut)),
+            LineEnd::B => {
+                lengths.iter().zip(cut).rev().for_each(|(length, cut)| visit(length, cut))
+            }
         }
         nearest
     }
 
-    /// Where what lies past an end of a line leads.
+    /// What an end of a line leads to.
     fn past(&mut self, line: usize, end: LineEnd) -> Leads {
         let joint = joint_at(self.model, line, end);
         let Some(kind) = self.model.spec.joints.get(joint).map(|joint| &joint.kind) else {
@@ -144,18 +154,18 @@ impl Walk<'_> {
         }
     }
 
-    /// Walks on from a splice or buoy along every other line there.
-    fn on_from(&mut self, joint: usize, came: (usize, LineEnd)) -> Leads {
+    /// Walks from a splice or buoy along every other line.
+    fn on_from(&mut self, joint: usize, from: (usize, LineEnd)) -> Leads {
         let mut ends: Vec<(usize, LineEnd)> =
             self.hub(joint).into_iter().flat_map(|joint| ends_at(self.model, joint)).collect();
-        ends.retain(|end| *end != came);
+        ends.retain(|end| *end != from);
         if ends.is_empty() {
             return Leads::Loose;
         }
         ends.into_iter().map(|(line, end)| self.enter(line, end)).max().unwrap_or(Leads::Loose)
     }
 
-    /// Walks a whole line entered at `end`; a touched one leads back to the whale.
+    /// Walks a whole line from `end`; a line in contact leads back to the whale.
     fn enter(&mut self, line: usize, end: LineEnd) -> Leads {
         if self.touched[line].is_some() || self.seen[line] {
             return Leads::Back;
@@ -165,7 +175,7 @@ impl Walk<'_> {
         self.follow(line, other(end), whole)
     }
 
-    /// The joints that move as one with a joint: itself, or all on its body.
+    /// Joints that move with a joint: itself, or all joints of its body.
     fn hub(&self, joint: usize) -> Vec<usize> {
         let JointKind::Body { body, .. } = self.model.spec.joints[joint].kind else {
             return vec![joint];
@@ -175,4 +185,62 @@ impl Walk<'_> {
             .filter(|joint| same(&self.model.spec.joints[*joint].kind))
             .collect()
     }
+}
+
+/// Distance that the whale must withdraw before another contact is reported; estimate [m].
+const REARM_M: f64 = 0.5;
+
+/// The trunk as ellipses across its axis, in the whale's frame at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Extent {
+    ellipses: Vec<(DVec3, [f64; 2])>,
+    at_seabed: bool,
+    at_surface: bool,
+}
+
+impl Extent {
+    pub(super) fn new(skin: &Skin) -> Self {
+        let sections = trunk_axis(skin).map(|axis| axis.sections).unwrap_or_default();
+        let ellipse = |section: &crate::whale::axes::Section| {
+            (DVec3::new(section.along_m, section.middle_m[0], section.middle_m[1]), section.half_m)
+        };
+        Self {
+            ellipses: sections.iter().map(ellipse).collect(),
+            at_seabed: false,
+            at_surface: false,
+        }
+    }
+
+    pub(super) fn fold(&mut self, model: &Model, whale: &WhaleState, time_s: f64, log: &mut Log) {
+        if self.ellipses.is_empty() {
+            return;
+        }
+        let top = self.reach(whale, DVec3::ZERO, DVec3::Z);
+        if passes(&mut self.at_surface, top) {
+            log.record(time_s, EventKind::AtSurface, "whale", top);
+        }
+        if let Some(seabed) = &model.spec.seabed {
+            let depth = self.reach(whale, DVec3::new(0.0, 0.0, -seabed.depth_m), -seabed.normal);
+            if passes(&mut self.at_seabed, depth) {
+                log.record(time_s, EventKind::AtSeabed, "whale", -depth);
+            }
+        }
+    }
+
+    /// Extent of the trunk beyond a plane through `point` with the unit normal `out` [m].
+    fn reach(&self, whale: &WhaleState, point: DVec3, out: DVec3) -> f64 {
+        let own = whale.orientation.inverse() * out;
+        let base = (whale.position - point).dot(out);
+        let beyond = |(middle, half): &(DVec3, [f64; 2])| {
+            base + middle.dot(own) + libm::hypot(half[0] * own.y, half[1] * own.z)
+        };
+        self.ellipses.iter().map(beyond).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// Whether an extent has just become positive; true again only after a withdrawal by [`REARM_M`].
+fn passes(beyond: &mut bool, reach: f64) -> bool {
+    let passed = !*beyond && reach >= 0.0;
+    *beyond = if *beyond { reach > -REARM_M } else { passed };
+    passed
 }

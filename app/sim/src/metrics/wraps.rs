@@ -1,27 +1,27 @@
-//! Wraps: how far the centre line of rope turns about the axis of a part, loose loops included.
+//! Wraps: turns of the centre line of rope about the axis of a part, including loose loops.
 //!
-//! A *wrap* is a stretch of whole rope within a part's neighbourhood: between the planes across its axis at the part's two
-//! ends, and within `hypot(u / (a + c), v / (b + c)) <= 1` of it, `u, v` the place across the posed axis, `a, b` the half
-//! widths of the section there, `c` [`LOOSE_M`]. With `S` the angle that the rope sweeps about the axis from where it comes
-//! in to where it leaves (straight lines between nodes), and at both ends the straight ray in which it would go on,
+//! A *wrap* is a continuous length of uncut rope within the neighbourhood of a part. The neighbourhood is between the planes
+//! across the axis at the two ends of the part, and within `hypot(u / (a + c), v / (b + c)) <= 1` of it, with `u, v` the
+//! coordinates across the posed axis, `a, b` the half widths of the section, and `c` = [`LOOSE_M`] [m]. With `S` the angle that
+//! the rope sweeps about the axis between entry and exit (straight between nodes) [rad], and a straight extension at both ends,
 //!
 //! ```text
 //! W = max(0, |S| / 2 pi + sum over both ends of w (asin(q) / 2 pi - 1/4)),   q = r x t, w = min(1, 2 |t across|)
 //! ```
 //!
-//! `r` is the unit vector across from the axis to that end, `t` the rope's direction across the axis there, in the sense
-//! of the sweep. Drawn on for ever both ways, rope that passes straight by sweeps half a turn: that half is taken off, a
-//! quarter at each end. So a straight rope counts 0 wherever it is cut off, `n` turns on a cylinder that leave it
-//! straight on count `n`, and a bend by `a` round a part counts `a / 2 pi`; `w` lets rope that leaves along the axis count
-//! as it swept. Nothing in it depends on which pieces touch or on how rope is cut into segments, and nothing jumps as
-//! rope comes into the neighbourhood, goes out of it or slides along. Definitions and reasons: `docs/entanglement.md`.
+//! in turns. `r` is the transverse unit vector from the axis to that end, and `t` the transverse direction of rope there, in
+//! the sense of the sweep. A straight rope, extended to infinity both ways, sweeps half a turn, which is subtracted, a quarter
+//! at each end. A straight rope therefore counts 0 wherever it is cut off, `n` turns on a cylinder with straight ends count
+//! `n`, and a bend by `a` round a part counts `a / 2 pi`. `w` lets rope that leaves along the axis count by its sweep. The
+//! result does not depend on which segments touch or on the segment lengths, and it is continuous when rope enters the
+//! neighbourhood, leaves it or slides along. Definitions and reasons: `docs/entanglement.md`.
 
 use std::f64::consts::TAU;
 
 use endline_sdk::BodyPart;
 use glam::{DAffine3, DVec3};
 
-use super::outcome::LOST_S;
+use super::events::LOST_S;
 use super::winding::between;
 use crate::contact::ContactPoint;
 use crate::model::Model;
@@ -30,10 +30,10 @@ use crate::strands::Strands;
 use crate::whale::axes::{Axis, PosedAxis, Spot, axes_of};
 use crate::whale::{Skin, pose};
 
-/// Rope farther than this from the box of a part's section is not about the part [m]; estimate.
+/// Greatest distance of rope about a part from the box of its section; estimate [m].
 pub const LOOSE_M: f64 = 0.5;
 
-/// Halvings that find where a segment comes into a neighbourhood.
+/// Bisections to find where a segment enters a neighbourhood.
 const HALVINGS: usize = 30;
 
 const PARTS: usize = BodyPart::ALL.len();
@@ -44,17 +44,17 @@ pub(super) struct WrapMeter {
     axes: [Option<Axis>; PARTS],
     posed: PosedAxis,
     bones: Vec<DAffine3>,
-    /// When each strand last pressed on each part [s].
+    /// Time of the last contact of each strand with each part [s].
     last_s: Vec<[Option<f64>; PARTS]>,
-    /// Turns about each part now, with their sign: those of the strand that has most [turns].
+    /// Turns about each part now, signed: those of the strand with the greatest [turns].
     pub(super) turns: [f64; PARTS],
-    /// How many wraps each part has.
+    /// Number of wraps of each part.
     counts: [usize; PARTS],
-    /// Steps in which turns jumped though the number of wraps stayed.
+    /// Number of steps in which turns jumped at a constant number of wraps.
     pub(super) jumps: u64,
 }
 
-/// A wrap as far as it has been walked.
+/// A wrap in progress.
 #[derive(Clone, Copy, Debug)]
 struct Wrap {
     swept: f64,
@@ -63,14 +63,14 @@ struct Wrap {
     end: End,
 }
 
-/// Where a wrap begins or ends: `asin(q)`, in the sense of growing azimuth [rad], and `w`.
+/// An end of a wrap: `asin(q)`, in the sense of increasing azimuth [rad], and `w`.
 #[derive(Clone, Copy, Debug)]
 struct End {
     lead: f64,
     weight: f64,
 }
 
-/// A part's neighbourhood under a pose.
+/// Neighbourhood of a part under a pose.
 struct Neighbourhood<'a> {
     axis: &'a PosedAxis,
     reach_m: [f64; 2],
@@ -90,7 +90,7 @@ impl WrapMeter {
         }
     }
 
-    /// Measures the wraps of all strands that press on a part, or did less than [`LOST_S`] ago.
+    /// Measures the wraps of all strands in contact with a part within the last [`LOST_S`].
     pub(super) fn fold(
         &mut self,
         model: &Model,
@@ -99,14 +99,17 @@ impl WrapMeter {
         strands: &Strands,
         contacts: &[ContactPoint],
     ) {
-        self.take_contacts(state.time_s, strands, contacts);
+        self.record_contacts(state.time_s, strands, contacts);
         let (before, counts) = (self.turns, self.counts);
         (self.turns, self.counts) = ([0.0; PARTS], [0; PARTS]);
         let free = |last: &Option<f64>| last.is_none_or(|last| state.time_s - last >= LOST_S);
         if self.last_s.iter().flatten().all(free) {
             return;
         }
-        let Some(own) = &model.spec.whale else { return };
+        let Some(own) = &model.spec.whale else {
+            debug_assert!(false, "wraps are measured on a model with a whale");
+            return;
+        };
         pose(&own.skin, whale.position, whale.orientation, &whale.posture, &mut self.bones);
         for part in 0..PARTS {
             if self.last_s.iter().any(|last| !free(&last[part])) {
@@ -120,19 +123,20 @@ impl WrapMeter {
         self.jumps += u64::from((0..PARTS).any(jumped));
     }
 
-    /// The most turns about any part now.
+    /// Greatest turns about any part now.
     pub(super) fn most(&self) -> f64 {
         self.turns.iter().fold(0.0, |most, turns| libm::fabs(*turns).max(most))
     }
 
-    fn take_contacts(&mut self, time_s: f64, strands: &Strands, contacts: &[ContactPoint]) {
+    /// Records the contacts of a step.
+    fn record_contacts(&mut self, time_s: f64, strands: &Strands, contacts: &[ContactPoint]) {
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
             let part = contact.region.part() as usize;
             self.last_s[strands.places[contact.segment].strand][part] = Some(time_s);
         }
     }
 
-    /// The wraps about one part: those of a strand that turn the same way add up, and the strand that has most counts.
+    /// Measures the wraps about one part: the sum of a strand's wraps of the same sense, for the strand with the greatest sum.
     fn measure(&mut self, model: &Model, state: &State, strands: &Strands, part: usize) {
         let Some(axis) = &self.axes[part] else { return };
         axis.pose(&self.bones, &mut self.posed);
@@ -156,7 +160,7 @@ impl WrapMeter {
 }
 
 impl Neighbourhood<'_> {
-    /// All wraps of a strand, in its order.
+    /// Wraps of a strand, in order.
     fn wraps(
         &self,
         model: &Model,
@@ -174,9 +178,9 @@ impl Neighbourhood<'_> {
             let [from, to] = ends_of(model, state, strands, segment);
             let starts = match known {
                 Some((place, spot)) if place == from => spot,
-                _ => self.look(from),
+                _ => self.locate(from),
             };
-            let stops = self.look(to);
+            let stops = self.locate(to);
             known = Some((to, stops));
             if starts.is_none() && stops.is_none() {
                 continue;
@@ -189,20 +193,20 @@ impl Neighbourhood<'_> {
                 .take()
                 .filter(|_| starts.is_some())
                 .unwrap_or_else(|| Wrap::begin(&enters, way));
-            wrap.go(&leaves, way);
+            wrap.extend(&leaves, way);
             if stops.is_some() { open = Some(wrap) } else { wraps.push(wrap) }
         }
         wraps.extend(open);
         wraps
     }
 
-    /// A place as seen from the axis, where it is in the neighbourhood.
-    fn look(&self, place: DVec3) -> Option<Spot> {
+    /// Position relative to the axis; `None` outside the neighbourhood.
+    fn locate(&self, place: DVec3) -> Option<Spot> {
         let (middle, radius) = self.ball;
         if place.distance(middle) > radius + LOOSE_M {
             return None;
         }
-        let spot = self.axis.see(place)?;
+        let spot = self.axis.locate(place)?;
         let [u, v] = [0, 1].map(|k| spot.at_m[k] / (spot.half_m[k] + LOOSE_M));
         (spot.along_m >= self.reach_m[0]
             && spot.along_m <= self.reach_m[1]
@@ -210,28 +214,30 @@ impl Neighbourhood<'_> {
             .then_some(spot)
     }
 
-    /// The last place in the neighbourhood on the way from a place in it to one that is not.
+    /// Last position in the neighbourhood on the line from a position in it to one outside.
     fn edge(&self, within: DVec3, beyond: DVec3) -> Option<Spot> {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            if self.look(within.lerp(beyond, middle)).is_some() {
+            if self.locate(within.lerp(beyond, middle)).is_some() {
                 low = middle
             } else {
                 high = middle
             }
         }
-        self.look(within.lerp(beyond, low))
+        self.locate(within.lerp(beyond, low))
     }
 }
 
 impl Wrap {
+    /// Starts a wrap.
     fn begin(spot: &Spot, way: DVec3) -> Self {
         let end = End::of(spot, way);
         Self { swept: 0.0, at: spot.azimuth(), begin: end, end }
     }
 
-    fn go(&mut self, to: &Spot, way: DVec3) {
+    /// Extends a wrap to a position.
+    fn extend(&mut self, to: &Spot, way: DVec3) {
         let azimuth = to.azimuth();
         self.swept += between(self.at, azimuth);
         (self.at, self.end) = (azimuth, End::of(to, way));
@@ -258,7 +264,7 @@ impl End {
     }
 }
 
-/// The two ends of a segment in the order of its strand.
+/// Ends of a segment, in the order of its strand.
 pub(super) fn ends_of(
     model: &Model,
     state: &State,

@@ -1,11 +1,12 @@
 //! Rigid bodies: traps, buoys, anchors and other weights.
+//!
+//! Shapes of bodies and of their parts, for the picture and for contact.
 
 use glam::{DQuat, DVec3};
 
 use crate::float::Float;
-use crate::model::shape::PlacedShape;
 
-/// What a body is, for pictures and reports.
+/// Kind of a body, for pictures and reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyRole {
     /// Trap.
@@ -23,11 +24,11 @@ pub enum BodyRole {
 pub struct Body {
     /// Id, such as `trap`.
     pub id: String,
-    /// Name of the library's item that it is; empty where its figures stand in a scenario.
+    /// Name of its library item; empty where the scenario declares its properties.
     pub item: String,
-    /// What it is.
+    /// Kind.
     pub role: BodyRole,
-    /// What it consists of, for contact and for the picture; at least one part.
+    /// Shapes it consists of, for contact and pictures; at least one.
     pub parts: Vec<PlacedShape>,
     /// Mass in air [kg].
     pub mass_kg: f64,
@@ -37,62 +38,61 @@ pub struct Body {
     pub added_mass_kg: DVec3,
     /// Added moment of inertia when wet, by body axis [kg m²].
     pub added_inertia_kg_m2: DVec3,
-    /// Drag coefficient times area of the body as a whole, by body axis at its origin [m²]; a body of several
-    /// parts has that of its floats instead.
+    /// Drag coefficient times area of the whole body, by body axis at its origin [m²]; zero where its floats have drag of
+    /// their own.
     pub drag_area_m2: DVec3,
-    /// Turning drag: torque = ½ρ·this·ω|ω| when wet, by body axis [m⁵].
+    /// Rotational drag `D` when wet, by body axis: torque = `½ρ D ω|ω|` [m⁵].
     pub turn_drag_m5: DVec3,
-    /// Displaced volume, split so that it goes under and rights itself part by part.
+    /// Displaced volume, in parts that submerge separately.
     pub floats: Vec<Float>,
-    /// Whether drag and added mass scale with the wet share (else always full).
+    /// Whether drag and added mass scale with the submerged share; otherwise they have their full value.
     pub wetted_drag: bool,
-    /// What touches the seabed: points, or middles of balls, in the body's frame [m].
+    /// Contact points for the seabed, or centres of balls, in the body's frame [m].
     pub feet_m: Vec<DVec3>,
-    /// Radius of the ball about each foot [m]; a foot without one is a point.
+    /// Radius of the ball at each foot [m]; a missing entry is a point.
     pub foot_radius_m: Vec<f64>,
-    /// Friction on the seabed before it starts to move.
+    /// Static friction coefficient on the seabed.
     pub start_friction: f64,
-    /// Friction on the seabed once it slides.
+    /// Kinetic friction coefficient on the seabed.
     pub slide_friction: f64,
-    /// Force that holds each foot back when it is lifted off the seabed, at most [N].
+    /// Greatest suction on each foot while it is lifted off the seabed [N].
     pub foot_break_out_n: f64,
-    /// First guess of its place [m].
+    /// Initial guess of its position [m].
     pub position_m: DVec3,
-    /// Start orientation, body to world.
+    /// Initial orientation, body to world.
     pub orientation: DQuat,
-    /// Start angular velocity in the world frame, where a run begins as placed [rad/s].
+    /// Initial angular velocity in the world frame, used where a run starts without statics [rad/s].
     pub spin_rad_s: DVec3,
-    /// Held in place until this time (through statics, if not below zero); `None` is free.
+    /// Time until which it is held in place, statics included unless negative; `None` if free [s].
     pub held_until_s: Option<f64>,
 }
 
 impl Body {
-    /// Corners of the boxes round its parts, in its frame [m].
+    /// Corners of the bounding boxes of its parts, in its frame [m].
     pub fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.parts.iter().flat_map(|part| part.shape.corners().map(|corner| part.middle_m + corner))
     }
 
-    /// Middle of its first part, in its frame [m].
-    #[must_use]
+    /// Centre of its first part, in its frame [m].
     pub fn middle_m(&self) -> DVec3 {
         self.parts.first().map_or(DVec3::ZERO, |part| part.middle_m)
     }
 
-    /// From the body's place to the lowest place of a foot above a plane of this normal, with the body turned like this [m].
+    /// Vector from the body's origin to the point of a foot nearest to a plane with this unit normal, at this orientation [m].
     pub(crate) fn foot_arm(&self, foot: usize, orientation: DQuat, normal: DVec3) -> DVec3 {
         let radius = self.foot_radius_m.get(foot).copied().unwrap_or(0.0);
         orientation * self.feet_m[foot] - normal * radius
     }
 
-    /// Drag coefficient times area when all of it is wet, by body axis [m²].
-    #[must_use]
+    /// Drag coefficient times area when fully submerged, by body axis [m²].
     pub fn whole_drag_area_m2(&self) -> DVec3 {
         self.floats.iter().fold(self.drag_area_m2, |sum, float| sum + float.drag_area_m2)
     }
 }
 
-/// Where in a list of things the part of a number stands, parts of bodies being numbered body after body: the index of its body, or how
-/// far past the last part.
+/// Returns the index of the body that a part belongs to; parts are numbered body after body.
+///
+/// A number beyond the last part is that of another solid: `Err` holds its offset from the last part.
 pub(crate) fn body_of_part(bodies: &[Body], mut part: usize) -> Result<usize, usize> {
     for (index, body) in bodies.iter().enumerate() {
         if part < body.parts.len() {
@@ -101,4 +101,75 @@ pub(crate) fn body_of_part(bodies: &[Body], mut part: usize) -> Result<usize, us
         part -= body.parts.len();
     }
     Err(part)
+}
+
+/// Shape of a part of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Box by half extents [m].
+    Box(DVec3),
+    /// Sphere by radius [m].
+    Sphere(f64),
+    /// Cylinder along z with rounded ends.
+    Capsule {
+        /// Radius [m].
+        radius_m: f64,
+        /// Half of the length, ends included [m].
+        half_length_m: f64,
+    },
+    /// Cylinder along z with flat ends.
+    Cylinder {
+        /// Radius [m].
+        radius_m: f64,
+        /// Half of its length [m].
+        half_length_m: f64,
+    },
+    /// Ellipsoid of revolution about z.
+    Spheroid {
+        /// Semi-axis across z [m].
+        across_m: f64,
+        /// Semi-axis along z [m].
+        along_m: f64,
+    },
+}
+
+/// A part of a body: a convex shape fixed to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedShape {
+    /// Shape.
+    pub shape: Shape,
+    /// Centre of the shape in the body's frame [m].
+    pub middle_m: DVec3,
+}
+
+impl Shape {
+    /// Half extents of its bounding box [m].
+    pub fn half_m(&self) -> DVec3 {
+        match self {
+            Self::Box(half) => *half,
+            Self::Sphere(radius_m) => DVec3::splat(*radius_m),
+            Self::Capsule { radius_m: across, half_length_m: along }
+            | Self::Cylinder { radius_m: across, half_length_m: along }
+            | Self::Spheroid { across_m: across, along_m: along } => {
+                DVec3::new(*across, *across, *along)
+            }
+        }
+    }
+
+    /// Corners of its bounding box, in its frame [m].
+    pub fn corners(&self) -> [DVec3; 8] {
+        let half = self.half_m();
+        let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        std::array::from_fn(|corner| {
+            half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2))
+        })
+    }
+}
+
+impl PlacedShape {
+    /// A part centred at the body's origin.
+    #[must_use]
+    pub fn about_origin(shape: Shape) -> Self {
+        Self { shape, middle_m: DVec3::ZERO }
+    }
 }

@@ -1,45 +1,35 @@
-//! The immutable half of a simulation: what the gear, the sea and the whale are.
+//! The immutable half of a simulation: gear, sea, seabed, obstacles and whale.
 //!
-//! Data only: `assembly.rs` makes a [`Model`] from a [`ModelSpec`] that holds together.
+//! Data only: `assembly.rs` checks a [`ModelSpec`] and makes a [`Model`] from it.
 
 pub mod body;
-pub mod friction;
-pub mod gear;
-pub mod joint;
-pub mod link;
-pub mod obstacle;
-pub mod pilot;
-pub mod probe;
 pub mod rope;
-pub mod seabed;
 pub mod settings;
-pub mod shape;
 pub mod whale;
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use endline_sdk::LineEnd;
+use endline_sdk::{AttributeValue, GearType, LineEnd};
+use glam::{DQuat, DVec3};
 
+use crate::geometry::shape::SolidShape;
 use crate::water::{Sea, Water};
 use crate::whale::tree::SkinTree;
 
 pub use crate::float::{Float, Form, Wet};
-pub use body::{Body, BodyRole};
-pub use friction::{BODY_ON_SKIN_FRICTION, Friction, FrictionLaw};
-pub use gear::GearHook;
-pub use joint::{Hitch, Joint, JointKind};
-pub use link::Link;
-pub use obstacle::{Obstacle, ROPE_ON_HARD_N_M2};
-pub use pilot::{PilotEntry, PilotProgram, Target, Trigger};
-pub use probe::{EnergyForm, Probe, ProbeTarget, WhaleFigure};
-pub use rope::{Line, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength};
-pub use seabed::Seabed;
-pub use settings::{CONTACT_TOLERANCE, Resolution, Settings};
-pub use shape::{PlacedShape, Shape};
-pub use whale::Whale;
+pub use body::{Body, BodyRole, PlacedShape, Shape};
+pub use rope::{
+    Hitch, Joint, JointKind, Line, Link, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength,
+};
+pub use settings::{
+    CONTACT_TOLERANCE, EnergyForm, Probe, ProbeTarget, Resolution, Settings, WhaleFigure,
+};
+pub use whale::{
+    BODY_ON_SKIN_FRICTION, Friction, FrictionLaw, PilotEntry, PilotProgram, Target, Trigger, Whale,
+};
 
-/// All that a model is made from; [`Model::new`] checks it.
+/// Input of a model; [`Model::new`] checks it.
 #[derive(Clone)]
 pub struct ModelSpec {
     /// The sea.
@@ -56,13 +46,13 @@ pub struct ModelSpec {
     pub bodies: Vec<Body>,
     /// Weak links.
     pub links: Vec<Link>,
-    /// Gear types at work.
+    /// Gear types that act during the run.
     pub gear: Vec<GearHook>,
     /// The whale, if any.
     pub whale: Option<Whale>,
-    /// Friction of rope on whale; needed where there is a whale.
+    /// Friction on the whale; required where there is a whale.
     pub friction: Option<Friction>,
-    /// Solid things that stand still.
+    /// Solids at rest.
     pub obstacles: Vec<Obstacle>,
     /// Probes.
     pub probes: Vec<Probe>,
@@ -70,102 +60,153 @@ pub struct ModelSpec {
     pub settings: Settings,
 }
 
-/// A checked, immutable model with the indices the solver walks by.
+/// A checked, immutable model with the indices that the solver uses.
 ///
-/// Node layout: every line owns `segments + 1` nodes in a row, both ends included; the nodes of
-/// lines that meet at a joint are copies of the joint's place. Segment `k` of a line lies between
-/// its nodes `k` and `k + 1`.
+/// Layout: every line owns `segments + 1` consecutive nodes, both ends included. Segment `k` of a line lies between its nodes
+/// `k` and `k + 1`. Lines that meet at a joint each have a node there, all at the same position.
 #[derive(Clone)]
 pub struct Model {
-    /// What it was made from.
+    /// The checked spec.
     pub spec: ModelSpec,
     /// Nodes of each line.
     pub line_nodes: Vec<Range<usize>>,
     /// Segments of each line.
     pub line_segments: Vec<Range<usize>>,
-    /// Nodes in all.
+    /// Number of nodes.
     pub node_count: usize,
-    /// Segments in all.
+    /// Number of segments.
     pub segment_count: usize,
     /// Line of each segment.
     pub segment_line: Vec<usize>,
     /// Tension at which each segment breaks [N].
     pub segment_strength_n: Vec<f64>,
-    /// Knots, splices and links on the rope, in rising order of segment.
+    /// Knots, splices and links on the rope, sorted by segment.
     pub knots: Vec<Knot>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
-    /// Current and waves made ready.
+    /// Current and waves, prepared for evaluation.
     pub sea: Sea,
 }
 
 /// A knot, splice, swivel or link: a ball on the first or the last segment of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
-    /// Its segment: those at the ends of a line stay as they are.
+    /// Its segment; end segments keep their length.
     pub segment: usize,
-    /// At which end of its line.
+    /// End of its line.
     pub end: LineEnd,
-    /// Unstretched rope from that end to its middle [m].
+    /// Unstretched length from that end to its centre [m].
     pub from_end_m: f64,
     /// Radius [m].
     pub radius_m: f64,
 }
 
 impl Knot {
-    /// Those on a segment, of knots in rising order of segment.
+    /// Knots on a segment, from a list sorted by segment.
     pub(crate) fn on_segment(knots: &[Self], segment: usize) -> &[Self] {
+        debug_assert!(knots.is_sorted_by_key(|knot| knot.segment), "knots are sorted by segment");
         let first = knots.partition_point(|knot| knot.segment < segment);
         let count = knots[first..].iter().take_while(|knot| knot.segment == segment).count();
         &knots[first..first + count]
     }
 
-    /// Where its middle lies on a segment of this unstretched length, 0 at its first node, 1 at its second.
-    #[must_use]
+    /// Position of its centre on a segment of this unstretched length: 0 at the first node, 1 at the second.
     pub fn fraction(&self, length_m: f64) -> f64 {
         let share = (self.from_end_m / length_m).min(1.0);
         if self.end == LineEnd::A { share } else { 1.0 - share }
     }
 }
 
-/// What is wrong with a [`ModelSpec`].
+/// An error in a [`ModelSpec`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelError {
-    /// Which part, such as `line endline-top`.
+    /// The part, such as `line endline-top`.
     pub part: String,
-    /// What is wrong and what was expected.
+    /// The error and the expected value.
     pub message: String,
 }
 
 impl Model {
     /// Whether any rope resists bending.
-    #[must_use]
     pub fn bends(&self) -> bool {
         self.spec.ropes.iter().any(|rope| rope.bending_stiffness_n_m2 > 0.0)
     }
 
-    /// Whether rope moves the whale.
-    #[must_use]
+    /// Whether forces of rope move the whale.
     pub fn whale_is_kinetic(&self) -> bool {
         self.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some())
     }
 
-    /// Whether a line that is made fast to the whale moves it.
-    #[must_use]
+    /// Whether a line attached to the whale moves it.
     pub fn whale_is_towed(&self) -> bool {
         let is_on_whale = |joint: &Joint| matches!(joint.kind, JointKind::Whale(_));
         self.whale_is_kinetic() && self.spec.joints.iter().any(is_on_whale)
     }
 
     /// Knots on a segment.
-    #[must_use]
     pub fn knots_of_segment(&self, segment: usize) -> &[Knot] {
         Knot::on_segment(&self.knots, segment)
     }
 
     /// Rope of a segment.
-    #[must_use]
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {
         &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
     }
+}
+
+/// The seabed: a plane with stiffness and friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seabed {
+    /// Depth at the origin: the plane contains `(0, 0, -depth)` [m].
+    pub depth_m: f64,
+    /// Upward unit normal.
+    pub normal: DVec3,
+    /// Stiffness under rope, per metre of rope [N/m²].
+    pub rope_stiffness_n_m2: f64,
+    /// Stiffness under one foot of a body [N/m].
+    pub foot_stiffness_n_m: f64,
+    /// Friction of rope.
+    pub rope_friction: f64,
+}
+
+impl Seabed {
+    /// Height of the seabed at a horizontal position [m].
+    pub fn height_at(&self, place: DVec3) -> f64 {
+        -self.depth_m - (self.normal.x * place.x + self.normal.y * place.y) / self.normal.z
+    }
+}
+
+/// Contact stiffness of rope on a hard surface, per length of rope [N/m²]: the order of the transverse modulus of laid
+/// polypropylene. A load of 1 kN over 0.1 m compresses the rope by 0.5 mm (estimate).
+pub const ROPE_ON_HARD_N_M2: f64 = 2e7;
+
+/// A solid at rest, declared by a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// Id, for reports.
+    pub id: String,
+    /// Its shape, in its own frame.
+    pub shape: SolidShape,
+    /// Position of its frame's origin [m].
+    pub position_m: DVec3,
+    /// Orientation, body to world.
+    pub orientation: DQuat,
+    /// Coulomb friction of rope and bodies on it.
+    pub friction: f64,
+    /// Contact stiffness under rope, per length of rope [N/m²].
+    pub stiffness_n_m2: f64,
+}
+
+/// A gear type that acts during the run, with what it built and the attributes of its calls.
+#[derive(Clone)]
+pub struct GearHook {
+    /// The plugin.
+    pub gear: Arc<dyn GearType>,
+    /// Its attribute values.
+    pub attributes: Vec<AttributeValue>,
+    /// Its lines in the order built: indices of the first and last of the model's lines that form each one. A line with
+    /// inserts consists of several, end to end.
+    pub lines: Vec<[usize; 2]>,
+    /// Its links in the order built: indices of the model's links.
+    pub links: Vec<usize>,
 }

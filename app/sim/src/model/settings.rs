@@ -1,8 +1,11 @@
-//! Steps, tolerances and switches of a run.
+//! Steps, tolerances and switches of a run, and the probes that it records.
+
+use endline_sdk::LineEnd;
+use glam::DVec3;
 
 use super::rope::RopeOnRope;
 
-/// Lengths that segments are given as the whale comes and goes; the number of segments of each line stays.
+/// Target lengths of segments, which depend on the distance to the whale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
     /// Near skin [m].
@@ -19,44 +22,44 @@ impl Default for Resolution {
     }
 }
 
-/// What push and friction may miss by unless a run says otherwise, as a share of the greatest.
+/// Default tolerance of normal force and friction, as a share of the greatest.
 pub const CONTACT_TOLERANCE: f64 = 0.02;
 
 /// Steps and tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Step between inputs [s]; the solver divides it where it must.
+    /// Step between inputs [s]; the solver subdivides it where necessary.
     pub step_s: f64,
-    /// Whether the solver step is chosen from the error of each step; else it is the whole step wherever nothing forbids it.
+    /// Whether the error of each step controls the solver step; otherwise the solver uses the whole step where it can.
     pub auto_step: bool,
     /// Longest step while rope is near the whale [s].
     pub contact_step_s: f64,
-    /// What push and friction may miss by in a solver step near the whale, as a share of the greatest; all that such a step may miss by
-    /// is in proportion to it (`solver/newton.rs`).
+    /// Tolerance of normal force and friction in a solver step near the whale, as a share of the greatest; the other
+    /// tolerances of such a step are proportional to it (`solver/stopping.rs`).
     pub contact_tolerance: f64,
-    /// Shortest step before a run gives up [s].
+    /// Shortest solver step; a run that needs a shorter one stops [s].
     pub least_step_s: f64,
-    /// How segment lengths follow the whale; `None` where they stay as they are.
+    /// Target segment lengths near and far from the whale; `None` for fixed lengths.
     pub resolution: Option<Resolution>,
-    /// Length of the run [s].
+    /// Duration of the run [s].
     pub duration_s: f64,
-    /// Seed of everything drawn at random.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Whether the run starts as its parts are placed, without statics before it.
+    /// Whether the run starts from the declared positions, without statics.
     pub as_placed: bool,
-    /// Whether rope touches the bodies of the rig too, and not obstacles alone.
+    /// Whether rope touches the bodies of the gear as well as obstacles.
     pub rope_on_bodies: bool,
-    /// Whether the bodies of the rig touch the whale.
+    /// Whether the bodies of the gear touch the whale.
     pub bodies_on_whale: bool,
-    /// Whether the bodies of the rig touch each other.
+    /// Whether the bodies of the gear touch each other.
     pub bodies_on_bodies: bool,
-    /// How rope touches rope; `None` where ropes pass through each other.
+    /// Contact of rope with rope; `None` if ropes pass through each other.
     pub rope_on_rope: Option<RopeOnRope>,
-    /// Whether momentum and energy of the gear are told by source ([`Balance`](crate::balance::Balance)); no number of a state
-    /// depends on it.
+    /// Whether momentum and energy of the gear are recorded by source ([`Balance`](crate::balance::Balance)); the state does
+    /// not depend on it.
     pub balance: bool,
-    /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
-    /// each step alone let through.
+    /// Whether moves near skin are shortened where their path would cross it. Off only to demonstrate what is missed by tests
+    /// at the end of each step alone.
     pub swept: bool,
 }
 
@@ -80,4 +83,69 @@ impl Default for Settings {
             swept: true,
         }
     }
+}
+
+/// A quantity recorded during the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Id.
+    pub id: String,
+    /// Quantity.
+    pub target: ProbeTarget,
+}
+
+/// Quantity of a probe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ProbeTarget {
+    /// Tension at an end of a line [N].
+    EndTension(usize, LineEnd),
+    /// Tension of a line at an unstretched length from its end A [N].
+    TensionAt(usize, f64),
+    /// A coordinate of a line at an unstretched length from its end A: 0 x, 1 y, 2 z [m].
+    LineAt(usize, f64, usize),
+    /// Greatest height of a line above the seabed, excluding this unstretched length at each end [m].
+    Height(usize, f64),
+    /// Mechanical energy of all rope and bodies [J].
+    Energy(EnergyForm),
+    /// A coordinate of the midpoint of a line by unstretched length: 0 x, 1 y, 2 z [m].
+    LineMiddle(usize, usize),
+    /// A coordinate of a joint: 0 x, 1 y, 2 z [m].
+    Joint(usize, usize),
+    /// A coordinate of a point of a body [m].
+    Body {
+        /// Index of the body.
+        body: usize,
+        /// The point in the body's frame [m].
+        offset_m: DVec3,
+        /// 0 x, 1 y, 2 z.
+        axis: usize,
+    },
+    /// A figure of the whale's motion or effort.
+    Whale(WhaleFigure),
+}
+
+/// A figure of the whale's motion or effort; all but the speed are zero for a whale that is not kinetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhaleFigure {
+    /// Speed along its own axis [m/s].
+    Speed,
+    /// Thrust of its flukes [N].
+    Thrust,
+    /// Power of that thrust [W].
+    Power,
+    /// Drag of the water on its body, without gear [N].
+    BodyDrag,
+}
+
+/// A form of mechanical energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyForm {
+    /// Sum of the three.
+    Total,
+    /// Translation and rotation.
+    Kinetic,
+    /// Potential energy of weight, relative to z = 0; buoyancy is not included.
+    Height,
+    /// Axial strain.
+    Stretch,
 }

@@ -1,51 +1,60 @@
-//! Resolution where it matters: segments short near the whale, long far from it, as many as before.
+//! Adaptive resolution: segments are short near the whale and long far from it, at a constant number of segments.
 //!
-//! Every segment has a length it should have, by its distance from skin and from the thin edges of fins (`wanted`).
-//! Where one is longer than that, it is split at its middle, and a pair of neighbours elsewhere in the same line that
-//! loses less by it is merged (`criteria.rs`), so that the number of nodes, and with it the model's layout, stays (`split_merge.rs`).
-//! Kept to rounding: unstretched length, mass, momentum of the rope's own mass. A split changes no elastic tension (damping
-//! named as a ratio goes with the length), a merge no tension by more than 0.2 N or 0.5 %. Neighbours differ by a factor of
-//! two at most. End segments (which carry links and knots), cut ones and those that touch skin stay as they are, and nothing
-//! is merged near skin.
+//! Every segment has a target length `l_w`, which depends on its distance from skin and from the thin edges of fins: the near
+//! length within [`NEAR_M`] of skin, the edge length within [`EDGE_M`] of a thin edge, and beyond these a growth by [`GRADE`]
+//! per metre of distance up to the far length. A grade of at most 1 makes neighbours of target length differ by a factor of at
+//! most 2.
 //!
-//! It happens at the start of a step, from the state alone, at every [`EVERY_S`] of simulated time.
-//! Sizes wanted: docs/physics.md, Resolution.
+//! With `r = l/l_w` the ratio of length to target length, the segment of greatest `r > 1` that may be split is split at its
+//! middle, and the pair of neighbours in the same line of least merged `r` is merged. A swap requires that the split gains more
+//! than the merge loses, so that no swap is reversed while the whale is at rest. The number of nodes, and with it the layout of
+//! the model, is constant (`split_merge.rs`).
+//!
+//! Conserved to rounding: unstretched length, mass, and momentum of the rope's own mass. A split changes no elastic tension
+//! (damping given as a ratio depends on the length); a merge changes no tension by more than 0.2 N or 0.5 %. Neighbours differ
+//! by a factor of two at most. End segments (which carry links and knots), cut segments and segments in contact are not
+//! changed, and segments near skin are not merged.
+//!
+//! Remeshing runs at the start of a step at intervals of [`EVERY_S`] of simulated time, and depends on the state only.
+//! Lengths in metres. Target lengths and their sources: docs/physics.md, Resolution.
 
-mod criteria;
 mod split_merge;
-mod wanted;
-
-use crate::broad_phase::pieces::Pieces;
-use crate::contact::rope_on_rope::near::RopeOnRope;
-use crate::model::{Model, Resolution};
-use crate::state::State;
-use crate::whale::approach::Approach;
-use criteria::{Line, best};
-use wanted::{grip, measure};
-
 #[cfg(test)]
 mod tests;
 
-/// Time between two looks at the lengths [s].
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::broad_phase::pieces::Pieces;
+use crate::contact::rope_on_rope::near::RopeOnRope;
+use crate::forces::axial::Axial;
+use crate::model::{Model, Resolution, Rope};
+use crate::state::{RopeState, State};
+use crate::whale::approach::Approach;
+use crate::whale::{Bounds, pose};
+
+/// Interval between two remeshings [s].
 const EVERY_S: f64 = 0.05;
-/// Most splits of one line at a time.
+
+/// Greatest number of splits of a line per remeshing.
 const MOST_SPLITS: usize = 64;
 
-/// Scratch; it keeps nothing that a step depends on.
+/// Buffers; no result of a step depends on their content.
 #[derive(Clone, Debug)]
 pub(crate) struct RemeshWorkspace {
     approach: Approach,
     bones: Vec<glam::DAffine3>,
-    /// Length each segment should have [m].
+    /// Target length of each segment [m].
     wanted: Vec<f64>,
-    /// Whether each segment touches skin, or is near rope that it may touch.
+    /// Whether each segment touches skin or is near other rope.
     gripped: Vec<bool>,
     pieces: Pieces,
     ropes: RopeOnRope,
 }
 
 impl RemeshWorkspace {
-    /// Scratch for a model whose resolution follows its whale.
+    /// Buffers for a model with adaptive resolution and a whale; `None` for others.
     pub fn new(model: &Model) -> Option<Self> {
         model.spec.settings.resolution?;
         let tree = model.skin_tree.clone()?;
@@ -60,16 +69,16 @@ impl RemeshWorkspace {
     }
 }
 
-/// What a look at the lengths of segments did.
+/// Result of a remeshing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Remeshed {
-    /// Segments split.
+    /// Number of segments split.
     pub splits: u64,
-    /// Greatest ratio of a segment's length near the whale to the one wanted; `None` where no rope is near it.
+    /// Greatest ratio of length to target length near the whale; `None` without rope near it.
     pub near_ratio: Option<f64>,
 }
 
-/// Moves resolution to where it is wanted, where it is time to look.
+/// Adapts the segment lengths if a remeshing is due.
 pub(crate) fn remesh(
     model: &Model,
     state: &mut State,
@@ -88,28 +97,33 @@ pub(crate) fn remesh(
     grip(model, state, work);
     let lines = 0..model.spec.lines.len();
     let splits = lines.map(|line| remesh_line(model, state, line, work, resolution)).sum();
+    debug_assert!(
+        state.rope.segment_length.iter().all(|length| *length > 0.0),
+        "lengths are positive"
+    );
+    debug_assert!(state.rope.friction.sites.is_sorted(), "sites are sorted");
     Remeshed { splits, near_ratio: near_ratio(state, &work.wanted, resolution) }
 }
 
-/// Whether a segment is longer than wanted, without which none is split and none merged.
+/// Whether a segment is longer than its target, which is the condition of any split or merge.
 fn is_any_too_long(state: &State, wanted: &[f64]) -> bool {
     state.rope.segment_length.iter().zip(wanted).any(|(length, wanted)| length > wanted)
 }
 
-/// Greatest ratio of length to wanted length of uncut rope near the whale.
+/// Greatest ratio of length to target length of uncut rope near the whale.
 fn near_ratio(state: &State, wanted: &[f64], resolution: &Resolution) -> Option<f64> {
     let segments = state.rope.segment_length.iter().zip(wanted).zip(&state.rope.cut);
-    let near =
-        segments.filter(|((_, wanted), cut)| !**cut && !wanted::is_far(resolution, **wanted));
+    let near = segments.filter(|((_, wanted), cut)| !**cut && !is_far(resolution, **wanted));
     near.map(|((length, wanted), _)| length / wanted).reduce(f64::max)
 }
 
-/// Whether lengths are looked at before this step.
+/// Whether a remeshing is due before this step.
 fn is_time(model: &Model, state: &State) -> bool {
     let steps = (EVERY_S / model.spec.settings.step_s).round().max(1.0) as u64;
     state.step.is_multiple_of(steps)
 }
 
+/// Splits and merges in one line until no swap gains; returns the number of splits.
 fn remesh_line(
     model: &Model,
     state: &mut State,
@@ -123,4 +137,219 @@ fn remesh_line(
         split_merge::split_and_merge(model, state, line, split, merge, work);
     }
     MOST_SPLITS as u64
+}
+
+/// Least ratio of the split segment's `r` to the merged segment's `r`.
+const GAIN: f64 = 1.25;
+
+/// Greatest ratio between the lengths of neighbours, with a margin for rounding.
+const GREATEST_RATIO: f64 = 2.0 + 1e-9;
+
+/// Greatest relative change of tension by a merge.
+const JUMP_SHARE: f64 = 0.005;
+
+/// Change of tension that a merge may always cause [N].
+const JUMP_N: f64 = 0.2;
+
+/// Greatest distance of a removed node from the chord, as a share of the chord.
+const SAG_SHARE: f64 = 0.03;
+
+/// Greatest change of tension by a merge at this tension [N].
+fn jump_n(tension_n: f64) -> f64 {
+    JUMP_N.max(JUMP_SHARE * tension_n)
+}
+
+/// A line, for the criteria of splitting and merging.
+struct Line<'a> {
+    rope: &'a Rope,
+    state: &'a RopeState,
+    segments: Range<usize>,
+    /// Index of the first node minus index of the first segment.
+    shift: usize,
+    wanted: &'a [f64],
+    gripped: &'a [bool],
+    resolution: &'a Resolution,
+}
+
+impl<'a> Line<'a> {
+    pub fn of(
+        model: &'a Model,
+        state: &'a State,
+        line: usize,
+        wanted: &'a [f64],
+        gripped: &'a [bool],
+        resolution: &'a Resolution,
+    ) -> Self {
+        let segments = model.line_segments[line].clone();
+        let shift = model.line_nodes[line].start - segments.start;
+        Self {
+            rope: &model.spec.ropes[model.spec.lines[line].rope],
+            state: &state.rope,
+            segments,
+            shift,
+            wanted,
+            gripped,
+            resolution,
+        }
+    }
+
+    fn length(&self, segment: usize) -> f64 {
+        self.state.segment_length[segment]
+    }
+
+    /// Ratio `r` of length to target length.
+    fn excess(&self, segment: usize) -> f64 {
+        self.length(segment) / self.wanted[segment]
+    }
+
+    /// Inner segments, which may be split or merged.
+    fn inner(&self) -> Range<usize> {
+        self.segments.start + 1..self.segments.end.saturating_sub(1).max(self.segments.start + 1)
+    }
+
+    /// Whether a segment must not be changed.
+    fn stays(&self, segment: usize) -> bool {
+        self.state.cut[segment] || self.gripped[segment]
+    }
+
+    /// Whether a segment may be split: its halves differ from their neighbours by a factor of two at most.
+    fn may_split(&self, segment: usize) -> bool {
+        let half = 0.5 * self.length(segment);
+        let longest = self.length(segment - 1).max(self.length(segment + 1));
+        !self.stays(segment) && longest <= GREATEST_RATIO * half
+    }
+
+    /// Ratio `r` of this segment and the next if merged.
+    fn merged_excess(&self, segment: usize) -> f64 {
+        let whole = self.length(segment) + self.length(segment + 1);
+        whole / self.wanted[segment].min(self.wanted[segment + 1])
+    }
+
+    /// Whether this segment and the next may be merged.
+    fn may_merge(&self, segment: usize) -> bool {
+        let next = segment + 1;
+        let whole = self.length(segment) + self.length(next);
+        let least = self.length(segment - 1).min(self.length(next + 1));
+        let far = is_far(self.resolution, self.wanted[segment].min(self.wanted[next]));
+        far && !self.stays(segment)
+            && !self.stays(next)
+            && whole <= GREATEST_RATIO * least
+            && self.is_straight(segment)
+    }
+
+    /// Whether this segment and the next are so straight that a single chord has their tension.
+    fn is_straight(&self, segment: usize) -> bool {
+        let node = segment + self.shift;
+        let [a, b, c] = [node, node + 1, node + 2].map(|node| self.state.position[node]);
+        let chord = c - a;
+        let off = (b - a).reject_from(chord.normalize_or(DVec3::X));
+        if off.length_squared() > (SAG_SHARE * SAG_SHARE) * chord.length_squared() {
+            return false;
+        }
+        let tensions =
+            [self.tension(segment, node, node + 1), self.tension(segment + 1, node + 1, node + 2)];
+        let (length, velocity) = (
+            self.length(segment) + self.length(segment + 1),
+            self.state.velocity[node + 2] - self.state.velocity[node],
+        );
+        let merged = tension(self.rope, chord, velocity, length);
+        tensions.iter().all(|one| (one - merged).abs() <= jump_n(one.max(merged)))
+    }
+
+    fn tension(&self, segment: usize, a: usize, b: usize) -> f64 {
+        let (position, velocity) = (&self.state.position, &self.state.velocity);
+        tension(
+            self.rope,
+            position[b] - position[a],
+            velocity[b] - velocity[a],
+            self.length(segment),
+        )
+    }
+}
+
+/// Tension of rope between two nodes, zero if slack [N].
+fn tension(rope: &Rope, chord: DVec3, velocity: DVec3, length: f64) -> f64 {
+    let (stretched, along) = (chord.length(), velocity.dot(chord.normalize_or_zero()));
+    Axial::of(rope, length).tension(stretched / length - 1.0, along / length).max(0.0)
+}
+
+/// Returns the best swap: the segment to split, and the first of the two segments to merge.
+fn best(line: &Line<'_>) -> Option<(usize, usize)> {
+    let inner = line.inner();
+    debug_assert!(
+        inner.clone().all(|segment| line.wanted[segment] > 0.0),
+        "target lengths are positive"
+    );
+    let mut split = None;
+    let mut greatest = 1.0;
+    for segment in inner.clone() {
+        if line.excess(segment) > greatest && line.may_split(segment) {
+            (split, greatest) = (Some(segment), line.excess(segment));
+        }
+    }
+    let split = split?;
+    let mut merge = None;
+    let mut least = greatest / GAIN;
+    for segment in inner.start..inner.end.saturating_sub(1) {
+        // The split segment and its neighbours must not be merged in the same swap.
+        let apart = segment > split + 1 || segment + 2 < split;
+        if apart && line.merged_excess(segment) < least && line.may_merge(segment) {
+            (merge, least) = (Some(segment), line.merged_excess(segment));
+        }
+    }
+    Some((split, merge?))
+}
+
+/// Distance from skin within which rope has the near length: more than a whale swims between two remeshings [m].
+const NEAR_M: f64 = 0.3;
+
+/// Distance from a thin edge within which rope has the edge length [m].
+const EDGE_M: f64 = 0.2;
+
+/// Growth of the target length with distance [m/m].
+const GRADE: f64 = 0.3;
+
+/// Target length at a distance from skin [m].
+fn size(resolution: &Resolution, gap_m: f64, thin: bool) -> f64 {
+    let at =
+        |least: f64, within: f64| (least + GRADE * (gap_m - within).max(0.0)).min(resolution.far_m);
+    let near = at(resolution.near_m, NEAR_M);
+    if thin { near.min(at(resolution.edge_m, EDGE_M)) } else { near }
+}
+
+/// Whether a target length is that of rope far from the whale.
+fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
+    wanted_m > resolution.near_m
+}
+
+/// Marks the segments that touch skin and those near other rope, which must not be changed.
+fn grip(model: &Model, state: &State, work: &mut RemeshWorkspace) {
+    work.gripped.fill(false);
+    for site in &state.rope.friction.sites {
+        work.gripped[crate::contact::rope_on_skin::stored_faces::segment_of(*site)] = true;
+    }
+    // A merge moves rope, which could then cross rope near it.
+    let rope = &state.rope;
+    work.pieces.measure(&rope.position, |node| rope.position[node], &rope.segment_length);
+    work.ropes.gather(model, state, &work.pieces, 0.0);
+    for pair in &work.ropes.pairs {
+        pair.segments.iter().for_each(|segment| work.gripped[*segment] = true);
+    }
+}
+
+/// Computes the target length of every segment.
+fn measure(model: &Model, state: &State, resolution: &Resolution, work: &mut RemeshWorkspace) {
+    work.wanted.fill(resolution.far_m);
+    let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
+    pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);
+    work.approach.begin();
+    for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
+        for (node, segment) in (nodes.start..).zip(segments.clone()) {
+            let place = Bounds::around(&[state.rope.position[node], state.rope.position[node + 1]]);
+            work.wanted[segment] =
+                work.approach.least(&work.bones, &place, resolution.far_m, |gap_m, thin| {
+                    size(resolution, gap_m, thin)
+                });
+        }
+    }
 }

@@ -1,12 +1,13 @@
-//! A split and a merge in one line, all else shifted by one place between them.
+//! A swap of a split and a merge in one line; the entries between them shift by one.
 //!
-//! Split of `a–c` of length `l` at its middle `b`: place, velocity, their histories and grips are means of the ends'. The mass
-//! `m l/4` that leaves each end and `m l/2` that comes to the middle carry the same momentum.
-//! Merge of `a–b–c` of lengths `l, l'`: the mass at `b` goes to its neighbours, `m l'/2` to `a` and `m l/2` to `c`, as a lever
-//! would have it. Where `b` moves as the straight line between its neighbours does, `v = (l' v_a + l v_c)/(l + l')`, that keeps
-//! the momentum and changes no velocity: rope that turns or stretches evenly goes on doing so. What `b` moves beyond that is
-//! shared out: with `M` the mass of `a` before, `v_a ← v_a + (v_b - v) m l'/2 / (M + m l'/2)`.
-//! What a node moved in the step before is shared in the same way, so that the multistep scheme sees the same momentum.
+//! Split of a segment `a–c` of length `l` [m] at its middle `b`: position, velocity, their histories and grips of `b` are the
+//! means of those of `a` and `c`. With `m` the mass per length [kg/m], `m l/4` moves from each end to the middle with the same
+//! momentum.
+//! Merge of `a–b–c` of lengths `l, l'`: the mass at `b` is distributed by the lever rule, `m l'/2` to `a` and `m l/2` to `c`.
+//! If `b` moves with the interpolated velocity `v = (l' v_a + l v_c)/(l + l')`, this conserves momentum and changes no
+//! velocity, so that uniform rotation and stretching continue. The momentum of the remainder `v_b - v` is distributed: with `M`
+//! the mass of `a` before the merge, `v_a ← v_a + (v_b - v) m l'/2 / (M + m l'/2)`, and likewise for `c`.
+//! Displacements of the previous step are distributed in the same way, which conserves the momentum of the multistep scheme.
 
 use glam::DVec3;
 
@@ -15,7 +16,7 @@ use crate::contact::rope_on_skin::stored_faces::shift_site;
 use crate::model::Model;
 use crate::state::{RopeState, State};
 
-/// Splits segment `split` and merges `merge` with the one after it; both lie in `line`, apart from one another.
+/// Splits segment `split` and merges `merge` with the next one; both are inner segments of `line` and not neighbours.
 pub(super) fn split_and_merge(
     model: &Model,
     state: &mut State,
@@ -24,6 +25,11 @@ pub(super) fn split_and_merge(
     merge: usize,
     work: &mut RemeshWorkspace,
 ) {
+    debug_assert!(merge > split + 1 || merge + 1 < split, "split and merge must not overlap");
+    debug_assert!(
+        [split, merge, merge + 1].iter().all(|one| model.line_segments[line].contains(one)),
+        "split and merge belong to the line"
+    );
     let shift = model.line_nodes[line].start - model.line_segments[line].start;
     merge_nodes(&mut state.rope, merge, shift);
     work.wanted[merge] = work.wanted[merge].min(work.wanted[merge + 1]);
@@ -36,7 +42,8 @@ pub(super) fn split_and_merge(
     }
 }
 
-/// Takes the middle node of two segments into its neighbours; the first segment is then both, the second is to be overwritten.
+/// Distributes the middle node of two segments to its neighbours. The first segment then covers both; the second is overwritten
+/// later.
 fn merge_nodes(rope: &mut RopeState, merge: usize, shift: usize) {
     let [first, second] = [merge, merge + 1].map(|segment| rope.segment_length[segment]);
     let hanging =
@@ -58,12 +65,12 @@ fn merge_nodes(rope: &mut RopeState, merge: usize, shift: usize) {
     rope.segment_length[merge] = first + second;
 }
 
-/// What the time scheme knows of a node's motion.
+/// Motion of a node in the time scheme.
 #[derive(Clone, Copy)]
 struct Motion {
     velocity: DVec3,
     earlier_velocity: DVec3,
-    /// Way in the step before.
+    /// Displacement in the previous step.
     moved: DVec3,
 }
 
@@ -73,7 +80,7 @@ impl Motion {
         Self { velocity: rope.velocity[node], earlier_velocity: rope.earlier_velocity[node], moved }
     }
 
-    /// Motion at a share of the way from one node to another.
+    /// Motion interpolated between two nodes.
     fn between(rope: &RopeState, from: usize, to: usize, share: f64) -> Self {
         let (from, to) = (Self::of(rope, from), Self::of(rope, to));
         Self {
@@ -99,7 +106,7 @@ impl Motion {
     }
 }
 
-/// Closes the gap a merge left and opens one behind `split`, which moves one place down.
+/// Moves the entries between a merge and a later split one place down, so that an entry after `split - 1` is free.
 fn move_left(
     rope: &mut RopeState,
     merge: usize,
@@ -114,7 +121,7 @@ fn move_left(
     }
 }
 
-/// Moves what lies between a split and a merge behind it; the split stays in its place.
+/// Moves the entries between a split and a later merge one place up, so that an entry after `split` is free.
 fn move_right(
     rope: &mut RopeState,
     merge: usize,
@@ -129,7 +136,7 @@ fn move_right(
     }
 }
 
-/// Makes the two halves of `segment`: in its place and the next, with the node between them.
+/// Writes the two halves of `segment` into its entry and the next, and the node between them.
 fn halve(rope: &mut RopeState, segment: usize, shift: usize, work: &mut RemeshWorkspace) {
     rope.segment_length[segment] *= 0.5;
     for_segments(rope, work, |values| values.copy(segment, segment + 1));
@@ -137,10 +144,10 @@ fn halve(rope: &mut RopeState, segment: usize, shift: usize, work: &mut RemeshWo
     for_nodes(rope, |values| values[node] = 0.5 * (values[node - 1] + values[node + 1]));
 }
 
-/// Numbers or marks, one a segment.
+/// Numbers or flags, one per segment.
 enum Values<'a> {
     Numbers(&'a mut [f64]),
-    Marks(&'a mut [bool]),
+    Flags(&'a mut [bool]),
 }
 
 impl Values<'_> {
@@ -148,22 +155,22 @@ impl Values<'_> {
         match self {
             Self::Numbers(values) if right => values[range].rotate_right(1),
             Self::Numbers(values) => values[range].rotate_left(1),
-            Self::Marks(values) if right => values[range].rotate_right(1),
-            Self::Marks(values) => values[range].rotate_left(1),
+            Self::Flags(values) if right => values[range].rotate_right(1),
+            Self::Flags(values) => values[range].rotate_left(1),
         }
     }
 
     fn copy(self, from: usize, to: usize) {
         match self {
             Self::Numbers(values) => values[to] = values[from],
-            Self::Marks(values) => values[to] = values[from],
+            Self::Flags(values) => values[to] = values[from],
         }
     }
 }
 
-/// Does the same to all that is kept for each segment.
+/// Applies an operation to every list with one entry per segment.
 fn for_segments(rope: &mut RopeState, work: &mut RemeshWorkspace, act: impl Fn(Values<'_>)) {
-    // No `..`: a new field of the state must find its place here or below before this compiles.
+    // No `..`: the compiler then reports a new field that is not handled here or below.
     let RopeState {
         segment_length,
         tension,
@@ -175,7 +182,7 @@ fn for_segments(rope: &mut RopeState, work: &mut RemeshWorkspace, act: impl Fn(V
         earlier_dt_s: _,
         seabed_grip: _,
         friction: _,
-        // They lie by length along the line, which stays.
+        // These refer to lengths along the line, which do not change.
         solid_grips: _,
         within: _,
         rope_grips: _,
@@ -183,11 +190,11 @@ fn for_segments(rope: &mut RopeState, work: &mut RemeshWorkspace, act: impl Fn(V
     act(Values::Numbers(segment_length));
     act(Values::Numbers(tension));
     act(Values::Numbers(&mut work.wanted));
-    act(Values::Marks(cut));
-    act(Values::Marks(&mut work.gripped));
+    act(Values::Flags(cut));
+    act(Values::Flags(&mut work.gripped));
 }
 
-/// Does the same to all that is kept for each node.
+/// Applies an operation to every list with one entry per node.
 fn for_nodes(rope: &mut RopeState, act: impl Fn(&mut [DVec3])) {
     act(&mut rope.position);
     act(&mut rope.velocity);

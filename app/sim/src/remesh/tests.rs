@@ -1,4 +1,4 @@
-//! What remeshing keeps, and what it gives.
+//! Conservation and target lengths of remeshing.
 
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ fn beside() -> Model {
     model(spec)
 }
 
-/// The rope drawn by 20 N, sagging by 2 cm and moving in a wave.
+/// The rope under 20 N, with a sag of 2 cm and a velocity wave.
 fn drawn(model: &Model) -> State {
     let mut state = State::start(model);
     let strain = 20.0 / model.spec.ropes[0].axial_stiffness_n;
@@ -39,13 +39,13 @@ fn drawn(model: &Model) -> State {
     state
 }
 
-/// Runs until nothing moves; splits in all.
+/// Remeshes until nothing changes; returns the number of splits.
 fn rest(model: &Model, state: &mut State) -> u64 {
     let mut work = RemeshWorkspace::new(model);
     (0..20).map(|_| remesh(model, state, &mut work).splits).sum()
 }
 
-/// Sum over nodes of hanging length times a vector.
+/// Sum over nodes of tributary length times a vector.
 fn sum(model: &Model, state: &State, of: impl Fn(&State, usize) -> DVec3) -> DVec3 {
     let lengths = &state.rope.segment_length;
     let hanging = |node: usize| {
@@ -90,7 +90,7 @@ fn length_and_momentum_are_kept_and_tension_does_not_jump() {
     for of in momentum {
         assert!((sum(&model, &before, of) - sum(&model, &state, of)).length() < 1e-12);
     }
-    // Rope may be merged more than once; each time it may change by the share or the least jump.
+    // Rope may be merged more than once; each merge may change the tension by either limit.
     let jump = (0..4000).map(|k| 0.01 * f64::from(k) + 0.005).map(|along| {
         (tension_at(&model, &state, along) - tension_at(&model, &before, along)).abs()
     });
@@ -118,7 +118,7 @@ fn rope_is_fine_near_skin_coarse_far_and_in_proportion() {
 }
 
 #[test]
-fn a_length_that_the_nodes_do_not_suffice_for_is_told() {
+fn the_ratio_near_the_whale_is_reported_where_nodes_do_not_suffice() {
     let ratio = |near_m: f64| {
         let mut spec = beside().spec;
         spec.settings.resolution = Some(Resolution { near_m, edge_m: near_m, far_m: 1.0 });
@@ -137,11 +137,11 @@ fn a_length_that_the_nodes_do_not_suffice_for_is_told() {
 }
 
 #[test]
-fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
+fn end_cut_and_touching_segments_do_not_change() {
     let model = beside();
     let mut state = drawn(&model);
     state.rope.cut[150] = true;
-    // In touch: a segment beside the whale, and its neighbour.
+    // In contact: a segment beside the whale, and its neighbour.
     state.rope.friction.sites = vec![(99 << 20) | 24, 100 << 20];
     state.rope.friction.floats = vec![1.0, 2.0];
     let place_of = |state: &State, segment: usize| {
@@ -174,9 +174,9 @@ fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
     );
 }
 
-/// Crooked rope under tension is not merged: one chord would pull less.
+/// A kink under tension is not merged, because a single chord would have less tension.
 #[test]
-fn crooked_taut_rope_stays_as_it_is() {
+fn a_kink_under_tension_is_not_merged() {
     let model = beside();
     let mut state = drawn(&model);
     for node in (0..model.node_count).step_by(2) {
@@ -191,7 +191,7 @@ fn draw(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Rope in a current, drawn taut between a fixture and one that goes to and fro, after a second of it.
+/// Rope in a current, taut between a fixture and an oscillating end, after one second.
 fn towed(seed: &mut u64) -> (Model, State) {
     let mut spec = beside().spec;
     spec.settings.resolution = None;
@@ -208,9 +208,9 @@ fn towed(seed: &mut u64) -> (Model, State) {
     (model, state)
 }
 
-/// One swap at a time on rope under way, drawn at random: what the tension jumps by then and in the step after it.
+/// One random swap at a time on moving rope: the change of tension at the swap and in the next step.
 #[test]
-fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
+fn moving_taut_rope_keeps_its_tension_through_random_splits_and_merges() {
     let resolution = Resolution::default();
     let mut work = RemeshWorkspace::new(&beside()).unwrap();
     let mut seed = 7;

@@ -1,38 +1,37 @@
-//! What the choice of solver steps keeps from step to step.
+//! State of the step control, stored from step to step.
 
-use crate::in_place::clone_in_place;
+use crate::bits::clone_in_place;
 
-/// What kept a solver step from being longer.
+/// The criterion that limited a solver step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LimitedBy {
-    /// Nothing but the rhythm of inputs.
+    /// The step between inputs.
     #[default]
     Inputs,
-    /// Error of place.
+    /// Error of position.
     Accuracy,
-    /// Error of tension: it rises or falls fast.
+    /// Error of tension, where it changes rapidly.
     Snap,
     /// Rope near the whale.
     Contact,
-    /// Something about to part, or just parted.
+    /// A rope or link that is about to part or has just parted.
     Parting,
-    /// A balance of forces was found at a shorter step only.
+    /// Convergence, reached with a shorter step only.
     Convergence,
 }
 
 impl LimitedBy {
-    /// Every limit, in the order of its number.
+    /// All criteria, in the order of their numbers.
     pub const ALL: [Self; 6] =
         [Self::Inputs, Self::Accuracy, Self::Snap, Self::Contact, Self::Parting, Self::Convergence];
 
-    /// Its name, as key of the summary.
+    /// Name, a key of the summary.
     #[must_use]
     pub fn name(self) -> &'static str {
         ["inputs", "accuracy", "snap", "contact", "parting", "convergence"][self as usize]
     }
 
-    /// What limited most of the steps counted, and how many of them.
-    #[must_use]
+    /// Returns the criterion that limited most steps, and their number.
     pub fn mostly(counts: &[u64; Self::ALL.len()]) -> (Self, u64) {
         Self::ALL
             .into_iter()
@@ -40,39 +39,39 @@ impl LimitedBy {
             .fold((Self::Inputs, 0), |most, next| if next.1 > most.1 { next } else { most })
     }
 
-    /// A description in plain words, for reports.
+    /// Description for reports.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Inputs => "nothing but the step between inputs",
-            Self::Accuracy => "how fast rope and bodies swerve",
-            Self::Snap => "tension that rises or falls fast",
+            Self::Inputs => "the step between inputs only",
+            Self::Accuracy => "acceleration of rope and bodies",
+            Self::Snap => "rapid change of tension",
             Self::Contact => "rope near the whale",
             Self::Parting => "rope or links that part",
-            Self::Convergence => "forces that balance only in a shorter step",
+            Self::Convergence => "forces that converge only in a shorter step",
         }
     }
 }
 
-/// Where the choice of steps stands; part of the state, so that a run replays.
+/// State of the step control; part of the state so that a run can be replayed.
 #[derive(Debug, Default, PartialEq)]
 pub struct StepControl {
-    /// Length of the next solver step, if nothing else limits it [s]; zero where none is chosen yet.
+    /// Length of the next solver step, if nothing else limits it [s]; zero before the first choice.
     pub step_s: f64,
-    /// What limits it.
+    /// Criterion that limits it.
     pub limit: LimitedBy,
-    /// Length of the next solver step where rope may touch the whale [s]; zero where none is chosen yet.
+    /// Length of the next solver step where rope may touch the whale [s]; zero before the first choice.
     pub contact_step_s: f64,
     /// Greatest tension of each line after the last two solver steps, the later one first [N].
     pub tension_n: Vec<[f64; 2]>,
-    /// How many of the two are known.
+    /// Number of valid entries in each pair.
     pub known: u32,
 }
 
 clone_in_place!(StepControl { step_s, limit, contact_step_s, tension_n, known });
 
 impl StepControl {
-    /// Nothing chosen yet, for a model of so many lines.
+    /// Initial state for a model with this number of lines.
     pub(crate) fn new(lines: usize) -> Self {
         Self {
             step_s: 0.0,
@@ -83,12 +82,12 @@ impl StepControl {
         }
     }
 
-    /// Whether free rope takes the next step in two stages.
+    /// Whether free rope takes the next step with the two-stage scheme.
     pub(crate) fn in_two_stages(&self) -> bool {
         self.step_s > 0.0 && matches!(self.limit, LimitedBy::Accuracy | LimitedBy::Snap)
     }
 
-    /// Begins anew with this step.
+    /// Restarts the step control with this step.
     pub(crate) fn restart(&mut self, step_s: f64, limit: LimitedBy) {
         (self.step_s, self.limit, self.known) = (step_s, limit, 0);
     }

@@ -1,9 +1,11 @@
-//! The first guess: every slack line as the arc that its load would pull it into.
+//! Initial guess of statics: every slack line is an arc in the direction of its load.
 //!
-//! Where a line of length `L` is longer than the chord `c` between its ends it is laid along the circular arc of
-//! that length, `sin(φ)/φ = c/L` with `φ` half the arc's angle, bulging the way its weight and the current at its
-//! middle press it, `q`. Every segment then has its own length, and its tension is what a uniform load `q` asks of the
-//! arc: `T = |q| R`. Rope that would sink to the seabed lies straight on it.
+//! A line whose length `L` [m] exceeds the chord `c` [m] between its ends is laid along the circular arc of that length,
+//! `sin(φ)/φ = c/L` with `φ` half of the arc's angle [rad]. The arc bulges in the direction of the load `q` [N/m], the weight
+//! and the drag at its middle. Every segment has its own length, and the tension is that of an arc of radius `R` [m] under a
+//! uniform load,
+//! `T = |q| R` [N]. Rope that would sink to the seabed is laid on it.
+//! This is the equilibrium of an arc under a uniform normal load.
 
 use glam::DVec3;
 
@@ -11,17 +13,19 @@ use crate::model::{JointKind, Line, Model, Rope, Seabed};
 use crate::solver::is_laid;
 use crate::state::State;
 
-/// How deep rope is laid into the seabed [m].
+/// Depth of laid rope in the seabed [m].
 const LAID_M: f64 = 1e-4;
-/// How steeply it goes down to it from its ends.
+/// Slope of laid rope from its ends to the seabed.
 const DESCENT: f64 = 0.25;
 
-/// Share of its length that a line between laid bodies is laid within, and how often that is seen to.
+/// Greatest chord of a line between laid bodies, as a share of its length.
 const LAID_SHARE: f64 = 1.0 - 1e-4;
+
+/// Number of rounds in which laid bodies are moved together.
 const LAYINGS: usize = 4;
 
-/// The model's own guess of places, with laid bodies no further apart than the lines between them are long, and as deep in
-/// the seabed as they lie.
+/// Initial state with straight lines, with laid bodies at most as far apart as the lines between them are long, and at their
+/// equilibrium depth in the seabed.
 pub(super) fn straight(model: &Model) -> State {
     let mut state = State::start(model);
     for _ in 0..LAYINGS {
@@ -36,7 +40,7 @@ pub(super) fn straight(model: &Model) -> State {
     state
 }
 
-/// The state that statics starts from.
+/// Initial state of statics.
 pub(super) fn first_guess(model: &Model) -> State {
     let mut state = straight(model);
     for index in 0..model.spec.lines.len() {
@@ -47,7 +51,7 @@ pub(super) fn first_guess(model: &Model) -> State {
     state
 }
 
-/// Sinks a body that stands on the seabed until its feet bear its weight, and the line ends at it too.
+/// Moves a laid body, and the line ends at it, to the depth at which its feet carry its weight.
 fn sink(model: &Model, index: usize, state: &mut State) {
     let (Some(seabed), body) = (&model.spec.seabed, &model.spec.bodies[index]) else { return };
     let now = &state.bodies[index];
@@ -69,8 +73,7 @@ fn sink(model: &Model, index: usize, state: &mut State) {
     );
 }
 
-/// Draws the laid bodies at a line's ends together where they are further apart than it is long: gear is laid with its
-/// lines slack, and no rope is so stiff that it would be laid stretched.
+/// Moves the laid bodies at a line's ends together if their distance exceeds its length, because gear is laid with slack lines.
 fn draw_near(model: &Model, line: usize, state: &mut State) {
     let (line, nodes) = (&model.spec.lines[line], &model.line_nodes[line]);
     let movable = |joint: usize| match model.spec.joints[joint].kind {
@@ -124,7 +127,7 @@ fn shift(model: &Model, index: usize, by: DVec3, state: &mut State) {
     }
 }
 
-/// Lays one line.
+/// Lays a line along its arc.
 fn bend(model: &Model, index: usize, state: &mut State) {
     let line = &model.spec.lines[index];
     let nodes = model.line_nodes[index].clone();
@@ -146,7 +149,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
     let mut places = arc(line, from, along, out, span, length);
     let tension = load.length() * 0.5 * length / half_angle(span / length);
     if let Some(seabed) = model.spec.seabed.as_ref().filter(|seabed| lies(seabed, &places)) {
-        // It lies in a bight beside its ends, on the side the current takes it to.
+        // The line is a bight on the seabed, on the downstream side of its ends.
         let level = |vector: DVec3| vector - seabed.normal * vector.dot(seabed.normal);
         let ahead = level(along).try_normalize().unwrap_or(along);
         let side = (level(load) - ahead * load.dot(ahead))
@@ -155,7 +158,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
         places = lie(seabed, line, from, to, ahead, side);
     }
     if let Some(seabed) = &model.spec.seabed {
-        // Rope that would hang into the seabed lies slack on it.
+        // Rope below the seabed is moved up to it.
         for place in &mut places {
             *place += seabed.normal * (seabed.depth_of(*place) - LAID_M).max(0.0);
         }
@@ -165,7 +168,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
     state.rope.tension[model.line_segments[index].clone()].fill(tension);
 }
 
-/// Nodes of a line along the arc from a place, with its chord along `along` and its bulge along `out`.
+/// Nodes of a line along an arc from a point, with the chord along `along` and the bulge along `out`.
 fn arc(line: &Line, from: DVec3, along: DVec3, out: DVec3, span: f64, length: f64) -> Vec<DVec3> {
     let half = half_angle(span / length);
     let radius = 0.5 * length / half;
@@ -180,7 +183,7 @@ fn arc(line: &Line, from: DVec3, along: DVec3, out: DVec3, span: f64, length: f6
     places
 }
 
-/// Lays a line on the seabed: down from each end, and between in an arc on the seabed; no segment is stretched.
+/// Lays a line on the seabed: down from each end, and in an arc on the seabed between; no segment is stretched.
 fn lie(
     seabed: &Seabed,
     line: &Line,
@@ -218,13 +221,13 @@ fn lie(
     places
 }
 
-/// Whether a line bent like this lies on the seabed for the greater part.
+/// Whether most nodes of a line are below the seabed.
 fn lies(seabed: &Seabed, places: &[DVec3]) -> bool {
     let below = places.iter().filter(|place| seabed.depth_of(**place) > 0.0).count();
     2 * below > places.len()
 }
 
-/// Half the angle of an arc whose chord is this share of its length: `sin(φ)/φ = share` [rad].
+/// Half of the angle of an arc with this ratio of chord to length, `sin(φ)/φ = share`, by bisection [rad].
 fn half_angle(share: f64) -> f64 {
     let (mut low, mut high) = (1e-6, core::f64::consts::PI);
     for _ in 0..60 {
@@ -234,7 +237,7 @@ fn half_angle(share: f64) -> f64 {
     low
 }
 
-/// Weight in water and drag of a metre of rope that runs along `tangent` at a place [N/m].
+/// Weight in water and drag per metre of rope with the direction `tangent` at a point [N/m].
 fn load(model: &Model, rope: &Rope, place: DVec3, tangent: DVec3) -> DVec3 {
     let water = &model.spec.water;
     let weight = (water.density_kg_m3 * rope.displaced_m3_m - rope.mass_kg_m) * water.gravity_m_s2;

@@ -1,93 +1,111 @@
-//! Newton for the gear at rest, by pseudo-transient continuation.
+//! Newton's method for gear at rest, by pseudo-transient continuation, and the log of its iterations.
 //!
-//! The matrix carries a pseudo-mass `σM`: a pass is then a backward Euler step of length `1/σ` along the way that
-//! forces push. Tension is a multiplier of its own: a segment is judged taut, and stiffened across, by what the last
-//! linear solve predicted, so the strain of a rope far from its shape does not count. What limits a pass is how
-//! far it turns any segment: a pass that turns one too far is made again with a greater `σ`, one that turns little lets
-//! `σ` fall. While `σ` is great slack rope resists a pass too: rope that lies slack would else go taut and slack by turns.
+//! A pass solves `(σM + K) Δx = F` with `F` the forces [N], `K = -∂F/∂x` the stiffness [N/m], `M` the mass [kg] and `σ` the
+//! pseudo-mass [1/s²]; it is a backward Euler step of the gradient flow `M dx/ds = F` with the length `1/σ`. Tension is a
+//! separate multiplier:
+//! the last linear solution predicts whether a segment is taut and its transverse stiffness, so that the strain far from
+//! equilibrium has no effect. The greatest turn of a segment limits a pass: a pass that turns one too far is repeated with a
+//! greater `σ`, and a small turn decreases `σ`. While `σ` is great, slack rope resists a pass as well; it would otherwise
+//! alternate between taut and slack.
 //! Reference: Kelley and Keyes 1998, Convergence analysis of pseudo-transient continuation
 //! (doi:10.1137/S0036142996304796).
 
 use glam::DVec3;
 
-use super::trail::Trail;
 use crate::model::Model;
 use crate::solver::{Solver, WorstAt, is_laid};
 use crate::state::State;
 use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 
-/// Residual at which the rig is at rest [N].
+/// Residual below which gear is at rest [N].
 pub(super) const TOLERANCE_N: f64 = 1e-4;
-/// First pseudo-mass where the guess may be far from rest [1/s²].
+
+/// Initial pseudo-mass where the guess may be far from rest [1/s²].
 pub(super) const FAR: f64 = 10.0;
-/// First pseudo-mass where the guess is near rest [1/s²].
+
+/// Initial pseudo-mass where the guess is near rest [1/s²].
 pub(super) const NEAR: f64 = 0.01;
+
 /// Range of the pseudo-mass [1/s²].
 pub(super) const PSEUDO_MASS: (f64, f64) = (1e-9, 1e6);
-/// Turn of a segment in a pass above which the pass is cut, and below which the pseudo-mass falls [rad].
+
+/// Turn of a segment above which a pass is shortened [rad].
 const SHARP_TURN: f64 = 0.6;
+
+/// Turn of a segment below which the pseudo-mass decreases [rad].
 const SLIGHT_TURN: f64 = 0.3;
-/// Half of the passes to wait after the first that was led astray.
+
+/// Half of the passes without exact derivatives after the first pass that failed with them.
 const WARY_PASSES: usize = 5;
-/// Turn below which bodies are near their balance [rad].
+
+/// Turn below which bodies are near equilibrium [rad].
 const NEAR_TURN: f64 = 0.1;
-/// Change of the pseudo-mass after a sharp, slight, very slight pass.
+
+/// Factors of the pseudo-mass after a sharp, a slight and a very slight turn.
 const GROWTH: f64 = 3.0;
+
 const SHRINKAGE: f64 = 0.3;
+
 const QUICK_SHRINKAGE: f64 = 0.1;
-/// Greatest growth of the pseudo-mass where a pass is made again.
+
+/// Greatest factor of the pseudo-mass where a pass is repeated.
 const GREATEST_GROWTH: f64 = 1e3;
-/// Share of its stiffness with which slack rope resists a pass at the greatest pseudo-mass, and the one where it is half.
+
+/// Share of its stiffness with which slack rope resists a pass at infinite pseudo-mass.
 const SLACK_STIFFNESS: f64 = 1e-2;
+
+/// Pseudo-mass at which that share is half [1/s²].
 const SLACK_MASS: f64 = 100.0;
-/// Longest move of a node in one pass as a share of the gear's longest line.
+
+/// Longest move of a node in one pass, as a share of the longest line.
 const LONGEST_MOVE: f64 = 0.2;
 
-/// Height above the seabed at which rope is no longer where it lay [m].
+/// Height above the seabed at which rope releases its grip [m].
 const LIFTED_M: f64 = 0.05;
 
-/// What holds the gear besides itself.
+/// Constraint of laid bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
-    /// Bodies that were laid stay as they lie.
+    /// They do not move.
     Laid,
-    /// They hold by their own grip on the seabed, but do not turn.
+    /// They may slide on the seabed, but do not turn.
     Upright,
-    /// They hold by their own grip on the seabed.
+    /// They may slide and turn.
     Released,
 }
 
-/// From where to look for rest.
+/// Start of an attempt.
 #[derive(Clone, Copy)]
 pub(super) struct Attempt<'a> {
-    /// Gear as it was laid: what the seabed's grips are measured from.
+    /// State from which grips on the seabed are measured.
     pub laid: &'a State,
-    /// Where to begin.
+    /// Initial guess.
     pub guess: &'a State,
+    /// Constraint of laid bodies.
     pub hold: Hold,
-    /// Stiffness of bodies under rope, by its length; it passes through them where there is none [N/m²].
+    /// Contact stiffness of bodies under rope, per length of rope; `None` if rope passes through them [N/m²].
     pub on_bodies_n_m2: Option<f64>,
-    /// Pseudo-mass of the first pass: a free node then moves about `g/σ` in it [1/s²].
+    /// Initial pseudo-mass `σ`: a free node moves by about `g/σ` in the first pass [1/s²].
     pub pseudo_mass: f64,
 }
 
-/// How a pass is made.
+/// Kind of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
-    /// Rope is judged taut or slack by the last solve, and whole steps are taken.
+pub(super) enum PassKind {
+    /// The last solution determines whether rope is taut or slack; steps are not shortened.
     Predicted,
-    /// Rope is judged where it lies, and each step is searched for balance.
+    /// The current position determines whether rope is taut or slack; a line search shortens steps.
     Searched,
 }
 
-/// Where an attempt ended.
+/// Result of an attempt.
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
     pub state: State,
     pub residual_n: f64,
     pub worst: Option<(WorstAt, f64)>,
-    /// Force on each laid body besides its feet's push [N].
+    /// Force on each laid body except that of the seabed on its feet [N].
     pub load_n: Vec<DVec3>,
 }
 
@@ -101,10 +119,10 @@ impl Reached {
 /// An attempt in progress.
 pub(super) struct Newton<'a> {
     model: &'a Model,
-    /// What the seabed's grips are measured from.
+    /// State from which grips on the seabed are measured.
     laid: State,
     pseudo_mass: f64,
-    /// Passes to wait after forces on bodies as they are led one astray, in a place that a body would leave; what is left of them.
+    /// Passes without exact derivatives after a pass that failed with them, and the number that remains.
     wary: usize,
     wait: usize,
     pub solver: Solver,
@@ -112,7 +130,7 @@ pub(super) struct Newton<'a> {
 }
 
 impl<'a> Newton<'a> {
-    /// Begins at a guess.
+    /// Starts at the guess of an attempt.
     pub fn new(model: &'a Model, attempt: &Attempt) -> Self {
         let (mut solver, scheme) = (Solver::new(model), Scheme::statics(attempt.pseudo_mass));
         solver.contacts.rope_on_solid.at_rest_n_m2 = attempt.on_bodies_n_m2;
@@ -134,25 +152,25 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Assembles forces and matrix at the trial places; the residual [N].
-    pub fn balance(&mut self, way: Way) -> f64 {
+    /// Assembles forces and matrix at the trial positions; returns the residual [N].
+    pub fn balance(&mut self, kind: PassKind) -> f64 {
         let context = StepContext { model: self.model, state: &self.laid, scheme: &self.scheme };
-        match way {
-            Way::Predicted => self.solver.assemble(&context),
-            Way::Searched => self.solver.assemble_searchable(&context),
+        match kind {
+            PassKind::Predicted => self.solver.assemble(&context),
+            PassKind::Searched => self.solver.assemble_searchable(&context),
         }
         self.solver.residual(self.model)
     }
 
-    /// Residual with the active set that the last solve predicted. Where that residual says the gear is at rest, it is
-    /// computed again with the tensions as they are, for a prediction may call a segment slack that is not [N].
+    /// Residual with the predicted active set [N]. If it is below the tolerance, it is computed again with the actual tensions,
+    /// because the prediction may treat a taut segment as slack.
     pub fn balance_at_rest(&mut self) -> f64 {
-        let residual_n = self.balance(Way::Predicted);
-        if residual_n < TOLERANCE_N { self.balance(Way::Searched) } else { residual_n }
+        let residual_n = self.balance(PassKind::Predicted);
+        if residual_n < TOLERANCE_N { self.balance(PassKind::Searched) } else { residual_n }
     }
 
-    /// Solves what was assembled; how far that turns any segment or body [rad]. After a slight turn bodies are near their
-    /// balance.
+    /// Solves the assembled system; returns the greatest turn of a segment or body [rad]. After a small turn the next pass uses
+    /// exact derivatives for bodies.
     pub fn solve(&mut self) -> f64 {
         self.solver.solve(self.model);
         let turn = self.solver.sharpest_turn(self.model);
@@ -165,19 +183,19 @@ impl<'a> Newton<'a> {
         turn
     }
 
-    /// Lets the pseudo-mass pull back to where passes begin.
+    /// Anchors the pseudo-mass at the start of the passes.
     pub fn anchored(mut self) -> Self {
         self.scheme.anchored = true;
         self
     }
 
-    /// Share of the solved step to take, at most `longest`.
+    /// Share of the solved step to take, at most `longest`, by line search.
     pub fn line_search(&self, longest: f64) -> f64 {
         let context = StepContext { model: self.model, state: &self.laid, scheme: &self.scheme };
         self.solver.line_search_free(&context, longest)
     }
 
-    /// Lets slack rope resist while the pseudo-mass is great.
+    /// Adds stiffness to slack rope while the pseudo-mass is great.
     fn stiffen_slack(&mut self) {
         let share = SLACK_STIFFNESS * self.pseudo_mass / (self.pseudo_mass + SLACK_MASS);
         self.solver.stiffen_slack(self.model, share);
@@ -190,7 +208,7 @@ impl<'a> Newton<'a> {
         self.scheme = Scheme { anchored, exact, ..Scheme::statics(self.pseudo_mass) };
     }
 
-    /// Lets the seabed grip rope that has come to lie on it where it lies now, and let go of rope that was lifted off.
+    /// Starts grips where rope has settled on the seabed, and releases those of lifted rope.
     pub fn regrip(&mut self) {
         let Some(seabed) = &self.model.spec.seabed else { return };
         let rope = &mut self.laid.rope;
@@ -203,7 +221,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Ends the attempt where it was last assembled.
+    /// Ends the attempt at the last assembled position.
     pub fn reached(mut self, residual_n: f64) -> Reached {
         let worst = self.solver.worst(self.model);
         let laid = (0..self.model.spec.bodies.len()).filter(|body| is_laid(self.model, *body));
@@ -217,12 +235,12 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// Newton, begun with the pseudo-mass of the attempt.
+/// Newton's method controlled by the turn of segments, with the initial pseudo-mass of the attempt.
 pub(super) fn descend(
     model: &Model,
     attempt: &Attempt,
     most_passes: usize,
-    trail: &mut Trail,
+    log: &mut IterationLog,
 ) -> Reached {
     let mut newton = Newton::new(model, attempt);
     let longest_line =
@@ -231,8 +249,8 @@ pub(super) fn descend(
     let mut residual_n = f64::INFINITY;
     for _ in 0..most_passes {
         residual_n = newton.balance_at_rest();
-        trail.pass(model, residual_n);
-        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trail.is_spent() {
+        log.pass(model, residual_n);
+        if residual_n < TOLERANCE_N || !residual_n.is_finite() || log.is_spent() {
             break;
         }
         newton.stiffen_slack();
@@ -250,7 +268,7 @@ pub(super) fn descend(
     newton.reached(residual_n)
 }
 
-/// Change of the pseudo-mass after a pass that turned a segment so far.
+/// Factor of the pseudo-mass after a pass with this greatest turn.
 fn change(turn: f64) -> f64 {
     if turn > SHARP_TURN {
         GROWTH
@@ -260,5 +278,53 @@ fn change(turn: f64) -> f64 {
         SHRINKAGE
     } else {
         QUICK_SHRINKAGE
+    }
+}
+
+/// Budget of statics in nodes times passes: eight seconds of a core at 0.4 µs each, for gear of any size.
+const MOST_NODE_PASSES: usize = 20_000_000;
+
+/// Log of iterations: residuals and budget.
+#[derive(Debug)]
+pub(super) struct IterationLog {
+    /// Residual after each pass [N].
+    pub residual_n: Vec<f64>,
+    node_passes: usize,
+    /// Budget of node-passes.
+    most: usize,
+}
+
+impl Default for IterationLog {
+    fn default() -> Self {
+        Self { residual_n: Vec::new(), node_passes: 0, most: MOST_NODE_PASSES }
+    }
+}
+
+impl IterationLog {
+    /// Adds a pass over a model.
+    pub fn pass(&mut self, model: &Model, residual_n: f64) {
+        self.residual_n.push(residual_n);
+        self.node_passes += model.node_count;
+    }
+
+    /// Number of passes.
+    pub fn passes(&self) -> usize {
+        self.residual_n.len()
+    }
+
+    /// A log with a quarter of the budget.
+    pub fn short() -> Self {
+        Self { most: MOST_NODE_PASSES / 4, ..Self::default() }
+    }
+
+    /// Appends the passes of another log.
+    pub fn add(&mut self, other: Self) {
+        self.residual_n.extend(other.residual_n);
+        self.node_passes += other.node_passes;
+    }
+
+    /// Whether the budget is exhausted.
+    pub fn is_spent(&self) -> bool {
+        self.node_passes >= self.most
     }
 }

@@ -71,7 +71,7 @@ fn try_step(
             [after.contact_force_n, after.contact_port_m] = workspace.sums.by_part();
             after.mouth_moment_n_m = workspace.mouth.as_ref().map_or([0.0; 3], MouthLoad::mean_n_m);
             if let Some(kinetic) = &whale.kinetic {
-                workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
+                workspace.pulled.apply(kinetic, model.spec.settings.step_s, after);
                 workspace.balance.take_whale(workspace.pulled.impulse());
             }
         }
@@ -83,7 +83,7 @@ fn try_step(
     state.step += 1;
     gear_hook::act(model, state, &mut workspace.gear)?;
     workspace.solver.cost.enter(CostPart::Whale);
-    pilot::look(model, state);
+    pilot::poll(model, state);
     Ok(())
 }
 

@@ -20,7 +20,7 @@ use crate::step_control::{self, Taken};
 use crate::whale::drive::pose_between;
 use crate::whale::hitch;
 use crate::whale::jaws::MouthLoad;
-use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
+use crate::whale::kinetic::{RopeImpulse, Times, centre_of};
 
 /// How many times a step of the model may be undone and repeated with shorter solver steps.
 const MOST_TAKEN_BACK: usize = 3;

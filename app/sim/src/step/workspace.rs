@@ -18,7 +18,7 @@ use crate::remesh::RemeshWorkspace;
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
 use crate::whale::jaws::MouthLoad;
-use crate::whale::kinetic::pull::RopeImpulse;
+use crate::whale::kinetic::RopeImpulse;
 
 /// Scratch of the solver, and the results of the last step for readers; dropping it between two steps changes no bit.
 #[derive(Clone, Debug)]

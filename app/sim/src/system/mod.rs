@@ -95,6 +95,7 @@ impl LinearSystem {
 
     /// Lays out the interface matrix for these coupled pairs of bodies; returns whether the layout changed.
     pub fn lay_out(&mut self, model: &Model, plan: &Plan, coupled: &[[usize; 2]]) -> bool {
+        debug_assert!(coupled.iter().all(|[one, two]| one != two), "two bodies each: {coupled:?}");
         if self.coupled == coupled {
             return false;
         }
@@ -155,6 +156,11 @@ impl LinearSystem {
     /// Returns whether there was room: at most 400 places are coupled at a time.
     pub fn couple_ropes(&mut self, coupling: ContactBlock, force: DVec3) -> bool {
         debug_assert!(!self.in_lanes, "ropes are coupled as lines");
+        debug_assert!(
+            coupling.fractions.iter().all(|fraction| (0.0..=1.0).contains(fraction)),
+            "fractions {:?} of segments",
+            coupling.fractions
+        );
         if self.ropes.touches.len() == MOST_COUPLINGS {
             return false;
         }

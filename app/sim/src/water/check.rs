@@ -1,16 +1,14 @@
-//! What water must hold before anything moves.
+//! Validation of current and waves.
 
 use super::Water;
-use super::profile::Profile;
-use super::tide::Tide;
+use super::current::{Profile, Tide};
 use super::waves::{WaveKind, Waves, breaking_height};
 
-/// Most components of irregular waves.
+/// Greatest number of components of irregular waves.
 pub const MOST_COMPONENTS: usize = 1000;
 
 impl Water {
-    /// Everything wrong with current and waves, in words.
-    #[must_use]
+    /// Messages for all errors in current and waves.
     pub fn problems(&self) -> Vec<String> {
         let mut found = Problems(Vec::new());
         found
@@ -41,21 +39,21 @@ impl Water {
             && height.is_finite()
             && height >= 0.0)
         {
-            return Some("waves have a way that is not level, or a height, ramp, phase, gamma or number of components out of range".into());
+            return Some("waves have a direction that is not horizontal, or a height, ramp, phase, gamma or number of components out of range".into());
         }
         if !(period.is_finite() && period > 0.0 && self.gravity_m_s2 > 0.0) {
             return Some(format!(
-                "waves of a period of {period} s under a gravity of {} m/s2: both must be above zero",
+                "waves have a period of {period} s and gravity is {} m/s2: both must be above zero",
                 self.gravity_m_s2
             ));
         }
         let greatest = breaking_height(period, self.depth_m, self.gravity_m_s2);
         (height > greatest)
-            .then(|| format!("waves of {height} m and {period} s break: they are {greatest:.2} m high at most in this depth"))
+            .then(|| format!("waves of {height} m and {period} s break: the greatest height in this depth is {greatest:.2} m"))
     }
 }
 
-/// Problems found so far, in words.
+/// Error messages found so far.
 struct Problems(Vec<String>);
 
 impl Problems {
@@ -91,7 +89,7 @@ impl Problems {
                     "profile of the current has no rows, or one that is not finite".into()
                 });
                 self.need(rows.windows(2).all(|pair| pair[0].height < pair[1].height), || {
-                    "rows of the current's profile do not rise".into()
+                    "heights of the current's profile do not increase".into()
                 });
             }
         }
@@ -106,7 +104,7 @@ impl Problems {
                 });
                 self.need(
                     peak_s.is_finite() && minor.is_finite() && residual_m_s.is_finite(),
-                    || "the tide has a figure that is not finite".into(),
+                    || "the tide has a number that is not finite".into(),
                 );
             }
             Tide::Table(rows) => {
@@ -116,7 +114,7 @@ impl Problems {
                     "table of the tide has no rows, or one that is not finite".into()
                 });
                 self.need(rows.windows(2).all(|pair| pair[0].0 < pair[1].0), || {
-                    "times of the tide's table do not rise".into()
+                    "times of the tide's table do not increase".into()
                 });
             }
         }

@@ -1,41 +1,36 @@
 //! Water: density, depth, current and waves.
 //!
-//! Velocity `u = S(t) p(h) + u_w(x, t)`: `S` the current's velocity at its fastest height as the tide turns
-//! ([`tide`]), `p` its profile by height ([`profile`]), `u_w` the orbital velocity of the waves ([`waves`], [`field`]).
-//! The height `h` is that above the seabed as a share of the local depth, so that on a slope the current follows the
-//! bed; above the mean surface it is 1. Current and waves are summed; neither changes the other.
+//! Velocity `u = S(t) p(h) + u_w(x, t)` [m/s], with `S` the velocity of the current at its fastest height as a function of the
+//! tide, `p` its profile over the height ([`current`]), and `u_w` the orbital velocity of waves ([`waves`], [`field`]).
+//! `h` is the height above the seabed as a share of the local depth, so that the current follows a sloping bed; above the mean
+//! surface it is 1. Current and waves are superposed without interaction.
+//! References: in [`current`], [`waves`] and [`field`].
 
 pub mod check;
-pub mod component;
+pub mod current;
 pub mod field;
-pub mod jonswap;
-pub mod law;
-pub mod profile;
-pub mod tide;
 pub mod waves;
 
 use glam::DVec3;
 
-use crate::model::seabed::Seabed;
+use crate::model::Seabed;
+use current::{LawTable, Profile, Tide};
 use field::{Field, Walk};
-use law::LawTable;
-use profile::Profile;
-use tide::Tide;
 use waves::Waves;
 
-/// Least local depth on a slope: where the bed rises above it, the current is as over it [m].
+/// Least local depth on a slope; a shallower bed is treated as this deep [m].
 const LEAST_DEPTH_M: f64 = 0.01;
 
-/// The sea around the gear, as a scenario has it.
+/// The sea as a scenario declares it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Water {
     /// Density [kg/m³]; zero for a vacuum.
     pub density_kg_m3: f64,
-    /// Gravity, pointing down [m/s²].
+    /// Gravity, downwards [m/s²].
     pub gravity_m_s2: f64,
-    /// Water depth, at the origin [m].
+    /// Water depth at the origin [m].
     pub depth_m: f64,
-    /// Whether rope above the surface is dry; off, water drags and lifts it at any height.
+    /// Whether rope above the surface is dry; if not, drag and buoyancy act at any height.
     pub rope_dries: bool,
     /// Current.
     pub current: Current,
@@ -46,63 +41,61 @@ pub struct Water {
 /// Current by height and time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Current {
-    /// Velocity at the surface, or at the fastest height of a tabled profile, before the tide turns it [m/s].
+    /// Velocity at the surface, or at the fastest height of a tabulated profile, before the effect of the tide [m/s].
     pub surface_m_s: DVec3,
-    /// How it changes with height.
+    /// Variation with height.
     pub profile: Profile,
-    /// How it changes with time.
+    /// Variation with time.
     pub tide: Tide,
 }
 
 impl Current {
-    /// Steady and the same at every height.
+    /// Steady and uniform over the depth.
     #[must_use]
     pub fn uniform(velocity_m_s: DVec3) -> Self {
         Self { surface_m_s: velocity_m_s, profile: Profile::Uniform, tide: Tide::Steady }
     }
 
-    /// Steady, by a power law; an exponent of zero is uniform.
+    /// Steady, with a power law; an exponent of zero is uniform.
     #[must_use]
     pub fn power(surface_m_s: DVec3, exponent: f64) -> Self {
         Self { profile: Profile::power(exponent), ..Self::uniform(surface_m_s) }
     }
 
-    /// Steady, by the logarithmic law over a bed of a roughness length that is this share of the depth, above zero.
+    /// Steady, with the logarithmic law; the roughness length is a positive share of the depth.
     #[must_use]
     pub fn log(surface_m_s: DVec3, roughness: f64) -> Self {
         Self { profile: Profile::Log(roughness), ..Self::uniform(surface_m_s) }
     }
 
-    /// Velocity at a share of the depth above the seabed and a time, straight from the formulas [m/s].
-    #[must_use]
+    /// Velocity at a share of the depth above the seabed and a time, by the exact formulas [m/s].
     pub fn at(&self, height: f64, time_s: f64) -> DVec3 {
         self.profile.turn(self.tide.velocity(self.surface_m_s, time_s), height.clamp(0.0, 1.0))
     }
 }
 
 impl Water {
-    /// Velocity of the current over a level seabed at time zero, straight from the formulas [m/s].
-    #[must_use]
+    /// Velocity of the current over a level seabed at time zero, by the exact formulas [m/s].
     pub fn velocity(&self, place: DVec3) -> DVec3 {
         self.current.at((place.z + self.depth_m) / self.depth_m, 0.0)
     }
 }
 
-/// What the water does at a place and time.
+/// Motion of the water at a position and time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaterAt {
-    /// Velocity: current and waves [m/s].
+    /// Velocity of current and waves [m/s].
     pub velocity_m_s: DVec3,
-    /// Acceleration by the waves [m/s²].
+    /// Acceleration due to waves [m/s²].
     pub acceleration_m_s2: DVec3,
     /// Height of the surface above z = 0 [m].
     pub surface_m: f64,
 }
 
-/// Where [`Sea::add_waves`] writes, one entry for each place.
+/// Output of [`Sea::add_waves`], one entry per position.
 #[derive(Debug)]
 pub struct WavesOut<'a> {
-    /// Velocity, to which that of the waves is added [m/s].
+    /// Velocity; that of the waves is added [m/s].
     pub flow: &'a mut [DVec3],
     /// Acceleration [m/s²].
     pub acceleration: &'a mut Vec<DVec3>,
@@ -110,25 +103,25 @@ pub struct WavesOut<'a> {
     pub surface: &'a mut Vec<f64>,
 }
 
-/// The sea made ready for the solver: tables of the profile, components of the waves.
+/// The sea prepared for the solver: tables of the profile and components of the waves.
 #[derive(Clone, Debug)]
 pub struct Sea {
     current: Current,
     law: Option<LawTable>,
     depth_m: f64,
     inverse_depth: f64,
-    /// How much deeper it gets by a metre east and north.
+    /// Increase of depth per metre east and north; `None` for a level bed.
     slope: Option<(f64, f64)>,
     field: Option<Field>,
 }
 
 impl Sea {
-    /// Takes a share of the current.
+    /// Scales the current.
     pub(crate) fn weaken_current(&mut self, share: f64) {
         self.current.surface_m_s *= share;
     }
 
-    /// Of a model's water over its seabed; irregular waves are drawn from the seed.
+    /// Prepares a model's water over its seabed; the seed determines irregular waves.
     #[must_use]
     pub fn new(water: &Water, seabed: Option<&Seabed>, seed: u64) -> Self {
         let normal = seabed.map_or(DVec3::Z, |seabed| seabed.normal);
@@ -148,8 +141,7 @@ impl Sea {
         }
     }
 
-    /// The waves, if there are any.
-    #[must_use]
+    /// The waves, if any.
     pub fn field(&self) -> Option<&Field> {
         self.field.as_ref()
     }
@@ -166,7 +158,6 @@ impl Sea {
     }
 
     /// Velocity of the current [m/s].
-    #[must_use]
     pub fn current(&self, place: DVec3, time_s: f64) -> DVec3 {
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
         match &self.law {
@@ -175,8 +166,9 @@ impl Sea {
         }
     }
 
-    /// Velocity of the current at many places, into `out` of the same length [m/s].
+    /// Computes the velocity of the current at many positions into `out`, which has the same length [m/s].
     pub fn current_at(&self, places: &[DVec3], time_s: f64, out: &mut [DVec3]) {
+        debug_assert_eq!(places.len(), out.len(), "one velocity per position");
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
         let pairs = out.iter_mut().zip(places);
         match (&self.law, &self.current.profile) {
@@ -190,8 +182,7 @@ impl Sea {
         }
     }
 
-    /// Current and waves at one place.
-    #[must_use]
+    /// Current and waves at one position.
     pub fn at(&self, place: DVec3, time_s: f64) -> WaterAt {
         let velocity_m_s = self.current(place, time_s);
         let waves =
@@ -199,10 +190,12 @@ impl Sea {
         WaterAt { velocity_m_s: velocity_m_s + waves.velocity_m_s, ..waves }
     }
 
-    /// Adds the waves' velocity at many places to `flow`, and writes their acceleration and surface. Both are left empty
-    /// where there are no waves: none at all, or not yet.
+    /// Adds the velocity of waves at many positions to `flow`, and writes their acceleration and surface height.
+    ///
+    /// Both lists remain empty if the sea has no waves or they have not started.
     pub fn add_waves(&self, places: &[DVec3], time_s: f64, walk: &mut Walk, out: WavesOut<'_>) {
         let WavesOut { flow, acceleration, surface } = out;
+        debug_assert_eq!(places.len(), flow.len(), "one velocity per position");
         acceleration.clear();
         surface.clear();
         let Some(field) = self.field.as_ref().filter(|field| field.runs_at(time_s)) else { return };

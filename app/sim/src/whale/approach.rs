@@ -1,20 +1,20 @@
-//! How near rope is to skin, cheaply and over metres: by the boxes of the tree's clusters.
+//! Lower bounds of the distance from rope to skin over metres, from the boxes of the tree's clusters.
 //!
-//! The gap between a segment's box and a cluster's is never more than their distance, so what is taken for far is far.
+//! The gap between the box of a segment and that of a cluster is never greater than their distance.
 //!
-//! A child's box may stick out of its parent's: both are made of bounding spheres. What a search that trusts the boxes finds
-//! therefore depends on its order, and [`Approach::least`] means the search in the tree's order. A quicker one finds the least
-//! of all clusters; where the search in order is sure to reach that cluster, both give the same.
+//! The box of a child may extend beyond that of its parent, because both are made of bounding spheres. The result of a search
+//! that prunes by boxes therefore depends on its order; [`Approach::least`] is defined by the search in the order of the tree.
+//! A faster search finds the minimum over all clusters. If the search in order would reach that cluster, both results are
+//! equal; otherwise the search in order runs as well.
 
 use std::sync::Arc;
 
 use endline_sdk::Region;
 use glam::DAffine3;
 
-use super::bounds::Bounds;
-use super::tree::SkinTree;
+use super::tree::{Bounds, SkinTree};
 
-/// Whether rope runs over a thin edge there: edges and tips of flippers and flukes.
+/// Whether a region is a thin edge: edges and tips of flippers and flukes.
 fn is_thin(region: Region) -> bool {
     use Region as R;
     matches!(
@@ -32,22 +32,22 @@ fn is_thin(region: Region) -> bool {
     )
 }
 
-/// Boxes of one pose, worked out when first asked for.
+/// Boxes of one pose, computed on demand.
 #[derive(Clone, Debug)]
 pub(crate) struct Approach {
     tree: Arc<SkinTree>,
-    /// Whether each node of the tree holds a thin edge.
+    /// Whether each node of the tree contains a thin edge.
     thin: Vec<bool>,
-    /// The node above each; none above the root.
+    /// Parent of each node; `None` for the root.
     parent: Vec<Option<usize>>,
     boxes: Vec<Option<Bounds>>,
-    /// Boxes around each node and all below it, where they are known.
+    /// Boxes around each node and all its descendants, valid if `whole_known`.
     whole: Vec<Bounds>,
     whole_known: bool,
-    /// The cluster that was least for the place before: a first guess for the next, which lies beside it.
+    /// Cluster of the previous minimum: the initial guess for the next, neighbouring box.
     guess: Option<usize>,
     todo: Vec<usize>,
-    /// Nodes to be looked at by the quick search, each with a lower bound of what is below it.
+    /// Pending nodes of the fast search, each with a lower bound of its descendants.
     bounded: Vec<(usize, f64)>,
 }
 
@@ -77,16 +77,18 @@ impl Approach {
         }
     }
 
-    /// Begins with the whale in a new pose.
+    /// Starts a new pose.
     pub fn begin(&mut self) {
         self.boxes.fill(None);
         self.whole_known = false;
         self.guess = None;
     }
 
-    /// The least that `size` gives for any cluster that a search in the tree's order reaches, from its gap to `place` [m] and
-    /// whether it holds a thin edge; `most` where none gives less. The search leaves out what is below a node that gives no less.
-    /// `size` must not fall as the gap grows, nor be less for skin than for thin edges.
+    /// Returns the minimum of `size` over the clusters that a search in the order of the tree reaches, at most `most`.
+    ///
+    /// `size` is a function of the gap of a cluster to `place` [m] and of whether it contains a thin edge. It must not decrease
+    /// with the gap, nor be smaller without a thin edge than with one. The search prunes the descendants of a node with no
+    /// smaller value.
     pub fn least(
         &mut self,
         bones: &[DAffine3],
@@ -97,8 +99,8 @@ impl Approach {
         if self.boxes.is_empty() || size(self.bound(0, bones).gap(place), self.thin[0]) >= most {
             return most;
         }
-        self.know_whole(bones);
-        // No cluster gives less than the quick search finds, so the search in order finds no less either.
+        self.compute_whole(bones);
+        // The fast search finds a lower bound of the result of the search in order.
         let Some((cluster, least)) = self.least_of_all(place, most, &size) else { return most };
         self.guess = Some(cluster);
         if self.is_reached(cluster, least, bones, place, &size) {
@@ -108,7 +110,7 @@ impl Approach {
         }
     }
 
-    /// The search in the tree's order.
+    /// The search in the order of the tree.
     fn least_in_order(
         &mut self,
         bones: &[DAffine3],
@@ -132,7 +134,7 @@ impl Approach {
         least
     }
 
-    /// The cluster that gives the least of all, and what it gives; none where none gives less than `most`.
+    /// Returns the cluster with the minimum of all and its value; `None` if no value is below `most`.
     fn least_of_all(
         &mut self,
         place: &Bounds,
@@ -151,7 +153,7 @@ impl Approach {
             match tree.nodes()[node].children {
                 Some(children) => {
                     let [one, other] = children.map(at);
-                    // The nearer one is looked at first.
+                    // The nearer child is searched first.
                     bounded.extend(if one.1 < other.1 { [other, one] } else { [one, other] });
                 }
                 None => found = Some((node, here)),
@@ -160,7 +162,7 @@ impl Approach {
         found
     }
 
-    /// Whether the search in order comes to a cluster, or finds as little before: none of the nodes above it gives more.
+    /// Whether the search in order reaches a cluster or an equal value before it: no ancestor has a greater value.
     fn is_reached(
         &mut self,
         cluster: usize,
@@ -179,8 +181,8 @@ impl Approach {
         true
     }
 
-    /// Works out the boxes around nodes and all below them.
-    fn know_whole(&mut self, bones: &[DAffine3]) {
+    /// Computes the boxes around nodes and all their descendants.
+    fn compute_whole(&mut self, bones: &[DAffine3]) {
         if self.whole_known {
             return;
         }
@@ -205,7 +207,7 @@ mod tests {
     use super::super::surface::tests::{Dice, random_bones, tube};
     use super::*;
 
-    /// Like the lengths of a mesh: a floor, a slope, a ceiling, and finer at thin edges.
+    /// Like target lengths of segments: a minimum, a slope, a maximum, and smaller at thin edges.
     fn size(gap_m: f64, thin: bool) -> f64 {
         let at = |least: f64, within: f64| (least + 0.3 * (gap_m - within).max(0.0)).min(MOST);
         if thin { at(0.02, 0.2) } else { at(0.05, 0.3) }
@@ -213,8 +215,8 @@ mod tests {
 
     const MOST: f64 = 1.0;
 
-    /// Along rope in random postures the least has the bits of the search in order, and no cluster gives less but where boxes
-    /// that stick out hide it; both happen.
+    /// Along rope in random postures the result is bit-equal to that of the search in order. The minimum over all clusters is
+    /// smaller only where boxes that extend beyond their parent hide it; both cases occur.
     #[test]
     fn the_least_is_that_of_the_search_in_order() {
         let mut skin = tube();
@@ -248,12 +250,12 @@ mod tests {
         }
         assert!(
             counts[0] > 1000 && counts[1] > 100 && counts[2] > 100 && counts[2] < counts[0] / 2,
-            "{counts:?}: both searches are to decide often"
+            "{counts:?}: both searches must determine results often"
         );
     }
 
     #[test]
-    fn a_whale_without_skin_is_near_nothing() {
+    fn a_whale_without_skin_has_no_distance() {
         let mut approach = Approach::new(Arc::new(SkinTree::new(Arc::default())));
         approach.begin();
         let place = Bounds::around(&[DVec3::ZERO]);

@@ -1,33 +1,34 @@
-//! The whale's own motion over one step: its plugin decides, the water carries.
+//! Motion of the whale over a step: requests of its plugin, current, and limits of the water.
 //!
-//! Kinematic: `dx/dt = R x̂ u + U(x)`, `R` turned by the plugin's rates about the whale's own axes, with the
-//! speed through the water `u` taken as the mean over the step. Kinetic: the plugin asks, mass, drag and strength
-//! decide (`kinetic/mod.rs`). Neither enters the seabed, nor leaves the water further than its speed carries it
-//! (`carried_m`; by its weight, `kinetic/out.rs`). Jaws close as far as what lies between them lets them (`jaws.rs`). Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
+//! Kinematic: `dx/dt = R x̂ u + U(x)` with `x` the position [m], `R` the orientation, turned by the plugin's rates about the
+//! whale's own axes,
+//! `u` the mean speed through the water over the step [m/s], and `U` the velocity of the current [m/s]. Kinetic: mass, drag and
+//! strength determine the response to the plugin's request (`kinetic/mod.rs`), also for a dead whale.
+//! The whale cannot enter the seabed. It leaves the water at most as far as its speed carries it ([`carried_m`]); for a kinetic
+//! whale its weight in air limits this. The jaws close as far as contact permits (`jaws.rs`), and joints turn within their
+//! ranges (`pose.rs`).
 
+use endline_sdk::{MotionInput, MotionOutput, Posture};
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::kinetic::dead::drift;
-use super::kinetic::out::weight_out;
-use super::kinetic::swim::{self, Surroundings, Wish, swim};
+use super::kinetic::muscle::{MotionRequest, Surroundings, reported_speed, swim};
+use super::kinetic::{drift, weight_out};
 use super::pose::pose;
 use crate::model::{Model, Whale};
 use crate::state::WhaleState;
-use crate::step::Input;
-use crate::step::Stop;
-use endline_sdk::{MotionInput, MotionOutput, Posture};
+use crate::step::{Input, Stop};
 
-/// Half height of a right whale as a share of its length, kept above the seabed.
+/// Clearance of the whale's origin above the seabed, as a share of its length: half the height of a right whale.
 const CLEARANCE: f64 = 0.11;
 
-/// Weight of what is out of the water [m/s²].
+/// Gravity on the part above the surface [m/s²].
 const GRAVITY_M_S2: f64 = 9.81;
 
-/// The whale at the end of a step that begins with `whale`, written over `next`; whether its motion asked for a posture
-/// beyond the joints' ranges. `hull_scratch` is scratch of a kinetic whale's hull.
+/// Computes the whale at the end of a step from `whale` to `next`. Returns whether its motion requested a posture beyond the
+/// joints' ranges. `hull_scratch` is a buffer of a kinetic whale's hull.
 ///
 /// # Errors
-/// With the motion plugin's id, where it fails or gives a number that is not finite.
+/// Reports the motion plugin's id if it fails or returns a number that is not finite.
 pub(crate) fn drive(
     model: &Model,
     input: &Input,
@@ -37,13 +38,16 @@ pub(crate) fn drive(
     hull_scratch: &mut Vec<DVec3>,
 ) -> Result<bool, Stop> {
     next.clone_from(whale);
-    let Some(spec) = &model.spec.whale else { return Ok(false) };
+    let Some(spec) = &model.spec.whale else {
+        debug_assert!(false, "a state with a whale belongs to a model with a whale");
+        return Ok(false);
+    };
     if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
         drift(model, kinetic, whale, time_s, next, hull_scratch);
         keep_in_water(model, spec, next);
         return Ok(false);
     }
-    let (asked, reported_m_s) = ask(model, spec, input, whale, time_s, next)?;
+    let (asked, reported_m_s) = call_motion(model, spec, input, whale, time_s, next)?;
     next.posture = asked.posture;
     if let Some(jaws) = &spec.jaws {
         let dt_s = model.spec.settings.step_s;
@@ -53,7 +57,7 @@ pub(crate) fn drive(
     let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
     match &spec.kinetic {
         Some(kinetic) => {
-            let wish = Wish {
+            let request = MotionRequest {
                 from_m_s: reported_m_s,
                 speed_m_s: asked.speed_m_s,
                 turn_rate,
@@ -61,16 +65,16 @@ pub(crate) fn drive(
             };
             let out = weight_out(model, kinetic, whale, time_s, hull_scratch);
             let current_m_s = model.sea.current(whale.position, time_s);
-            swim(model, kinetic, &wish, whale, Surroundings { out, current_m_s }, next);
+            swim(model, kinetic, &request, whale, Surroundings { out, current_m_s }, next);
         }
-        None => go(model, &asked, whale, time_s, next),
+        None => follow(model, &asked, whale, time_s, next),
     }
     keep_in_water(model, spec, next);
     Ok(held)
 }
 
-/// What the motion plugin asks for, and the speed that was reported to it.
-fn ask(
+/// Calls the motion plugin; returns its request and the speed that was reported to it.
+fn call_motion(
     model: &Model,
     spec: &Whale,
     input: &Input,
@@ -80,8 +84,7 @@ fn ask(
 ) -> Result<(MotionOutput, f64), Stop> {
     let stop =
         |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
-    let reported_m_s =
-        if spec.kinetic.is_some() { swim::reported_speed(whale) } else { whale.speed_m_s };
+    let reported_m_s = if spec.kinetic.is_some() { reported_speed(whale) } else { whale.speed_m_s };
     let seen = MotionInput {
         time_s,
         dt_s: model.spec.settings.step_s,
@@ -102,14 +105,20 @@ fn ask(
         && asked.posture.angles().all(f64::is_finite))
     {
         return Err(stop(
-            "gave a speed, turn rate or joint angle that is not a finite number".into(),
+            "returned a speed, turn rate or joint angle that is not a finite number".into(),
         ));
     }
     Ok((asked, reported_m_s))
 }
 
-/// Kinematic: the whale goes as it is asked to.
-fn go(model: &Model, asked: &MotionOutput, whale: &WhaleState, time_s: f64, next: &mut WhaleState) {
+/// Advances a kinematic whale, which follows the request.
+fn follow(
+    model: &Model,
+    asked: &MotionOutput,
+    whale: &WhaleState,
+    time_s: f64,
+    next: &mut WhaleState,
+) {
     let dt_s = model.spec.settings.step_s;
     let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
     next.speed_m_s = asked.speed_m_s;
@@ -121,10 +130,11 @@ fn go(model: &Model, asked: &MotionOutput, whale: &WhaleState, time_s: f64, next
         * dt_s;
 }
 
-/// How high its speed would carry the middle of a whale that leaves the water ahead, against the weight of what is out [m].
+/// Greatest height of mid-body above the surface that its speed permits, against the weight of the part above the surface [m].
 ///
-/// With `s` of its length `L` out at a climb `θ`: `½ u² = g sinθ s²/2L` up to `s = L`, and `u²/2g sinθ` of way more than `L/2` beyond.
-/// Its middle is then `(s - L/2) sinθ` above the surface; none for a whale that does not come so far out.
+/// With the length `s` of `L` out of the water at a climb angle `θ`: `½ u² = g sinθ s²/2L` up to `s = L`; beyond,
+/// `s = u²/(2g sinθ) + L/2`.
+/// Mid-body is then `(s - L/2) sinθ` above the surface, and at least 0.
 fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
     let rise = (whale.orientation * DVec3::X).z;
     if rise <= 0.0 || whale.speed_m_s <= 0.0 {
@@ -135,8 +145,8 @@ fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
     ((out - 0.5 * length_m) * rise).max(0.0)
 }
 
-/// Holds the whale above the seabed and in the water, a kinematic one as high as its speed would carry it; a kinetic one is held
-/// by its weight, and stops where it is held.
+/// Limits the whale's height to the range from the seabed to [`carried_m`], which does not apply to a kinetic whale with weight
+/// in air. A kinetic whale loses its velocity into the limit.
 fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
     let seabed = model.spec.seabed.as_ref();
     let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| {
@@ -152,7 +162,7 @@ fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
     whale.position.z = held;
 }
 
-/// Bone transforms at a share of the way between two states of the whale.
+/// Bone transforms at a share between two states of the whale.
 pub(crate) fn pose_between(
     model: &Model,
     from: &WhaleState,
@@ -160,13 +170,16 @@ pub(crate) fn pose_between(
     share: f64,
     out: &mut Vec<DAffine3>,
 ) {
-    let Some(spec) = &model.spec.whale else { return };
+    let Some(spec) = &model.spec.whale else {
+        debug_assert!(false, "a state with a whale belongs to a model with a whale");
+        return;
+    };
     let posture = mix(&from.posture, &to.posture, share);
     let orientation = from.orientation.slerp(to.orientation, share);
     pose(&spec.skin, from.position.lerp(to.position, share), orientation, &posture, out);
 }
 
-/// A posture part of the way between two.
+/// Interpolates between two postures.
 fn mix(from: &Posture, to: &Posture, share: f64) -> Posture {
     let mut mixed = *from;
     mixed.angles_mut().zip(to.angles()).for_each(|(angle, to)| *angle += (to - *angle) * share);
@@ -193,9 +206,10 @@ mod tests {
         }
     }
 
-    /// Integrated in small steps: along its axis the whale rises until its speed is spent on the weight of what is out.
+    /// Compared with a numerical integration in small steps of motion along its axis against the weight of the part above the
+    /// surface.
     #[test]
-    fn a_whale_comes_as_far_out_as_its_speed_carries_it() {
+    fn a_whale_leaves_the_water_as_far_as_its_speed_permits() {
         for (length_m, speed_m_s, climb) in
             [(13.7, 8.0, 1.2), (10.0, 9.9, 1.5), (4.2, 6.0, 0.7), (13.7, 3.0, 0.02)]
         {
@@ -215,7 +229,7 @@ mod tests {
         assert_eq!(
             carried_m(13.7, &state(4.5, 0.9)).to_bits(),
             0.0_f64.to_bits(),
-            "at a right whale's burst its middle stays under"
+            "at a right whale's burst speed mid-body stays under water"
         );
         assert_eq!(carried_m(13.7, &state(8.0, -0.9)).to_bits(), 0.0_f64.to_bits());
     }

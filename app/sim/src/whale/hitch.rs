@@ -1,8 +1,10 @@
-//! Rope made fast to the whale: where such an end is, and how it pulls.
+//! Rope attached to the whale: positions of such line ends, and their forces.
 //!
-//! A hitch is a place on a triangle of the skin, a little off it, and goes where the skin goes: within a step of the model straight
-//! from where the bones put it at the start to where they put it at the end, as the skin does. To the rope it is a fixture that
-//! moves; what its end segment pulls is the force on the whale.
+//! A hitch is a point at a barycentric position `b` on a triangle `x_i` of the skin, at the distance `d` [m] along the unit
+//! normal `n`:
+//! `p = Σ b_i x_i + d n`. It moves with the skin: during a step it moves straight from its position under the bones at the
+//! start to that at the end. For rope it is a driven fixture; the force of the end segment, `T t` with `T` the tension [N] and
+//! `t` the unit tangent, acts on the whale.
 
 use endline_sdk::LineEnd;
 use glam::{DAffine3, DVec3};
@@ -13,30 +15,30 @@ use crate::model::{Hitch, JointKind, Model};
 use crate::state::State;
 
 impl Hitch {
-    /// Its place under the bones' transforms [m].
-    #[must_use]
+    /// Its position under the bones' transforms [m].
     pub fn place(&self, skin: &Skin, bones: &[DAffine3]) -> DVec3 {
         let [a, b, c] =
             skin.triangles[self.triangle].map(|vertex| skin_vertex(skin, bones, vertex as usize));
         let [of_a, of_b, of_c] = self.barycentric;
+        debug_assert!((of_a + of_b + of_c - 1.0).abs() < 1e-9, "barycentric coordinates sum to 1");
         let normal = (b - a).cross(c - a).normalize_or_zero();
         a * of_a + b * of_b + c * of_c + normal * self.stand_off_m
     }
 }
 
-/// Where the hitches of a model are in one of its steps.
+/// Positions of the hitches of a model during a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Hitches {
-    /// Joint, with its place at the start and at the end of the model's step.
+    /// Joint, with its position at the start and at the end of the step.
     list: Vec<(usize, [DVec3; 2])>,
-    /// Shares of the model's step at which the solver step begins and ends.
+    /// Shares of the step at which the solver step starts and ends.
     pub span: [f64; 2],
-    /// Share of the model's step that the skin has gone.
+    /// Share of the step at which the skin is.
     pub share: f64,
 }
 
 impl Hitches {
-    /// Those of a model, where its whale starts.
+    /// Hitches of a model, with the whale at its initial position.
     pub fn new(model: &Model) -> Self {
         let joints = model.spec.joints.iter().enumerate();
         let list = joints
@@ -57,8 +59,9 @@ impl Hitches {
         hitches
     }
 
-    /// Takes the bones at the start and the end of a step of the model.
+    /// Sets the positions from the bones at the start and the end of a step.
     pub fn move_to(&mut self, model: &Model, bones: [&[DAffine3]; 2]) {
+        // A model without a whale has no hitches.
         let Some(whale) = &model.spec.whale else { return };
         for (joint, places) in &mut self.list {
             if let JointKind::Whale(hitch) = &model.spec.joints[*joint].kind {
@@ -67,16 +70,16 @@ impl Hitches {
         }
     }
 
-    /// The place of a joint made fast to the whale.
+    /// Position of a joint attached to the whale; `None` for another joint [m].
     pub fn place(&self, joint: usize) -> Option<DVec3> {
         let [from, to] = self.list.iter().find(|(known, _)| *known == joint)?.1;
         Some(from.lerp(to, self.share))
     }
 }
 
-/// Force on the whale and place of every line end made fast to it [N, m].
+/// Force on the whale and position of every line end attached to it [N, m].
 ///
-/// The tension of the end's segment counts; what bends rope does at its end does not.
+/// The force is the tension of the end segment; bending is not included.
 pub(crate) fn pulls<'a>(
     model: &'a Model,
     state: &'a State,
@@ -94,7 +97,7 @@ pub(crate) fn pulls<'a>(
     })
 }
 
-/// Line ends made fast to the whale.
+/// Line ends attached to the whale.
 pub(crate) fn ends(model: &Model) -> impl Iterator<Item = (usize, LineEnd)> + '_ {
     let is_hitch = |joint: usize| matches!(model.spec.joints[joint].kind, JointKind::Whale(_));
     model.spec.lines.iter().enumerate().flat_map(move |(index, line)| {

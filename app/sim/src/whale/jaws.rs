@@ -1,15 +1,16 @@
-//! How far jaw and lips close on what lies between them.
+//! Closing of jaw and lips against what is between them.
 //!
-//! A muscle shortens the more slowly the more it is loaded, and yields to more than it holds (Hill 1938, doi:10.1098/rspb.1938.0050; here
-//! linear and the same both ways). With the angle `a` of jaw or lip, its rate of closing `w` without a load, the moment `M0` that holds it still, and
-//! the moment `M` with which what touches skin opens it:
+//! A muscle shortens more slowly under load, and lengthens above its holding force (Hill 1938, doi:10.1098/rspb.1938.0050; here
+//! linear and symmetric). With the angle `a` of jaw or lip [rad], its rate of closing `w` without load [rad/s], the moment `M0`
+//! that stops it [N m], and the opening moment `M` of contact [N m]:
 //!
 //! ```text
-//! a <- max(asked, a - w h c)        c = 1 - M/M0, from -1 to 1        h a step of the model
+//! a <- max(requested, a - w h c)    c = 1 - M/M0, from -1 to 1        h step of the model [s]
 //! M = Σ g (p - o) × F · e           mean over the last step of the model
 //! ```
 //!
-//! `F` is a force on the skin at `p`, `g` the share of that skin which the bone moves, `e` the hinge's axis and `o` a place on it. Opening is not hindered.
+//! `F` is a force on the skin at `p` [N], `g` the share of that skin which the bone moves, `e` the axis of the hinge, and `o` a
+//! point on it. Opening is not restricted.
 
 use endline_sdk::{BodyPart, Posture};
 use glam::{DAffine3, DVec3};
@@ -18,21 +19,22 @@ use super::Angle;
 use super::pose::{angle_mut, angle_of};
 use super::skin::Skin;
 
-/// The angles of a mouth.
+/// Angles of the mouth.
 pub const MOUTH: [Angle; 3] = [Angle::Jaw, Angle::Lips(0), Angle::Lips(1)];
 
-/// Rates at which jaw and lips close without a load: the widest jaw in a second, the lips of skim feeding in a second [rad/s]; estimates.
+/// Rates of closing of jaw and lips without load [rad/s]: the greatest jaw angle in 1 s, the lip angle of skim feeding in 1 s;
+/// estimates.
 const CLOSING_RAD_S: [f64; 3] = [0.52, 0.35, 0.35];
 
-/// How strongly a mouth closes.
+/// Closing strength of a mouth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JawStrength {
-    /// Moments about the hinges of jaw, left and right lip that hold them still [N m].
+    /// Moments about the hinges of jaw, left and right lip that stop their closing [N m].
     pub moment_n_m: [f64; 3],
 }
 
 impl JawStrength {
-    /// Forces with which jaw and lips close where they reach farthest from their hinges [N], as moments.
+    /// Strength from the closing forces of jaw and lips at the points farthest from their hinges [N].
     #[must_use]
     pub fn of_forces(skin: &Skin, [jaw_n, lip_n]: [f64; 2]) -> Self {
         let load = MouthLoad::new(skin);
@@ -43,7 +45,7 @@ impl JawStrength {
         Self { moment_n_m }
     }
 
-    /// Lets the mouth go from one posture towards the asked one over a time, against moments that open it [N m].
+    /// Closes the mouth from one posture towards the requested one during `dt_s`, against opening moments [N m].
     pub(crate) fn close(
         &self,
         before: &Posture,
@@ -66,7 +68,7 @@ impl JawStrength {
 #[derive(Clone, Copy, Debug)]
 struct Hinge {
     bone: usize,
-    /// Its axis and a place on it, at rest [m].
+    /// Its axis and a point on it, at rest [m].
     axis: DVec3,
     origin: DVec3,
 }
@@ -75,10 +77,11 @@ struct Hinge {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MouthLoad {
     hinges: [Option<Hinge>; 3],
-    /// Which hinges move each bone, a bit for each.
+    /// Hinges that move each bone, one bit each.
     moved: Vec<u8>,
-    /// Moments times time [N m s], and the time [s].
+    /// Integral of the moments over time [N m s].
     sum: [f64; 3],
+    /// Duration [s].
     span_s: f64,
 }
 
@@ -101,12 +104,12 @@ impl MouthLoad {
         load
     }
 
-    /// Forgets what was summed.
+    /// Resets the sums.
     pub fn clear(&mut self) {
         (self.sum, self.span_s) = ([0.0; 3], 0.0);
     }
 
-    /// Takes in forces on the head over a solver step: triangle, place [m], force on the skin [N].
+    /// Adds forces on the head over a solver step: triangle, position [m], force on the skin [N].
     pub fn take(
         &mut self,
         skin: &Skin,
@@ -139,7 +142,7 @@ impl MouthLoad {
         weights.filter(|(bone, _)| moves(*bone)).map(|(_, weight)| weight).sum::<f64>() / 3.0
     }
 
-    /// How far from a hinge's axis the vertices reach that it moves, at rest [m].
+    /// Greatest distance from a hinge's axis of the vertices that it moves, at rest [m].
     fn reach_m(&self, skin: &Skin, hinge: usize, at: Hinge) -> f64 {
         let axis = at.axis.normalize_or_zero();
         let moves = |bone: u16| self.moved[usize::from(bone)] >> hinge & 1 == 1;
@@ -151,7 +154,7 @@ impl MouthLoad {
         reaches.fold(0.0, f64::max)
     }
 
-    /// Mean moments with which jaw, left and right lip were opened [N m].
+    /// Mean opening moments of jaw, left and right lip [N m].
     pub fn mean_n_m(&self) -> [f64; 3] {
         self.sum.map(|sum| if self.span_s > 0.0 { sum / self.span_s } else { 0.0 })
     }
@@ -173,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loaded_jaw_closes_slower_stands_still_and_yields() {
+    fn a_loaded_jaw_closes_more_slowly_stops_and_opens() {
         let step = CLOSING_RAD_S[0] * 0.01;
         for (opening_n_m, moved) in
             [(0.0, -1.0), (250.0, -0.75), (1000.0, 0.0), (1500.0, 0.5), (1e9, 1.0)]
@@ -181,11 +184,11 @@ mod tests {
             let jaw = jaw_after(0.2, 0.0, opening_n_m);
             assert!((jaw - (0.2 + moved * step)).abs() < 1e-15, "{opening_n_m} N m: {jaw}");
         }
-        assert_eq!(jaw_after(0.2, 0.199, 0.0).to_bits(), 0.199_f64.to_bits(), "as asked");
+        assert_eq!(jaw_after(0.2, 0.199, 0.0).to_bits(), 0.199_f64.to_bits(), "as requested");
         assert_eq!(jaw_after(0.2, 0.3, 1e9).to_bits(), 0.3_f64.to_bits(), "it opens freely");
     }
 
-    /// A jaw along x on a hinge about y at the origin: a force down at 2 m opens it, one on the rostrum does not.
+    /// A jaw along x on a hinge about y at the origin: a force downwards at 2 m opens it, one on the rostrum does not.
     #[test]
     fn moments_are_force_times_arm_about_the_hinge() {
         let bone = |parent, turns| Bone { name: String::new(), parent, origin: DVec3::ZERO, turns };

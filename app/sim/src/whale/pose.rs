@@ -1,16 +1,108 @@
-//! From posture to skin: bone transforms, then each vertex as the weighted mean of where its bones take it.
+//! Postures and the skin: ranges of joints, bone transforms, and skinning.
 //!
-//! This is the only path from a posture to a surface: the picture, the contact and the audit all use it.
+//! Ranges: with `a` an angle [rad] and `T` the greatest total bend of the spine [rad],
+//!
+//! ```text
+//! each angle    a  <-  min(max(a, least), most)
+//! the spine     a_j  <-  a_j T / |sum a_j|     if |sum a_j| > T, for pitch, yaw and roll separately
+//! ```
+//!
+//! The whale's file gives the ranges (`[joints]`), each with its source.
+//!
+//! Skinning: a vertex `x` is at `Σ_b w_b M_b x` with the transforms `M_b` of its bones and weights `w_b` that sum to 1. This is
+//! the only path from a posture to a surface; pictures, contact and audit all use it.
+//! Reference: Magnenat-Thalmann, Laperrière and Thalmann 1988, Graphics Interface, 26-33 (linear blend skinning).
 
-use endline_sdk::Posture;
+use endline_sdk::{Posture, SPINE_JOINTS};
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::{Angle, Bone, Skin};
+use crate::bits::unit;
 
-/// Transforms of all bones, rest place in the whale's frame to world, written over `out`.
+/// Ranges of all joint angles [rad].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointRanges {
+    /// Lower limit of each angle.
+    pub least: Posture,
+    /// Upper limit of each angle.
+    pub most: Posture,
+    /// Limit of the magnitude of the sum over the spine's joints: pitch, yaw, roll.
+    pub spine_total: [f64; 3],
+}
+
+impl JointRanges {
+    /// Ranges without limits.
+    #[must_use]
+    pub fn unbounded() -> Self {
+        let mut ranges = Self {
+            least: Posture::default(),
+            most: Posture::default(),
+            spine_total: [f64::INFINITY; 3],
+        };
+        for angle in Angle::all() {
+            ranges.set(angle, [f64::NEG_INFINITY, f64::INFINITY]);
+        }
+        ranges
+    }
+
+    /// Range of an angle: lower and upper limit [rad].
+    pub fn of(&self, angle: Angle) -> [f64; 2] {
+        [angle_of(&self.least, angle), angle_of(&self.most, angle)]
+    }
+
+    /// Sets the range of an angle: lower and upper limit [rad]. Ignores a joint or side that does not exist.
+    pub fn set(&mut self, angle: Angle, [least, most]: [f64; 2]) {
+        for (posture, value) in [(&mut self.least, least), (&mut self.most, most)] {
+            if let Some(slot) = angle_mut(posture, angle) {
+                *slot = value;
+            }
+        }
+    }
+
+    /// Clamps a posture to the ranges; returns whether it changed.
+    pub fn hold(&self, posture: &mut Posture) -> bool {
+        let asked = *posture;
+        for angle in Angle::all() {
+            let [least, most] = self.of(angle);
+            if let Some(slot) = angle_mut(posture, angle) {
+                *slot = slot.max(least).min(most);
+            }
+        }
+        for (axis, total) in Angle::SPINE.into_iter().zip(self.spine_total) {
+            let sum: f64 = (0..SPINE_JOINTS).map(|joint| angle_of(posture, axis(joint))).sum();
+            // The margin ensures that a clamped posture is not changed again.
+            if sum.abs() > total * (1.0 + 1e-12) {
+                for joint in 0..SPINE_JOINTS {
+                    if let Some(slot) = angle_mut(posture, axis(joint)) {
+                        *slot *= total / sum.abs();
+                    }
+                }
+            }
+        }
+        asked != *posture
+    }
+
+    /// A random posture within the ranges, determined by the seed, for tests over the whole range of motion.
+    ///
+    /// Angles are uniformly distributed before the limit of the spine applies; an angle with an infinite range is 0.
+    pub fn random(&self, seed: u64) -> Posture {
+        let mut posture = Posture::default();
+        for (index, angle) in (0..).zip(Angle::all()) {
+            let [least, most] = self.of(angle);
+            let drawn = least + (most - least) * unit(seed, index);
+            if let Some(slot) = angle_mut(&mut posture, angle).filter(|_| drawn.is_finite()) {
+                *slot = drawn;
+            }
+        }
+        self.hold(&mut posture);
+        posture
+    }
+}
+
+/// Computes the transforms of all bones, from the rest position in the whale's frame to the world, into `out`.
 ///
-/// `position` is that of the whale frame's origin [m], `orientation` turns the whale's frame into the world's.
-/// The transforms are rigid. A bone whose parent does not stand before it hangs on the control bone.
+/// `position` is that of the whale frame's origin [m], `orientation` is from the whale's frame to the world.
+/// The transforms are rigid. A bone without a parent before it in the list is attached to the whale's frame.
 pub fn pose(
     skin: &Skin,
     position: DVec3,
@@ -26,7 +118,7 @@ pub fn pose(
     }
 }
 
-/// The bone's own turn about its origin, in the whale's rest frame.
+/// Rotation of a bone about its origin, in the whale's rest frame.
 fn turn(bone: &Bone, posture: &Posture) -> DAffine3 {
     let rotation = bone.turns.iter().fold(DQuat::IDENTITY, |before, (channel, axis)| {
         DQuat::from_axis_angle(*axis, channel.share * angle_of(posture, channel.angle)) * before
@@ -34,8 +126,7 @@ fn turn(bone: &Bone, posture: &Posture) -> DAffine3 {
     DAffine3::from_rotation_translation(rotation, bone.origin - rotation * bone.origin)
 }
 
-/// The named angle of a posture [rad]; 0 for a joint or side it does not have.
-#[must_use]
+/// Returns an angle of a posture; 0 for a joint or side that does not exist [rad].
 pub fn angle_of(posture: &Posture, angle: Angle) -> f64 {
     let of = |angles: &[f64], index: usize| angles.get(index).copied().unwrap_or(0.0);
     match angle {
@@ -53,7 +144,7 @@ pub fn angle_of(posture: &Posture, angle: Angle) -> f64 {
     }
 }
 
-/// The place of a named angle in a posture; none for a joint or side it does not have.
+/// Returns a reference to an angle of a posture; `None` for a joint or side that does not exist.
 pub fn angle_mut(posture: &mut Posture, angle: Angle) -> Option<&mut f64> {
     match angle {
         Angle::SpinePitch(joint) => posture.spine_pitch.get_mut(joint),
@@ -70,10 +161,7 @@ pub fn angle_mut(posture: &mut Posture, angle: Angle) -> Option<&mut f64> {
     }
 }
 
-/// World place of one vertex under the bones' transforms [m].
-///
-/// Bones the transforms do not cover move nothing.
-#[must_use]
+/// World position of a vertex under the bones' transforms [m]. Bones without a transform are ignored.
 pub fn skin_vertex(skin: &Skin, bones: &[DAffine3], vertex: usize) -> DVec3 {
     let rest = skin.vertices[vertex];
     let mut place = DVec3::ZERO;
@@ -87,7 +175,7 @@ pub fn skin_vertex(skin: &Skin, bones: &[DAffine3], vertex: usize) -> DVec3 {
     place
 }
 
-/// World places of all vertices, written over `out` [m].
+/// Computes the world positions of all vertices into `out` [m].
 pub fn skin_all(skin: &Skin, bones: &[DAffine3], out: &mut Vec<DVec3>) {
     out.clear();
     out.extend((0..skin.vertices.len()).map(|vertex| skin_vertex(skin, bones, vertex)));
@@ -95,10 +183,86 @@ pub fn skin_all(skin: &Skin, bones: &[DAffine3], out: &mut Vec<DVec3>) {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use super::*;
     use crate::whale::Channel;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn ranges() -> JointRanges {
+        let mut ranges = JointRanges {
+            least: Posture::default(),
+            most: Posture::default(),
+            spine_total: [0.5, 0.6, 0.2],
+        };
+        for (index, angle) in (1..).zip(Angle::all()) {
+            ranges.set(angle, [-0.01 * f64::from(index), 0.02 * f64::from(index)]);
+        }
+        ranges
+    }
+
+    fn inside(ranges: &JointRanges, posture: &Posture) -> bool {
+        let spine = Angle::SPINE.into_iter().zip(ranges.spine_total).all(|(axis, total)| {
+            (0..SPINE_JOINTS).map(|joint| angle_of(posture, axis(joint))).sum::<f64>().abs()
+                <= total * (1.0 + 1e-12)
+        });
+        let each = Angle::all().all(|angle| {
+            let [least, most] = ranges.of(angle);
+            (least..=most).contains(&angle_of(posture, angle))
+        });
+        spine && each
+    }
+
+    #[test]
+    fn every_angle_has_one_name_and_its_own_value() {
+        let mut posture = Posture::default();
+        for (index, angle) in (1..).zip(Angle::all()) {
+            assert_eq!(angle_of(&posture, angle), 0.0, "{angle:?} shares its place");
+            *angle_mut(&mut posture, angle).unwrap() = f64::from(index);
+            assert_eq!(angle_of(&posture, angle), f64::from(index));
+        }
+        assert_eq!(
+            Angle::all().count() * size_of::<f64>(),
+            size_of::<Posture>(),
+            "an angle of the posture has no name"
+        );
+        assert!(angle_mut(&mut posture, Angle::SpineYaw(SPINE_JOINTS)).is_none());
+    }
+
+    #[test]
+    fn postures_are_clamped_to_the_ranges() {
+        let ranges = ranges();
+        for seed in 0..200 {
+            let mut posture = ranges.random(seed);
+            let drawn = posture;
+            assert!(inside(&ranges, &posture), "seed {seed}");
+            assert!(!ranges.hold(&mut posture) && posture == drawn, "seed {seed}: held twice");
+            for angle in Angle::all() {
+                *angle_mut(&mut posture, angle).unwrap() *= 10.0;
+            }
+            assert!(ranges.hold(&mut posture) && inside(&ranges, &posture), "seed {seed}");
+        }
+        assert_ne!(ranges.random(1), ranges.random(2));
+    }
+
+    /// Eight joints at 0.1 rad have the sum 0.8 rad; the limit of 0.5 rad is distributed evenly.
+    #[test]
+    fn the_whole_spine_has_its_own_bound() {
+        let mut ranges = JointRanges::unbounded();
+        ranges.spine_total[0] = 0.5;
+        let mut posture = Posture {
+            spine_pitch: [0.1; SPINE_JOINTS],
+            spine_yaw: [0.1; SPINE_JOINTS],
+            ..Posture::default()
+        };
+        assert!(ranges.hold(&mut posture));
+        assert!(posture.spine_pitch.iter().all(|angle| (angle - 0.0625).abs() < 1e-15));
+        assert_eq!(posture.spine_yaw, [0.1; SPINE_JOINTS]);
+        // A wave has greater angles at each joint, but the sum zero.
+        let mut wave = Posture {
+            spine_pitch: [0.4, -0.4, 0.4, -0.4, 0.4, -0.4, 0.4, -0.4],
+            ..Posture::default()
+        };
+        assert!(!ranges.hold(&mut wave));
+    }
 
     /// An arm along -x of two bones, jointed at the origin.
     fn arm() -> Skin {
@@ -139,7 +303,7 @@ mod tests {
         [(bone, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]
     }
 
-    /// Two right angles down: the hand ends below and in front of the elbow, as drawn on paper.
+    /// Two right angles downwards: the hand is below and in front of the elbow.
     #[test]
     fn joints_turn_in_a_chain() {
         let mut posture = Posture::default();

@@ -1,19 +1,89 @@
-//! A tree over a skin, built once for a model: clusters of triangles, bounded in any posture.
+//! Axis-aligned boxes, and a tree over a skin: clusters of triangles with bounds for any posture.
 //!
-//! A vertex is a weighted mean of where its bones take it, so all vertices of a node lie in the hull of
-//! one sphere per bone, the rest sphere of the vertices that bone moves, carried along by the bone.
-//! That bound needs no skinning, holds for every posture, and costs one transform per bone.
+//! A vertex is a weighted mean of its positions under its bones. All vertices of a node are therefore in the convex hull of one
+//! sphere per bone: the bounding sphere at rest of the vertices that the bone moves, transformed by the bone. This bound needs
+//! no skinning, is valid for every posture, and costs one transform per bone.
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use super::Skin;
-use super::bounds::Bounds;
 
-/// Triangles in a leaf.
+/// An axis-aligned box; the empty box has `low` above `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower corner [m].
+    pub low: DVec3,
+    /// Upper corner [m].
+    pub high: DVec3,
+}
+
+impl Bounds {
+    /// The empty box.
+    pub const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    /// Bounding box of points.
+    #[must_use]
+    pub fn around(points: &[DVec3]) -> Self {
+        points.iter().fold(Self::EMPTY, |bounds, &point| bounds.with(point))
+    }
+
+    /// Extended to contain a point.
+    #[must_use]
+    pub fn with(self, point: DVec3) -> Self {
+        Self { low: self.low.min(point), high: self.high.max(point) }
+    }
+
+    /// Extended to contain another box.
+    #[must_use]
+    pub fn join(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Extended by a margin on every side [m].
+    #[must_use]
+    pub fn grown(self, margin: f64) -> Self {
+        Self { low: self.low - margin, high: self.high + margin }
+    }
+
+    /// Whether two boxes intersect.
+    #[inline]
+    pub fn meets(&self, other: &Self) -> bool {
+        (self.low.x <= other.high.x)
+            & (other.low.x <= self.high.x)
+            & (self.low.y <= other.high.y)
+            & (other.low.y <= self.high.y)
+            & (self.low.z <= other.high.z)
+            & (other.low.z <= self.high.z)
+    }
+
+    /// Whether it contains another.
+    #[inline]
+    pub fn holds(&self, other: &Self) -> bool {
+        (self.low.x <= other.low.x)
+            & (self.low.y <= other.low.y)
+            & (self.low.z <= other.low.z)
+            & (other.high.x <= self.high.x)
+            & (other.high.y <= self.high.y)
+            & (other.high.z <= self.high.z)
+    }
+
+    /// Distance between two boxes; zero if they intersect [m].
+    pub fn gap(&self, other: &Self) -> f64 {
+        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
+    }
+
+    /// Length of the longest side [m].
+    pub fn longest(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+}
+
+/// Greatest number of triangles in a leaf.
 const CLUSTER: usize = 32;
-/// Growth of each box over rounding [m].
+
+/// Extension of each box against rounding errors [m].
 const ROUNDING: f64 = 1e-9;
 
 /// Clusters of triangles in a binary tree, with bounds for any posture.
@@ -25,17 +95,17 @@ pub struct SkinTree {
     order: Vec<u32>,
 }
 
-/// A node: its bounding spheres, its triangles, and its children where it is no leaf.
+/// A node: its bounding spheres, its triangles, and its children unless it is a leaf.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     spheres: std::ops::Range<usize>,
-    /// Places of its triangles in the tree's order.
+    /// Range of its triangles in the tree's order.
     pub triangles: std::ops::Range<usize>,
-    /// Indices of its children.
+    /// Indices of its children; `None` for a leaf.
     pub children: Option<[usize; 2]>,
 }
 
-/// Rest sphere of the vertices of a node that one bone moves.
+/// Bounding sphere at rest of the vertices of a node that one bone moves.
 #[derive(Clone, Copy, Debug)]
 struct Sphere {
     bone: usize,
@@ -44,9 +114,14 @@ struct Sphere {
 }
 
 impl SkinTree {
-    /// Builds the tree; the same skin gives the same tree.
+    /// Builds the tree, deterministically.
     #[must_use]
     pub fn new(skin: Arc<Skin>) -> Self {
+        let sum = |weights: &[(u16, f64); 4]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+        debug_assert!(
+            skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-4),
+            "weights of a vertex sum to 1"
+        );
         let centres: Vec<DVec3> = skin
             .triangles
             .iter()
@@ -66,8 +141,7 @@ impl SkinTree {
         tree
     }
 
-    /// The skin it was built for.
-    #[must_use]
+    /// Skin of the tree.
     pub fn skin(&self) -> &Arc<Skin> {
         &self.skin
     }
@@ -76,7 +150,7 @@ impl SkinTree {
         &self.nodes
     }
 
-    /// Levels from the root to the lowest leaf.
+    /// Number of levels from the root to the deepest leaf.
     pub(super) fn depth(&self) -> usize {
         let mut levels = vec![1; self.nodes.len()];
         // Children come after their parent.
@@ -88,12 +162,12 @@ impl SkinTree {
         levels.into_iter().max().unwrap_or(0)
     }
 
-    /// Triangles in the order of the leaves.
+    /// Triangles in the order of leaves.
     pub(super) fn order(&self) -> &[u32] {
         &self.order
     }
 
-    /// A box around all of a node's vertices while each goes straight from where `starts` puts it to where `ends` does.
+    /// Box around all vertices of a node while each moves straight from its position under `starts` to that under `ends`.
     pub(super) fn bound(&self, node: usize, starts: &[DAffine3], ends: &[DAffine3]) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for sphere in &self.spheres[self.nodes[node].spheres.clone()] {
@@ -103,7 +177,7 @@ impl SkinTree {
         bounds.grown(ROUNDING)
     }
 
-    /// A box around all of a node's vertices in one pose.
+    /// Box around all vertices of a node in one pose.
     pub(super) fn bound_at(&self, node: usize, bones: &[DAffine3]) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for sphere in &self.spheres[self.nodes[node].spheres.clone()] {
@@ -112,7 +186,7 @@ impl SkinTree {
         bounds.grown(ROUNDING)
     }
 
-    /// Adds the node over a range of triangles, and those below it; its index.
+    /// Adds the node of a range of triangles and its descendants; returns its index.
     fn grow(
         &mut self,
         triangles: std::ops::Range<usize>,
@@ -136,7 +210,7 @@ impl SkinTree {
         index
     }
 
-    /// Cuts a range across its longest side near the middle, at whole clusters.
+    /// Splits a range across its longest side near the middle, at a multiple of the cluster size.
     fn split(&mut self, triangles: &std::ops::Range<usize>, centres: &[DVec3]) -> usize {
         let order = &mut self.order[triangles.clone()];
         let sides = order
@@ -153,7 +227,7 @@ impl SkinTree {
         triangles.start + half
     }
 
-    /// Adds the spheres of a range of triangles: one around the vertices of each bone that moves any.
+    /// Adds the spheres of a range of triangles, one for each bone that moves any of their vertices.
     fn add_spheres(&mut self, triangles: &std::ops::Range<usize>, vertices: &mut Vertices) {
         let skin = &self.skin;
         vertices.next += 1;
@@ -180,24 +254,25 @@ impl SkinTree {
     }
 }
 
-/// Scratch of growing a tree.
+/// Buffers for building a tree.
 struct Vertices {
-    /// The last node each vertex was seen in, counted from 1.
+    /// Last node that each vertex was added to, numbered from 1.
     seen: Vec<usize>,
     next: usize,
-    /// Places of the vertices of the present node that each bone moves.
+    /// Rest positions of the vertices of the current node that each bone moves.
     moved: Vec<Vec<DVec3>>,
 }
 
 impl Sphere {
-    /// Grows bounds to hold it where its bone carries it.
+    /// Extends bounds to contain the sphere under its bone's transform.
     fn add_to(&self, bounds: &mut Bounds, bones: &[DAffine3]) {
         let centre = bones[self.bone].transform_point3(self.centre);
         bounds.low = bounds.low.min(centre - self.radius);
         bounds.high = bounds.high.max(centre + self.radius);
     }
 
-    /// A small sphere around points: from the middle of their box, then drawn towards the farthest (Bădoiu and Clarkson 2003).
+    /// A small bounding sphere of points: its centre starts in the middle of their box and moves towards the farthest point
+    /// (Bădoiu and Clarkson 2003).
     fn around(bone: usize, points: &[DVec3]) -> Self {
         let sides = Bounds::around(points);
         let mut centre = (sides.low + sides.high) / 2.0;
@@ -215,7 +290,7 @@ impl Sphere {
     }
 }
 
-/// The point farthest from a place, the first where several are.
+/// Returns the point farthest from a position, the first of several.
 fn farthest(points: &[DVec3], from: DVec3) -> DVec3 {
     let mut far = (0.0, from);
     for point in points {

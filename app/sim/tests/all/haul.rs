@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use endline_sim::haul::{Came, Haul, Hauling, endlines};
+use endline_sim::haul::{Haul, HaulEvent, Hauling, endlines};
 use endline_sim::model::{Body, BodyRole, Line, Rope, Seabed, Settings};
 use endline_sim::water::waves::{WaveKind, Waves};
 use endline_sim::water::{Current, Water};
@@ -81,7 +81,7 @@ fn mean_load(model: &Model, how: Hauling, between_m: [f64; 2]) -> f64 {
     let mut haul = begin(model, how);
     haul_until(&mut haul, |haul| {
         if (between_m[0]..between_m[1]).contains(&haul.hauled_m()) {
-            sum += haul.felt().load_n;
+            sum += haul.last_step().load_n;
             count += 1.0;
         }
         haul.hauled_m() > between_m[1]
@@ -124,7 +124,7 @@ fn peak(segments: usize, step_s: f64) -> f64 {
     let mut haul = begin(&model, hauling(0.5));
     haul_until(&mut haul, |haul| {
         if haul.hauled_m() > 2.0 {
-            peak = peak.max(haul.felt().load_n);
+            peak = peak.max(haul.last_step().load_n);
         }
         haul.hauled_m() > 12.0
     });
@@ -156,7 +156,7 @@ fn the_work_of_the_hauler_is_potential_energy_drag_and_motion() {
         let length: f64 = at.rope.segment_length.iter().sum();
         let up = at.rope.velocity.iter().map(|velocity| velocity.length()).sum::<f64>()
             / at.rope.velocity.len() as f64;
-        work += haul.felt().work_j;
+        work += haul.last_step().work_j;
         drag += (0.5 * DENSITY * DRAG_AREA * trap * trap * trap + of_rope * length * up * up * up)
             * 0.005;
         haul.hauled_m() > 20.0
@@ -214,18 +214,26 @@ fn traps_leave_the_seabed_and_come_aboard_one_after_the_other() {
     let mut haul = Haul::begin(&model, &state, endlines(&model)[0], how).expect("gear to haul");
     let (mut came, mut greatest) = (Vec::new(), 0.0_f64);
     haul_until(&mut haul, |haul| {
-        came.extend(haul.felt().came.iter().copied().filter(|came| !matches!(came, Came::Line(_))));
-        greatest = greatest.max(haul.felt().load_n);
+        came.extend(
+            haul.last_step()
+                .events
+                .iter()
+                .copied()
+                .filter(|came| !matches!(came, HaulEvent::Line(_))),
+        );
+        greatest = greatest.max(haul.last_step().load_n);
         haul.state().time_s > 200.0
     });
-    came.extend(haul.felt().came.iter().copied().filter(|came| !matches!(came, Came::Line(_))));
+    came.extend(
+        haul.last_step().events.iter().copied().filter(|came| !matches!(came, HaulEvent::Line(_))),
+    );
     println!("{came:?}, {greatest:.0} N after {:.1} s", haul.state().time_s);
-    let aboard: Vec<_> = came.iter().filter(|came| matches!(came, Came::Aboard(_))).collect();
-    assert_eq!(aboard, [&Came::Aboard(1), &Came::Aboard(2), &Came::Aboard(3)]);
+    let aboard: Vec<_> = came.iter().filter(|came| matches!(came, HaulEvent::Aboard(_))).collect();
+    assert_eq!(aboard, [&HaulEvent::Aboard(1), &HaulEvent::Aboard(2), &HaulEvent::Aboard(3)]);
     for body in 1..=traps {
-        let at = |wanted: Came| came.iter().position(|one| *one == wanted);
-        assert!(at(Came::OffSeabed(body)) < at(Came::Aboard(body)), "{came:?}");
-        assert!(at(Came::OffSeabed(body)).is_some(), "{came:?}");
+        let at = |wanted: HaulEvent| came.iter().position(|one| *one == wanted);
+        assert!(at(HaulEvent::OffSeabed(body)) < at(HaulEvent::Aboard(body)), "{came:?}");
+        assert!(at(HaulEvent::OffSeabed(body)).is_some(), "{came:?}");
     }
     assert!(haul.model().spec.bodies.is_empty() && haul.model().spec.lines.is_empty());
     // A trap that hangs, its drag and its break-out at the least, two that hang and their drag at the most.

@@ -6,8 +6,8 @@ use core::f64::consts::{PI, TAU};
 
 use crate::common::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Body, Float, Seabed, Settings};
-use endline_sim::water::jonswap::Spectrum;
-use endline_sim::water::tide::Tide;
+use endline_sim::water::current::Tide;
+use endline_sim::water::waves::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves, wave_number};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
@@ -325,7 +325,7 @@ fn water_that_cannot_be_is_refused() {
     );
     assert!(
         refused(|water| water.current.tide = Tide::Table(vec![(1.0, DVec3::X), (0.0, DVec3::X)]))
-            .contains("do not rise")
+            .contains("do not increase")
     );
     assert!(
         refused(|water| water.current.surface_m_s.x = f64::NAN).contains("not a finite number")

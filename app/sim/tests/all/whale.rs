@@ -9,7 +9,7 @@ use endline_sdk::{
     Controls, Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
 };
 use endline_sim::model::{Friction, ModelSpec, PilotProgram, Whale};
-use endline_sim::whale::kinetic::added::spheroid;
+use endline_sim::whale::kinetic::hull::spheroid;
 use endline_sim::whale::kinetic::{AxialDrag, Effort, Hull, Muscle};
 use endline_sim::whale::{Bone, JointRanges, Kinetic, Measures, Skin};
 use endline_sim::{DQuat, DVec3};

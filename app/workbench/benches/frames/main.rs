@@ -15,6 +15,7 @@ mod common;
 mod screen;
 
 use endline_session::command::{EditAction, RunAction, StudyAction, TimeAction};
+use endline_session::workbench::Folders;
 use std::time::Instant;
 
 use endline_session::campaign::State;
@@ -114,10 +115,10 @@ fn typing(folder: &Folder) {
     for _ in 0..5 {
         click(&mut screen, pos2(420.0, 300.0));
         screen.frame(letter(0));
-        let version = screen.app.shared.workbench.project.documents.version();
+        let version = screen.app.shared.workbench.project().documents.version();
         committed.push(screen.frame(vec![key(Key::Enter)]));
         assert!(
-            screen.app.shared.workbench.project.documents.version() > version,
+            screen.app.shared.workbench.project().documents.version() > version,
             "the edit is made"
         );
         screen.app.shared.perform(EditAction::Undo);
@@ -161,7 +162,11 @@ fn playing(folder: &Folder) {
         documents.set("scenario", field, value).unwrap();
     }
     let mut screen = Screen::new(documents);
-    screen.app.shared.workbench.recordings = Some(folder.0.join("recordings"));
+    screen
+        .app
+        .shared
+        .workbench
+        .write_to(Folders { recordings: Some(folder.0.join("recordings")), ..Folders::default() });
     run_study(&mut screen, folder);
     screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
     screen.app.panels.library.chosen = Some("ropes/sink-3-8.toml".to_owned());
@@ -309,19 +314,20 @@ fn run_study(screen: &mut Screen, folder: &Folder) {
     let file = folder.0.join("studies/small.toml");
     let text = on_disk(folder, "studies/small.toml").replace("encounters = 6", "encounters = 40");
     std::fs::write(&file, text).unwrap();
-    let studies = &mut screen.app.shared.workbench.studies;
-    (studies.folder, studies.queue.normal_priority) = (Some(folder.0.join("results")), true);
+    let folders = Folders { studies: Some(folder.0.join("results")), ..Folders::default() };
+    screen.app.shared.workbench.write_to(folders);
+    screen.app.shared.perform(StudyAction::FullSpeed(true));
     screen.app.dock = Layout::Study.dock();
     screen.app.shared.perform(StudyAction::Open(file));
     screen.app.shared.perform(StudyAction::Run);
     let ended = |state: &State| matches!(state, State::Done | State::Failed(_));
     screen.wait(|app| {
-        app.shared.workbench.studies.queue.jobs.last().is_none_or(|job| ended(&job.state()))
+        app.shared.workbench.studies().queue.jobs.last().is_none_or(|job| ended(&job.state()))
     });
-    let state = screen.app.shared.workbench.studies.queue.jobs.last().map(StudyJob::state);
-    assert_eq!(state, Some(State::Done), "{:?}", screen.app.shared.workbench.notice);
+    let state = screen.app.shared.workbench.studies().queue.jobs.last().map(StudyJob::state);
+    assert_eq!(state, Some(State::Done), "{:?}", screen.app.shared.workbench.notice());
     screen.wait(|app| {
-        !app.shared.workbench.studies.results.busy()
-            && app.shared.workbench.studies.results.shown().is_some_and(|shown| shown.whole)
+        !app.shared.workbench.studies().results.busy()
+            && app.shared.workbench.studies().results.shown().is_some_and(|shown| shown.whole)
     });
 }

@@ -91,7 +91,7 @@ impl Screen {
                 Instant::now() < patience,
                 "timeout: {:?} {:?}",
                 self.app.shared.workbench.status(),
-                self.app.shared.workbench.notice
+                self.app.shared.workbench.notice()
             );
             std::thread::sleep(Duration::from_millis(25));
             self.frame(Vec::new());

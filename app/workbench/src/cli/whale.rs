@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use endline_gear::whale::edges::smallest_radius;
+use endline_gear::whale::fin::smallest_radius;
 use endline_gear::whale::gltf::{About, Form, write};
 use endline_gear::{Diagnostic, Library, Sources};
 use endline_sdk::Limb;

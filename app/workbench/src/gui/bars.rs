@@ -115,9 +115,12 @@ fn menus_right(ui: &mut Ui, shared: &mut Shared) {
     if room < UNITS {
         return;
     }
+    let now = shared.workbench.preferences().units;
     for units in Units::ALL.into_iter().rev() {
-        ui.selectable_value(&mut shared.workbench.preferences.units, units, units.name())
-            .on_hover_text(units.help());
+        let label = ui.selectable_label(units == now, units.name()).on_hover_text(units.help());
+        if label.clicked() {
+            shared.give(WindowAction::Units(units));
+        }
     }
     if room < UNITS + LAYOUTS {
         return;
@@ -263,8 +266,8 @@ fn film(ui: &mut Ui, shared: &mut Shared) {
 fn status_right(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     let problems =
-        shared.workbench.project.problems().count() + shared.workbench.plugins.problems.len();
-    let unsaved = shared.workbench.project.documents.unsaved().len();
+        shared.workbench.project().problems().count() + shared.workbench.plugins().problems.len();
+    let unsaved = shared.workbench.project().documents.unsaved().len();
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let (text, colour) = match problems {
             0 => ("no problems".to_owned(), palette.faint),
@@ -278,7 +281,7 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
         }
         let message = shared.workbench.view().and_then(|view| view.message.clone());
-        let notice = shared.workbench.notice.clone().or(message.map(Notice::done));
+        let notice = shared.workbench.notice().cloned().or(message.map(Notice::done));
         if let Some(Notice { text: notice, kind }) = notice {
             let colour = match kind {
                 NoticeKind::Done => palette.good,

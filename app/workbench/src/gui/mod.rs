@@ -25,8 +25,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use endline_session::edit::Documents;
-use endline_session::edit::recovery::Autosave;
 use endline_session::task::Waker;
+use endline_session::workbench::Folders;
 use endline_session::{live, load_with, locate};
 
 use crate::embedded;
@@ -76,12 +76,9 @@ pub fn open(options: Options) -> Result<(), String> {
         let waker: Waker = Arc::new(move || context.request_repaint());
         let mut shared =
             Shared::new(documents, host, live::engine::live(), waker, Pilot::new(pads()));
-        shared.workbench.plugins.load_with(loader, Arc::new(load_with), refused);
+        shared.workbench.load_plugins_with(loader, Arc::new(load_with), refused);
         if let Some(folder) = &data {
-            shared.workbench.project.autosave = Autosave::in_folder(folder.clone());
-            shared.workbench.recordings = Some(folder.join("recordings"));
-            shared.workbench.studies.folder = Some(folder.join("studies"));
-            shared.workbench.searches.folder = Some(folder.join("searches"));
+            shared.workbench.write_to(Folders::within(folder));
             shared.pages = Some(folder.join("documents"));
         }
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, shared));

@@ -112,7 +112,7 @@ impl Questions {
             });
         });
         if self.leave {
-            shared.workbench.project.autosave.clear();
+            shared.workbench.forget_unsaved();
             context.send_viewport_cmd(egui::ViewportCommand::Close);
         }
     }
@@ -212,7 +212,7 @@ pub fn newer(context: &Context, shared: &mut Shared) {
 
 /// Asks before a plugin is loaded that is new or has changed since it was allowed.
 pub fn plugin(context: &Context, shared: &mut Shared) {
-    let Some((file, ask)) = shared.workbench.plugins.asked() else { return };
+    let Some((file, ask)) = shared.workbench.plugins().asked() else { return };
     let title = if ask.change == Change::New { "A new plugin" } else { "A plugin has changed" };
     let window = Window::new(title)
         .collapsible(false)
@@ -247,14 +247,14 @@ pub fn plugin(context: &Context, shared: &mut Shared) {
         )
         .on_hover_text(&ask.hash);
         ui.horizontal(|ui| {
-            if primary(ui, !shared.workbench.plugins.busy(), "Allow")
+            if primary(ui, !shared.workbench.plugins().busy(), "Allow")
                 .on_hover_text("Checks it in a separate process, then loads it")
                 .clicked()
             {
                 shared.give(PluginAction::Allow { file: file.clone(), hash: ask.hash.clone() });
             }
             if ui.button("Not now").clicked() {
-                shared.workbench.plugins.put_off(&ask);
+                shared.workbench.put_off_plugin(&ask);
             }
         });
     });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use endline_gear::{Document, Kind};
 use endline_session::PluginHost;
-use endline_session::command::Command;
+use endline_session::command::{Command, EditAction};
 use endline_session::edit::Documents;
 use endline_session::live::engine::Launch;
 use endline_session::task::Waker;
@@ -42,6 +42,8 @@ pub struct Shared {
     pub thumbnail: Thumbnail,
     /// Folder for documents as HTML pages; `None` if the system has no data folder.
     pub pages: Option<PathBuf>,
+    /// Panels drawn in this frame.
+    pub drawn: Vec<PanelId>,
     /// Commands of the panels, performed after drawing.
     pub commands: Vec<WindowCommand>,
 }
@@ -100,20 +102,14 @@ impl Shared {
             film: None,
             thumbnail: Thumbnail::default(),
             pages: None,
+            drawn: Vec::new(),
             commands: Vec::new(),
         }
     }
 
     /// The open files.
     pub fn documents(&self) -> &Documents {
-        &self.workbench.project.documents
-    }
-
-    /// Edits an open file as one step of undo, and reports a failure in the notice.
-    pub fn alter(&mut self, path: &str, edit: impl FnOnce(&mut Document) -> Result<(), String>) {
-        if let Err(error) = self.workbench.project.documents.alter(path, edit) {
-            self.fault(error);
-        }
+        &self.workbench.project().documents
     }
 
     /// Whether only the 3-D view is shown.
@@ -132,24 +128,55 @@ impl Shared {
         let _ = self.workbench.perform(command.into());
     }
 
+    /// Sets a field of a text; the notice says what else changed, or why it failed.
+    pub fn set(&mut self, path: &str, field: &str, value: &str) {
+        let [path, field, value] = [path, field, value].map(str::to_owned);
+        self.perform(EditAction::Set { path, field, value });
+    }
+
+    /// Sets a field while a slider is moved.
+    pub fn set_held(&mut self, path: &str, field: &str, value: &str) {
+        let [path, field, value] = [path, field, value].map(str::to_owned);
+        self.perform(EditAction::SetHeld { path, field, value });
+    }
+
+    /// Replaces a text by what a change makes of it. Returns whether it did; the notice has the reason if not.
+    pub fn alter(
+        &mut self,
+        path: &str,
+        change: impl FnOnce(&mut Document) -> Result<(), String>,
+    ) -> bool {
+        match self.workbench.project().documents.altered(path, change) {
+            Ok(text) => {
+                self.perform(EditAction::Replace { path: path.to_owned(), text });
+                true
+            }
+            Err(reason) => {
+                self.fault(reason);
+                false
+            }
+        }
+    }
+
     /// Processes a finished film and a finished thumbnail.
     pub fn refresh_pictures(&mut self) {
         if self.thumbnail.ended() {
             self.workbench.recordings_changed();
         }
         if let Some(notice) = self.film.as_mut().and_then(FilmJob::ended) {
-            (self.film, self.workbench.notice) = (None, Some(notice));
+            self.film = None;
+            self.workbench.say(notice);
         }
     }
 
     /// Reports a failure and its reason in the notice.
     pub fn fault(&mut self, text: impl Into<String>) {
-        self.workbench.notice = Some(Notice::fault(text));
+        self.workbench.say(Notice::fault(text));
     }
 
     /// Reports in the notice that a file was written, or why not.
     pub fn notice_saved(&mut self, path: &std::path::Path, written: Result<(), String>) {
-        self.workbench.notice = Some(match written {
+        self.workbench.say(match written {
             Ok(()) => Notice::done(format!("saved {}", path.display())),
             Err(error) => Notice::fault(format!("{}: {error}", path.display())),
         });

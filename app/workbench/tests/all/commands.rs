@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use endline_session::command::{EditAction, Make, RunAction};
 use endline_session::live::Status;
+use endline_session::workbench::Folders;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::{PanelAction, WindowAction, WindowCommand};
 use endline_workbench::gui::command::{Declared, declared};
@@ -20,28 +21,32 @@ use crate::search::add_observation;
 fn fingerprint(harness: &Window, received: &Received) -> String {
     let app = harness.state();
     let (shared, panels) = (&app.shared, &app.panels);
-    let (workbench, documents) = (&shared.workbench, &shared.workbench.project.documents);
+    let (workbench, documents) = (&shared.workbench, &shared.workbench.project().documents);
     let view = workbench.view().map(|view| (view.status.clone(), view.frame.step, view.speed));
-    let jobs = workbench.studies.queue.jobs.iter().map(|job| job.state()).collect::<Vec<_>>();
+    let jobs = workbench.studies().queue.jobs.iter().map(|job| job.state()).collect::<Vec<_>>();
     let texts = (
         (documents.version(), documents.scenario_path()),
         (documents.study_path(), documents.observation_path()),
     );
-    let search = workbench.searches.job.as_ref().map(|job| (job.state(), job.request.only_reads));
-    let work =
-        (search, workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
+    let search = workbench.searches().job.as_ref().map(|job| (job.state(), job.request.only_reads));
+    let work = (
+        search,
+        workbench.making(),
+        workbench.plugins().busy(),
+        workbench.studies().results.busy(),
+    );
     let eyes: Vec<_> = panels.view.eyes.iter().map(|eye| (eye.named, eye.follow)).collect();
     let keys: Vec<f64> = panels.view.path.times().collect();
     let picks = (&panels.view.picks, keys, panels.view.eyes.iter().any(|eye| eye.frame_again));
     let flight = (shared.flying, shared.posing, shared.pilot.act(), shared.pilot.mouth_open());
     let chosen = (panels.library.kind(), &panels.library.chosen, panels.program.chosen);
     let dock = serde_json::to_string(&app.dock).unwrap();
-    let settings = serde_json::to_string(&(&shared.preferences, &workbench.preferences)).unwrap();
+    let settings = serde_json::to_string(&(&shared.preferences, &workbench.preferences())).unwrap();
     let window = (harness.ctx.zoom_factor(), app.palette.is_open(), &app.questions.opening);
     format!(
         "{received:?} {view:?} {jobs:?} {texts:?} {work:?} {eyes:?} {picks:?} {flight:?} {chosen:?} \
          {:?} {} {dock} {settings} {window:?}",
-        workbench.notice,
+        workbench.notice(),
         workbench.comparison().is_some()
     )
 }
@@ -65,13 +70,13 @@ fn every_command(
             if asks || info.id() == "window.quit" {
                 continue;
             }
-            harness.workbench_mut().notice = None;
+            harness.workbench_mut().dismiss_notice();
             harness.run_steps(1);
             let enabled = info.enabled(&harness.state().shared);
             let before = fingerprint(harness, received);
             harness.state_mut().shared.give(offer.command.clone());
             harness.run_steps(1);
-            let notice = harness.workbench().notice.clone();
+            let notice = harness.workbench().notice().cloned();
             let effect = effects.entry(info.id()).or_default();
             match enabled {
                 Ok(()) if fingerprint(harness, received) != before => {
@@ -95,8 +100,12 @@ fn every_declared_command_has_an_effect_or_a_reason() {
     add_study(&folder);
     add_observation(&folder);
     let (mut harness, received) = workbench(&folder, Pilot::default());
-    harness.workbench_mut().studies.folder = Some(folder.0.join("results"));
-    harness.workbench_mut().searches.folder = Some(folder.0.join("results"));
+    harness
+        .workbench_mut()
+        .write_to(Folders { studies: Some(folder.0.join("results")), ..Folders::default() });
+    harness
+        .workbench_mut()
+        .write_to(Folders { searches: Some(folder.0.join("results")), ..Folders::default() });
     let mut effects = BTreeMap::new();
     every_command(&mut harness, &received, &mut effects);
     // Again while the whale is steered, with a selected entry and an edit to undo.

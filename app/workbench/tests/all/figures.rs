@@ -19,7 +19,7 @@ use crate::common::{Folder, Reach as _, Window, flown, give, only, opened, wait}
 
 /// Checks that the figures of a view are on screen, and that figures without a value are not; returns their number.
 fn count_figures<S>(harness: &Window, figures: &[Figure<S>], sources: &[S], view: View) -> usize {
-    let units = harness.workbench().preferences.units;
+    let units = harness.workbench().preferences().units;
     let check = |figure: &Figure<S>, source: &S| {
         let value = figure.quantity.text(&(figure.read)(source), units);
         for text in [capital(figure.label), value] {
@@ -68,7 +68,7 @@ fn the_run_panel_shows_the_largest_share_of_computing_time() {
     only(&mut harness, PanelId::RUN);
     let shown = harness.view();
     let (greatest, share) = shares(&shown.cost)[0];
-    let text = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
+    let text = format!("Computing time: {} {:.0} %", greatest.label, 100.0 * share);
     harness.get_by_label_contains(&text);
 }
 
@@ -99,7 +99,7 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     let mut harness = opened(folder.documents(), launch, Pilot::default());
     only(&mut harness, PanelId::RUN);
     harness.get_by_label_contains("Not valid: 30 % of the solver steps in touch did not converge");
-    harness.get_by_label_contains("Resolution near the whale not kept for 25 % of the time");
+    harness.get_by_label_contains("Resolution near the whale insufficient for 25 % of the time");
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn the_comparison_shows_every_figure_that_is_declared_for_it() {
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     only(&mut harness, PanelId::COMPARE);
     let (a, b) = (harness.view(), harness.workbench().compared_view().unwrap());
-    let all = groups(&a, &b, harness.workbench().preferences.units);
+    let all = groups(&a, &b, harness.workbench().preferences().units);
     let whale = &all.iter().find(|(head, _)| *head == "Whale").unwrap().1;
     assert_eq!(whale.len(), shown(WHALE, View::Compare).count());
     let lines = &all.iter().find(|(head, _)| *head == "Lines").unwrap().1;

@@ -129,10 +129,7 @@ fn the_statics_at_slack_and_running_tide_follow_the_scope() {
     };
     assert!((length(&harness) - 1.3 * 25.0).abs() < 0.1, "{}", length(&harness));
     for scope in ["1.5", "1.8", "2"] {
-        harness
-            .documents_mut()
-            .set_held("assemblies/single.toml", "attributes.scope", scope)
-            .unwrap();
+        harness.state_mut().shared.set_held("assemblies/single.toml", "attributes.scope", scope);
     }
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
@@ -305,13 +302,13 @@ fn two_assemblies_are_compared_and_a_gear_type_starts_a_new_one() {
     assert!(
         shared
             .workbench
-            .project
+            .project()
             .documents
             .unsaved()
             .iter()
             .any(|path| path.starts_with("assemblies/my-")),
         "{:?}",
-        shared.workbench.project.documents.unsaved()
+        shared.workbench.project().documents.unsaved()
     );
 }
 

@@ -1,6 +1,7 @@
 //! Parts of the whole window: menus, layouts, start page, recovery after a crash, recordings, plots, pad, glyphs.
 
 use endline_session::command::{EditAction, RunAction, TimeAction};
+use endline_session::workbench::Folders;
 use endline_workbench::gui::command::action::PanelAction;
 use std::collections::BTreeSet;
 use std::fs;
@@ -37,7 +38,7 @@ fn edits_of_a_killed_program_are_recovered_and_undone_in_one_step() {
     let data = folder.0.join("data");
     fs::create_dir_all(&data).unwrap();
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.workbench_mut().project.autosave = Autosave::in_folder(data.clone());
+    harness.workbench_mut().write_to(Folders { unsaved: Some(data.clone()), ..Folders::default() });
     harness.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
     harness.set("ropes/nylon-1-2.toml", "strength", "25 kN");
     let kept = data.join(format!("recovery-{}.json", std::process::id()));
@@ -51,7 +52,7 @@ fn edits_of_a_killed_program_are_recovered_and_undone_in_one_step() {
     fs::rename(kept, data.join("recovery-4294967295.json")).unwrap();
 
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.workbench_mut().project.autosave = Autosave::in_folder(data.clone());
+    harness.workbench_mut().write_to(Folders { unsaved: Some(data.clone()), ..Folders::default() });
     harness.state_mut().questions.left_behind = Autosave::in_folder(data.clone()).left_behind();
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
@@ -239,7 +240,7 @@ fn a_button_of_the_start_page_opens_the_gear_it_names() {
 
     harness.get_by_label("Trawl of ten").click();
     wait(&mut harness, |app| {
-        app.shared.workbench.project.documents.scenario_path().ends_with("trawl-10.toml")
+        app.shared.workbench.project().documents.scenario_path().ends_with("trawl-10.toml")
     });
 }
 

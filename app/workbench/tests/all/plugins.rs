@@ -39,14 +39,14 @@ fn opened_on(folder: &Folder, place: &Path, scenario: &str) -> Window {
     let mut harness = real(folder, scenario);
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path, _: &str| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
-    harness.workbench_mut().plugins.load_with(loader, load, Vec::new());
+    harness.workbench_mut().load_plugins_with(loader, load, Vec::new());
     harness.state_mut().shared.give(PanelAction::Show(PanelId::PLUGINS));
     harness.run_steps(3);
     harness
 }
 
 fn reloaded(harness: &mut Window, times: u64) {
-    wait(harness, |app| app.shared.workbench.plugins.reloads == times);
+    wait(harness, |app| app.shared.workbench.plugins().reloads == times);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn a_plugin_is_listed_reloaded_after_a_change_and_switched_off() {
     harness.run_steps(2);
     reloaded(&mut harness, 3);
     assert_eq!(
-        harness.workbench().plugins.every().iter().map(|plugin| plugin.on).collect::<Vec<_>>(),
+        harness.workbench().plugins().every().iter().map(|plugin| plugin.on).collect::<Vec<_>>(),
         [false]
     );
     assert!(harness.workbench().gear_types().is_empty());
@@ -92,7 +92,7 @@ fn an_unknown_library_is_opened_only_after_a_question() {
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 1);
-    assert!(matches!(harness.workbench().plugins.problems[0].standing, Standing::Waiting(_)));
+    assert!(matches!(harness.workbench().plugins().problems[0].standing, Standing::Waiting(_)));
     assert!(
         harness.query_by_label_contains("with your rights: allow it only if").is_some(),
         "the question is shown"
@@ -100,7 +100,7 @@ fn an_unknown_library_is_opened_only_after_a_question() {
     harness.get_all_by_label("Allow").last().unwrap().click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
-    let problem = harness.workbench().plugins.problems[0].clone();
+    let problem = harness.workbench().plugins().problems[0].clone();
     assert!(
         problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
         "{problem}"
@@ -115,7 +115,7 @@ fn an_unknown_library_is_opened_only_after_a_question() {
     harness.get_by_label("Not now").click();
     harness.run_steps(2);
     assert!(harness.query_by_label("Not now").is_none());
-    assert!(matches!(harness.workbench().plugins.problems[0].standing, Standing::Waiting(_)));
+    assert!(matches!(harness.workbench().plugins().problems[0].standing, Standing::Waiting(_)));
 }
 
 #[test]
@@ -125,23 +125,20 @@ fn a_friction_law_is_used_in_the_scenario_and_its_attributes_have_a_form() {
     let id = "org.endline.friction.coulomb";
     let motion = harness
         .workbench()
-        .plugins
+        .plugins()
         .every()
         .into_iter()
         .find(|plugin| plugin.info.id == "org.endline.motion.swim")
         .unwrap()
         .info;
     assert!(harness.workbench().uses_plugin(&motion));
-    harness
-        .documents_mut()
-        .set(Documents::SCENARIO, "friction.model", "org.example.friction.other")
-        .unwrap();
+    harness.set(Documents::SCENARIO, "friction.model", "org.example.friction.other");
     let other = |scenario: &mut Document| {
         scenario
             .put("friction.attributes.slip", &Setting::text("0.1 m"))
             .map_err(|error| error.to_string())
     };
-    harness.documents_mut().alter(Documents::SCENARIO, other).unwrap();
+    harness.alter(Documents::SCENARIO, other);
     harness.state_mut().panels.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();

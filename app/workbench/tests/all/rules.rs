@@ -4,7 +4,7 @@ use egui_kittest::kittest::Queryable;
 use endline_session::command::{EditAction, RuleAction};
 use endline_session::edit::Documents;
 use endline_session::rules::Verdict;
-use endline_session::workbench::RuleAnswer;
+use endline_session::workbench::{Folders, RuleAnswer, RuleQuestion};
 use endline_workbench::gui::panel::PanelId;
 
 use crate::common::{Folder, Reach as _, Window, give, on_disk, real, retype, wait};
@@ -21,22 +21,30 @@ fn checking(folder: &Folder) -> Window {
     std::fs::copy(shipped.join(study), folder.0.join(study)).unwrap();
     let mut harness = real(folder, "hello-endline");
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RULES.id().to_owned()]);
-    let question = &mut harness.workbench_mut().rules.question;
-    "single".clone_into(&mut question.assembly);
-    "me-b".clone_into(&mut question.area);
+    ask(&mut harness, |question| {
+        "single".clone_into(&mut question.assembly);
+        "me-b".clone_into(&mut question.area);
+    });
     harness.run_steps(3);
     harness
 }
 
+/// Asks about another place, day or gear.
+fn ask(harness: &mut Window, change: impl FnOnce(&mut RuleQuestion)) {
+    let mut question = harness.workbench().rules().question.clone();
+    change(&mut question);
+    harness.perform(RuleAction::Ask(question));
+}
+
 fn answer<'a>(harness: &'a Window) -> Option<&'a RuleAnswer> {
-    harness.workbench().rules.answer.as_ref()
+    harness.workbench().rules().answer.as_ref()
 }
 
 /// Draws until the edits for the current question have been tried.
 fn wait_for_edits(harness: &mut Window) {
     wait(harness, |app| {
         let (rules, documents) =
-            (&app.shared.workbench.rules, &app.shared.workbench.project.documents);
+            (&app.shared.workbench.rules(), &app.shared.workbench.project().documents);
         let so = |one: &RuleAnswer| {
             one.remedies.is_some()
                 && one.question == rules.question
@@ -56,15 +64,14 @@ fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
     let folder = Folder::new("rules");
     let mut harness = checking(&folder);
     wait_for_edits(&mut harness);
-    let today = harness.workbench().rules.question.on.clone();
+    let today = harness.workbench().rules().question.on.clone();
     retype(&mut harness, &today, "June");
-    wait(&mut harness, |app| !app.shared.workbench.rules.why.is_empty());
+    wait(&mut harness, |app| !app.shared.workbench.rules().why.is_empty());
     assert!(harness.query_all_by_label_contains("day `June`").next().is_some());
     retype(&mut harness, "June", "2024-06-01");
     wait_for_edits(&mut harness);
     assert_eq!(verdict(&harness, TWO), Verdict::CannotBeChecked, "the distance is unknown");
-    let question = &mut harness.workbench_mut().rules.question;
-    "5 nmi".clone_into(&mut question.distance);
+    ask(&mut harness, |question| question.distance = "5 nmi".to_owned());
     wait_for_edits(&mut harness);
     assert_eq!(verdict(&harness, TWO), Verdict::Fail);
 
@@ -79,7 +86,7 @@ fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
         let documents = harness.documents();
         documents.text(ASSEMBLY).unwrap().to_owned()
     };
-    harness.get_all_by_label("Take this edit").next().unwrap().click();
+    harness.get_all_by_label("Apply this edit").next().unwrap().click();
     harness.run_steps(3);
     assert_eq!(text(&harness), edits[0].text);
     wait_for_edits(&mut harness);
@@ -102,8 +109,8 @@ fn an_opened_scenario_is_checked_with_its_own_gear() {
     let question_after_opening = |harness: &mut Window, scenario: &str| {
         let path = folder.0.join("scenarios").join(scenario).with_extension("toml");
         harness.perform(EditAction::OpenScenario(path));
-        wait(harness, |app| !app.shared.workbench.rules.busy());
-        harness.workbench().rules.question.assembly.clone()
+        wait(harness, |app| !app.shared.workbench.rules().busy());
+        harness.workbench().rules().question.assembly.clone()
     };
     assert_eq!(question_after_opening(&mut harness, "trawl-10"), "trawl-10");
     assert_eq!(
@@ -111,7 +118,7 @@ fn an_opened_scenario_is_checked_with_its_own_gear() {
         "",
         "it has its own parts, no assembly"
     );
-    let why = &harness.workbench().rules.why;
+    let why = &harness.workbench().rules().why;
     assert!(why.contains("choose an assembly"), "{why}");
     assert_eq!(question_after_opening(&mut harness, "hello-endline"), "single");
 }
@@ -120,12 +127,14 @@ fn an_opened_scenario_is_checked_with_its_own_gear() {
 fn a_button_writes_the_compliance_sheet_for_the_question_on_screen() {
     let folder = Folder::new("rules-sheet");
     let mut harness = checking(&folder);
-    harness.workbench_mut().studies.folder = Some(folder.0.join("results"));
-    harness.workbench_mut().rules.question.on = "2024-06-01".to_owned();
+    harness
+        .workbench_mut()
+        .write_to(Folders { studies: Some(folder.0.join("results")), ..Folders::default() });
+    ask(&mut harness, |question| question.on = "2024-06-01".to_owned());
     wait_for_edits(&mut harness);
     harness.get_by_label("Compliance sheet").click();
-    wait(&mut harness, |app| app.shared.workbench.rules.page().is_some());
-    let page = harness.workbench().rules.page().unwrap().to_owned();
+    wait(&mut harness, |app| app.shared.workbench.rules().page().is_some());
+    let page = harness.workbench().rules().page().unwrap().to_owned();
     assert!(page.ends_with("results/sheets/single-me-b-2024-06-01.html"), "{}", page.display());
     let text = std::fs::read_to_string(&page).unwrap();
     let hauled = "at the hauler, with 1 of its traps and anchors off the seabed";
@@ -142,7 +151,7 @@ fn a_button_writes_the_compliance_sheet_for_the_question_on_screen() {
     give(&mut harness, EditAction::Undo);
     wait_for_edits(&mut harness);
     assert_eq!(offered(&harness), [true, false]);
-    harness.workbench_mut().rules.question.distance = "5 nmi".to_owned();
+    ask(&mut harness, |question| question.distance = "5 nmi".to_owned());
     wait_for_edits(&mut harness);
     assert_eq!(offered(&harness), [false, true], "the distance has changed since");
 }
@@ -152,7 +161,7 @@ fn two_ticked_rules_become_a_study_with_an_option_for_each() {
     let folder = Folder::new("rules-study");
     let mut harness = checking(&folder);
     wait_for_edits(&mut harness);
-    harness.workbench_mut().rules.question.distance = "5 nmi".to_owned();
+    ask(&mut harness, |question| question.distance = "5 nmi".to_owned());
     wait_for_edits(&mut harness);
     harness.get_by_label(&format!("compare {TWO}")).click();
     harness.run_steps(3);
@@ -161,9 +170,9 @@ fn two_ticked_rules_become_a_study_with_an_option_for_each() {
     harness.state_mut().panels.rules.compared.push(ONE.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Compare 2 options …").click();
-    wait(&mut harness, |app| app.shared.workbench.project.documents.study_path().is_some());
+    wait(&mut harness, |app| app.shared.workbench.project().documents.study_path().is_some());
     let workbench = harness.workbench();
-    let documents = &workbench.project.documents;
+    let documents = &workbench.project().documents;
     assert!(workbench.study_is_sound(), "{:?}", documents.problems());
     assert!(documents.study_path().unwrap().ends_with("studies/single-rules.toml"));
     let option = |index: usize| documents.field(Documents::STUDY, &format!("option.{index}.id"));

@@ -49,7 +49,7 @@ fn the_inputs_of_a_run_become_a_program_that_is_edited_and_rerun_from_a_moment()
     wait(&mut harness, |app| {
         app.shared
             .workbench
-            .project
+            .project()
             .documents
             .text(Documents::SCENARIO)
             .is_some_and(|text| text.contains("# Flown"))
@@ -108,7 +108,7 @@ fn the_inputs_of_a_recording_become_a_separate_scenario() {
             && view.status != Status::Running
     });
     give(&mut harness, EditAction::EditInputs);
-    wait(&mut harness, |app| app.shared.workbench.project.documents.scenario_path() != open);
+    wait(&mut harness, |app| app.shared.workbench.project().documents.scenario_path() != open);
     let (copy, program) = documents(&harness);
     assert!(program.contains("# Flown") && !copy.exists(), "{}", copy.display());
     give(&mut harness, EditAction::Save);

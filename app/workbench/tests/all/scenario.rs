@@ -135,10 +135,10 @@ fn save_as_does_not_change_the_first_file() {
     assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
     let shared = &harness.state().shared;
     assert!(
-        shared.workbench.project.documents.scenario_path() == other
-            && shared.workbench.project.documents.unsaved().is_empty()
+        shared.workbench.project().documents.scenario_path() == other
+            && shared.workbench.project().documents.unsaved().is_empty()
     );
-    assert_eq!(shared.workbench.preferences.recent.first(), Some(&other));
+    assert_eq!(shared.workbench.preferences().recent.first(), Some(&other));
 }
 
 #[test]
@@ -162,23 +162,20 @@ fn weak_links_and_friction_are_edited_without_loss_of_comments_and_undone() {
     click(&mut harness, "baleen");
     assert_eq!(field(&harness, "friction.on.0.surfaces.0").as_deref(), Some("baleen"));
 
-    harness
-        .documents_mut()
-        .alter(Documents::SCENARIO, |text| {
-            let value = endline_gear::Setting::plain("1.25");
-            text.put("friction.attributes.coefficient_scale", &value)
-                .map_err(|error| error.to_string())
-        })
-        .unwrap();
+    harness.alter(Documents::SCENARIO, |text| {
+        let value = endline_gear::Setting::plain("1.25");
+        text.put("friction.attributes.coefficient_scale", &value).map_err(|error| error.to_string())
+    });
     harness.run_steps(3);
     retype(&mut harness, "1.25", "-3");
     harness.perform(RunAction::Apply);
     wait(&mut harness, |app| {
-        !app.shared.workbench.making() && !app.shared.workbench.project.model_problems().is_empty()
+        !app.shared.workbench.making()
+            && !app.shared.workbench.project().model_problems().is_empty()
     });
     let wrong = harness
         .workbench()
-        .project
+        .project()
         .problem_at(Documents::SCENARIO, "friction.attributes.coefficient_scale")
         .unwrap();
     assert!(wrong.line > 0, "{wrong}");
@@ -264,7 +261,7 @@ fn click(harness: &mut Window, label: &str) {
 fn a_field_shows_its_value_in_the_selected_units_and_keeps_its_own() {
     let folder = Folder::new("field-units");
     let mut harness = real(&folder, "hello-endline");
-    harness.workbench_mut().preferences.units = Units::Noaa;
+    harness.workbench_mut().set_units(Units::Noaa);
     only(&mut harness, PanelId::SCENARIO);
     harness.get_all_by_value("0.25 m/s").next().unwrap().hover();
     harness.run_steps(60);

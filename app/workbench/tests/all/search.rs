@@ -7,6 +7,7 @@ use endline_session::command::{EditAction, SearchAction};
 use endline_session::edit::Documents;
 use endline_session::live::{Status, engine};
 use endline_session::search::SearchJob;
+use endline_session::workbench::{Folders, SearchEffort};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::layout::Layout;
@@ -14,6 +15,10 @@ use endline_workbench::gui::panel::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, Reach as _, Window, give, linked, on_disk, opened_with, retype, wait};
+
+/// A short search at normal priority, because other tests run at the same time.
+const EFFORT: SearchEffort =
+    SearchEffort { trials: 32, threads: 2, neighbours: 0, normal_priority: true };
 
 /// Encounters of a few seconds with coarse rope.
 const STUDY: &str = r#"format = 1
@@ -68,17 +73,16 @@ pub fn add_observation(folder: &Folder) {
 fn searching(folder: &Folder) -> Window {
     add_observation(folder);
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
-    let searches = &mut harness.workbench_mut().searches;
-    // Other tests run at the same time, so the work keeps normal priority.
-    (searches.folder, searches.normal_priority) = (Some(folder.0.join("searches")), true);
-    (searches.trials, searches.threads, searches.neighbours) = (32, 2, 0);
+    let searches = Some(folder.0.join("searches"));
+    harness.workbench_mut().write_to(Folders { searches, ..Folders::default() });
+    harness.perform(SearchAction::Effort(EFFORT));
     give(&mut harness, PanelAction::Arrange(Layout::Search));
     give(&mut harness, SearchAction::Open(folder.0.join("observations/quick.toml")));
     harness
 }
 
 fn state(app: &App) -> Option<State> {
-    app.shared.workbench.searches.job.as_ref().map(SearchJob::state)
+    app.shared.workbench.searches().job.as_ref().map(SearchJob::state)
 }
 
 /// Clicks on the largest map of the whale from above: x from tail to snout, y from left to right, as shares.
@@ -127,7 +131,7 @@ fn an_observation_is_entered_on_the_body_map_and_its_stories_are_replayed_to_the
     assert!(documents.is_unsaved(Documents::OBSERVATION));
     assert_eq!(on_disk(&folder, "observations/quick.toml"), before, "nothing is saved");
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let found = harness.workbench().searches.job.as_ref().unwrap().found();
+    let found = harness.workbench().searches().job.as_ref().unwrap().found();
     let stories = found.stories.unwrap();
     assert!(!stories.stories.is_empty() && stories.trials == 32, "{stories:?}");
     let says = stories.answer();
@@ -146,8 +150,8 @@ fn an_observation_is_entered_on_the_body_map_and_its_stories_are_replayed_to_the
     give(&mut harness, EditAction::OpenScenario(kept));
     wait(&mut harness, |app| !app.shared.workbench.making());
     let workbench = harness.workbench();
-    assert!(!workbench.project.documents.any_error());
-    let name = workbench.project.documents.field(Documents::SCENARIO, "name").unwrap();
+    assert!(!workbench.project().documents.any_error());
+    let name = workbench.project().documents.field(Documents::SCENARIO, "name").unwrap();
     assert!(name.starts_with("A quick case: first the"), "{name}");
 }
 
@@ -156,20 +160,20 @@ fn a_search_is_cancelled_and_continued_and_found_again_with_its_observation() {
     let folder = Folder::new("search-on");
     let mut harness = searching(&folder);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    harness.workbench_mut().searches.trials = 256;
+    harness.perform(SearchAction::Effort(SearchEffort { trials: 256, ..EFFORT }));
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| {
-        app.shared.workbench.searches.job.as_ref().unwrap().progress().encounters.done > 2
+        app.shared.workbench.searches().job.as_ref().unwrap().progress().encounters.done > 2
     });
     give(&mut harness, SearchAction::Pause);
     assert_eq!(state(harness.state()), Some(State::Paused));
     give(&mut harness, SearchAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    harness.workbench_mut().searches.trials = 64;
+    harness.perform(SearchAction::Effort(SearchEffort { trials: 64, ..EFFORT }));
     give(&mut harness, SearchAction::Run);
     wait(&mut harness, |app| state(app) == Some(State::Done));
     let stories =
-        |harness: &Window| harness.workbench().searches.job.as_ref().unwrap().found().stories;
+        |harness: &Window| harness.workbench().searches().job.as_ref().unwrap().found().stories;
     let found = stories(&harness);
     give(&mut harness, SearchAction::New);
     assert!(stories_are_gone(&harness), "a new observation has no stories");
@@ -182,5 +186,5 @@ fn a_search_is_cancelled_and_continued_and_found_again_with_its_observation() {
 }
 
 fn stories_are_gone(harness: &Window) -> bool {
-    harness.workbench().searches.job.is_none()
+    harness.workbench().searches().job.is_none()
 }

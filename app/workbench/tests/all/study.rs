@@ -1,6 +1,7 @@
 //! The layout Study: a study designed, queued, paused, cancelled and continued, and its runs replayed.
 
 use endline_session::command::{EditAction, StudyAction};
+use endline_session::workbench::Folders;
 use endline_workbench::gui::command::action::PanelAction;
 use std::sync::Arc;
 
@@ -25,23 +26,25 @@ use crate::common::{
 fn studying(folder: &Folder) -> Window {
     add_study(folder);
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
-    harness.workbench_mut().studies.folder = Some(folder.0.join("results"));
+    harness
+        .workbench_mut()
+        .write_to(Folders { studies: Some(folder.0.join("results")), ..Folders::default() });
     // Other tests run at the same time, so the work keeps normal priority.
-    harness.workbench_mut().studies.queue.normal_priority = true;
+    harness.perform(StudyAction::FullSpeed(true));
     give(&mut harness, PanelAction::Arrange(Layout::Study));
     give(&mut harness, StudyAction::Open(folder.0.join("studies/small.toml")));
     harness
 }
 
 fn state(app: &App) -> Option<State> {
-    app.shared.workbench.studies.queue.jobs.last().map(StudyJob::state)
+    app.shared.workbench.studies().queue.jobs.last().map(StudyJob::state)
 }
 
 /// Waits for the end of the study and for its results.
 fn done(harness: &mut Window, encounters: u64) {
     wait(harness, |app| state(app) == Some(State::Done));
     wait(harness, |app| {
-        let results = &app.shared.workbench.studies.results;
+        let results = &app.shared.workbench.studies().results;
         !results.busy()
             && results
                 .shown()
@@ -67,7 +70,7 @@ fn a_study_is_edited_and_run_and_a_run_of_it_is_replayed_to_the_bit() {
     let unsaved = harness.documents().unsaved();
     assert_eq!(unsaved, ["ropes/pp-3-8.toml", Documents::STUDY]);
 
-    let shown = Arc::clone(harness.workbench().studies.results.shown().unwrap());
+    let shown = Arc::clone(harness.workbench().studies().results.shown().unwrap());
     assert_eq!(shown.findings.baseline, 0, "the baseline is the first option");
     let parts = [
         (Part::Forest, "Difference of rates from Strong link"),
@@ -107,12 +110,12 @@ fn a_study_stops_when_paused_and_keeps_its_blocks_when_cancelled_and_continued()
     harness.set(Documents::STUDY, "encounters", "400");
     give(&mut harness, StudyAction::Run);
     wait(&mut harness, |app| {
-        app.shared.workbench.studies.queue.jobs[0].progress().blocks.done >= 2
+        app.shared.workbench.studies().queue.jobs[0].progress().blocks.done >= 2
     });
     give(&mut harness, StudyAction::Pause);
     assert_eq!(state(harness.state()), Some(State::Paused));
     // The encounter in progress still ends, later on a busy machine.
-    let done = || harness.workbench().studies.queue.jobs[0].progress().encounters.done;
+    let done = || harness.workbench().studies().queue.jobs[0].progress().encounters.done;
     let paused = |_| {
         std::thread::sleep(std::time::Duration::from_millis(400));
         let before = done();
@@ -122,22 +125,22 @@ fn a_study_stops_when_paused_and_keeps_its_blocks_when_cancelled_and_continued()
     let before = (0..3).find_map(paused).expect("paused");
     give(&mut harness, StudyAction::Pause);
     wait(&mut harness, |app| {
-        app.shared.workbench.studies.queue.jobs[0].progress().encounters.done > before
+        app.shared.workbench.studies().queue.jobs[0].progress().encounters.done > before
     });
     give(&mut harness, StudyAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
-    let kept = harness.workbench().studies.queue.jobs[0].progress().blocks.done;
+    let kept = harness.workbench().studies().queue.jobs[0].progress().blocks.done;
 
     harness.set(Documents::STUDY, "encounters", "8");
     give(&mut harness, StudyAction::Run);
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let progress = harness.workbench().studies.queue.jobs[0].progress().encounters;
+    let progress = harness.workbench().studies().queue.jobs[0].progress().encounters;
     assert_eq!(
         (progress.found, progress.done, progress.total),
         (kept.min(8), 8, 8),
         "finished blocks are not run again"
     );
-    let folder = harness.workbench().studies.queue.jobs[0].folder().unwrap();
+    let folder = harness.workbench().studies().queue.jobs[0].folder().unwrap();
     for file in ["table.csv", "report.html", "bundle/study.toml"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
@@ -148,9 +151,9 @@ fn a_study_stops_when_paused_and_keeps_its_blocks_when_cancelled_and_continued()
         "{line}"
     );
     give(&mut harness, StudyAction::ShowResults(folder));
-    wait(&mut harness, |app| !app.shared.workbench.studies.results.busy());
+    wait(&mut harness, |app| !app.shared.workbench.studies().results.busy());
     assert_eq!(
-        harness.workbench().studies.results.problem,
+        harness.workbench().studies().results.problem,
         None,
         "a folder of results is opened from its bundle"
     );
@@ -180,7 +183,10 @@ fn options_and_priors_are_edited_and_errors_are_reported_at_their_place() {
     assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
     assert!(!harness.documents().any_error(), "errors of the study do not affect a single run");
     give(&mut harness, StudyAction::Run);
-    assert!(harness.workbench().studies.queue.jobs.is_empty(), "a study with errors is not queued");
+    assert!(
+        harness.workbench().studies().queue.jobs.is_empty(),
+        "a study with errors is not queued"
+    );
     give(&mut harness, EditAction::Undo);
     assert!(!harness.documents().file_has_error(Documents::STUDY));
     retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");
@@ -214,7 +220,7 @@ fn edits_become_an_option_results_are_summarised_in_words_and_the_bundle_is_save
     harness.get_by_label("Run study").click();
     harness.run_steps(2);
     done(&mut harness, 6);
-    let shown = Arc::clone(harness.workbench().studies.results.shown().unwrap());
+    let shown = Arc::clone(harness.workbench().studies().results.shown().unwrap());
     assert_eq!(shown.findings.options.len(), 3);
     for sentence in answer(&shown.findings, &shown.findings.event) {
         harness.get_by_label(&sentence);
@@ -252,10 +258,10 @@ fn a_field_is_found_by_its_meaning_and_a_wrong_value_is_reported_before_the_run(
         "it starts with the value of the scenario"
     );
 
-    let clean = |app: &App| app.shared.workbench.studies.check.is_clean();
+    let clean = |app: &App| app.shared.workbench.studies().check.is_clean();
     give(&mut harness, change(set, "1,700 lbf every 60 ft"));
     wait(&mut harness, |app| !clean(app));
-    let problem = harness.workbench().studies.check.problems()[0].clone();
+    let problem = harness.workbench().studies().check.problems()[0].clone();
     assert!(problem.message.contains("option `strong`"), "{problem}");
     assert!(problem.excerpt.contains("every 60 ft"), "located at the setting: {problem}");
     give(&mut harness, EditAction::Undo);

@@ -64,7 +64,8 @@ fn an_edit_is_saved_without_changing_comments_or_anything_else() {
         after,
         "the source of the old figure is removed"
     );
-    assert_eq!(harness.workbench().notice, Some(Notice::done("saved 1 file")));
+    let saved = format!("saved {}", folder.0.join("ropes/nylon-1-2.toml").display());
+    assert_eq!(harness.notice(), Notice::done(saved));
 }
 
 #[test]
@@ -119,11 +120,11 @@ fn the_unit_switch_changes_the_units_on_screen() {
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.get_by_label("SI").click();
     harness.run_steps(3);
-    assert_eq!(harness.workbench().preferences.units.force().symbol(), "N");
-    assert_eq!(harness.workbench().preferences.units.length_symbol(), "m");
+    assert_eq!(harness.workbench().preferences().units.force().symbol(), "N");
+    assert_eq!(harness.workbench().preferences().units.length_symbol(), "m");
     harness.get_by_label("NOAA").click();
     harness.run_steps(3);
-    assert_eq!(harness.workbench().preferences.units.speed(1.0), "1.94 kn");
+    assert_eq!(harness.workbench().preferences().units.speed(1.0), "1.94 kn");
 }
 
 #[test]
@@ -299,7 +300,7 @@ fn the_reason_why_a_model_cannot_be_assembled_is_a_problem() {
     harness.perform(EditAction::OpenScenario(folder.0.join("scenarios/hello-endline.toml")));
     wait(&mut harness, |app| !app.shared.workbench.making());
     let problems: Vec<String> =
-        harness.workbench().project.problems().map(|problem| problem.message.clone()).collect();
+        harness.workbench().project().problems().map(|problem| problem.message.clone()).collect();
     assert!(
         problems.iter().any(|message| message.contains("org.endline.")),
         "the missing plugin is not reported: {problems:?}"

@@ -1,19 +1,25 @@
-//! A wrap: rope taut about the sections of a part, going along it as it goes round.
+//! A wrap: taut rope about the sections of a body part, and the search for the azimuth at which it begins.
 //!
 //! A section is the cut of the skin by the plane across the part's axis. Taut rope lies on the convex
 //! hull of the section, at a distance `h`. Where the skin faces along the unit vector `o(phi)`, the rope
 //! is at `x(phi) = argmax_x (x . o) + h o`, with `x` over the cut. The *azimuth* `phi` is the direction
-//! in which the skin faces. It is counted from the whale's back, about the axis from the snout or the
-//! root on; the rope's own direction is square to `o`. With turns `n` (below zero left-handed)
+//! in which the skin faces. It is counted from the whale's back about the axis, which runs from the snout or the
+//! root; the rope's direction is perpendicular to `o`. With `n` turns (negative for left-handed)
 //!
 //! ```text
 //! phi(t) = phi_0 + 2 pi n t,    t from 0 to 1
 //! ```
 //!
-//! rope turns by exactly `n` on a drum and on a thin blade: the edges of a blade take half a turn each,
-//! its faces none. At both ends rope goes straight on for a little, so that it leaves as a tangent. The
-//! place along the axis is `s = s_m + p |n| (c - 1/2)`, where `p` is the pitch and `c` the share of the
-//! way round that is done. Slack `e` adds to `h`, so that the way is `1 + e` times the tight one.
+//! rope turns by exactly `n` on a drum and on a thin blade: each edge of a blade takes half a turn, its faces none. At both
+//! ends the rope continues straight for a short length, so that it leaves along a tangent. The
+//! place along the axis is `s = s_m + p |n| (c - 1/2)` with the pitch `p` and the share `c` of the
+//! path. Slack `e` is added to `h`, so that the path is `1 + e` times the tight one.
+//!
+//! # Azimuth
+//!
+//! The path sections between wraps should be short, outside the skin, and with small bends at the wraps, because a bend
+//! changes the turns of the wrap. The cost of a path section is its length, plus [`THROUGH_M`] if it passes through skin,
+//! plus up to [`BACK_M`] for its bends. A beam search from wrap to wrap keeps the paths of lowest cost.
 
 use std::f64::consts::TAU;
 
@@ -21,23 +27,22 @@ use endline_sdk::BodyPart;
 use endline_sim::DVec3;
 use endline_sim::model::Rope;
 
+use crate::assemble::line_shapes::length;
 use crate::scenario::WrapOf;
 
-use crate::assemble::way::length;
-
 use super::skin::{Outline, PosedSkin};
-use super::stretch::Stretch;
+use super::{PathSection, way};
 
-/// Places on each turn of a wrap.
+/// Places per turn of a wrap.
 const EACH_TURN: f64 = 240.0;
-/// Pitch where none is given, in rope diameters.
+/// Default pitch, in rope diameters.
 const USUAL_PITCH: f64 = 5.0;
-/// Longest segments about the trunk and about fins where a wrap names none [m].
+/// Default longest segments on the trunk and on fins [m].
 const USUAL_SEGMENTS_M: [f64; 2] = [0.05, 0.02];
-/// Segments that go straight on at each end of a wrap: moving the inner one clear of the skin leaves the outer as it is.
+/// Straight segments at each end of a wrap: a shift of the inner one does not affect the outer one.
 const STRAIGHT_ON: f64 = 2.0;
 
-/// A wrap as it is laid.
+/// A wrap to be laid.
 pub(super) struct Helix<'a> {
     /// The wrap as written.
     pub wrap: &'a WrapOf,
@@ -48,26 +53,26 @@ pub(super) struct Helix<'a> {
 /// The section at a place along the axis.
 struct Section {
     outline: Outline,
-    /// Along the axis, from snout or root on, and towards the whale's back.
+    /// Directions along the axis, away from snout or root, and towards the whale's back.
     onward: DVec3,
     back: DVec3,
 }
 
 impl<'a> Helix<'a> {
-    /// The wrap with the pitch and segments that it names, or the usual ones.
+    /// The wrap with its own pitch and segments, or the defaults.
     pub fn of(wrap: &'a WrapOf, rope: &Rope) -> Self {
         let fine_m = wrap.segment_m.unwrap_or(USUAL_SEGMENTS_M[usize::from(!wrap.part.on_trunk())]);
         Self { wrap, pitch_m: wrap.pitch_m.unwrap_or(USUAL_PITCH * rope.diameter_m), fine_m }
     }
 
-    /// The way round that begins at an azimuth.
+    /// The path from an azimuth.
     pub fn lay(&self, skin: &PosedSkin, azimuth: f64) -> Result<Vec<DVec3>, String> {
         let tight = self.way(skin, azimuth, 0.0)?;
         if self.wrap.slack <= 0.0 {
             return Ok(tight);
         }
         let wanted = (1.0 + self.wrap.slack) * length(&tight);
-        // A loop that stands off by h is 2 pi h longer; two corrections take in what the pitch adds.
+        // A loop at a distance h is 2 pi h longer; two corrections account for the pitch.
         let (mut off, mut way) = (0.0, tight);
         for _ in 0..3 {
             off += (wanted - length(&way)) / (TAU * self.wrap.turns.abs());
@@ -76,7 +81,7 @@ impl<'a> Helix<'a> {
         Ok(way)
     }
 
-    /// Where it begins and ends when it begins at an azimuth, and which way rope goes there.
+    /// Ends of the wrap from an azimuth, with the direction of the rope.
     pub fn ends(&self, skin: &PosedSkin, azimuth: f64) -> Result<[(DVec3, DVec3); 2], String> {
         let (first, last) = (self.section(skin, 0.0, 0.0)?, self.section(skin, 1.0, 1.0)?);
         let end = |section: &Section, azimuth: f64, sense: f64| {
@@ -89,18 +94,18 @@ impl<'a> Helix<'a> {
         Ok([end(&first, azimuth, -1.0), end(&last, azimuth + TAU * self.wrap.turns, 1.0)])
     }
 
-    /// It as a stretch of rope: stretched by its pretension.
-    pub fn stretch(&self, way: Vec<DVec3>, rope: &Rope) -> Stretch {
+    /// The path section of the wrap, stretched by its pretension.
+    pub fn section_of(&self, way: Vec<DVec3>, rope: &Rope) -> PathSection {
         let rope_m = length(&way) / (1.0 + strain(rope, self.wrap.pretension_n));
-        Stretch { way, rope_m: Some(rope_m), fine_m: Some(self.fine_m) }
+        PathSection { way, rope_m: Some(rope_m), fine_m: Some(self.fine_m) }
     }
 
-    /// How far it goes straight on, along the way of growing azimuth, before (-1) or after it (1) [m].
+    /// Signed length of the straight continuation before (-1) or after (1) the wrap, along rising azimuth [m].
     fn on_m(&self, sense: f64) -> f64 {
         sense * self.wrap.turns.signum() * STRAIGHT_ON * self.fine_m
     }
 
-    /// Places along the way, standing off by `off_m` more than they need.
+    /// Places along the path at an additional distance `off_m`.
     fn way(&self, skin: &PosedSkin, start: f64, off_m: f64) -> Result<Vec<DVec3>, String> {
         let off_m = skin.off_m + off_m;
         let count = (EACH_TURN * self.wrap.turns.abs()).ceil().max(2.0);
@@ -137,7 +142,7 @@ impl<'a> Helix<'a> {
         Ok(way)
     }
 
-    /// The section where a share of the way round is done, which is so far round.
+    /// The section at a share `done` of the path, after a share `turned` of the turns.
     fn section(&self, skin: &PosedSkin, done: f64, turned: f64) -> Result<Section, String> {
         let wrap = self.wrap;
         let (axis, reach) = skin
@@ -153,23 +158,23 @@ impl<'a> Helix<'a> {
         });
         let turned = wrap.turns * turned;
         found.ok_or_else(|| {
-            format!("there is no skin of the {} to lie on, {turned:.2} turns on", wrap.part.name())
+            format!("there is no skin of the {} after {turned:.2} turns", wrap.part.name())
         })
     }
 }
 
 impl Section {
-    /// The direction in which skin faces at an azimuth.
+    /// Outward direction of the skin at an azimuth.
     fn out(&self, azimuth: f64) -> DVec3 {
         self.back * libm::cos(azimuth) + self.onward.cross(self.back) * libm::sin(azimuth)
     }
 
-    /// The way of growing azimuth there.
+    /// Direction of rising azimuth.
     fn way(&self, azimuth: f64) -> DVec3 {
         self.onward.cross(self.out(azimuth))
     }
 
-    /// Where rope lies there, standing off by so much.
+    /// Place of the rope at a distance from the skin.
     fn place(&self, azimuth: f64, off_m: f64) -> DVec3 {
         let out = self.out(azimuth);
         self.outline.farthest(out) + out * off_m
@@ -182,7 +187,78 @@ fn strain(rope: &Rope, tension_n: f64) -> f64 {
     2.0 * tension_n / (ea + libm::sqrt(ea * ea + 4.0 * ea2 * tension_n))
 }
 
-/// Place along the sim's axis, which on the trunk runs to the snout.
+/// Place along the axis of the model, which points to the snout on the trunk.
 fn along([least, most]: [f64; 2], part: BodyPart, station: f64) -> f64 {
     if part.on_trunk() { most + station * (least - most) } else { least + station * (most - least) }
+}
+
+/// Azimuths tried for each wrap.
+const TRIED: u32 = 24;
+/// Width of the beam, and number of returned lines.
+const BEAM: usize = 12;
+/// Distance of sample places on path sections [m].
+const EACH_M: f64 = 0.1;
+/// Cost of a path section through the whale [m].
+const THROUGH_M: f64 = 100.0;
+/// Cost of a reversal at a wrap; a smaller bend costs half its versed sine of it [m].
+const BACK_M: f64 = 20.0;
+
+/// Azimuths of the wraps of a line so far, and their cost.
+#[derive(Clone)]
+struct Line {
+    azimuths: Vec<f64>,
+    end: End,
+    cost_m: f64,
+}
+
+/// An end of a wrap with the direction of the rope, or an end of the line.
+type End = (DVec3, Option<DVec3>);
+
+/// Azimuths of all wraps, the best first; `Err` is a wrap without skin, and the reason.
+pub(super) fn azimuths(
+    skin: &mut PosedSkin,
+    helices: &[Helix<'_>],
+    [from, to]: [DVec3; 2],
+) -> Result<Vec<Vec<f64>>, (usize, String)> {
+    let mut lines = vec![Line { azimuths: Vec::new(), end: (from, None), cost_m: 0.0 }];
+    for (number, helix) in helices.iter().enumerate() {
+        let tried: Vec<f64> = match helix.wrap.azimuth_rad {
+            Some(azimuth) => vec![azimuth],
+            None => (0..TRIED).map(|tried| TAU * f64::from(tried) / f64::from(TRIED)).collect(),
+        };
+        let mut longer = Vec::with_capacity(lines.len() * tried.len());
+        for azimuth in tried {
+            let [first, last] = helix
+                .ends(skin, azimuth)
+                .map_err(|what| (number, what))?
+                .map(|(place, way)| (place, Some(way)));
+            for line in &lines {
+                let azimuths = line.azimuths.iter().copied().chain([azimuth]).collect();
+                longer.push(Line {
+                    azimuths,
+                    end: last,
+                    cost_m: line.cost_m + cost_m(skin, [line.end, first]),
+                });
+            }
+        }
+        lines = best(longer);
+    }
+    lines.iter_mut().for_each(|line| line.cost_m += cost_m(skin, [line.end, (to, None)]));
+    Ok(best(lines).into_iter().map(|line| line.azimuths).collect())
+}
+
+fn best(mut lines: Vec<Line>) -> Vec<Line> {
+    lines.sort_by(|one, other| one.cost_m.total_cmp(&other.cost_m));
+    lines.truncate(BEAM);
+    lines
+}
+
+/// Cost of the path section between two ends [m].
+fn cost_m(skin: &mut PosedSkin, ends: [End; 2]) -> f64 {
+    let way = way(skin, ends.map(|(place, _)| place), EACH_M);
+    let through = skin.goes_through(&way);
+    let straight = (ends[1].0 - ends[0].0).normalize_or_zero();
+    let bends: f64 =
+        ends.iter().filter_map(|(_, along)| Some(0.5 * (1.0 - straight.dot((*along)?)))).sum();
+    length(&way) + BACK_M * bends + if through { THROUGH_M } else { 0.0 }
 }

@@ -1,4 +1,8 @@
-//! The whale's skin as it lies at the start: looked for outward from an axis, and measured from rope.
+//! The posed skin of the whale at the start: outlines of its parts, distances from rope, shift of nodes off the skin.
+//!
+//! A straight segment cuts a bend by up to `l^2/8R`, at the edge of a fin more than the rope's distance from the skin.
+//! Nodes of a segment that is too close are shifted from the skin towards the rope. Nodes of a segment that intersects
+//! an edge are shifted to the outside of the rope's bend: away from the middle between their neighbours.
 
 use std::sync::Arc;
 
@@ -10,22 +14,24 @@ use endline_sim::whale::axes::{PosedAxis, axes_of};
 use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, pose, skin_all};
 use endline_sim::{DAffine3, DVec3};
 
-/// Rope within this distance of skin is measured [m].
+use super::Laid;
+
+/// Greatest measured distance between rope and skin [m].
 const MARGIN_M: f64 = 0.05;
 
 /// The skin under the whale's start pose.
 pub(super) struct PosedSkin {
     skin: Arc<Skin>,
     places: Vec<DVec3>,
-    /// Triangles of each part; those of the trunk count as one.
+    /// Triangles of each part; the trunk is one part.
     own: [Vec<usize>; BodyPart::ALL.len()],
-    /// Posed axis and reach along it of each part; `None` for one the skin lacks.
+    /// Posed axis of each part with its extent; `None` if the skin has no such part.
     axes: [Option<(PosedAxis, [f64; 2])>; BodyPart::ALL.len()],
     surface: Surface,
     bones: Vec<DAffine3>,
-    /// The whale's up.
+    /// Up direction of the whale.
     pub up: DVec3,
-    /// Distance of the rope's centre line from the skin where it is laid [m].
+    /// Distance at which the rope's centre line is laid [m].
     pub off_m: f64,
 }
 
@@ -42,7 +48,7 @@ pub(super) struct Nearest {
 }
 
 impl PosedSkin {
-    /// The skin of a whale in its start pose; rope is laid `off_m` off it.
+    /// The skin of a whale in its start pose, for rope at a distance `off_m`.
     pub fn of(whale: &Whale, off_m: f64) -> Self {
         let skin = Arc::clone(&whale.skin);
         let (mut bones, mut places) = (Vec::new(), Vec::new());
@@ -75,12 +81,12 @@ impl PosedSkin {
         posed
     }
 
-    /// The axis of a part and its reach along it [m].
+    /// The axis of a part and its extent [m].
     pub fn axis(&self, part: BodyPart) -> Option<&(PosedAxis, [f64; 2])> {
         self.axes[part as usize].as_ref()
     }
 
-    /// The outline of a part in the plane across a direction through a place; the trunk counts as one part.
+    /// The outline of a part in the plane through a place, perpendicular to `along`.
     pub fn outline(&self, part: BodyPart, place: DVec3, along: DVec3) -> Outline {
         let corners = |triangle: &usize| {
             self.skin.triangles[*triangle].map(|corner| self.places[corner as usize])
@@ -93,12 +99,12 @@ impl PosedSkin {
             (sum + a.midpoint(*b) * a.distance(*b), whole + a.distance(*b))
         };
         let (sum, whole) = cuts.iter().fold((DVec3::ZERO, 0.0), weigh);
-        // A thin blade bends away from its axis: its outline's own middle is surely within.
+        // A thin blade is bent away from its axis: the centroid of its outline is used instead.
         let centre = if part.on_trunk() || whole <= 0.0 { place } else { sum / whole };
         Outline { cuts, centre, along }
     }
 
-    /// Whether a way goes through any skin.
+    /// Whether a path passes through the skin.
     pub fn goes_through(&mut self, way: &[DVec3]) -> bool {
         let mut pairs = Vec::new();
         self.surface.gather(&still(way), 0.0, &mut pairs);
@@ -114,7 +120,7 @@ impl PosedSkin {
         pairs.iter().any(crosses)
     }
 
-    /// The nearest skin to each segment of a way that is within [`MARGIN_M`] of any.
+    /// The nearest skin to each segment of a path within [`MARGIN_M`].
     pub fn nearest(&mut self, nodes: &[DVec3]) -> Vec<Option<Nearest>> {
         let segments = still(nodes);
         let mut pairs = Vec::new();
@@ -144,28 +150,28 @@ impl PosedSkin {
     }
 }
 
-/// The segments of a way, at rest.
+/// The segments of a path, at rest.
 fn still(way: &[DVec3]) -> Vec<SweptSegment> {
     way.windows(2)
         .map(|pair| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] })
         .collect()
 }
 
-/// Where a plane cuts the skin of a part.
+/// The cut of the skin of a part by a plane.
 pub(super) struct Outline {
     cuts: Vec<[DVec3; 2]>,
-    /// A place within it.
+    /// A place inside.
     pub centre: DVec3,
     along: DVec3,
 }
 
 impl Outline {
-    /// Whether there is no skin there.
+    /// Whether the plane cuts no skin.
     pub fn is_empty(&self) -> bool {
         self.cuts.is_empty()
     }
 
-    /// Its farthest place in a direction: of its hull, a place of taut rope; its centre where there is no skin.
+    /// Its farthest place in a direction, which taut rope touches; its centre without skin.
     pub fn farthest(&self, toward: DVec3) -> DVec3 {
         let places = self.cuts.iter().flatten().copied();
         places
@@ -173,7 +179,7 @@ impl Outline {
             .unwrap_or(self.centre)
     }
 
-    /// How far out it lies from its centre in a unit direction within the plane; the farthest, where that is crossed often [m].
+    /// Greatest distance from its centre in a unit direction within the plane [m].
     pub fn radius(&self, toward: DVec3) -> Option<f64> {
         let aside = self.along.cross(toward);
         let crossed = |[a, b]: &[DVec3; 2]| {
@@ -186,7 +192,7 @@ impl Outline {
     }
 }
 
-/// Where a plane through a place cuts a triangle.
+/// The cut of a triangle by a plane through a place.
 fn cut(corners: [DVec3; 3], place: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
     let heights = corners.map(|corner| (corner - place).dot(normal));
     let mut ends = [(0, 1), (1, 2), (2, 0)]
@@ -196,4 +202,65 @@ fn cut(corners: [DVec3; 3], place: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
         corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j]))
     };
     Some([on_edge(ends.next()?), on_edge(ends.next()?)])
+}
+
+/// Iteration limit.
+const MOST_ROUNDS: usize = 200;
+/// Accepted share of the required distance.
+const ENOUGH: f64 = 0.98;
+/// Shift of a node of a segment that intersects an edge [m].
+const OUT_OF_SKIN_M: f64 = 1e-3;
+/// Smallest bend at a node [m].
+const STRAIGHT_M: f64 = 1e-5;
+
+/// Shifts the inner nodes; `Err` is the region to which rope is still too close.
+pub(super) fn shift_off(skin: &mut PosedSkin, laid: &mut Laid) -> Result<(), &'static str> {
+    for _ in 0..MOST_ROUNDS {
+        let nearest = skin.nearest(&laid.nodes);
+        let mut moves = vec![(DVec3::ZERO, 0.0_f64); laid.nodes.len()];
+        for (segment, near) in nearest.iter().enumerate() {
+            let Some(near) = near.as_ref().filter(|near| near.distance_m < ENOUGH * skin.off_m)
+            else {
+                continue;
+            };
+            for (node, share) in [(segment, 1.0 - near.fraction), (segment + 1, near.fraction)] {
+                let weight = share.max(0.25);
+                let shift = if near.out == DVec3::ZERO {
+                    outward(&laid.nodes, node)
+                } else {
+                    near.out * (skin.off_m - near.distance_m)
+                };
+                moves[node].0 += shift * weight;
+                moves[node].1 += weight;
+            }
+            let stuck = |node: usize| moves[node].0.length() <= 0.0;
+            if near.out == DVec3::ZERO && stuck(segment) && stuck(segment + 1) {
+                return Err(near.region.name());
+            }
+        }
+        let last = laid.nodes.len() - 1;
+        (moves[0], moves[last]) = ((DVec3::ZERO, 0.0), (DVec3::ZERO, 0.0));
+        if moves.iter().all(|(_, weight)| *weight <= 0.0) {
+            return Ok(());
+        }
+        for (node, (shift, weight)) in laid.nodes.iter_mut().zip(&moves) {
+            if *weight > 0.0 {
+                *node += *shift / *weight;
+            }
+        }
+    }
+    let nearest = skin.nearest(&laid.nodes);
+    let still = nearest.iter().flatten().find(|near| near.distance_m < 0.5 * skin.off_m);
+    still.map_or(Ok(()), |near| Err(near.region.name()))
+}
+
+/// A small shift of a node towards the outside of its bend; zero at an end or a straight place.
+fn outward(nodes: &[DVec3], node: usize) -> DVec3 {
+    let (Some(before), Some(after)) =
+        (node.checked_sub(1).and_then(|before| nodes.get(before)), nodes.get(node + 1))
+    else {
+        return DVec3::ZERO;
+    };
+    let bend = nodes[node] - before.midpoint(*after);
+    if bend.length() > STRAIGHT_M { bend.normalize() * OUT_OF_SKIN_M } else { DVec3::ZERO }
 }

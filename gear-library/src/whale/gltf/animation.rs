@@ -1,13 +1,13 @@
 //! A glTF animation of the whale's bones as joint angles over time: an act made in Blender.
 //!
 //! ```text
-//! D_b = R_b(t) R_b(rest)⁻¹             turn of a bone against its rest, in the scene
-//! T_b = D_parent⁻¹ D_b                 what the bone itself turned
-//! T_b = Π exp(a_i axis_i)              the turns it has; solved for a_i by Newton
+//! D_b = R_b(t) R_b(rest)⁻¹             rotation of a bone from its rest, in the scene
+//! T_b = D_parent⁻¹ D_b                 rotation of the bone itself
+//! T_b = Π exp(a_i axis_i)              about its axes; solved for a_i by Newton's method
 //! ```
 //!
-//! An angle shared among bones is the sum of what they turned. So it does not matter how the file's bones lie along themselves, and keys of
-//! different bones may stand at different times. Where the whole whale goes and turns is not read.
+//! An angle of several bones is the sum of their rotations. The result is therefore independent of the local axes of the
+//! file's bones, and keys of different bones may have different times. The motion of the whole whale is not read.
 
 use std::collections::BTreeMap;
 
@@ -16,32 +16,29 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::animation::{Interpolation, Property};
 use gltf::{Animation as FileAnimation, Document};
 
+use crate::diagnostic::hint;
+
 use super::Fault;
-use super::accessor::rows;
-use super::file::File;
+use super::file::{File, rows};
 use super::joints::{local, parents, rests};
-use crate::nearest::hint;
 
 /// Joint angles over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animation {
     /// Times of the keys, rising [s].
     pub times_s: Vec<f64>,
-    /// Each angle that moves, with its value at each time [rad].
+    /// The moving angles, with their values at each time [rad].
     pub angles: Vec<(Angle, Vec<f64>)>,
 }
 
-/// Greatest turn of a bone that none of its axes explains [rad]: 3 degrees.
+/// Greatest allowed rotation of a bone about other axes than its own [rad]: 3 degrees.
 const ASTRAY_RAD: f64 = 0.052;
-/// An angle that never passes this does not move [rad].
+/// Smallest amplitude of a moving angle [rad].
 const STILL_RAD: f64 = 1e-5;
-/// Passes of Newton, far more than it takes.
+/// Iteration limit of Newton's method, far above the usual number.
 const PASSES: usize = 12;
 
-/// Reads an animation by its name, or the only one, for a whale of these bones.
-///
-/// # Errors
-/// Where the file cannot be read, has not that animation, turns no bone of the whale, or turns one about an axis that it does not have.
+/// Reads an animation by name, or the only one, for a whale with these bones.
 pub fn read_animation(
     bytes: &[u8],
     name: Option<&str>,
@@ -56,7 +53,7 @@ pub fn read_animation(
     let rig = Rig::of(&file, bones)?;
     if !rig.nodes.iter().flatten().any(|node| turnings.contains_key(node)) {
         return Err(Fault::new(
-            "turns no bone of the whale",
+            "rotates no bone of the whale",
             "key the rotations of its bones, such as spine_3 or left_flipper_blade",
         ));
     }
@@ -97,13 +94,13 @@ fn named<'a>(document: &'a Document, name: Option<&str>) -> Result<FileAnimation
     }
 }
 
-/// Keys of a node's own rotation.
+/// Keys of the local rotation of a node.
 struct Turning {
     times_s: Vec<f64>,
     turns: Vec<DQuat>,
 }
 
-/// The keys of every node that turns.
+/// Keys of all rotating nodes.
 fn turnings(file: &File, animation: &FileAnimation<'_>) -> Result<BTreeMap<usize, Turning>, Fault> {
     let mut turnings = BTreeMap::new();
     for channel in
@@ -123,8 +120,8 @@ fn turnings(file: &File, animation: &FileAnimation<'_>) -> Result<BTreeMap<usize
             && times_s.first().is_some_and(|first| *first >= 0.0);
         if !rising || times_s.len() != turns.len() || !turns.iter().all(|turn| turn.is_finite()) {
             return Err(Fault::new(
-                "has keys that are not sound",
-                "write the file anew with a program that keeps to glTF 2.0",
+                "has invalid keys",
+                "export it again with a program that conforms to glTF 2.0",
             ));
         }
         turnings.insert(channel.target().node().index(), Turning { times_s, turns });
@@ -133,7 +130,7 @@ fn turnings(file: &File, animation: &FileAnimation<'_>) -> Result<BTreeMap<usize
 }
 
 impl Turning {
-    /// The rotation at a time: between keys along the shortest arc, beyond them the nearest key's.
+    /// The rotation at a time: interpolated along the shortest arc, constant beyond the keys.
     fn at(&self, time_s: f64) -> DQuat {
         let after = self.times_s.partition_point(|key_s| *key_s <= time_s);
         if after == 0 || after == self.times_s.len() {
@@ -146,10 +143,10 @@ impl Turning {
 
 /// The nodes of a file as the whale's bones.
 struct Rig {
-    /// The node of each bone of the whale; none for one the file does not have.
+    /// The node of each bone; `None` if the file has none.
     nodes: Vec<Option<usize>>,
     parents: Vec<Option<usize>>,
-    /// Own rotation of each node where nothing moves it.
+    /// Local rotation of each node without animation.
     locals: Vec<DQuat>,
     /// Rotation of each node at rest, in the scene.
     rests: Vec<DQuat>,
@@ -173,7 +170,7 @@ impl Rig {
         })
     }
 
-    /// What each bone turned about its axes at a time; an angle may come from several bones.
+    /// Rotation of each bone about its axes at a time; an angle may have several bones.
     fn angles_at(
         &self,
         turnings: &BTreeMap<usize, Turning>,
@@ -194,12 +191,12 @@ impl Rig {
             if astray > ASTRAY_RAD {
                 let off = astray.to_degrees();
                 let message = format!(
-                    "turns `{}` at {time_s:.2} s by {off:.1} deg about an axis that it does not have",
+                    "rotates `{}` at {time_s:.2} s by {off:.1} deg about an axis that the bone does not have",
                     bone.name
                 );
                 return Err(Fault::new(
                     message,
-                    "turn bones about the axes in their custom property `turns`, and lock the others",
+                    "rotate bones about the axes in their custom property `turns`, and lock the others",
                 ));
             }
             angles.extend(
@@ -209,7 +206,7 @@ impl Rig {
         Ok(angles)
     }
 
-    /// Turn of a node against its rest, in the whale's axes.
+    /// Rotation of a node from its rest, in the whale's axes.
     fn turned(&self, turnings: &BTreeMap<usize, Turning>, time_s: f64, node: usize) -> DQuat {
         let (mut world, mut at) = (DQuat::IDENTITY, Some(node));
         for _ in 0..self.parents.len() {
@@ -223,7 +220,7 @@ impl Rig {
     }
 }
 
-/// Angles about up to three axes, turned one after the other, whose product is nearest to a turn, and how far off that is [rad].
+/// Angles about up to three successive axes whose product is closest to a rotation, and the remaining angle [rad].
 fn about_axes(axes: &[DVec3], turn: DQuat) -> (Vec<f64>, f64) {
     let mut angles = vec![0.0; axes.len()];
     let mut astray = f64::INFINITY;

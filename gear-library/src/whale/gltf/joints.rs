@@ -1,28 +1,28 @@
-//! The bones of a glTF file: which is which by name, where each sits at rest, and how it binds its vertices.
+//! The bones of a glTF file: identified by name, with their rest places and the transforms of their vertices.
 
 use endline_sim::whale::{Bone, Skin};
 use glam::{DAffine3, DMat4, DVec3};
 use gltf::{Node, Skin as FileSkin};
 
-use super::accessor::rows;
-use super::file::File;
+use crate::diagnostic::hint;
+
+use super::file::{File, rows};
 use super::{Fault, from_gltf};
-use crate::nearest::hint;
 
 /// The joints of a file's skin.
 pub(super) struct Joints {
     /// Name of each joint.
     pub names: Vec<String>,
-    /// The bone of the whale that each joint is; none for one the whale does not have.
+    /// The bone of each joint; `None` if the whale has no such bone.
     pub bones: Vec<Option<u16>>,
-    /// Transform of each joint's vertices at rest, from the mesh to the scene.
+    /// Rest transform of each joint's vertices, from the mesh to the scene.
     pub binds: Vec<DAffine3>,
     /// Rest place of each joint in the whale's frame [m].
     origins: Vec<DVec3>,
 }
 
 impl Joints {
-    /// Reads the one skin of the file, and finds every bone of `like` in it.
+    /// Reads the skin of the file with all bones of `like`.
     pub fn read(file: &File, like: &Skin) -> Result<Self, Vec<Fault>> {
         let skin = only_skin(file).map_err(|fault| vec![fault])?;
         let names: Vec<String> =
@@ -47,7 +47,7 @@ impl Joints {
         })
     }
 
-    /// The bones of `like` where this file puts them.
+    /// The bones of `like` at the places of this file.
     pub fn bones(&self, like: &Skin) -> Vec<Bone> {
         let mut bones = like.bones.clone();
         for (bone, origin) in self.bones.iter().zip(&self.origins) {
@@ -68,10 +68,7 @@ fn only_skin(file: &File) -> Result<FileSkin<'_>, Fault> {
         let Some(skin) = node.skin() else {
             let message =
                 format!("has a mesh without a skin, `{}`", node.name().unwrap_or("without a name"));
-            return Err(Fault::new(
-                message,
-                format!("{parent_it}; delete what is no part of the whale"),
-            ));
+            return Err(Fault::new(message, format!("{parent_it}; delete other objects")));
         };
         if found.as_ref().is_some_and(|known| known.index() != skin.index()) {
             return Err(Fault::new("has meshes on different skins", "join the armatures into one"));
@@ -81,7 +78,7 @@ fn only_skin(file: &File) -> Result<FileSkin<'_>, Fault> {
     found.ok_or_else(|| Fault::new("has no mesh on a skin", parent_it))
 }
 
-/// Every bone that the file does not have, by name.
+/// The missing bones.
 fn missing(names: &[String], like: &Skin) -> Result<(), Vec<Fault>> {
     let faults: Vec<Fault> = like
         .bones
@@ -110,7 +107,7 @@ pub(super) fn parents(file: &File) -> Vec<Option<usize>> {
     parents
 }
 
-/// Transform of each node at rest, to the scene: by what it was bound with, or as the file has it.
+/// Rest transform of each node to the scene: from its inverse bind matrix, else from the nodes.
 pub(super) fn rests(file: &File) -> Result<Vec<DAffine3>, Fault> {
     let (parents, locals) =
         (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
@@ -125,7 +122,7 @@ pub(super) fn rests(file: &File) -> Result<Vec<DAffine3>, Fault> {
     Ok(rests)
 }
 
-/// A node's transform to the scene; a loop of parents ends after as many steps as there are nodes.
+/// A node's transform to the scene; a cycle of parents ends after the number of nodes.
 fn world(locals: &[DAffine3], parents: &[Option<usize>], node: usize) -> DAffine3 {
     let (mut world, mut at) = (DAffine3::IDENTITY, Some(node));
     for _ in 0..parents.len() {
@@ -136,7 +133,7 @@ fn world(locals: &[DAffine3], parents: &[Option<usize>], node: usize) -> DAffine
     world
 }
 
-/// A node's own transform.
+/// The local transform of a node.
 pub(super) fn local(node: &Node<'_>) -> DAffine3 {
     affine(&node.transform().matrix().map(|column| column.map(f64::from)))
 }
@@ -152,7 +149,7 @@ fn inverse_binds(file: &File, skin: &FileSkin<'_>, count: usize) -> Result<Vec<D
     let matrices = rows::<16>(file, &accessor)?;
     if matrices.len() < count {
         let message = format!("has {} inverse bind matrices for {count} bones", matrices.len());
-        return Err(Fault::new(message, "write the file anew"));
+        return Err(Fault::new(message, "export it again"));
     }
     Ok(matrices
         .iter()

@@ -1,32 +1,27 @@
-//! A whale's skin as a glTF 2.0 file, out and in: the bridge to Blender and other programs that draw and edit meshes.
+//! Reads and writes a whale's skin as a glTF 2.0 file, for Blender and other programs.
 //!
 //! ```text
 //! glTF  x y z  =  whale  x  z  -y        metres; glTF has y up, the whale's frame has z to the back
 //! ```
-//! Vertices are written in glTF's axes; the first bone turns by a quarter, so that each bone keeps the whale's own axes.
-//! Rest places of bones and vertices are read from the nodes and the inverse bind matrices, whatever their local axes
-//! (Blender turns its bones along themselves). How bones turn is not in the mesh: bones are known by name.
+//! Vertices are written in glTF's axes; the first bone is rotated by 90 degrees, so that the bones have the whale's axes.
+//! Rest places are read from the nodes and the inverse bind matrices, for any local axes (Blender aligns bones with their
+//! length). Bones are identified by name, because the mesh does not contain their rotation axes. The vertex colour is the
+//! mark; reading takes the mark of the nearest colour.
 
-mod accessor;
 mod animation;
-mod check;
-mod corners;
-mod extras;
 mod file;
 mod joints;
-mod marks;
 pub mod pack;
-mod weld;
+mod skin;
 mod write;
 
-use endline_sim::whale::Skin;
+use endline_sim::whale::{Mark, Skin};
 use glam::DVec3;
 
 pub use animation::{Animation, read_animation};
-pub use extras::About;
-pub use write::{Form, write};
+pub use write::{About, Form, write};
 
-/// What is wrong with a glTF file, and how to fix it.
+/// A problem of a glTF file, and its correction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// What is wrong.
@@ -41,15 +36,13 @@ impl Fault {
     }
 }
 
-/// Reads a skin from the bytes of a `.glb` or `.gltf` file: its mesh and where its bones sit. Bones, their order, their parents
-/// and how they turn are those of `like`, the skin made from the whale's own measures.
-///
-/// # Errors
-/// Every fault found at the first stage that fails: the file, its bones, its vertices, the whole skin.
+/// Reads a skin from a `.glb` or `.gltf` file: its mesh and the places of its bones. Other properties of the bones are those
+/// of `like`, the skin of the whale's measures. `Err` has the problems of the first stage that fails: file, bones, vertices,
+/// whole skin.
 pub fn read(bytes: &[u8], like: &Skin) -> Result<Skin, Vec<Fault>> {
     let file = file::File::open(bytes).map_err(|fault| vec![fault])?;
     let joints = joints::Joints::read(&file, like)?;
-    let mesh = corners::read(&file, &joints, like)?;
+    let mesh = skin::read(&file, &joints, like)?;
     let mut skin = Skin {
         vertices: mesh.vertices,
         triangles: mesh.triangles,
@@ -58,19 +51,46 @@ pub fn read(bytes: &[u8], like: &Skin) -> Result<Skin, Vec<Fault>> {
         marks: mesh.marks,
         bones: joints.bones(like),
     };
-    if check::closed(&skin).is_some() {
-        skin = weld::weld(&skin);
+    if skin::closed(&skin).is_some() {
+        skin = skin::weld(&skin);
     }
-    check::whole(&skin, like)?;
+    skin::whole(&skin, like)?;
     Ok(skin)
 }
 
-/// A place of the whale's frame in glTF's axes.
+/// Converts a place from the whale's frame to glTF's axes.
 fn to_gltf(place: DVec3) -> DVec3 {
     DVec3::new(place.x, place.z, -place.y)
 }
 
-/// A place in glTF's axes in the whale's frame.
+/// Converts a place from glTF's axes to the whale's frame.
 fn from_gltf(place: DVec3) -> DVec3 {
     DVec3::new(place.x, -place.z, place.y)
+}
+
+/// Marks and their colours: red, green, blue.
+const COLOURS: [(Mark, [f32; 3]); 6] = [
+    (Mark::Skin, [1.0, 1.0, 1.0]),
+    (Mark::Callosity, [1.0, 0.8, 0.4]),
+    (Mark::Baleen, [0.4, 0.4, 0.2]),
+    (Mark::Mouth, [1.0, 0.4, 0.5]),
+    (Mark::White, [0.6, 0.9, 1.0]),
+    (Mark::Eye, [0.1, 0.1, 0.1]),
+];
+
+/// The colour of a mark.
+fn colour_of(mark: Mark) -> [f32; 3] {
+    COLOURS.iter().find(|(own, _)| *own == mark).map_or([1.0; 3], |(_, colour)| *colour)
+}
+
+/// The mark whose colour is nearest.
+fn mark_of(colour: &[f64]) -> Mark {
+    let off = |own: &[f32; 3]| {
+        own.iter()
+            .zip(colour)
+            .map(|(own, seen)| (f64::from(*own) - seen) * (f64::from(*own) - seen))
+            .sum::<f64>()
+    };
+    let near = COLOURS.iter().min_by(|left, right| off(&left.1).total_cmp(&off(&right.1)));
+    near.map_or_else(Mark::default, |(mark, _)| *mark)
 }

@@ -1,8 +1,8 @@
-//! The binary part of a glTF file, and the binary container: for every glTF file that is written.
+//! The buffer of a glTF file and the binary container, for all glTF files that are written.
 
 use serde_json::{Value, json};
 
-/// Vertex data and index data, as a buffer view's target says.
+/// Targets of buffer views: vertex data and index data.
 const VERTICES: u32 = 34_962;
 const INDICES: u32 = 34_963;
 /// Component types.
@@ -10,8 +10,7 @@ const U16: u32 = 5123;
 const U32: u32 = 5125;
 const F32: u32 = 5126;
 
-/// The buffer with its views and accessors so far. Each method returns the number of the accessor
-/// that it adds.
+/// The buffer with its views and accessors. Each method adds an accessor and returns its number.
 #[derive(Default)]
 pub struct Pack {
     /// The buffer.
@@ -29,7 +28,7 @@ impl Pack {
         self.accessor(F32, rows.len(), kind(N))
     }
 
-    /// Adds places, with the bounds that glTF asks for.
+    /// Adds places with their bounds, which glTF requires.
     pub fn places(&mut self, rows: &[[f32; 3]]) -> usize {
         let index = self.vertices(rows);
         let bound = |pick: fn(f32, f32) -> f32| {
@@ -60,7 +59,7 @@ impl Pack {
         self.accessor(F32, rows.len(), "MAT4")
     }
 
-    /// Adds rows of floats that are no vertices, such as those of an animation.
+    /// Adds rows of floats of other data than vertices, such as an animation.
     pub fn numbers<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
         self.add(le(rows.iter().flatten().map(|number| number.to_le_bytes())), None);
         self.accessor(F32, rows.len(), kind(N))
@@ -99,9 +98,7 @@ fn le<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> Vec<u8> {
     numbers.flatten().collect()
 }
 
-/// A binary glTF file: the document, to which the buffer is added, and the numbers. Both chunks are
-/// padded to a multiple of four bytes.
-#[must_use]
+/// A binary glTF file from the document and the buffer. Both chunks are padded to a multiple of four bytes.
 pub fn binary(mut document: Value, mut bytes: Vec<u8>) -> Vec<u8> {
     document["buffers"] = json!([{ "byteLength": bytes.len() }]);
     let mut text = document.to_string().into_bytes();

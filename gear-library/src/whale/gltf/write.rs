@@ -1,31 +1,31 @@
-//! A skin into a glTF file: one mesh, one primitive and material for each region, one skin, one node for each bone.
+//! Writes a skin as a glTF file: one mesh with a primitive and material per region, one skin, one node per bone.
+//!
+//! Extra properties describe the axes and ranges of the bones and the whale, for other programs; Endline only uses the names
+//! of bones.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use endline_sdk::Region;
-use endline_sim::whale::{Bone, Skin};
+use endline_sim::whale::{Bone, Channel, JointRanges, Skin};
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::extras::{About, bone_extras, whale_extras};
-use super::marks::colour;
 use super::pack::{Pack, binary};
-use super::to_gltf;
+use super::{colour_of, to_gltf};
 
-/// Which of the two forms of glTF.
+/// The two forms of glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// One binary file, `.glb`.
     Binary,
-    /// Text with the numbers in it, `.gltf`.
+    /// Text with embedded data, `.gltf`.
     Text,
 }
 
 impl Form {
-    /// By a file's name; `None` for an ending that is not glTF's.
-    #[must_use]
+    /// The form by a file's name; `None` for another ending.
     pub fn of_file(name: &str) -> Option<Self> {
         match name.rsplit_once('.')?.1.to_ascii_lowercase().as_str() {
             "glb" => Some(Self::Binary),
@@ -36,7 +36,6 @@ impl Form {
 }
 
 /// The bytes of a glTF file; equal skins give equal bytes.
-#[must_use]
 pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
     let mut pack = Pack::default();
     let mesh = mesh(skin, about, &mut pack);
@@ -65,8 +64,8 @@ pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
     }
 }
 
-/// Nodes: the skin, the root, then the bones in their order. The first bone turns the whale's axes into glTF's. Blender would take a
-/// turn of the root for that of the armature, undo it by a pose of this bone, and export the whale at rest without the pose.
+/// Nodes: the skin, the root, then the bones in order. The first bone rotates the whale's axes into glTF's: Blender would
+/// treat a rotation of the root as that of the armature, compensate it by a pose, and export the whale without the pose.
 const SKIN_NODE: usize = 0;
 const ROOT_NODE: usize = 1;
 const FIRST_BONE: usize = 2;
@@ -100,7 +99,7 @@ fn nodes(skin: &Skin, about: &About<'_>) -> Vec<Value> {
     nodes
 }
 
-/// The inverse of a bone's rest transform: from glTF's axes to the bone's own, column by column.
+/// Inverse bind matrix of a bone, column by column.
 fn inverse_bind(bone: &Bone) -> [f32; 16] {
     let at = bone.origin.as_vec3();
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, -at.x, -at.y, -at.z, 1.0]
@@ -118,8 +117,9 @@ fn mesh(skin: &Skin, about: &About<'_>, pack: &mut Pack) -> Value {
         "WEIGHTS_0": pack.vertices(&weights),
     });
     if skin.marks.len() == skin.vertices.len() {
-        attributes["COLOR_0"] =
-            json!(pack.vertices(&skin.marks.iter().map(|&mark| colour(mark)).collect::<Vec<_>>()));
+        attributes["COLOR_0"] = json!(
+            pack.vertices(&skin.marks.iter().map(|&mark| colour_of(mark)).collect::<Vec<_>>())
+        );
     }
     let primitive = |(material, region): (usize, Region)| {
         let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region);
@@ -135,7 +135,7 @@ fn regions(skin: &Skin) -> impl Iterator<Item = Region> {
     Region::ALL.into_iter().filter(|region| skin.regions.contains(region))
 }
 
-/// A material whose name is the region; its colour tells regions apart and nothing more.
+/// A material named after its region; its colour only distinguishes regions.
 fn material(region: Region) -> Value {
     let turn = f64::from(region as u32) * 0.618_034;
     let colour: [f64; 3] = std::array::from_fn(|part| {
@@ -149,7 +149,7 @@ fn material(region: Region) -> Value {
     })
 }
 
-/// Unit normals at the vertices, each triangle weighed by its angle there.
+/// Unit normals at the vertices, weighted by the angles of the triangles.
 fn normals(skin: &Skin) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; skin.vertices.len()];
     for triangle in &skin.triangles {
@@ -165,7 +165,7 @@ fn normals(skin: &Skin) -> Vec<DVec3> {
     sums.into_iter().map(|sum| sum.try_normalize().unwrap_or(DVec3::Z)).collect()
 }
 
-/// Joints and weights of a vertex as glTF wants them: greatest first, each joint once, unused ones 0, a sum of 1.
+/// Joints and weights of a vertex for glTF: greatest first, each joint once, unused ones 0, a sum of 1.
 fn packed(weights: &[(u16, f64); 4]) -> ([u16; 4], [f32; 4]) {
     let mut own: Vec<(u16, f32)> = Vec::with_capacity(4);
     for &(bone, weight) in weights {
@@ -183,4 +183,44 @@ fn packed(weights: &[(u16, f64); 4]) -> ([u16; 4], [f32; 4]) {
     }
     own.resize(4, (0, 0.0));
     (std::array::from_fn(|place| own[place].0), std::array::from_fn(|place| own[place].1))
+}
+
+/// Properties of the whale in a file.
+#[derive(Clone, Copy, Debug)]
+pub struct About<'a> {
+    /// Id of the library's whale.
+    pub id: &'a str,
+    /// Its name.
+    pub name: &'a str,
+    /// Body length [m].
+    pub length_m: f64,
+    /// Its joint ranges.
+    pub joints: &'a JointRanges,
+}
+
+/// Extra properties of a bone: the angles that rotate it, with share, axis in the bone's frame (that of the whale) and range.
+pub(super) fn bone_extras(bone: &Bone, ranges: &JointRanges) -> Value {
+    let turn = |(channel, axis): &(Channel, DVec3)| {
+        let (angle, of) = channel.angle.name();
+        let [least, most] = ranges.of(channel.angle).map(degrees);
+        json!({ "angle": angle, "of": of, "share": channel.share, "axis": axis.to_array(), "least_deg": least, "most_deg": most })
+    };
+    json!({ "turns": bone.turns.iter().map(turn).collect::<Vec<_>>() })
+}
+
+/// Extra properties of the root: the whale, and the ranges of the whole spine.
+pub(super) fn whale_extras(about: &About<'_>) -> Value {
+    let [pitch, yaw, roll] = about.joints.spine_total.map(degrees);
+    json!({
+        "endline": 1,
+        "whale": about.id,
+        "length_m": about.length_m,
+        "axes": "bones: x to the snout, y to port, z to the back",
+        "spine_total_deg": { "pitch": pitch, "yaw": yaw, "roll": roll },
+    })
+}
+
+/// Rounded degrees; null for an unlimited angle.
+fn degrees(angle: f64) -> Option<f64> {
+    angle.is_finite().then(|| (angle.to_degrees() * 1e9).round() / 1e9)
 }

@@ -1,8 +1,8 @@
 //! Fast random meetings of a buoy or trap with a piece of the right whale's skin: fins, jaws, lips and trunk.
 //!
 //! Every meeting is drawn from its number alone. A ball, a buoy with rounded ends or a box, of 2 to 100 kg, hangs in
-//! the sea; the piece comes from any side, turned any way, at 2 to 20 m/s, turning as it goes, its middle aimed at the body. A run begins one step or two
-//! before they can touch and goes on until the piece would be past.
+//! the sea; the piece approaches from any side in any attitude at 2 to 20 m/s, rotates, and its middle is aimed at the body. A run begins one step or two
+//! before they can touch and continues until the piece would have passed.
 
 use std::sync::Arc;
 
@@ -18,26 +18,26 @@ use super::dice::Dice;
 use super::piece::{piece, reach};
 use super::{MET, REACH_M, rig};
 
-/// Every so many vertices of the skin a piece is cut out about.
+/// Interval of the skin's vertices about which pieces are cut out.
 const STRIDE: usize = 7;
 
 /// Pieces of skin, each about a vertex at its origin.
 pub struct Pieces(Vec<Skin>);
 
-/// What came of meetings.
+/// Counts of meetings.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     pub meetings: u64,
-    /// In which the two touched.
+    /// With contact.
     pub met: u64,
-    /// In which the body's core crossed skin.
+    /// With the body's core across skin.
     pub crossed: u64,
-    /// That ended for another reason.
+    /// Ended for another reason.
     pub ended: u64,
     pub solver_steps: u64,
     pub unconverged: u64,
-    /// The first that crossed or ended, with what was said.
-    pub told: Vec<String>,
+    /// Numbers of the first that crossed or ended, with the message.
+    pub reported: Vec<String>,
 }
 
 impl Pieces {
@@ -49,7 +49,7 @@ impl Pieces {
         Self(all.map(about).filter(|piece| reach(piece) < REACH_M).collect())
     }
 
-    /// The meeting of a number: its model, its steps and what was drawn.
+    /// The meeting of a number: its model, its steps and the random values.
     pub fn meeting(&self, number: u64, swept: bool) -> (ModelSpec, u64, String) {
         self.meeting_of(number, swept, None)
     }
@@ -73,7 +73,7 @@ impl Pieces {
         let body = body(&mut dice, kind);
         let size = size_of(&body.parts);
         let forward = heading * DVec3::X;
-        // A body of several parts is aimed at anywhere along its staff, any other about its middle. The way to the former is long: it turns less on it.
+        // A body of several parts is met anywhere along its staff, any other near its middle. The path to the former is long, so the piece rotates less on it.
         let is_long = body.parts.len() > 1;
         let turn_rate = if is_long { turn_rate.map(|rate| 0.1 * rate) } else { turn_rate };
         let along_m = if is_long { dice.between(-0.9, 0.9) * size } else { 0.0 };
@@ -91,8 +91,8 @@ impl Pieces {
         };
         let past_m = before_m + reach(&skin) + size;
         let steps = (past_m / speed_m_s / settings.step_s).ceil() as u64;
-        let told = format!("{speed_m_s:.1} m/s, {:?} of {:.1} kg", body.parts, body.mass_kg);
-        (spec(whale, body, dice.between(0.05, 0.6), settings), steps, told)
+        let reported = format!("{speed_m_s:.1} m/s, {:?} of {:.1} kg", body.parts, body.mass_kg);
+        (spec(whale, body, dice.between(0.05, 0.6), settings), steps, reported)
     }
 }
 
@@ -158,7 +158,7 @@ fn body(dice: &mut Dice, kind: Option<u32>) -> Body {
     Body { orientation, ..adrift(parts, mass_kg, MET) }
 }
 
-/// A body that neither floats nor stands on anything.
+/// A body without buoyancy, weight or support.
 pub fn adrift(parts: Vec<PlacedShape>, mass_kg: f64, position_m: DVec3) -> Body {
     let size = size_of(&parts);
     Body {
@@ -217,7 +217,7 @@ fn spec(whale: Whale, body: Body, friction: f64, settings: Settings) -> ModelSpe
 }
 
 impl Tally {
-    /// Both together.
+    /// The sum of two counts.
     pub fn with(mut self, other: Self) -> Self {
         self.meetings += other.meetings;
         self.met += other.met;
@@ -225,7 +225,7 @@ impl Tally {
         self.ended += other.ended;
         self.solver_steps += other.solver_steps;
         self.unconverged += other.unconverged;
-        self.told.extend(other.told);
+        self.reported.extend(other.reported);
         self
     }
 
@@ -245,8 +245,8 @@ impl Tally {
         self.ended += u64::from(ended.is_some() && !crossed);
         self.solver_steps += workspace.audit.solver_steps;
         self.unconverged += workspace.audit.unconverged;
-        if (crossed || ended.is_some()) && self.told.len() < 10 {
-            self.told.push(format!("meeting {number}, {drawn}: crossed {crossed}, {ended:?}"));
+        if (crossed || ended.is_some()) && self.reported.len() < 10 {
+            self.reported.push(format!("meeting {number}, {drawn}: crossed {crossed}, {ended:?}"));
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Fast random encounters of rope with the edges of flippers and flukes: a short taut rope, and a piece of the right whale's
 //! own skin about a place on an edge, sent through it.
 //!
-//! Every encounter is drawn from its number alone. The rope hangs in the sea between a fixture and a steady pull of 5 N to
-//! 8 kN, on segments of 1.25 to 13 cm; the piece comes from any side, turned any way, at 2 to 20 m/s, turning as it goes, and
-//! what it strikes the rope with is an edge. A run begins a step or two of contact before that and goes on until the
-//! piece has come [`THROUGH_M`] farther, in no fewer than [`LEAST_STEPS`] steps.
+//! An encounter is a function of its number. The rope is in the sea between a fixture and a constant pull of 5 N to 8 kN, with
+//! segments of 1.25 to 13 cm. The piece approaches from any side in any attitude at 2 to 20 m/s, rotates, and strikes the
+//! rope with an edge. A run begins one or two contact steps before that and ends when the piece has moved [`THROUGH_M`]
+//! farther, after at least [`LEAST_STEPS`] steps.
 #![allow(
     dead_code,
     clippy::expect_used,
@@ -25,23 +25,23 @@ use endline_sim::whale::Skin;
 use endline_sim::{DQuat, DVec3, ModelSpec};
 use piece::{Strike, is_edge, piece, reach, strike};
 
-/// Pieces reach no farther than this [m].
+/// Greatest radius of a piece [m].
 const REACH_M: f64 = 0.3;
-/// Least sine of the angle between the way of the piece and the rope.
+/// Smallest sine of the angle between the direction of the piece and the rope.
 const ASLANT: f64 = 0.7;
-/// Fewest pieces cut out of the whale.
+/// Smallest number of pieces.
 const PIECES: usize = 256;
-/// How far the piece goes on after the strike, at least [m].
+/// Smallest path of the piece after the strike [m].
 const THROUGH_M: f64 = 0.04;
-/// Steps of the model, at least.
+/// Smallest number of steps of the model.
 const LEAST_STEPS: f64 = 1.0;
-/// Places on edges that are met pass the rope within this [m].
+/// Largest distance from the rope at which a struck place of an edge passes [m].
 const BESIDE_M: f64 = 0.02;
 const ROPE_M: f64 = 0.8;
 /// Shortest and longest segments [m].
 const SHORTEST_M: f64 = 0.0125;
 const LONGEST_M: f64 = 0.13;
-/// Where the rope is met.
+/// Place of the strike.
 const MET: DVec3 = DVec3::new(0.0, 0.0, -50.0);
 
 /// Pieces of fins, each about a place on an edge at its origin.
@@ -87,7 +87,7 @@ impl Fins {
         Self(pieces)
     }
 
-    /// The encounter of a number, tested along every path; or at the end of each step of the model alone, as long steps usually are.
+    /// The encounter of a number, tested along every path, or only at the end of each step of the model.
     pub fn encounter(&self, number: u64, swept: bool) -> Encounter {
         let mut dice = Dice::of(number);
         let usual = Settings::default();
@@ -116,7 +116,7 @@ impl Fins {
         Encounter { speed_m_s, pull_n, steps, spec: rope.rig(whale, friction, settings) }
     }
 
-    /// Draws pieces and ways until an edge strikes. The rope points so that the piece drifts away from where it is held.
+    /// Draws pieces and paths until an edge strikes. The rope is directed so that the piece drifts away from its fixture.
     fn meeting(&self, dice: &mut Dice) -> Meeting {
         loop {
             let piece = &self.0[(dice.share() * self.0.len() as f64) as usize % self.0.len()];

@@ -4,7 +4,7 @@ use endline_sdk::Region;
 use endline_sim::DVec3;
 use endline_sim::whale::{Bone, Skin};
 
-/// Skin this near to the place on the edge is taken along [m].
+/// Radius of the skin about the place on the edge that the piece includes [m].
 const PIECE_M: f64 = 0.1;
 
 /// Whether a region is the edge or tip of a flipper or fluke.
@@ -72,11 +72,11 @@ fn close(skin: &mut Skin) {
     }
 }
 
-/// Where a piece on its way first strikes a straight rope without end through the origin.
+/// First strike of a moving piece on an infinite straight rope through the origin.
 pub struct Strike {
-    /// How far the piece goes until then, below zero where it has gone past [m].
+    /// Path of the piece until then, negative if it has passed [m].
     pub way_m: f64,
-    /// Least place of any vertex along the rope then [m].
+    /// Smallest coordinate of any vertex along the rope at that time [m].
     pub least_along_m: f64,
     pub region: Region,
 }

@@ -1,4 +1,4 @@
-//! The rig of an encounter: a taut rope in still water, and a whale that is a piece of fin on its way.
+//! The rig of an encounter: a taut rope in still water, and a whale that is a moving piece of fin.
 
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ impl WhaleMotion for Steady {
     }
 }
 
-/// A piece of fin on its way.
+/// A moving piece of fin.
 pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
     let (id, name, help) = ("test.steady".into(), "Steady".into(), "Always the same.".into());
     let descriptor = Descriptor {
@@ -71,7 +71,7 @@ pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
     }
 }
 
-/// A taut rope, held where it begins.
+/// A taut rope, fixed at its start.
 pub struct Taut {
     pub held: DVec3,
     pub along: DVec3,
@@ -91,7 +91,7 @@ impl Taut {
     }
 }
 
-/// A rope as it lies, held where it begins and pulled straight on at its end.
+/// A rope along given nodes, fixed at its start and pulled straight at its end.
 pub struct Strand {
     pub nodes: Vec<DVec3>,
     pub pull_n: f64,
@@ -145,7 +145,7 @@ pub fn sea(
     }
 }
 
-/// The two ends of a rope: held, and pulled straight on.
+/// The two ends of a rope: fixed, and pulled straight.
 fn ends(strand: &Strand) -> [Joint; 2] {
     let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
     let last = strand.nodes.len() - 1;

@@ -1,8 +1,8 @@
 //! Fast random encounters of two ropes at once, or of one rope with itself, with the edges of flippers and flukes.
 //!
 //! A first strand is met as in `mod.rs`; a second one crosses it within 5 cm of that place, at a distance of one to four
-//! thicknesses before or behind it as the piece sees them, at 20 to 90 degrees. In every other encounter the two are one rope
-//! that comes back to itself in a loop. The piece drives the strands into each other while it presses on them.
+//! thicknesses before or behind it in the direction of the piece, at 20 to 90 degrees. In every other encounter the two are one rope
+//! that forms a loop. The piece drives the strands into each other while it presses on them.
 
 use endline_sim::DVec3;
 use endline_sim::model::{RopeOnRope, Settings, Whale};
@@ -12,7 +12,7 @@ use super::piece::strike;
 use super::rig::{self, Strand};
 use super::{ASLANT, Encounter, Fins, MET, Meeting, SHORTEST_M};
 
-/// How far the piece goes on after the first strike, at least [m].
+/// Distance that the piece moves after the first strike, at least [m].
 const THROUGH_M: f64 = 0.12;
 /// Half of each strand [m].
 const HALF_M: f64 = 0.4;
@@ -21,7 +21,7 @@ const LONGEST_M: f64 = 0.05;
 /// Pieces of a loop between its strands, at least.
 const LOOP_PIECES: f64 = 12.0;
 
-/// Two straight strands, with where each is held and its direction.
+/// Two straight strands, each with its fixture and direction.
 struct Strands {
     middles: [DVec3; 2],
     ways: [DVec3; 2],

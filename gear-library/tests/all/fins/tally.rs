@@ -1,4 +1,4 @@
-//! Encounters run and counted.
+//! Runs and counts encounters.
 
 use endline_sim::geometry::crossing::pierces;
 use endline_sim::whale::{pose, skin_all};
@@ -6,29 +6,29 @@ use endline_sim::{Input, Model, State, Workspace, step};
 
 use super::Encounter;
 
-/// What came of encounters.
+/// Counts of encounters.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     pub encounters: u64,
-    /// In which rope was pressed on.
+    /// With a force on rope.
     pub met: u64,
-    /// In which rope crossed skin, by the exact test of the paths or by a look at each end of a step.
+    /// With rope across skin, by the exact test of the paths or at the end of a step.
     pub crossed: u64,
-    /// In which rope crossed rope, by the exact test of the paths.
+    /// With rope across rope, by the exact test of the paths.
     pub ropes_crossed: u64,
-    /// In which rope was pressed on by skin and by rope at once.
+    /// With forces of skin and rope on rope at once.
     pub met_both: u64,
-    /// That ended for another reason.
+    /// Ended for another reason.
     pub ended: u64,
     pub solver_steps: u64,
     pub passes: u64,
     pub unconverged: u64,
-    /// Numbers of the first that crossed or ended, with what was said.
-    pub told: Vec<String>,
+    /// Numbers of the first that crossed or ended, with the message.
+    pub reported: Vec<String>,
 }
 
 impl Tally {
-    /// Both together.
+    /// The sum of two counts.
     pub fn with(mut self, other: Self) -> Self {
         self.encounters += other.encounters;
         self.met += other.met;
@@ -39,7 +39,7 @@ impl Tally {
         self.solver_steps += other.solver_steps;
         self.passes += other.passes;
         self.unconverged += other.unconverged;
-        self.told.extend(other.told);
+        self.reported.extend(other.reported);
         self
     }
 
@@ -66,8 +66,8 @@ impl Tally {
         self.solver_steps += workspace.audit.solver_steps;
         self.passes += workspace.audit.passes;
         self.unconverged += workspace.audit.unconverged;
-        if (crossed || ropes_crossed || ended.is_some()) && self.told.len() < 10 {
-            self.told.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, rope {ropes_crossed}, {ended:?}"));
+        if (crossed || ropes_crossed || ended.is_some()) && self.reported.len() < 10 {
+            self.reported.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, rope {ropes_crossed}, {ended:?}"));
         }
     }
 }
@@ -78,7 +78,7 @@ fn is_between(workspace: &Workspace) -> bool {
     pressed && workspace.rope_touches.iter().any(|touch| touch.normal_force_n > 0.0)
 }
 
-/// Whether any segment passes through any triangle where they stand.
+/// Whether any segment passes through any triangle at their present places.
 pub fn is_pierced(model: &Model, state: &State) -> bool {
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return false };
     let (mut bones, mut places) = (Vec::new(), Vec::new());

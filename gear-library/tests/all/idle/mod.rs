@@ -15,10 +15,10 @@ use endline_sdk::{
     MotionOutput, WhaleMotion,
 };
 
-/// A motion that stands still and a friction of none, under the id `test.idle`.
+/// A motion without movement and a friction model without friction, with the id `test.idle`.
 pub struct Idle(Arc<Still>);
 
-/// What the hooks give.
+/// The instance of both hooks.
 pub struct Still(Descriptor);
 
 impl Idle {

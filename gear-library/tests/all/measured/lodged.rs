@@ -1,4 +1,4 @@
-//! Rope in the mouth: lodged once the jaws have closed on it, let go once they open and the whale backs off.
+//! Rope in the mouth: lodged once the jaws have closed on it, released once they open and the whale backs off.
 
 use endline_sdk::{MotionOutput, Posture, Region};
 use endline_sim::metrics::EventKind;
@@ -71,7 +71,7 @@ fn rope_lodges_in_the_mouth_and_comes_out_again() {
     println!("{:?}", run.metrics.events());
     let whale = run.summary().whale.unwrap();
     assert!(!whale.lodged_in_mouth && whale.was_lodged_in_mouth);
-    let told = |kind: EventKind| {
+    let reported = |kind: EventKind| {
         run.metrics
             .events()
             .iter()
@@ -79,7 +79,7 @@ fn rope_lodges_in_the_mouth_and_comes_out_again() {
             .map(|event| event.time_s)
             .unwrap()
     };
-    let (in_s, out_s) = (told(EventKind::Lodged), told(EventKind::Dislodged));
+    let (in_s, out_s) = (reported(EventKind::Lodged), reported(EventKind::Dislodged));
     assert!(in_s > stop - 0.5 && in_s < stop + 3.4, "{in_s}");
     assert!(out_s > stop + 3.5, "not before the jaws open: {out_s}");
     assert_eq!(run.workspace.audit.tunnelled, 0);

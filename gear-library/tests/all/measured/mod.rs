@@ -1,5 +1,5 @@
-//! Entanglement as measured over whole runs of the right whale, against what is known of them beforehand: rope that lodges in the
-//! mouth and comes out, rope that sheds, gear that is towed, forces that add up.
+//! Entanglement measured in whole runs of the right whale with known results: rope that lodges in the mouth and is released,
+//! rope that sheds, towed gear, sums of forces.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
@@ -18,10 +18,10 @@ use endline_sdk::{
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, step};
 
-/// What a whale does at a time [s].
+/// Controls of a whale at a time [s].
 type Timetable = Box<dyn Fn(f64) -> MotionOutput + Send + Sync>;
 
-/// A whale that keeps to a timetable, and rope that rubs on it by Coulomb's law, or not at all.
+/// A whale with a timetable, and rope with Coulomb friction on it, or none.
 struct Hands {
     whale: Arc<Script>,
     rubs: bool,
@@ -99,13 +99,13 @@ impl Run {
         Self { model, state, workspace, metrics }
     }
 
-    /// Goes on to a time, looking after every step.
-    fn until(&mut self, time_s: f64, mut look: impl FnMut(&Self)) {
+    /// Runs to a time and observes each step.
+    fn until(&mut self, time_s: f64, mut observe: impl FnMut(&Self)) {
         while self.state.time_s < time_s - 1e-9 {
             step(&self.model, &Input::default(), &mut self.state, &mut self.workspace)
                 .unwrap_or_else(|stop| panic!("{stop:?}"));
             self.metrics.fold_step(&self.model, &self.state, &self.workspace);
-            look(self);
+            observe(self);
         }
     }
 
@@ -114,12 +114,12 @@ impl Run {
     }
 }
 
-/// From 0 before one time to 1 after another, evenly.
+/// Linear from 0 at one time to 1 at another.
 fn ramp(time_s: f64, from_s: f64, to_s: f64) -> f64 {
     ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0)
 }
 
-/// A whale 20 m down that heads north, in still water; what follows adds lines to it.
+/// A whale 20 m down that heads north, in still water; the tests add lines.
 fn scenario(more: &str) -> String {
     format!(
         "format = 1\nkind = \"scenario\"\nname = \"measured\"\nsource = \"test\"\nconfidence = \"estimate\"\nduration = \"60 s\"\n\

@@ -1,4 +1,4 @@
-//! A loop drawn off a flipper's tip: its wraps go level by level, contact ends, and the rope counts as shed; all told in order of time.
+//! A loop pulled off a flipper's tip: its wraps decrease by levels, contact ends, and the rope counts as shed; events are in order.
 
 use endline_sdk::MotionOutput;
 use endline_sim::metrics::{EventKind, Outcome};
@@ -6,8 +6,8 @@ use endline_sim::metrics::{EventKind, Outcome};
 use super::{Hands, Run, scenario, spec};
 
 #[test]
-fn a_loop_drawn_off_a_flipper_is_told_step_by_step() {
-    // Both ends are drawn away to port, which is to the west of a whale that heads north; without friction the loop follows.
+fn a_loop_pulled_off_a_flipper_gives_events_in_order() {
+    // Both ends are pulled to port, west for a whale that heads north; without friction the loop follows.
     let end = |id: &str, y: f64, z: f64| {
         format!(
             "[[fixture]]\nid = \"{id}\"\nposition = [\"-5 m\", \"{y} m\", \"{z} m\"]\nvelocity = [\"-1 m/s\", \"0 m/s\", \"0 m/s\"]\n\
@@ -38,23 +38,23 @@ fn a_loop_drawn_off_a_flipper_is_told_step_by_step() {
     let of_wraps = |event: &&endline_sim::metrics::Event| {
         event.subject == "left_flipper" && event.kind != EventKind::Slip
     };
-    let told: Vec<(EventKind, f64)> =
+    let reported: Vec<(EventKind, f64)> =
         events.iter().filter(of_wraps).map(|event| (event.kind, event.value)).collect();
-    let kinds: Vec<EventKind> = told.iter().map(|(kind, _)| *kind).collect();
-    let [contact, wraps @ .., lost] = &kinds[..] else { panic!("{told:?}") };
-    assert_eq!((*contact, *lost), (EventKind::Contact, EventKind::ContactLost), "{told:?}");
+    let kinds: Vec<EventKind> = reported.iter().map(|(kind, _)| *kind).collect();
+    let [contact, wraps @ .., lost] = &kinds[..] else { panic!("{reported:?}") };
+    assert_eq!((*contact, *lost), (EventKind::Contact, EventKind::ContactLost), "{reported:?}");
     assert_eq!(
         wraps.iter().filter(|kind| **kind == EventKind::Wrap).count(),
         2,
-        "half a turn and one: {told:?}"
+        "half a turn and one: {reported:?}"
     );
-    let undone: Vec<f64> = told
+    let undone: Vec<f64> = reported
         .iter()
         .filter(|(kind, _)| *kind == EventKind::WrapUndone)
         .map(|(_, level)| *level)
         .collect();
-    assert_eq!(undone, [1.0, 0.5], "{told:?}");
-    // Less than half a turn at the last touch: let go once free for a third of the episode, t - t_last = (t - t_first)/3.
+    assert_eq!(undone, [1.0, 0.5], "{reported:?}");
+    // Less than half a turn at the last contact: released once free for a third of the episode, t - t_last = (t - t_first)/3.
     let shed = events.iter().find(|event| event.kind == EventKind::Shed).unwrap();
     let wanted_s = 1.5 * shed.value - 0.5 * early.first_contact_s.unwrap();
     assert!((shed.time_s - wanted_s).abs() < 0.02, "{shed:?}, wanted at {wanted_s} s");

@@ -1,4 +1,4 @@
-//! Gear towed: its drag by the law of drag, what is carried, and forces by patch that add up to what the whale feels.
+//! Gear towed: its drag by the law of drag, the weight carried, and forces by patch whose sum is the force on the whale.
 
 use endline_sdk::MotionOutput;
 use endline_sim::DVec3;
@@ -44,7 +44,7 @@ fn drag_added_is_that_of_the_gear_towed() {
     );
 }
 
-/// The carcass wound in gear: forces of rope on the patches are all that it feels, as a vector, step by step.
+/// The carcass wound in gear: the forces of rope on the patches add up to the total force, as a vector, at each step.
 #[test]
 fn forces_on_the_patches_add_up_to_what_the_whale_feels() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/dead-whale-wraps.toml");

@@ -33,7 +33,7 @@ fn steady_slip_has_the_ellipse_of_friction() {
     }
 }
 
-/// A rope along the plates, pressed in, holds up to the pull-out force; then slides free, and wedges again only once at rest.
+/// A rope along the plates, pressed in, holds up to the pull-out force; then it slides free, and wedges again only at rest.
 #[test]
 fn a_wedged_rope_is_drawn_out_at_the_pull_out_force() {
     let model = Baleen::new();
@@ -67,10 +67,10 @@ fn a_wedged_rope_is_drawn_out_at_the_pull_out_force() {
     let plain = -sliding.slide(&model, &attributes, [1e-3, 0.0, 0.0])[0];
     assert!((plain - 1.5 * MU * NORMAL).abs() < 1e-9, "{plain} N");
     sliding.slide(&model, &attributes, [-1e-6, 0.0, 0.0]);
-    assert!(sliding.state[3] > 0.5, "and wedges again where it comes to rest");
+    assert!(sliding.state[3] > 0.5, "and wedges again where it stops");
 }
 
-/// Little pressed, a wedge holds by its coefficient; a rope across the plates, or pressed too little, does not go in between.
+/// At low pressure, a wedge holds by its coefficient; a rope across the plates, or at lower pressure, does not enter between them.
 #[test]
 fn what_wedges_and_how_hard_it_holds() {
     let model = Baleen::new();

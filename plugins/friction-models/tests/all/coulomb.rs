@@ -91,7 +91,7 @@ fn force_lies_across_the_normal_and_never_exceeds_the_limit() {
     }
 }
 
-/// Work done on the rope over any path is at most what the bristle took in: no energy comes out.
+/// Work on the rope over any path is at most the energy stored in the bristle: none is created.
 #[test]
 fn friction_takes_energy_over_any_path() {
     let mut numbers = Random(3);
@@ -115,7 +115,7 @@ fn friction_takes_energy_over_any_path() {
     }
 }
 
-/// A rope point pulled along the skin at 95 % of the limit: it gives once, then never moves again.
+/// A rope point pulled along the skin at 95 % of the limit: it moves once, then never again.
 #[test]
 fn a_stuck_rope_does_not_creep() {
     let (mu, normal_force, length) = (0.3, 200.0, 0.02);
@@ -136,8 +136,8 @@ fn a_stuck_rope_does_not_creep() {
     assert!(creep < 1e-12, "crept {creep} m in 2000 steps");
 }
 
-/// Rope dragged round a drum: at a node turning by `D` with its contact at the node, equilibrium gives
-/// `ln(T2/T1) = 2 atanh(mu tan(D/2))`; many nodes come to the capstan's `exp(mu theta)`.
+/// Rope dragged round a drum: at a node that bends by `D` with its contact at the node, equilibrium gives
+/// `ln(T2/T1) = 2 atanh(mu tan(D/2))`; many nodes approach the capstan's `exp(mu theta)`.
 #[test]
 fn a_dragged_rope_obeys_the_capstan_equation() {
     for mu in [0.1, 0.3, 0.6] {

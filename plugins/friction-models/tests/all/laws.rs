@@ -1,12 +1,12 @@
-//! What holds for every friction model that ships: right derivatives, forces that lie across the normal and are bounded, and no energy
-//! out of nothing, at random attributes and inputs.
+//! Invariants of every shipped friction model: correct derivatives, bounded forces across the normal, and no creation of
+//! energy, at random attributes and inputs.
 
 use crate::common;
 use crate::common::{Contact, Random, Vec3, across, dot, norm, random_values};
 use endline_friction_models::all;
 use endline_sdk::FrictionModel;
 
-/// Slides a fresh contact about for a while, so that its floats are what they come to be.
+/// Slides a new contact for a while, so that its state is not the initial one.
 fn used(model: &dyn FrictionModel, attributes: &[f64], random: &mut Random) -> Contact {
     let mut contact = Contact::random(model, random);
     let way = libm::exp10(random.between(-6.0, -2.0));
@@ -18,7 +18,7 @@ fn used(model: &dyn FrictionModel, attributes: &[f64], random: &mut Random) -> C
     contact
 }
 
-/// Forces a little to either side along an axis: their difference tells the derivative, and their bend whether a branch changes between.
+/// Forces a little to either side along an axis: first differences for the derivative, second differences to detect a change of branch.
 fn beside(
     model: &dyn FrictionModel,
     attributes: &[f64],
@@ -116,7 +116,7 @@ fn force_lies_across_the_normal_and_is_bounded() {
     }
 }
 
-/// From first touch on, work done on the rope is never above zero: no energy comes out that has not gone in. Meanwhile normal force, slip and
+/// From the first contact on, work on the rope is never positive: no energy is created. Normal force, slip and
 /// place on a turning body change at random.
 #[test]
 fn no_model_adds_energy_over_any_path() {

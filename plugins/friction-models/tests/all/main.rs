@@ -1,4 +1,4 @@
-//! Tests of the friction models, each through its own door.
+//! Tests of the friction models, each through its interface.
 
 mod baleen;
 mod common;

@@ -29,7 +29,7 @@ fn steady_slip_has_the_stribeck_curve() {
     }
 }
 
-/// The film follows with a lag: after a jump of speed it comes to within 1/e in the film time.
+/// The film follows with a lag: after a jump of speed the difference falls to 1/e in the film time.
 #[test]
 fn the_film_lags_by_its_time() {
     let model = Stribeck::new();
@@ -43,9 +43,9 @@ fn the_film_lags_by_its_time() {
     assert!((contact.state[3] / expected - 1.0).abs() < 1e-3, "{} {expected}", contact.state[3]);
 }
 
-/// A block drawn slowly sticks till the spring reaches static friction, leaps, and sticks again. With a fall from `rho mu` to `mu` that is
-/// quick against the leap, the block swings about the kinetic balance by half a cosine: pull falls from `rho mu N` to
-/// `(2 - rho) mu N`, and from one leap to the next it takes `2 (rho - 1) mu N / (K V)` of sticking and about `pi sqrt(M/K)` of slip.
+/// A block pulled slowly sticks until the spring reaches static friction, slips, and sticks again. With a fall from `rho mu` to `mu` that is
+/// fast compared with the slip, the block oscillates about the kinetic equilibrium by half a cosine: pull falls from `rho mu N` to
+/// `(2 - rho) mu N`, and a period consists of `2 (rho - 1) mu N / (K V)` of sticking and about `pi sqrt(M/K)` of slip.
 #[test]
 fn a_slowly_drawn_block_sticks_and_slips_with_the_closed_form_period() {
     let model = Stribeck::new();
@@ -87,7 +87,7 @@ fn a_slowly_drawn_block_sticks_and_slips_with_the_closed_form_period() {
 }
 
 /// Steady slip is stable where friction rises with speed and not where it falls, whatever the lag (Routh's test of
-/// `m tau x³ + m x² + (K tau + N mu') x + K`): the threshold is the least of the curve.
+/// `m tau x³ + m x² + (K tau + N mu') x + K`): the threshold is the minimum of the curve.
 #[test]
 fn stick_slip_ends_at_the_least_of_the_curve() {
     let model = Stribeck::new();
@@ -104,7 +104,7 @@ fn stick_slip_ends_at_the_least_of_the_curve() {
     let swing = |speed: f64| {
         let contact = Contact { dt: 2e-4, ..Contact::on_plane(&model, NORMAL, MU) };
         let mut slider = Slider::new(&model, attributes.clone(), contact, 300.0, 2.0);
-        // Started at its balance and knocked a little.
+        // Starts at equilibrium with a small disturbance.
         slider.contact.state[3] = speed;
         slider.contact.state[0] = MU * NORMAL * curve(1.4, speed, stribeck, viscous) / (1e7 * 0.02);
         slider.hand = MU * NORMAL * curve(1.4, speed, stribeck, viscous) / 300.0;

@@ -16,7 +16,7 @@ fn skin_goes_with_the_rope_and_comes_back() {
     for _ in 0..40 {
         force = contact.slide(&model, &attributes, [6e-4, 8e-4, 0.0]);
     }
-    // 4 cm of draw, within the elastic range, along its direction.
+    // 4 cm of displacement, within the elastic range, along its direction.
     let expected = STIFFNESS * LENGTH * 0.04;
     assert!(
         (norm(force) / expected - 1.0).abs() < 1e-12 && (force[0] / force[1] - 0.75).abs() < 1e-12,
@@ -29,7 +29,7 @@ fn skin_goes_with_the_rope_and_comes_back() {
 }
 
 /// Slip begins where the pull reaches static friction: within the elastic range by the soft stiffness, beyond it by the taut one; then force falls to
-/// kinetic friction, and holds there.
+/// kinetic friction, and remains there.
 #[test]
 fn slip_begins_at_the_static_limit_and_falls_to_the_kinetic() {
     let model = Tissue::new();
@@ -57,7 +57,7 @@ fn slip_begins_at_the_static_limit_and_falls_to_the_kinetic() {
     }
 }
 
-/// Draw is kept in the skin's frame: turned with the whale, the pull turns too.
+/// Displacement of the tissue is stored in the skin's frame: it rotates with the whale.
 #[test]
 fn draw_turns_with_the_skin() {
     let model = Tissue::new();
@@ -73,7 +73,7 @@ fn draw_turns_with_the_skin() {
     );
 }
 
-/// A light rope drawn by a spring at a slow, steady speed sticks and slips; skin and spring give in series, so with
+/// A light rope pulled by a spring at a slow, constant speed sticks and slips; skin and spring are in series, so with
 /// `1/C = 1/K + 1/(k l)` pull rises from kinetic to static friction in `(rho - 1) mu N / (C V)`, and falls back at once.
 #[test]
 fn a_drawn_rope_sticks_and_slips_with_the_closed_form_period() {

@@ -1,32 +1,32 @@
-//! The endline: two ropes, a surface system, a buoy and, where wanted, a high-flyer beyond it.
+//! The endline: two ropes, a surface system, a buoy and an optional high-flyer.
 //!
-//! The rope at the seabed end floats, so that it stays off the bottom. The rope at the buoy end sinks,
-//! so that it does not lie on the surface, where propellers are.
+//! The rope at the seabed end floats and stays off the bottom. The rope at the buoy end sinks, away from propellers at the
+//! surface.
 //!
 //! ```text
 //!  ~~~~~~ buoy ~ high-flyer-line ~ high-flyer ~~~
 //!           |  buoy-link          weak link, at the buoy
-//!           |  surface-system     only where its rope is named
+//!           |  surface-system     only with its own rope
 //!           |  endline-top        L - lower - surface system
 //!         splice
 //!           |  endline-bottom     lower = share x L,  L = scope x depth
 //!  ________foot________
 //! ```
 //!
-//! Make-up: lobster practice in Maine, and the Massachusetts rule for recreational pots that an endline be
-//! sinking rope but for its bottom third. Scope is 1.2 to 1.5 inshore, up to 2 in strong tide.
+//! The make follows lobster practice in Maine, and the Massachusetts rule for recreational pots that an endline be
+//! sinking rope except for its bottom third. Scope is 1.2 to 1.5 inshore, up to 2 in strong tide.
 //!
-//! First guess: the buoy lies downstream of the foot, at nine tenths of what the rope spans; splices lie
-//! on the straight line.
+//! Initial guess: the buoy lies downstream of the foot, at nine tenths of the horizontal reach of the rope; splices are on the
+//! straight line.
 
 use endline_sdk::{Attribute, BodyKind, HookError, LineEnd, RigEnd, Site};
 
 use super::{Foot, Lay, Values, depth_of, downstream};
 
-/// How much of the horizontal reach of its rope the first guess uses [1].
+/// Share of the horizontal reach of the rope in the initial guess [1].
 const GUESSED_REACH: f64 = 0.9;
 
-/// What an endline is made of.
+/// The parts of an endline.
 #[derive(Clone, Debug)]
 pub struct Endline<'a> {
     buoy: &'a str,
@@ -45,12 +45,12 @@ pub struct Endline<'a> {
 struct Lengths {
     lower: f64,
     upper: f64,
-    /// Zero where the surface system has no rope of its own.
+    /// Zero for a surface system without its own rope.
     surface: f64,
 }
 
 impl<'a> Endline<'a> {
-    /// The attributes of an endline with the buoy that is usual for the gear.
+    /// The attributes of an endline, with the default buoy.
     #[must_use]
     pub fn attributes(buoy: &'static str) -> Vec<Attribute> {
         let mut attributes = rope_attributes(buoy);
@@ -58,7 +58,7 @@ impl<'a> Endline<'a> {
         attributes
     }
 
-    /// The endline that the values ask for.
+    /// The endline of the attribute values.
     ///
     /// # Errors
     /// Naming the attribute to fix.
@@ -77,22 +77,22 @@ impl<'a> Endline<'a> {
         })
     }
 
-    /// How many lines it has.
+    /// Number of lines.
     #[must_use]
     pub fn line_count(&self) -> usize {
         2 + usize::from(!self.surface_rope.is_empty()) + usize::from(!self.flyer.is_empty())
     }
 
-    /// Which of its lines ends at the buoy.
+    /// Index of the line that ends at the buoy.
     #[must_use]
     pub fn topmost(&self) -> usize {
         1 + usize::from(!self.surface_rope.is_empty())
     }
 
-    /// Puts the endline on its foot; `prefix` goes before its ids.
+    /// Adds the endline at its foot; `prefix` is put before its ids.
     ///
     /// # Errors
-    /// Where its lengths do not fit together, naming the attribute to fix.
+    /// If its lengths do not fit; the message names the attribute.
     pub fn lay(
         &self,
         into: &mut Lay,
@@ -125,8 +125,8 @@ impl<'a> Endline<'a> {
         Ok(())
     }
 
-    /// Puts the rope between splice and buoy: the upper rope, and the surface system beyond
-    /// `surface_splice_m` where it has a rope of its own. Answers the id of the line at the buoy.
+    /// Adds the rope between splice and buoy: the upper rope, and the surface system beyond `surface_splice_m` if it has its own
+    /// rope. Returns the id of the line at the buoy.
     fn lay_upper(
         &self,
         into: &mut Lay,
@@ -147,7 +147,7 @@ impl<'a> Endline<'a> {
         surface
     }
 
-    /// Puts the high-flyer downstream of the buoy, where there is one.
+    /// Adds the high-flyer downstream of the buoy, if any.
     fn lay_flyer(
         &self,
         into: &mut Lay,

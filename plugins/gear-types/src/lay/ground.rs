@@ -1,5 +1,4 @@
-//! What lies on the seabed: a groundline with traps on gangions beside it, or with the traps in the line itself, and an
-//! anchor at each end where one is named.
+//! Gear on the seabed: a groundline with traps on gangions or in the line itself, and an optional anchor at each end.
 //!
 //! ```text
 //!              trap-2                              trap-n
@@ -10,18 +9,18 @@
 //!                           trap-1
 //! ```
 //!
-//! Spans are lengths of rope; the groundline lies along `span / (1 + slack)`, as it does when set under way. Traps lie to
-//! the side of it within reach of their gangions. Spacing: inshore 10 to 15 fathoms, nearshore 15 to 20, offshore 25 to 50;
+//! Spans are lengths of rope; the groundline covers `span / (1 + slack)`, as when it is set under way. Traps lie beside it within
+//! reach of their gangions. Spacing: inshore 10 to 15 fathoms, nearshore 15 to 20, offshore 25 to 50;
 //! gangions of 1 to 2 fathoms.
 
 use endline_sdk::{Attribute, BodyKind, HookError, RigEnd, Site};
 
 use super::{FAR, Lay, Values, depth_of};
 
-/// How far to the side of the groundline a trap is put, as a share of its gangion.
+/// Lateral distance of a trap from the groundline, as a share of its gangion.
 const BESIDE: f64 = 0.65;
 
-/// Which side of the groundline the traps lie on.
+/// Side of the groundline on which the traps lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Alternate,
@@ -29,7 +28,7 @@ enum Side {
     Right,
 }
 
-/// What is set on the seabed.
+/// A set on the seabed.
 #[derive(Clone, Debug)]
 pub struct Ground<'a> {
     traps: u32,
@@ -45,21 +44,21 @@ pub struct Ground<'a> {
     anchor_line_m: f64,
 }
 
-/// Where an endline stands.
+/// The foot of an endline.
 #[derive(Clone, Debug)]
 pub struct Foot {
-    /// Where its rope ends.
+    /// Part at which its rope ends.
     pub end: RigEnd,
-    /// First guess of that place [m].
+    /// Initial place [m].
     pub at_m: [f64; 3],
-    /// The trap or anchor nearest to it.
+    /// The nearest trap or anchor.
     pub body: RigEnd,
-    /// First guess of the place of that [m].
+    /// Initial place of that trap or anchor [m].
     pub body_at_m: [f64; 3],
 }
 
 impl<'a> Ground<'a> {
-    /// The attributes of a set of so many traps, with the gangions that are usual for the gear [m].
+    /// The attributes of a set, with defaults of the number of traps and the length of gangions [m].
     #[must_use]
     pub fn attributes(traps: u32, gangion_m: f64) -> Vec<Attribute> {
         let mut all = vec![Attribute::count("traps", [1, 100], traps, "Number of traps.")];
@@ -130,7 +129,7 @@ impl<'a> Ground<'a> {
         ]
     }
 
-    /// The set that the values ask for.
+    /// The set of the attribute values.
     ///
     /// # Errors
     /// Naming the attribute to fix.
@@ -164,7 +163,7 @@ impl<'a> Ground<'a> {
         Ok(ground)
     }
 
-    /// So many traps in the groundline itself, without anchors.
+    /// A number of traps in the groundline itself, without anchors.
     ///
     /// # Errors
     /// Naming the attribute to fix.
@@ -184,13 +183,13 @@ impl<'a> Ground<'a> {
         })
     }
 
-    /// How many traps there are.
+    /// Number of traps.
     #[must_use]
     pub fn traps(&self) -> u32 {
         self.traps
     }
 
-    /// How many lines it has.
+    /// Number of lines.
     #[must_use]
     pub fn line_count(&self) -> usize {
         let each = u32::from(self.gangion_m > 0.0) + if self.bridle_m > 0.0 { 2 } else { 0 };
@@ -198,7 +197,7 @@ impl<'a> Ground<'a> {
         (self.traps - 1 + each * self.traps + anchors) as usize
     }
 
-    /// Puts the set on the seabed; answers its feet, near and far.
+    /// Adds the set on the seabed; returns its feet, near and far.
     ///
     /// # Errors
     /// Where there is no water.
@@ -217,7 +216,7 @@ impl<'a> Ground<'a> {
         }
         let (near, far) = match (feet.first(), feet.last()) {
             (Some(near), Some(far)) => (near.clone(), far.clone()),
-            _ => return Err(HookError::new("attribute `traps`: a set has one trap at least")),
+            _ => return Err(HookError::new("attribute `traps`: a set has at least one trap")),
         };
         if self.anchor.is_empty() {
             return Ok([near, far]);
@@ -229,7 +228,7 @@ impl<'a> Ground<'a> {
         if self.anchor.is_empty() { 0.0 } else { self.anchor_line_m / (1.0 + self.slack) }
     }
 
-    /// A trap in the line at a place, or beside it on a gangion.
+    /// Adds a trap in the line at a place, or beside it on a gangion.
     fn lay_trap(&self, into: &mut Lay, index: u32, at_m: [f64; 3]) -> Foot {
         let number = index + 1;
         let id = format!("trap-{number}");
@@ -238,7 +237,7 @@ impl<'a> Ground<'a> {
             Side::Left => true,
             Side::Right => false,
         };
-        // From the near end one looks along -x, so that left is -y.
+        // Seen from the near end, along -x, left is -y.
         let aside = if left { -BESIDE } else { BESIDE } * self.gangion_m;
         let body_at_m = [at_m[0], at_m[1] + aside, at_m[2]];
         let body = into.body(&id, BodyKind::Trap, self.trap, body_at_m);
@@ -260,7 +259,7 @@ impl<'a> Ground<'a> {
         Foot { end: knot, at_m, body, body_at_m }
     }
 
-    /// Two legs from the corners of a trap's top edge to a splice; answers the splice.
+    /// Adds two legs from the corners of a trap's top edge to a splice; returns the splice.
     fn lay_bridle(&self, into: &mut Lay, number: u32, trap: &str, [x, y, bed]: [f64; 3]) -> RigEnd {
         let splice = into.joint(&format!("bridle-{number}"), [x + self.bridle_m, y, bed]);
         for side in ["port", "starboard"] {
@@ -275,7 +274,7 @@ impl<'a> Ground<'a> {
         splice
     }
 
-    /// An anchor beyond a foot, by which the endline then stands.
+    /// Adds an anchor beyond a foot, at which the endline then ends.
     fn lay_anchor(&self, into: &mut Lay, prefix: &str, from: &Foot, along_x_m: f64) -> Foot {
         let at_m = [from.at_m[0] + along_x_m, from.at_m[1], from.at_m[2]];
         let anchor = into.body(&format!("{prefix}anchor"), BodyKind::Anchor, self.anchor, at_m);

@@ -5,7 +5,7 @@ use crate::common::{built, lines, number, values, word};
 use endline_gear_types::{OnDemand, TimeTensionCutter};
 use endline_sdk::{AttributeValue, GearAction, GearStep, GearType, LineEnd};
 
-/// Steps a gear with a tension on one line, from a time on; answers when it acted, and how.
+/// Steps a gear with a tension on one line, from a time on; returns the time and kind of its action.
 fn acted(
     gear: &dyn GearType,
     changes: &[(&str, AttributeValue)],
@@ -58,13 +58,13 @@ fn the_cutter_parts_its_line_once_the_tension_has_stayed_for_its_time() {
 #[test]
 fn tension_that_lets_go_in_between_starts_the_cutters_time_again() {
     let (gear, changes) = (TimeTensionCutter::new(), cutter(&[]));
-    // 4.5 s on, 0.1 s off: hauling in jerks never adds up.
+    // 4.5 s on, 0.1 s off: intervals of hauling in jerks are not added.
     let jerks = |time_s: f64, _| if time_s % 4.6 < 4.5 { [5000.0; 2] } else { [0.0; 2] };
     assert!(acted(&gear, &changes, jerks, 60.0).is_empty());
 }
 
 #[test]
-fn the_cutter_sits_where_it_is_told_in_each_endline() {
+fn the_cutter_is_at_its_place_in_each_endline() {
     let gear = TimeTensionCutter::new();
     for (at, id, end) in [
         ("foot", "endline-bottom", LineEnd::A),

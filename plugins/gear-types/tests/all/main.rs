@@ -1,4 +1,4 @@
-//! Tests of the gear types: what they lay out, and what acts while a run goes on.
+//! Tests of the gear types: their layout, and their actions during a run.
 
 #![allow(
     clippy::unwrap_used,

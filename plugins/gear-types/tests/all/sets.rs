@@ -155,7 +155,7 @@ fn a_gillnet_is_as_long_as_its_panels_and_bridled_at_both_ends() {
 }
 
 #[test]
-fn what_cannot_be_built_names_the_attribute_to_mend() {
+fn an_error_of_a_layout_names_its_attribute() {
     for (gear, changes, named) in [
         (&Trawl::new() as &dyn GearType, ("gangion", number(15.0)), "`gangion`"),
         (&Trawl::new(), ("gangion_rope", item("")), "`gangion_rope`"),

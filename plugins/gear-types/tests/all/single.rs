@@ -1,8 +1,5 @@
 //! The single: its parts, its lengths, a first guess that the rope can reach.
-#![expect(
-    clippy::unwrap_used,
-    reason = "helpers of tests: where one cannot go on, the test fails there"
-)]
+#![expect(clippy::unwrap_used, reason = "helpers of tests: an error in one fails its test")]
 
 use endline_gear_types::Single;
 use endline_sdk::{AttributeValue, GearType, LineEnd, Rig, RigEnd, Site};

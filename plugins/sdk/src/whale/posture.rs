@@ -3,17 +3,17 @@
 /// Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
 pub const SPINE_JOINTS: usize = 8;
 
-/// Where each spine joint of a right whale sits, as a share of body length aft of the snout [1];
+/// Place of each spine joint of a right whale, as a share of body length aft of the snout [1];
 /// other bodies may differ a little.
 pub const SPINE_STATIONS: [f64; SPINE_JOINTS] = [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885];
 
-/// Where the flukes hinge on the peduncle, as a share of body length aft of the snout [1].
+/// Place of the hinge of the flukes on the peduncle, as a share of body length aft of the snout [1].
 pub const FLUKE_STATION: f64 = 0.93;
 
 /// Joint angles of a whale [rad]; all zero is the rest posture.
 ///
-/// The stretch of body at mid-length keeps to the whale's frame: joints ahead of it move the head,
-/// joints aft of it the tail. Signs are as each field's words say.
+/// The section at mid-body is fixed to the whale's frame: joints ahead of it move the head,
+/// joints aft of it the tail. The documentation of each field states its sign.
 ///
 /// Index 0 of a pair is the left (port) side, 1 the right.
 #[repr(C)]
@@ -44,7 +44,7 @@ pub struct Posture {
 }
 
 impl Posture {
-    /// Its angles by name, with one for each joint or side where there are several; every angle is in one of them.
+    /// Its angles by name, grouped by joints or sides.
     #[must_use]
     pub fn groups(&self) -> [(&'static str, &[f64]); 11] {
         let Self { spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, .. } = self;

@@ -3,7 +3,7 @@
 //! A body part is declared here, with its name, limb and side, and with its regions. Lists, groups and
 //! names elsewhere follow from these declarations.
 
-/// A labelled patch of skin: where a contact is, as fine as friction needs.
+/// A labelled patch of skin: where a contact is, at the resolution of friction.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Region {
@@ -154,7 +154,7 @@ impl Region {
         }
     }
 
-    /// The region of the other side; itself where it lies on both.
+    /// The region of the other side; itself for a central one.
     #[must_use]
     pub const fn mirrored(self) -> Self {
         match self {
@@ -214,7 +214,7 @@ impl BodyPart {
         Self::RightFluke,
     ];
 
-    /// What is declared of each part: name, limb and side. Lists, groups and names elsewhere follow
+    /// Declaration of each part: name, limb and side. Lists, groups and names elsewhere follow
     /// from it.
     const fn declared(self) -> (&'static str, Limb, Option<Side>) {
         match self {

@@ -2,24 +2,23 @@
 //!
 //! Symbols: `U` speed through the water, `L` body length, `A` peak-to-peak excursion of the flukes,
 //! `f` beat frequency, `phi` phase of the beat, `x` distance aft of the snout over `L`,
-//! `tau` smoothing time, `c` a control, `c~` the same smoothed.
+//! `tau` smoothing time, `c` a control, `c~` the smoothed control.
 //!
 //! ```text
 //! controls   d c~/dt = (c - c~)/tau   speed, pitch, roll, yaw, burst
 //!            |d c~/dt| <= 1/time      mouth, flippers
 //! speed      target = cruise c~speed + (burst - cruise c~speed) c~burst,  -braking <= dU/dt <= acceleration
 //! turning    roll, pitch, yaw rate = greatest rate times its smoothed control
-//! beat       f = St U / A   held within its limits, the greatest as L^-0.53;  d phi/dt = 2 pi f
+//! beat       f = St U / A   within its limits, the upper one as L^-0.53;  d phi/dt = 2 pi f
 //! body wave  y(x) = A/2 e(x) sin(phi - 2 pi x L/lambda)                     see `wave`
 //! flukes     pitch with the heave velocity, a quarter period from the heave: atan(pi St) less the
 //!            angle of attack                                                see `wave`
 //! ```
 //!
-//! Where `f` would fall below its least value, `A` shrinks instead, so that the Strouhal number
-//! `St = f A / U` stays at its target down to rest; above the greatest `f` it falls.
-//! A whale that glides (no speed asked for) fades to the rest posture within a few `tau`.
+//! At the lower limit of `f`, `A` decreases instead, so that the Strouhal number `St = f A / U` is constant down to rest; at
+//! the upper limit it decreases. A gliding whale (speed control 0) returns to the rest posture within a few `tau`.
 //!
-//! The whale's frame, at mid-body, swims straight: its own small heave is left out.
+//! The whale's frame at mid-body moves straight: its small heave is neglected.
 //!
 //! References: Strouhal target 0.2-0.4 and `A = 0.2 L`: van der Hoop et al., "Swimming kinematics
 //! and efficiency of entangled North Atlantic right whales", Endangered Species Research 32 (2017)
@@ -29,14 +28,13 @@
 //! greatest beat by length: Gough et al., Journal of Experimental Biology 222 (2019) jeb204172.
 //! Burst speed, turn rates, rates of mouth and flippers are estimates.
 
-mod floats;
-mod posture;
 mod settings;
 mod wave;
 
-use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
+use std::f64::consts::TAU;
 
-use floats::Floats;
+use endline_sdk::{Controls, Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
+
 use settings::Settings;
 use wave::Beat;
 
@@ -79,7 +77,7 @@ impl WhaleMotion for Swim {
         let speed_m_s = next_speed(&settings, target, input);
         let beat = Beat::of(&settings, &floats, target.max(speed_m_s), input.length_m);
         floats.advance_phase(beat.frequency_hz, input.dt_s);
-        let posture = posture::of(&settings, &floats, &beat);
+        let posture = wave::posture(&settings, &floats, &beat);
         floats.write(state);
         Ok(MotionOutput { speed_m_s, turn_rate_rad_s: turn_rates(&settings, &floats), posture })
     }
@@ -92,7 +90,7 @@ fn descriptor() -> Descriptor {
         name: "Swim".into(),
         help: "Steady swimming with fluke beat; steered by speed, pitch, roll and yaw.".into(),
         attributes: settings::attributes(),
-        state_len: floats::LEN,
+        state_len: LEN,
         acts: Vec::new(),
     }
 }
@@ -107,7 +105,7 @@ fn check(input: &MotionInput<'_>) -> Result<(), HookError> {
     Ok(())
 }
 
-/// Speed the smoothed controls ask for [m/s].
+/// Target speed of the smoothed controls [m/s].
 fn target_speed(settings: &Settings, floats: &Floats) -> f64 {
     let cruise = settings.cruise_speed_m_s * floats.speed.clamp(0.0, 1.0);
     let burst = settings.burst_speed_m_s.max(settings.cruise_speed_m_s);
@@ -121,12 +119,131 @@ fn next_speed(settings: &Settings, target: f64, input: &MotionInput<'_>) -> f64 
         + change.clamp(-settings.braking_m_s2 * input.dt_s, settings.acceleration_m_s2 * input.dt_s)
 }
 
-/// Turn rates about the whale's x, y and z [rad/s]: roll to starboard is positive about x and yaw to
-/// port about z, as the controls count them; nose up is negative about y.
+/// Turn rates about the whale's x, y and z [rad/s]: roll to starboard is positive about x and yaw to port about z, as in the
+/// controls; nose up is negative about y.
 fn turn_rates(settings: &Settings, floats: &Floats) -> [f64; 3] {
     [
         settings.roll_rate_rad_s * floats.roll,
         -settings.pitch_rate_rad_s * floats.pitch,
         settings.yaw_rate_rad_s * floats.yaw,
     ]
+}
+
+/// Number of floats.
+const LEN: usize = 11;
+
+/// The floats by name; zero for a whale at rest.
+struct Floats {
+    /// Phase of the beat, 0 to 2 pi [rad].
+    pub phase: f64,
+    /// Intensity of the beat: 0 gliding, 1 swimming.
+    pub effort: f64,
+    /// Smoothed speed control, 0 to 1.
+    pub speed: f64,
+    /// Smoothed pitch, -1 to 1.
+    pub pitch: f64,
+    /// Smoothed roll, -1 to 1.
+    pub roll: f64,
+    /// Smoothed yaw, -1 to 1.
+    pub yaw: f64,
+    /// Smoothed burst, 0 to 1.
+    pub burst: f64,
+    /// Opening of the mouth, 0 to 1.
+    pub mouth: f64,
+    /// Raise of the flippers, -1 to 1.
+    pub flipper_raise: f64,
+    /// Twist of the flippers, -1 to 1.
+    pub flipper_twist: f64,
+    /// Sweep of the flippers, -1 to 1.
+    pub flipper_sweep: f64,
+}
+
+impl Floats {
+    /// The floats of a call.
+    ///
+    /// # Errors
+    /// Where there are more or fewer than [`LEN`].
+    fn read(state: &[f64]) -> Result<Self, HookError> {
+        let &[
+            phase,
+            effort,
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+        ] = state
+        else {
+            return Err(HookError::new(format!(
+                "expected {LEN} floats of state, got {}",
+                state.len()
+            )));
+        };
+        Ok(Self {
+            phase,
+            effort,
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+        })
+    }
+
+    /// Writes the floats back.
+    fn write(&self, state: &mut [f64]) {
+        let all = [
+            self.phase,
+            self.effort,
+            self.speed,
+            self.pitch,
+            self.roll,
+            self.yaw,
+            self.burst,
+            self.mouth,
+            self.flipper_raise,
+            self.flipper_twist,
+            self.flipper_sweep,
+        ];
+        state.copy_from_slice(&all);
+    }
+
+    /// Advances the smoothed controls by one step.
+    fn follow(&mut self, settings: &Settings, controls: &Controls, dt_s: f64) {
+        let share = -libm::expm1(-dt_s / settings.smoothing_s);
+        let swims = controls.speed > 0.0 || controls.burst > 0.0;
+        for (value, wanted) in [
+            (&mut self.effort, f64::from(u8::from(swims))),
+            (&mut self.speed, controls.speed.clamp(0.0, 1.0)),
+            (&mut self.pitch, controls.pitch.clamp(-1.0, 1.0)),
+            (&mut self.roll, controls.roll.clamp(-1.0, 1.0)),
+            (&mut self.yaw, controls.yaw.clamp(-1.0, 1.0)),
+            (&mut self.burst, controls.burst.clamp(0.0, 1.0)),
+        ] {
+            *value += share * (wanted - *value);
+        }
+        let flipper = dt_s / settings.flipper_time_s;
+        approach(&mut self.mouth, controls.mouth.clamp(0.0, 1.0), dt_s / settings.mouth_time_s);
+        approach(&mut self.flipper_raise, controls.flipper_raise.clamp(-1.0, 1.0), flipper);
+        approach(&mut self.flipper_twist, controls.flipper_twist.clamp(-1.0, 1.0), flipper);
+        approach(&mut self.flipper_sweep, controls.flipper_sweep.clamp(-1.0, 1.0), flipper);
+    }
+
+    /// Advances the phase of the beat by one step.
+    fn advance_phase(&mut self, frequency_hz: f64, dt_s: f64) {
+        self.phase = (self.phase + TAU * frequency_hz * dt_s) % TAU;
+    }
+}
+
+/// Moves a value towards another by at most `most`.
+fn approach(value: &mut f64, wanted: f64, most: f64) {
+    *value += (wanted - *value).clamp(-most, most);
 }

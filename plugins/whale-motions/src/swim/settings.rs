@@ -1,4 +1,4 @@
-//! What can be set of the swim: attributes, their ranges and their defaults.
+//! Attributes of the swim with their ranges and defaults.
 
 use endline_sdk::{Attribute, HookError};
 
@@ -30,13 +30,13 @@ pub(super) struct Settings {
     pub roll_rate_rad_s: f64,
     /// Smoothing time of speed, pitch, roll and yaw [s].
     pub smoothing_s: f64,
-    /// How far aft the flippers are swept while swimming [rad].
+    /// Sweep of the flippers aft while swimming [rad].
     pub flipper_sweep_rad: f64,
-    /// Time a flipper takes from its middle to an end of its range [s].
+    /// Time of a flipper from its middle to an end of its range [s].
     pub flipper_time_s: f64,
     /// Jaw drop at full mouth control [rad].
     pub jaw_open_rad: f64,
-    /// Time the mouth takes to open or close [s].
+    /// Time of the mouth to open or close [s].
     pub mouth_time_s: f64,
 }
 
@@ -49,8 +49,8 @@ impl Settings {
         let mut values = attributes.iter().copied();
         let mut next = || {
             values.next().ok_or_else(|| {
-                let (expected, given) = (NUMBERS.len(), attributes.len());
-                HookError::new(format!("expected {expected} attribute values, got {given}"))
+                let (expected, count) = (NUMBERS.len(), attributes.len());
+                HookError::new(format!("expected {expected} attribute values, got {count}"))
             })
         };
         Ok(Self {
@@ -75,7 +75,7 @@ impl Settings {
     }
 }
 
-/// A number that can be set, and its help.
+/// A numeric attribute.
 struct Number {
     key: &'static str,
     unit: &'static str,
@@ -95,7 +95,7 @@ const fn number(
     Number { key, unit, range, default, help }
 }
 
-/// Every attribute, in the order in which [`Settings::read`] takes their values.
+/// All attributes, in the order of [`Settings::read`].
 const NUMBERS: [Number; 17] = [
     number(
         "cruise_speed",
@@ -151,7 +151,7 @@ const NUMBERS: [Number; 17] = [
         "Hz",
         [0.02, 3.0],
         0.6,
-        "Fastest beat of a whale of 13.7 m; it goes with length to the power -0.53.",
+        "Fastest beat of a whale of 13.7 m; it scales with length to the power -0.53.",
     ),
     number("fluke_attack", "rad", [0.0, 0.6], 0.26, "Angle of attack of the flukes at mid-stroke."),
     number(

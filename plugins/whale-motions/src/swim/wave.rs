@@ -1,4 +1,4 @@
-//! The travelling wave of the body and the pitch of the flukes, seen from mid-body.
+//! The travelling wave of the body, the pitch of the flukes relative to mid-body, and the posture that results.
 //!
 //! ```text
 //! heave    y(x) = A/2 e(x) sin(phi - k x)
@@ -8,29 +8,28 @@
 //! flukes   against the water: theta cos(phi - k xf),  theta = max(atan(pi St) - attack, 0)
 //! ```
 //!
-//! The envelope `e` follows published ones (0.2 at the head, least before mid-body, 1 at the flukes)
-//! but that the least is 0, at mid-body: the whale's frame swims straight. Wavelength 1.25 L is an
-//! estimate. The hinge rises where `cos(phi - k xf) > 0`, and there the trailing edge turns down: the
-//! flukes push water back on both strokes.
+//! The envelope `e` follows published ones (0.2 at the head, minimum before mid-body, 1 at the flukes), except that the minimum
+//! is 0 at mid-body, because the whale's frame moves straight. The wavelength 1.25 L is an estimate. While the hinge rises,
+//! `cos(phi - k xf) > 0`, the trailing edge turns down: the flukes push water back on both strokes.
 
 use std::f64::consts::{PI, TAU};
 
-use endline_sdk::{FLUKE_STATION, SPINE_JOINTS, SPINE_STATIONS};
+use endline_sdk::{FLUKE_STATION, Posture, SPINE_JOINTS, SPINE_STATIONS};
 
-use super::floats::Floats;
+use super::Floats;
 use super::settings::Settings;
 
 /// Wave number over body length: 2 pi over a wavelength of 1.25 body lengths.
 const WAVE_NUMBER: f64 = TAU / 1.25;
 
-/// The stretch of body at mid-length that keeps to the whale's frame, between two joints.
+/// The section at mid-body that is fixed to the whale's frame, between two joints.
 const STILL: [f64; 2] = [SPINE_STATIONS[2], SPINE_STATIONS[3]];
 
 /// Heave of the snout over that of the flukes [1].
 const HEAD_HEAVE: f64 = 0.2;
 
-/// Length of a whale whose fastest beat is the setting's [m], and how shorter ones beat faster: f ~ L^-0.53
-/// (Gough et al. 2019, rorquals).
+/// Length of a whale with the attribute's fastest beat [m], and the exponent of length: f ~ L^-0.53 (Gough et al. 2019,
+/// rorquals).
 const GROWN_M: f64 = 13.7;
 const QUICKER: f64 = -0.53;
 
@@ -45,7 +44,7 @@ pub(super) struct Beat {
     excursion: f64,
     /// Amplitude of the flukes' pitch against the water [rad].
     fluke_pitch_rad: f64,
-    /// How much the whale beats, 0 to 1.
+    /// Intensity of the beat, 0 to 1.
     effort: f64,
 }
 
@@ -81,7 +80,7 @@ impl Beat {
         (angles, -ahead)
     }
 
-    /// Pitch of the flukes against a peduncle whose own pitch, trailing end down, is given [rad].
+    /// Pitch of the flukes relative to a peduncle with a pitch, trailing end down [rad].
     pub(super) fn fluke_pitch(&self, phase: f64, peduncle_rad: f64) -> f64 {
         self.fluke_pitch_rad * libm::cos(phase - WAVE_NUMBER * FLUKE_STATION) - peduncle_rad
     }
@@ -111,4 +110,72 @@ fn envelope(station: f64) -> f64 {
         let rise = ((station - aft) / (FLUKE_STATION - aft)).max(0.0);
         rise * rise.sqrt()
     }
+}
+
+/// Side bend of the whole spine in a full yaw turn, head and tail towards the inside [rad]; an estimate.
+const YAW_BEND_RAD: f64 = 0.5;
+
+/// Bend of the whole spine in a full pitch turn, head and tail towards the inside [rad]; an estimate.
+const PITCH_BEND_RAD: f64 = 0.25;
+
+/// Forward sweep of the inner and the outer flipper in a full yaw turn [rad]; estimates.
+const TURN_SWEEP_RAD: [f64; 2] = [0.5, 0.15];
+
+/// Flipper twist in a full roll or pitch turn [rad]; an estimate.
+const STEER_TWIST_RAD: f64 = 0.3;
+
+/// Sweep of the flippers forward and aft of their place in swimming [rad], within a working range of 10 degrees forward to 80
+/// aft of the perpendicular (an estimate); rest is 30 aft of it.
+const SWEEP_RAD: [f64; 2] = [0.70, 0.60];
+
+/// Range of a flipper up and down [rad]: 25 and 60 degrees, the range of a right whale's joint; an estimate.
+const RAISE_RAD: [f64; 2] = [0.436, 1.047];
+
+/// Range of a flipper's twist either way [rad]; an estimate.
+const TWIST_RAD: f64 = 0.52;
+
+/// The posture at the end of the step.
+pub(super) fn posture(settings: &Settings, floats: &Floats, beat: &Beat) -> Posture {
+    let (wave, peduncle) = beat.spine_pitch(floats.phase);
+    let arch = -PITCH_BEND_RAD * floats.pitch / SPINE_JOINTS as f64;
+    let bend = -YAW_BEND_RAD * floats.yaw / SPINE_JOINTS as f64;
+    Posture {
+        spine_pitch: wave.map(|angle| angle + arch),
+        spine_yaw: [bend; SPINE_JOINTS],
+        fluke_pitch: beat.fluke_pitch(floats.phase, peduncle),
+        fluke_flex: [beat.fluke_flex(floats.phase); 2],
+        flipper_sweep: flipper_sweep(settings, floats),
+        flipper_raise: [flipper_raise(floats.flipper_raise); 2],
+        flipper_twist: flipper_twist(floats),
+        jaw: settings.jaw_open_rad * floats.mouth,
+        ..Posture::default()
+    }
+}
+
+/// Sweep of the flippers: aft while swimming, forward in a turn, more at the inner flipper; plus the control.
+fn flipper_sweep(settings: &Settings, floats: &Floats) -> [f64; 2] {
+    let aft = settings.flipper_sweep_rad * floats.effort;
+    let [inner, outer] = TURN_SWEEP_RAD;
+    let (to_port, to_starboard) = (floats.yaw.max(0.0), (-floats.yaw).max(0.0));
+    let [forward, back] = SWEEP_RAD;
+    let asked = aft
+        - if floats.flipper_sweep > 0.0 {
+            forward * floats.flipper_sweep
+        } else {
+            back * floats.flipper_sweep
+        };
+    [asked - inner * to_port - outer * to_starboard, asked - inner * to_starboard - outer * to_port]
+        .map(|angle| angle.max(-forward))
+}
+
+fn flipper_raise(control: f64) -> f64 {
+    let [up, down] = RAISE_RAD;
+    if control > 0.0 { up * control } else { down * control }
+}
+
+/// Twist of the flippers: leading edges up for nose up; left up and right down for a roll to starboard.
+fn flipper_twist(floats: &Floats) -> [f64; 2] {
+    let asked = TWIST_RAD * floats.flipper_twist;
+    let (nose_up, roll) = (STEER_TWIST_RAD * floats.pitch, STEER_TWIST_RAD * floats.roll);
+    [asked - nose_up - roll, asked - nose_up + roll].map(|angle| angle.clamp(-0.8, 0.8))
 }

@@ -1,8 +1,8 @@
-//! Files of acts: what ships reads and shows, and a mistake is told with its place.
+//! Files of acts: the shipped files are valid and play, and a mistake is reported with its place.
 
 use endline_gear::{Library, Options, Scenario, Sources, assemble, assemble_traced};
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 
 #[test]
 fn what_observers_list_is_shipped_and_every_act_has_an_id_of_its_own() {
@@ -39,7 +39,7 @@ fn the_manual_names_every_act_and_every_channel() {
 
 const FLINCH: &str = "acts/flinch.toml";
 
-/// What is told of the flinch with a change in it.
+/// Returns the diagnostics of the flinch with a change in it.
 fn problems_of(from: &str, to: &str) -> String {
     let text = Sources::from_folder(&root()).unwrap().get(FLINCH).unwrap().to_owned();
     assert!(text.contains(from), "{from}");
@@ -47,11 +47,11 @@ fn problems_of(from: &str, to: &str) -> String {
     let problems = Library::check_file(FLINCH, &text);
     assert!(!problems.is_empty(), "this reads: {to}");
     assert!(problems.iter().all(|problem| problem.file == FLINCH && problem.line > 0));
-    told(&problems)
+    report(&problems)
 }
 
 #[test]
-fn a_mistake_in_an_act_is_told_with_its_place_and_how_to_mend_it() {
+fn a_mistake_in_an_act_is_reported_with_its_place_and_correction() {
     for (from, to, parts) in [
         (
             "spine_yaw = \"40 deg\"",
@@ -79,16 +79,16 @@ fn a_mistake_in_an_act_is_told_with_its_place_and_how_to_mend_it() {
             ["`flipper_raise` has 1 values", "left, right"],
         ),
         ("spine_yaw = \"40 deg\"", "spine_yaw = 40", ["without a unit", "deg"]),
-        ("at = \"0.8 s\"", "", ["`at` is missing", "time of the key"]),
+        ("at = \"0.8 s\"", "", ["`at` is missing", "time since the start of the act"]),
         (
             "blend = \"add\"",
             "blend = \"ad\"",
-            ["`ad` is no value of `blend`", "did you mean `add`?"],
+            ["`ad` is not a value of `blend`", "did you mean `add`?"],
         ),
         (
             "side = \"touched\"",
             "after = \"repeat\"\nside = \"touched\"\nends_at_touch = [\"hed\"]",
-            ["`hed` is no part", "did you mean `head`?"],
+            ["`hed` is not a part", "did you mean `head`?"],
         ),
         ("fade = \"0.6 s\"", "", ["`fade` is missing", "expected a time"]),
         ("source = ", "notes2 = ", ["has no source", "source ="]),
@@ -102,13 +102,17 @@ fn a_mistake_in_an_act_is_told_with_its_place_and_how_to_mend_it() {
 fn an_act_that_repeats_must_close() {
     let closed = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nconfidence = \"estimate\"\nfade = \"1 s\"\nafter = \"repeat\"\n\
                   [[key]]\nat = \"0 s\"\njaw = \"0 deg\"\nroll = \"0 deg\"\n[[key]]\nat = \"2 s\"\njaw = \"9 deg\"\n[[key]]\nat = \"4 s\"\njaw = \"0 deg\"\nroll = \"1 turn\"\n";
-    let problems = |text: &str| told(&Library::check_file("acts/wave.toml", text));
-    assert_eq!(problems(closed), "", "a turn may go on growing");
+    let problems = |text: &str| report(&Library::check_file("acts/wave.toml", text));
+    assert_eq!(problems(closed), "", "a turn may continue to grow");
     let open = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"\njaw = \"3 deg\"");
-    assert!(problems(&open).contains("`jaw` ends elsewhere than it begins"), "{}", problems(&open));
+    assert!(
+        problems(&open).contains("`jaw` has different values at the start and the end"),
+        "{}",
+        problems(&open)
+    );
     let short = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"");
     assert!(
-        problems(&short).contains("`jaw` does not reach from the start to the end"),
+        problems(&short).contains("`jaw` does not cover a repeated act from start to end"),
         "{}",
         problems(&short)
     );
@@ -130,14 +134,14 @@ fn an_act_is_added_with_a_file_alone() {
         .replace("Roll away", "Mine");
     sources.set("acts/mine.toml", mine);
     let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     let text = scenario(
         "acts = [\"mine\", \"barrel-roll-port\"]\nanswer_to_touch = \"mine\"\nanswer_above = \"5 N\"\nanswer_again = \"20 s\"",
     );
-    let scenario =
-        Scenario::read("test.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario = Scenario::read("test.toml", &text)
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let made = assemble_traced(&scenario, &library, &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let whale = made.spec.whale.as_ref().unwrap();
     let ids: Vec<&str> = whale.motion.descriptor().acts.iter().map(|act| act.id.as_ref()).collect();
     assert_eq!(ids, ["mine", "barrel-roll-port"]);
@@ -149,7 +153,7 @@ fn an_act_is_added_with_a_file_alone() {
 }
 
 #[test]
-fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
+fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_reported() {
     let refused = |acts: &str| {
         let text = scenario(acts);
         let problems = match Scenario::read("test.toml", &text) {
@@ -158,7 +162,7 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
                 assemble(&scenario, &library(), &Linked, &Options::default()).err().unwrap()
             }
         };
-        assert!(problems.len() == 1 && problems[0].line > 20, "{}", told(&problems));
+        assert!(problems.len() == 1 && problems[0].line > 20, "{}", report(&problems));
         problems[0].to_string()
     };
     let all = assemble(
@@ -174,7 +178,7 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
             "acts = [\"barel-roll\"]",
             ["no act `barel-roll` in acts/", "did you mean `barrel-roll`?"],
         ),
-        ("acts = [\"flinch\", \"flinch\"]", ["two acts are called `flinch`", "each act once"]),
+        ("acts = [\"flinch\", \"flinch\"]", ["two acts have the id `flinch`", "each act once"]),
         ("acts = \"flinch\"", ["`acts` is a text, not a list", "[\"roll-away\", \"flinch\"]"]),
         (
             "answer_to_touch = \"flich\"",
@@ -190,7 +194,8 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
     }
 }
 
-/// A scenario that names every act: each keeps to the joints of the right whale, and one that does not is told where it asks for more.
+/// In a scenario that names every act, each respects the joint limits of the right whale; an act that exceeds them is reported with
+/// its place.
 #[test]
 fn shipped_acts_keep_to_the_right_whales_joints() {
     let ids: Vec<String> = library()
@@ -202,7 +207,7 @@ fn shipped_acts_keep_to_the_right_whales_joints() {
         Scenario::read("test.toml", &scenario(&format!("acts = [{}]", ids.join(", ")))).unwrap();
     assemble(&scenario, &library(), &Linked, &Options::default())
         .map(drop)
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let mut sources = Sources::from_folder(&root()).unwrap();
     let text =
         sources.get("acts/flippers-abduct.toml").unwrap().replace("\"25 deg\"", "\"50 deg\"");
@@ -214,7 +219,7 @@ fn shipped_acts_keep_to_the_right_whales_joints() {
         (problems[0].file.as_str(), problems[0].line),
         ("acts/flippers-abduct.toml", 12),
         "{}",
-        told(&problems)
+        report(&problems)
     );
     let message = problems[0].to_string();
     assert!(

@@ -1,5 +1,5 @@
-//! Acts of the library, played over the swim that ships: what they reach, how they begin and end, which way they turn,
-//! what the skin does meanwhile, and what is said of a bad file.
+//! Acts of the library, played over the shipped swim: the angles they reach, their begin and end, the direction of turns,
+//! the skin during an act, and the diagnostics of a bad file.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 

@@ -1,10 +1,10 @@
-//! How large a scenario's whale is: by length, by age, lean or robust, pregnant; and what cannot be, told with its place.
+//! Size of a scenario's whale: by length, by age, lean or robust, pregnant; and impossible sizes, reported with their place.
 
 use endline_gear::whale::gltf::{About, Form, write};
 use endline_gear::{Library, Options, Scenario, Sources, assemble};
 use endline_sim::ModelSpec;
 
-use crate::linked::{Linked, library, root, told};
+use crate::linked::{Linked, library, report, root};
 
 const WHALE: &str = "whales/right-whale.toml";
 
@@ -17,14 +17,14 @@ fn scenario(size: &str) -> String {
 
 fn made(size: &str, library: &Library) -> Result<ModelSpec, String> {
     let scenario =
-        Scenario::read("test.toml", &scenario(size)).map_err(|problems| told(&problems))?;
-    assemble(&scenario, library, &Linked, &Options::default()).map_err(|problems| told(&problems))
+        Scenario::read("test.toml", &scenario(size)).map_err(|problems| report(&problems))?;
+    assemble(&scenario, library, &Linked, &Options::default()).map_err(|problems| report(&problems))
 }
 
 /// Length and mass of the whale a scenario asks for.
 fn sized(size: &str) -> [f64; 2] {
     let whale =
-        made(size, &library()).unwrap_or_else(|told| panic!("{size}: {told}")).whale.unwrap();
+        made(size, &library()).unwrap_or_else(|message| panic!("{size}: {message}")).whale.unwrap();
     [whale.length_m, whale.measures.mass_kg]
 }
 
@@ -45,11 +45,11 @@ fn age_and_condition_make_the_whale() {
 }
 
 #[test]
-fn a_size_that_cannot_be_is_told_with_its_place() {
+fn an_impossible_size_is_reported_with_its_place() {
     for (size, parts) in [
         (
             "length = \"11 m\"\nage = \"2 yr\"",
-            ["both `length` and `age` are given", "leave one of them out"],
+            ["both `length` and `age` are present", "remove one of them"],
         ),
         ("length = \"60 m\"", ["`length` is 60", "between 1 m and 35 m"]),
         ("age = \"300 yr\"", ["`age` is", "between"]),
@@ -77,7 +77,7 @@ fn changed(from: &str, to: &str) -> (Library, String) {
     assert!(text.contains(from), "{from}");
     sources.set(WHALE, text.replacen(from, to, 1));
     let (library, problems) = Library::read(&sources);
-    (library, told(&problems))
+    (library, report(&problems))
 }
 
 #[test]
@@ -89,8 +89,7 @@ fn a_whale_without_a_law_of_age_has_no_age() {
     assert!(made("length = \"11 m\"", &library).is_ok());
     let message = made("age = \"2 yr\"", &library).err().unwrap();
     assert!(
-        message.contains("does not say how long a whale of some age is")
-            && message.contains("[age] with `birth`"),
+        message.contains("has no law of length by age") && message.contains("[age] with `birth`"),
         "{message}"
     );
 }
@@ -101,7 +100,7 @@ fn a_whales_file_says_how_wide_it_is() {
     let law = &text[text.find("[mass]").unwrap()..text.find("[age]").unwrap()];
     let (_, problems) = changed(law, "");
     assert!(
-        problems.contains("neither `mass` nor `breadth_scale` is there")
+        problems.contains("both `mass` and `breadth_scale` are missing")
             && problems.contains("write [mass]"),
         "{problems}"
     );
@@ -128,13 +127,13 @@ fn a_mesh_has_the_condition_it_was_made_with() {
     let text = sources.get(WHALE).unwrap().to_owned();
     sources.set(WHALE, text.replacen("[spine]", "mesh = \"mine.glb\"\n\n[spine]", 1));
     let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(problems.is_empty(), "{}", report(&problems));
     assert!(made("age = \"2 yr\"", &library).is_ok(), "its length may follow from its age");
     for size in ["condition = 0.8", "pregnant = true"] {
         let message = made(size, &library).err().unwrap_or_else(|| panic!("{size} is taken"));
         assert!(
-            message.contains("brings its own mesh")
-                && message.contains("leave out `condition` and `pregnant`"),
+            message.contains("has its own mesh")
+                && message.contains("remove `condition` and `pregnant`"),
             "{message}"
         );
     }

@@ -4,12 +4,12 @@ use endline_sdk::{BodyPart, Controls, MotionOutput};
 
 use crate::acts::flight::Flight;
 
-/// Swims, is touched on a part for a second, and goes on.
+/// Swims, is touched on a part for a second, and swims on.
 fn touch(answer: &str, part: BodyPart, seconds: f64) -> (Vec<MotionOutput>, Flight) {
     touch_at(answer, (part, 0.0), seconds)
 }
 
-/// The same with the place of the touch, to port of the midplane [m].
+/// Like [`touch`], with the place of the touch, to port of the midplane [m].
 fn touch_at(
     answer: &str,
     (part, port_m): (BodyPart, f64),

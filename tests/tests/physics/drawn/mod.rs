@@ -4,7 +4,7 @@
 use endline_gear::{Kind, Library, Options, Rope, Scenario, Sources, assemble};
 use endline_sim::Model;
 
-use crate::linked::{Linked, told};
+use crate::linked::{Linked, report};
 
 /// Where an assembly is placed: the rest of its `[site]`, the current [m/s], the assembly's bearing off it [deg].
 pub struct Sea<'a> {
@@ -23,10 +23,10 @@ pub fn placed(library: &Library, assembly: &str, sea: &Sea<'_>) -> Model {
          [[gear]]\nassembly = \"{assembly}\"\nheading = \"{} deg\"\n",
         90.0 + heading
     );
-    let scenario =
-        Scenario::read("rig.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario = Scenario::read("rig.toml", &text)
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     let spec = assemble(&scenario, library, &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+        .unwrap_or_else(|problems| panic!("{}", report(&problems)));
     Model::new(spec).unwrap()
 }
 
@@ -83,7 +83,7 @@ impl Drawer {
         let mut alone = Sources::default();
         alone.set(format!("assemblies/{DRAWN}.toml"), text);
         let (mut alone, problems) = Library::read(&alone);
-        assert!(problems.is_empty(), "{}", told(&problems));
+        assert!(problems.is_empty(), "{}", report(&problems));
         self.library.assemblies.retain(|assembly| assembly.entry.id != DRAWN);
         self.library.assemblies.append(&mut alone.assemblies);
     }
@@ -233,8 +233,8 @@ fn hard(seed: u64, model: Model) -> Model {
 }
 
 /// Share of the first trap's weight in water below which the drag of endline and buoy surely leaves it where it
-/// stands. That drag is counted broadside and at the speed of the surface, about twice what it is; the trap's
-/// friction of 0.6 or more, less what the line lifts, holds a third of its weight.
+/// stands. That drag is counted broadside and at the speed of the surface, about twice its true value; the trap's
+/// friction of 0.6 or more, less the lift of the line, holds a third of its weight.
 const SURE_HOLD: f64 = 0.6;
 
 /// Greatest drag of endline and buoy as a share of the first trap's weight in water.

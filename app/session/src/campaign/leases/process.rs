@@ -80,7 +80,10 @@ impl Process {
         file.sync_all()
     }
 
-    /// Whether another process has ended: its file is gone, its lock is free, or it has been silent for too long.
+    /// Whether another process has ended: its file is removed, its lock is free, or it has been silent for too long.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
     pub(super) fn has_ended(&self, other: &str) -> io::Result<bool> {
         let path = path_of(self.path.parent().unwrap_or(Path::new(".")), other);
         let file = match ProcessFile::of(&path) {

@@ -10,7 +10,7 @@ use endline_session::timing::Timing;
 use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{
     BeatSummary, BodyOnWhale, BodySummary, Event, EventKind, KineticSummary, LineSummary,
-    LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleBooks,
+    LinkSummary, MomentumBalance, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary,
     WhaleSummary,
 };
 use endline_sim::{Audit, CostPart, DVec3};
@@ -226,7 +226,7 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
             peak_rope_pull_n: next.real(),
             velocity_m_s: next.vector(),
             momentum_ns: next.vector(),
-            books: WhaleBooks {
+            balance: MomentumBalance {
                 momentum_change_ns: next.real(),
                 thrust_impulse_ns: next.real(),
                 drag_impulse_ns: next.real(),

@@ -47,11 +47,11 @@ fn a_pack_is_read() {
 #[test]
 fn each_mistake_stands_at_its_line() {
     for (from, to, message, line) in [
-        ("standing = \"law\"", "standing = \"lax\"", "`lax` is no value of `standing`", 14),
-        ("from = \"2022-05-01\"", "from = \"2022-02-30\"", "`2022-02-30` is no date", 15),
+        ("standing = \"law\"", "standing = \"lax\"", "`lax` is not a value of `standing`", 14),
+        ("from = \"2022-05-01\"", "from = \"2022-02-30\"", "`2022-02-30` is not a date", 15),
         ("until = \"2023-05-01\"", "until = \"2021-05-01\"", "before `from`", 16),
         ("\"30 m\"", "\"30 lbf\"", "`lbf` is a unit of a force", 18),
-        ("[300, 60]", "[300, 400]", "has no days of a year", 19),
+        ("[300, 60]", "[300, 400]", "does not consist of days of the year", 19),
         ("traps >= 1", "trap >= 1", "no fact or parameter `trap`", 21),
         ("traps >= 1", "traps", "is a plain number, not true or false", 21),
         ("traps >= 1", "traps >= 1 &&", "cannot be read", 21),

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_haul_is_told_with_its_file() {
+    fn a_file_that_is_no_haul_is_named() {
         let problem = read("endline-no-haul.json", "{\"schema\":\"endline.run/1\"}").unwrap_err();
         assert!(problem.to_string().contains("endline-no-haul.json is no haul"), "{problem}");
         let other = SHEET.replace("haul/1", "haul/9");

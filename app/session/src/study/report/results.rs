@@ -3,7 +3,8 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{
-    AssumedBand, Bands, Change, Findings, LevelFinding, Looks, OptionFinding, SegmentBand,
+    AssumedBand, Bands, Change, Findings, LevelFinding, OptionFinding, ResolutionChecks,
+    SegmentBand,
 };
 
 use super::words::{
@@ -69,7 +70,7 @@ pub(super) fn bands(findings: &Findings) -> Table {
     )
 }
 
-/// `0.2 to 3.1 %` with the levels that it goes between, and what chance would do.
+/// `0.2 to 3.1 %` with the levels of both ends, and the band of random levels.
 fn assumed(band: &AssumedBand) -> Cell {
     let by_chance = percent_interval(band.by_chance);
     if band.is_chance() {
@@ -98,7 +99,7 @@ fn segments(band: &SegmentBand) -> Cell {
 }
 
 /// Share of the checks of segment lengths near the whale that left one longer than requested.
-fn missed(checks: &Looks) -> String {
+fn missed(checks: &ResolutionChecks) -> String {
     if checks.all == 0 {
         return "none requested".to_owned();
     }

@@ -1,4 +1,4 @@
-//! Numbers and events as a report writes them. No-break spaces keep an interval and a force on one line.
+//! Numbers and events in words. No-break spaces hold an interval or a force on one line.
 
 use endline_gear::StudyEvent;
 

@@ -1,7 +1,7 @@
 //! The answer of a study about an event, in sentences, for the head of its report and of the panel *Results*.
 //!
 //! An option differs from the baseline if the 95 % interval of their difference in the same encounters excludes zero. If
-//! several registered comparisons are made, Holm's probability stands beside it.
+//! several registered comparisons are made, Holm's probability is beside it.
 //!
 //! A difference `d` is detected with a probability of 80 % from `n = (1.96 + 0.84)² s / d²` encounters, `s` being the share of them that come
 //! out otherwise (Connor 1987, Biometrics 43:207, for small `d`): 314 for 5 points where one encounter in ten does.
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn an_option_that_is_told_apart_comes_first_with_its_interval() {
+    fn an_option_that_differs_comes_first_with_its_interval() {
         // Of 400 encounters 100 are held with the baseline, 60 of these with the option.
         let (this, other) =
             (indicators((0..400).map(|n| n < 60)), indicators((0..400).map(|n| n < 100)));

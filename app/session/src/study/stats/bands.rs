@@ -7,7 +7,7 @@
 //! | segments | the rate times its ratio with finer segments and shorter steps, which another study found on the same encounters (`[[discretisation]]`) |
 //!
 //! Rates of small parts spread by chance too. The envelope is therefore shown beside that of parts assigned at random, on average over
-//! [`DEALS`]: where it is no wider, the assumed inputs have not shown that they matter.
+//! [`DEALS`]: if it is no wider, no effect of the assumed inputs is shown.
 
 use endline_gear::{Confidence, Discretisation, Prior, StudyEvent};
 use schemars::JsonSchema;

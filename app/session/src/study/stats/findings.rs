@@ -68,16 +68,16 @@ pub struct OptionFinding {
     pub id: String,
     /// Name.
     pub name: String,
-    /// Strength it stands for [N].
+    /// Strength that it represents [N].
     pub strength_n: Option<f64>,
     /// Which curve of break-away against strength it belongs to.
     pub curve: Option<String>,
     /// Runs that do not count.
     pub invalid: u64,
-    /// Runs that were too short for their outcome to stand; they count.
+    /// Valid runs that were too short for a final outcome; they count.
     pub undecided: u64,
     /// Checks of segment lengths near the whale in all runs, and those that left a segment longer than requested by a quarter or more.
-    pub resolution: Looks,
+    pub resolution: ResolutionChecks,
     /// Rate of every event: name, rate.
     pub rates: Vec<(String, Rate)>,
     /// Every event compared with the baseline: name, comparison.
@@ -98,7 +98,8 @@ pub struct OptionFinding {
 
 /// Checks of segment lengths near the whale.
 #[derive(Clone, Copy, Debug, Default, Eq, JsonSchema, PartialEq, Serialize)]
-pub struct Looks {
+#[schemars(rename = "Looks")]
+pub struct ResolutionChecks {
     /// All.
     pub all: u64,
     /// Checks that left a segment longer than requested by a quarter or more.
@@ -239,7 +240,7 @@ fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
         curve: plan.curve.clone(),
         invalid: count(|run| !run.valid),
         undecided: count(|run| run.valid && !run.decided),
-        resolution: Looks {
+        resolution: ResolutionChecks {
             all: sum(|run| run.resolution_looks),
             missed: sum(|run| run.resolution_missed),
         },

@@ -1,10 +1,10 @@
 //! The rate of an event with its interval.
 //!
 //! Wilson's score interval for `k` of `n`, with `z` the normal quantile: `(k + z²/2 ± z √(k(n-k)/n + z²/4)) / (n + z²)`.
-//! Encounters of unlike weight count by their effective number (`weighted.rs`). With few events among those that count for
-//! much, that number knows the weights of light ones alone; the interval then reaches as far as that of Fay and Feuer, which counts on one more event of the greatest
-//! weight: for a sum `y` of weights of events, `v` of their squares and `w` the greatest weight of any encounter, the quantile of the
-//! gamma law of mean `y + w` and variance `v + w²`.
+//! Encounters of unequal weight count by their effective number (`weighted.rs`). With few events of large weight, that number reflects
+//! small weights only. The interval is then extended to that of Fay and Feuer, which allows for one more event of the largest weight.
+//! With `y` the sum of the weights of events, `v` that of their squares and `w` the largest weight of any encounter, its upper end is the
+//! quantile of the gamma law of mean `y + w` and variance `v + w²`.
 //! Reference: Wilson 1927 (doi:10.1080/01621459.1927.10502953); Brown, Cai and DasGupta 2001 (doi:10.1214/ss/1009213286);
 //! Fay and Feuer 1997 (doi:10.1002/(SICI)1097-0258(19970415)16:7<791::AID-SIM500>3.0.CO;2-#).
 
@@ -31,7 +31,7 @@ impl Interval {
         format!("{:.1} to {:.1}\u{a0}%", 100.0 * self.low, 100.0 * self.high)
     }
 
-    /// The least interval that holds both.
+    /// The smallest interval that contains both.
     pub(super) fn with(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -42,19 +42,19 @@ impl Interval {
 pub struct Rate {
     /// Runs with the event.
     pub hits: u64,
-    /// Runs that count.
+    /// Valid runs.
     pub runs: u64,
-    /// Plain encounters that would know the rate as well; `runs` where all count alike.
+    /// Number of encounters of equal weight that would give the same precision; `runs` for equal weights.
     pub effective: f64,
-    /// Share of the runs by their weights; 0 of none.
+    /// Weighted share of the runs; 0 without runs.
     pub rate: f64,
-    /// Its interval, which allows for events that were not met among encounters that count for much.
+    /// Its interval, extended for events that the study may have missed among encounters of large weight.
     pub interval: Interval,
-    /// The same if the proposal left out no event: of encounters that all count alike the same.
+    /// Its interval without that extension; the same for equal weights.
     pub as_met: Interval,
 }
 
-/// Events below which the interval of weighted encounters counts on another of the greatest weight: those of at least half of that.
+/// With fewer such events than this, the interval is extended; counted are events of at least half the largest weight.
 const FEW: usize = 10;
 
 /// Quantile of the standard normal law for an interval of 95 %.

@@ -29,7 +29,7 @@ pub use answer::answer;
 pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
-pub use findings::{Findings, LevelFinding, Looks, OptionFinding};
+pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
 pub use indicators::{EventIndicator, EventIndicators};
 pub use interval::{Interval, Rate};
 pub use observations::{Agreement, ObservationFinding};

@@ -4,9 +4,9 @@
 //! Difference `(b - c)/n`, interval by Bonett and Price: with `p = (b+1)/(n+2)`, `q = (c+1)/(n+2)`,
 //! `p - q ± z √((p + q - (p - q)²)/(n + 2))`. Ratio of rates `(a+b)/(a+c)`, interval on its logarithm with variance
 //! `(b + c)/((a+b)(a+c))`, half added to each of `b` and `c`. McNemar's exact test: `b` of `b + c` by even chance.
-//! Encounters of unlike weight count by their effective number for the difference (`weighted.rs`). Where few that count for much differ, the interval
-//! reaches as far as that from the intervals of the two rates, `b/n` and `c/n`, by their squares (Zou and Donner 2008). The distribution function of
-//! even chance is then the incomplete beta function, `P(k of n) = I_½(n - k, k + 1)`, which equals it for whole numbers.
+//! Encounters of unequal weight count by their effective number for the difference (`weighted.rs`). If few encounters of large weight
+//! differ, the interval is extended to that from the intervals of the two rates, `b/n` and `c/n`, by their squares (Zou and Donner 2008).
+//! The binomial distribution function is then the incomplete beta function, `P(k of n) = I_½(n - k, k + 1)`, equal to it for integers.
 //! Reference: Bonett and Price 2012 (doi:10.3102/1076998611411915); Lachenbruch and Lynch 1998; Zou and Donner 2008 (doi:10.1002/sim.3095); McNemar 1947 (doi:10.1007/BF02295996).
 
 use schemars::JsonSchema;
@@ -20,7 +20,7 @@ use super::weighted::WeightedMean;
 /// An option compared with another.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Paired {
-    /// Encounters in which both runs count.
+    /// Encounters in which both runs are valid.
     pub encounters: u64,
     /// With the event in both.
     pub both: u64,
@@ -30,15 +30,15 @@ pub struct Paired {
     pub only_other: u64,
     /// Rate with the option less rate with the other.
     pub difference: f64,
-    /// Its interval, which allows for encounters that were not met (`interval.rs`).
+    /// Its interval, extended for encounters that the study may have missed (`interval.rs`).
     pub difference_interval: Interval,
-    /// The same if the proposal left out none.
+    /// Its interval without that extension.
     pub difference_as_met: Interval,
     /// Rate with the option over rate with the other; none where the other has no event.
     pub ratio: Option<f64>,
-    /// Its interval, which allows for encounters that were not met.
+    /// Its interval, extended in the same way.
     pub ratio_interval: Option<Interval>,
-    /// The same if the proposal left out none.
+    /// Its interval without that extension.
     pub ratio_as_met: Option<Interval>,
     /// McNemar's exact two-sided probability of a difference at least as great by even chance.
     pub mcnemar: f64,

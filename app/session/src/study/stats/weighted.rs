@@ -1,15 +1,15 @@
-//! Encounters that do not count alike: those drawn from a proposal by importance sampling.
+//! Encounters of unequal weight: those drawn from a proposal by importance sampling.
 //!
 //! With weights `w_i`, a mean is `m = Σ w_i y_i / Σ w_i` and its variance `V = Σ w_i² (y_i - m)² / (Σ w_i)²`. Where `σ²` is
-//! the variance of `y` itself, `n = σ² / V` plain encounters would know the mean as well: the *effective number* for that
-//! mean, by which every interval for counts is taken. Equal weights give the number of encounters. Where `y` does not vary,
-//! it is Kish's `(Σ w_i)² / Σ w_i²`.
+//! the variance of `y` itself, `n = σ² / V` encounters of equal weight would give the same precision: the *effective
+//! number* for that mean, which every interval for counts uses. Equal weights give the number of encounters. For constant `y` it is
+//! Kish's `(Σ w_i)² / Σ w_i²`.
 //! References: Kish 1965, Survey Sampling, section 11.2; Owen 2013, Monte Carlo theory, section 9.2; Kott and Liu 2009.
 
 /// A weighted mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct WeightedMean {
-    /// The mean; 0 of nothing.
+    /// The mean; 0 without values.
     pub mean: f64,
     /// Effective number of encounters.
     pub effective: f64,
@@ -37,7 +37,7 @@ impl WeightedMean {
     }
 }
 
-/// Effective number of encounters for what does not vary among them.
+/// Effective number of encounters for a constant value.
 pub(super) fn kish(weights: impl Iterator<Item = f64>) -> f64 {
     let (sum, squares) = weights
         .fold((0.0, 0.0), |(sum, squares), weight| (sum + weight, squares + weight * weight));

@@ -1,8 +1,8 @@
 //! The rows of the tool's own table with simulated risks.
 //!
-//! A row that was simulated has its rate. Between two lengths of trawl, and then between two diameters, rates and bands go linearly;
-//! beyond the longest or the shortest trawl that was simulated they are held. A row that needs a thicker or thinner rope, or another
-//! device, is left out.
+//! A simulated row has its rate. Rates and bands are interpolated linearly between two lengths of trawl, then between two diameters;
+//! beyond the longest and the shortest simulated trawl they are constant. A row with a thicker or thinner rope, or another device, is
+//! omitted.
 
 use serde::Serialize;
 
@@ -19,9 +19,9 @@ const WITH_BANDS: [&str; 6] =
 pub enum How {
     /// Its own encounters were simulated.
     Simulated,
-    /// It lies between rows that were.
+    /// Interpolated between simulated rows.
     Between,
-    /// Its trawl is longer or shorter than any that was.
+    /// That of the nearest trawl; its own is longer or shorter than any simulated one.
     Held,
 }
 
@@ -53,7 +53,7 @@ struct Risk {
     chance: [f64; 2],
     /// Band of priors: least, greatest.
     priors: [f64; 2],
-    /// Runs that it rests on.
+    /// Number of runs.
     runs: u64,
 }
 

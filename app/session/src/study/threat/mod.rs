@@ -2,7 +2,7 @@
 //! support tool (`Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk`).
 //!
 //! A risk is the rate of the event given an encounter. The tool multiplies endlines by risks and compares sums, so that a
-//! factor common to all rows has no effect. Two bands stand apart: that of chance (how many encounters), and that of the priors
+//! factor common to all rows has no effect. There are two bands: that of chance (the number of encounters), and that of the priors
 //! (the rate at the levels of each assumed input). Held against the tool's own table, which asks experts, by Kendall's τ
 //! (`kendall.rs`). Rows of that table that were not simulated lie between those that were (`filled.rs`).
 
@@ -60,7 +60,7 @@ pub struct Threats {
     pub event: String,
     /// By rope, device and traps.
     pub rows: Vec<Threat>,
-    /// Agreement with a poll, where one is given and shares two rows.
+    /// Agreement with a poll, if there is one with two rows in common.
     pub tau: Option<Tau>,
 }
 
@@ -68,7 +68,7 @@ impl Threats {
     /// The threats of a merged study by an event, beside a poll.
     ///
     /// # Errors
-    /// A study none of whose options says which row it stands for; two that stand for one.
+    /// A study without an option that names a row, or with two options that name the same row.
     pub fn of(
         opened: &PreparedStudy,
         runs: &Runs,
@@ -83,7 +83,7 @@ impl Threats {
         }
         if rows.is_empty() {
             return Err(format!(
-                "{}: no option says which row of a threat table it stands for; write threat = {{ rope = \"3/8in\", diameter = \"3/8 in\", traps = 12, device = \"NA\" }} in options, or parts of it in values of axes",
+                "{}: no option names a row of a threat table; write threat = {{ rope = \"3/8in\", diameter = \"3/8 in\", traps = 12, device = \"NA\" }} in options, or parts of it in values of axes",
                 opened.study.id
             ));
         }
@@ -91,7 +91,7 @@ impl Threats {
         let same = |pair: &&[(Threat, EventIndicators)]| pair[0].0.key() == pair[1].0.key();
         if let Some([(one, _), (other, _)]) = rows.windows(2).find(same) {
             return Err(format!(
-                "{}: options `{}` and `{}` stand for one row of the threat table",
+                "{}: options `{}` and `{}` name the same row of the threat table",
                 opened.study.id, one.option, other.option
             ));
         }
@@ -138,7 +138,7 @@ impl Threat {
         (&self.rope, &self.device, self.traps)
     }
 
-    /// Where it stands among others.
+    /// Its place among the rows.
     fn place(&self) -> Place<'_> {
         Place(&self.device, self.diameter_in, &self.rope, self.traps)
     }

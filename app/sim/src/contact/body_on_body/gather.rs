@@ -57,6 +57,7 @@ impl BodyOnBody {
         let mut kept = state.pair_grips.iter().filter(|grip| grip.parts == parts);
         let as_placed = if state.time_s <= 0.0 { depth.max(0.0) } else { 0.0 };
         let forgiven_m = kept.next().map_or(as_placed, |grip| grip.forgiven_m);
+        debug_assert!(parts[0] < parts[1], "parts in rising order: {parts:?}");
         self.pairs.push(Pair { parts, bodies, gap, forgiven_m, solved: glam::DVec3::ZERO });
     }
 

@@ -89,8 +89,8 @@ impl RopeOnSkin {
     fn store_blocks(&mut self) {
         let Self { points, friction: touching, .. } = self;
         touching.block.clear();
-        for (place, index) in touching.point.iter().enumerate() {
-            let touch = &points.touches(&points.list[*index])[touching.face[place]];
+        for (place, contact) in touching.faces.iter().enumerate() {
+            let touch = &points.touches(&points.list[contact.point])[contact.face];
             touching.block.push(touching.block_of(place, touch));
         }
     }
@@ -98,8 +98,8 @@ impl RopeOnSkin {
     /// Push and friction of every contact as measured last, with its block as noted.
     pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
         let Self { points, friction: touching, .. } = self;
-        touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
-            (&points.list[*index], touching.arrays.force_of(place), block)
+        touching.faces.iter().zip(&touching.block).enumerate().map(|(place, (contact, block))| {
+            (&points.list[contact.point], touching.arrays.force_of(place), block)
         })
     }
 
@@ -118,9 +118,9 @@ impl RopeOnSkin {
     fn law_error_at(&self, places: &[DVec3]) -> ContactError {
         let Self { points, friction: touching, before, .. } = self;
         let mut missed = ContactError::default();
-        for (place, index) in touching.point.iter().enumerate() {
-            let step = points.list[*index].on_rope(|node| places[node] - before[node]);
-            let gap_n = points.law_missed(*index, touching.face[place], step);
+        for (place, contact) in touching.faces.iter().enumerate() {
+            let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
+            let gap_n = points.law_missed(contact.point, contact.face, step);
             let force = touching.arrays.force_of(place) - touching.block[place] * step;
             missed = missed.and(ContactError { gap_n, greatest_n: force.length() });
         }
@@ -130,10 +130,10 @@ impl RopeOnSkin {
     /// Makes the normal force of every contact linear about the last solution.
     pub fn follow_law(&mut self, places: &[DVec3]) {
         let Self { points, friction: touching, before, .. } = self;
-        for place in 0..touching.point.len() {
-            let index = touching.point[place];
-            let step = points.list[index].on_rope(|node| places[node] - before[node]);
-            let touch = points.follow_law(index, touching.face[place], step);
+        for place in 0..touching.faces.len() {
+            let contact = touching.faces[place];
+            let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
+            let touch = points.follow_law(contact.point, contact.face, step);
             touching.follow_law(place, touch);
         }
     }
@@ -142,11 +142,11 @@ impl RopeOnSkin {
     fn store_solved(&mut self, places: &[DVec3]) {
         let Self { points, friction: touching, before, .. } = self;
         points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
-        for (place, index) in touching.point.iter().enumerate() {
-            let point = &mut points.list[*index];
+        for (place, contact) in touching.faces.iter().enumerate() {
+            let point = &mut points.list[contact.point];
             let step = point.on_rope(|node| places[node] - before[node]);
             point.missed += touching.arrays.force_of(place) - touching.block[place] * step;
-            points.note_solved(*index, touching.face[place], step);
+            points.note_solved(contact.point, contact.face, step);
         }
     }
 
@@ -154,9 +154,9 @@ impl RopeOnSkin {
     fn solution_error(&mut self) -> ContactError {
         let Self { points, friction: touching, .. } = self;
         let mut greatest = 0.0_f64;
-        for (place, index) in touching.point.iter().enumerate() {
+        for (place, contact) in touching.faces.iter().enumerate() {
             let force = touching.arrays.force_of(place);
-            points.list[*index].missed -= force;
+            points.list[contact.point].missed -= force;
             greatest = greatest.max(force.length_squared());
         }
         let gap = points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
@@ -222,8 +222,9 @@ impl RopeOnSkin {
         contacts.clear();
         let Some(whale) = &model.spec.whale else { return Ok(()) };
         for place in self.friction.in_order.iter().copied() {
-            let point = &self.points.list[self.friction.point[place]];
-            let touch = self.points.touches(point).get(self.friction.face[place]);
+            let contact = self.friction.faces[place];
+            let point = &self.points.list[contact.point];
+            let touch = self.points.touches(point).get(contact.face);
             let Some(touch) = touch else { continue };
             let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {

@@ -186,6 +186,10 @@ impl SkinContactPoints {
         if opened > 0 {
             self.list.sort_unstable_by_key(|point| point.site);
         }
+        debug_assert!(
+            self.list.windows(2).all(|two| two[0].site < two[1].site),
+            "contact points in rising order of site, each once"
+        );
         opened
     }
 

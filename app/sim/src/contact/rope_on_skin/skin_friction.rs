@@ -9,28 +9,37 @@ use crate::contact::law::skin_direction::Grains;
 use crate::contact::rope_on_skin::near::Near;
 use crate::contact::rope_on_skin::points::SkinContactPoints;
 use crate::contact::rope_on_skin::touch::Touch;
-use crate::model::{Friction, Model};
+use crate::model::{Friction, Model, Whale};
 use crate::state::{FrictionState, State};
 
-/// A contact point in touch, and the law that holds there.
+/// A touched face of a contact point, and its friction law.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+pub(crate) struct FaceContact {
     law: usize,
-    point: usize,
-    face: usize,
+    /// Index of the contact point.
+    pub point: usize,
+    /// Which of the faces that the contact point touches.
+    pub face: usize,
+}
+
+/// What the inputs of the friction laws are computed from.
+struct Sources<'a> {
+    model: &'a Model,
+    whale: &'a Whale,
+    friction: &'a Friction,
+    near: &'a Near,
+    points: &'a SkinContactPoints,
+    state: &'a State,
 }
 
 /// Contact points in touch, one entry for each face, in the order of the arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct Touching {
     grains: Arc<Grains>,
-    /// Index of the contact point.
-    pub point: Vec<usize>,
-    /// Which of the faces that the contact point touches.
-    pub face: Vec<usize>,
+    /// Each touched face, in the order of the arrays.
+    pub faces: Vec<FaceContact>,
     /// Places in the arrays, in rising order of contact point.
     pub in_order: Vec<usize>,
-    found: Vec<Found>,
     pub arrays: FrictionArrays,
     /// `-d force / d place` of each contact as it went into the last solve [N/m].
     pub block: Vec<DMat3>,
@@ -41,10 +50,8 @@ impl Touching {
     pub fn new(grains: Arc<Grains>) -> Self {
         Self {
             grains,
-            point: Vec::new(),
-            face: Vec::new(),
+            faces: Vec::new(),
             in_order: Vec::new(),
-            found: Vec::new(),
             arrays: FrictionArrays::default(),
             block: Vec::new(),
         }
@@ -66,41 +73,37 @@ impl Touching {
             for (face, touch) in points.touches(at).iter().enumerate() {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
-                self.found.push(Found { law: friction.law_of[rope][region as usize], point, face });
+                self.faces.push(FaceContact {
+                    law: friction.law_of[rope][region as usize],
+                    point,
+                    face,
+                });
             }
         }
         if friction.laws.len() > 1 {
-            self.found.sort_unstable_by_key(|found| (found.law, found.point, found.face));
+            self.faces.sort_unstable_by_key(|contact| (contact.law, contact.point, contact.face));
         }
-        for place in 0..self.found.len() {
-            self.put(model, friction, near, points, state, place);
+        let sources = Sources { model, whale, friction, near, points, state };
+        for place in 0..self.faces.len() {
+            self.append(&sources, self.faces[place]);
         }
-        self.in_order.extend(0..self.point.len());
+        self.in_order.extend(0..self.faces.len());
         if friction.laws.len() > 1 {
-            self.in_order.sort_unstable_by_key(|place| (self.point[*place], self.face[*place]));
+            let key = |place: &usize| (self.faces[*place].point, self.faces[*place].face);
+            self.in_order.sort_unstable_by_key(key);
         }
     }
 
     fn clear(&mut self) {
-        self.point.clear();
-        self.face.clear();
+        self.faces.clear();
         self.in_order.clear();
-        self.found.clear();
         self.arrays.clear();
     }
 
-    /// Puts the contact found at a place into the arrays.
-    fn put(
-        &mut self,
-        model: &Model,
-        friction: &Friction,
-        near: &Near,
-        points: &SkinContactPoints,
-        state: &State,
-        place: usize,
-    ) {
-        let Some(whale) = &model.spec.whale else { return };
-        let Found { law, point: index, face } = self.found[place];
+    /// Appends the inputs of a contact to the arrays.
+    fn append(&mut self, sources: &Sources<'_>, contact: FaceContact) {
+        let Sources { model, whale, friction, near, points, state } = *sources;
+        let FaceContact { law, point: index, face } = contact;
         let point = &points.list[index];
         let touch = &points.touches(point)[face];
         let pair = near.skin_of(touch.pair);
@@ -109,8 +112,6 @@ impl Touching {
         let rope_move = touch.place - point.began.place;
         let skin_move = pair.move_of(touch.barycentric) * (pair.stands - near.start);
         let coefficient = friction.coefficients[rope][region as usize];
-        self.point.push(index);
-        self.face.push(face);
         let asked = Asked {
             law,
             normal_force: touch.barrier.force,
@@ -141,7 +142,8 @@ impl Touching {
         self.arrays.advance(friction, dt_s)?;
         grips.clear();
         for place in self.in_order.iter().copied() {
-            let (point, face) = (&points.list[self.point[place]], self.face[place]);
+            let FaceContact { point, face, .. } = self.faces[place];
+            let point = &points.list[point];
             grips.sites.push(point.site(face));
             grips.push_n.push(self.arrays.whole_push_n(place));
             grips.normals.push(self.arrays.normal_of(place));

@@ -35,6 +35,8 @@ pub(crate) fn take(state: &FrictionState, kept: &mut Vec<KeptFace>) {
         push_n: *push_n,
         normal: *normal,
     }));
+    debug_assert!(kept.is_sorted_by_key(|face| face.site), "stored faces in rising order of site");
+    debug_assert_eq!(kept.len(), state.sites.len(), "one normal force and normal for each site");
 }
 
 /// The faces of the contact point whose first face has this site.

@@ -1,10 +1,13 @@
-//! Lines, links, bodies and probes against what can be worked out by hand.
+//! Lines, links, bodies, probes and routes against values computed by hand.
 
+use endline_sdk::Side;
+
+use super::encounter::single;
 use super::*;
-use crate::metrics::{EventKind, end_tension, energy, reading};
+use crate::metrics::{EventKind, LeadsTo, Route, end_tension, energy, reading, routes};
 use crate::model::EnergyForm;
 
-/// A vertical line hanging from its top: tension rises by the weight in water of what hangs below.
+/// A vertical line that hangs from its top: the tension at a height is the weight in water of the rope below.
 #[test]
 fn end_tension_of_a_hanging_line_is_its_whole_weight() {
     for segments in [1, 2, 7] {
@@ -20,7 +23,7 @@ fn end_tension_of_a_hanging_line_is_its_whole_weight() {
     }
 }
 
-/// A line trailed up-current loses drag along it from the held end to the free one, and its own motion counts.
+/// A line along the current: tension decreases by the drag from the held end to the free one, and its own motion counts.
 #[test]
 fn end_tension_of_a_trailed_line_is_its_whole_drag() {
     let mut spec = spec(vec![0.5; 8]);
@@ -39,7 +42,7 @@ fn end_tension_of_a_trailed_line_is_its_whole_drag() {
 }
 
 #[test]
-fn a_slack_or_cut_end_bears_nothing() {
+fn a_slack_or_cut_end_has_no_tension() {
     let model = model(spec(vec![1.0; 4]));
     let mut state = State::start(&model);
     state.rope.tension = vec![-3.0, 5.0, 5.0, 5.0];
@@ -50,7 +53,7 @@ fn a_slack_or_cut_end_bears_nothing() {
 }
 
 #[test]
-fn peaks_keep_their_time_and_parting_is_told_once() {
+fn peaks_have_their_time_and_parting_is_reported_once() {
     let mut spec = spec(vec![1.0; 4]);
     spec.links =
         vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
@@ -69,12 +72,12 @@ fn peaks_keep_their_time_and_parting_is_told_once() {
     assert!((summary.lines[0].peak_at_s - 0.31).abs() < 1e-12);
     assert!((summary.links[0].peak_tension_n - libm::sin(1.55) * 90.0).abs() < 1e-9);
     assert_eq!(summary.links[0].parted_at_s, Some(0.595));
-    let told: Vec<_> = metrics
+    let reported: Vec<_> = metrics
         .events()
         .iter()
         .map(|event| (event.kind, event.subject.as_str(), event.time_s))
         .collect();
-    assert_eq!(told, [(EventKind::LinkParted, "weak", 0.6)]);
+    assert_eq!(reported, [(EventKind::LinkParted, "weak", 0.6)]);
 }
 
 /// A line of four segments with a weak link at its end B.
@@ -85,7 +88,7 @@ fn with_link() -> Model {
     model(spec)
 }
 
-/// A step that parts a link leaves no tension behind; what the link bore is in the step's peaks.
+/// After a step that parts a link its tension is zero; the peaks of the step contain its load.
 #[test]
 fn a_step_peak_outlives_the_parting() {
     let model = with_link();
@@ -106,7 +109,7 @@ fn a_step_peak_outlives_the_parting() {
     );
 }
 
-/// What a solver step that did not converge says of tension is kept apart from the peaks.
+/// The tension of unconverged solver steps is separate from the peaks.
 #[test]
 fn peaks_come_from_solver_steps_that_converged() {
     let model = with_link();
@@ -120,8 +123,10 @@ fn peaks_come_from_solver_steps_that_converged() {
     }
     let summary = metrics.summary(&model, &state);
     let (line, link) = (&summary.lines[0], &summary.links[0]);
-    let told = [line.peak_tension_n, link.peak_tension_n, line.peak_at_s];
-    assert!(told.iter().zip([60.0, 60.0, 0.01]).all(|(got, wanted)| (got - wanted).abs() < 1e-12));
+    let reported = [line.peak_tension_n, link.peak_tension_n, line.peak_at_s];
+    assert!(
+        reported.iter().zip([60.0, 60.0, 0.01]).all(|(got, wanted)| (got - wanted).abs() < 1e-12)
+    );
     let apart = [line.unconverged_peak_n, link.unconverged_peak_n];
     assert!(apart.iter().all(|peak| (peak - 4000.0).abs() < 1e-12), "{apart:?}");
 }
@@ -152,7 +157,7 @@ fn probe_means_weigh_by_time() {
 }
 
 #[test]
-fn a_dragged_trap_and_a_sunk_buoy_are_told() {
+fn a_dragged_trap_and_a_submerged_buoy_are_reported() {
     let mut spec = spec(vec![1.0; 4]);
     spec.bodies = vec![
         body("trap", BodyRole::Trap, DVec3::new(0.0, 0.0, -50.0)),
@@ -167,10 +172,10 @@ fn a_dragged_trap_and_a_sunk_buoy_are_told() {
         state.bodies[1].position.z = -0.4 * libm::sin(std::f64::consts::PI * time);
         advance(&mut metrics, &model, &mut state, &[]);
     }
-    let told: Vec<_> =
+    let reported: Vec<_> =
         metrics.events().iter().map(|event| (event.kind, event.subject.as_str())).collect();
     let under = (EventKind::PulledUnder, "buoy");
-    assert_eq!(told, [under, (EventKind::Dragged, "trap"), under]);
+    assert_eq!(reported, [under, (EventKind::Dragged, "trap"), under]);
     let (sunk, dragged) = (&metrics.events()[0], &metrics.events()[1]);
     assert!(
         (sunk.time_s - 0.17).abs() < 1e-9,
@@ -215,10 +220,10 @@ fn energy_has_its_three_forms() {
     );
 }
 
-/// The greatest height is that of the highest node far enough from both ends, above a bed that may slope; the middle's
-/// where none is.
+/// The greatest height is that of the highest node far enough from both ends, above a bed that may slope, or that of the
+/// midpoint without such a node.
 #[test]
-fn the_height_of_a_line_leaves_its_ends_out() {
+fn the_height_of_a_line_excludes_its_ends() {
     let mut spec = spec(vec![1.0, 3.0, 2.0]);
     let at = |away_m| Probe { id: String::new(), target: ProbeTarget::Height(0, away_m) };
     spec.probes = [0.0, 1.5, 3.0].map(at).into();
@@ -230,7 +235,7 @@ fn the_height_of_a_line_leaves_its_ends_out() {
     }
     let read: Vec<f64> =
         model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
-    // Within 1.5 m of the ends lie the nodes at 0 m, 1 m and 6 m of 6 m; the middle is two thirds along the second segment.
+    // The nodes at 0 m, 1 m and 6 m of 6 m are within 1.5 m of the ends; the midpoint is at two thirds of the second segment.
     let middle = 7.0 - 2.0 * 2.0 / 3.0;
     assert!(
         read.iter().zip([7.0, 5.0, middle]).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
@@ -238,7 +243,7 @@ fn the_height_of_a_line_leaves_its_ends_out() {
     );
 }
 
-/// Places are linear between nodes, tensions between the middles of segments.
+/// Positions are linear between nodes, tensions between the middles of segments.
 #[test]
 fn a_line_is_read_at_any_length() {
     let mut spec = spec(vec![1.0, 3.0, 2.0]);
@@ -256,9 +261,81 @@ fn a_line_is_read_at_any_length() {
     state.rope.tension = vec![10.0, 20.0, 60.0];
     let read: Vec<f64> =
         model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
-    // Middles at 0.5 m, 2.5 m and 5 m: a length of 1 m lies a quarter of the way from the first to the second.
+    // Middles at 0.5 m, 2.5 m and 5 m: a length of 1 m is at a quarter between the first and the second.
     assert!(
         read.iter().zip([3.0, 12.5, 60.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
         "{read:?}"
     );
+}
+
+/// A contact of a line's segment with a part, on the ray from its axis.
+fn on(model: &Model, line: usize, segment: usize, part: BodyPart, toward: DVec3) -> ContactPoint {
+    let from = match part {
+        BodyPart::Body => trunk_middle(0.55),
+        BodyPart::Peduncle => trunk_middle(-4.55),
+        _ => FLIPPER_ROOT.lerp(FLIPPER_TIP, 0.52),
+    };
+    let skin = &model.spec.whale.as_ref().unwrap().skin;
+    ContactPoint { line, segment, ..contact(model, 0, ray(skin, part, from, toward)) }
+}
+
+/// Routes with cuts, their stations by part and side.
+fn found(contacts: &[ContactPoint], cuts: &[usize]) -> Vec<Route> {
+    let model = model(single());
+    let mut state = State::start(&model);
+    cuts.iter().for_each(|segment| state.rope.cut[*segment] = true);
+    routes(&model, &state, contacts)
+}
+
+#[test]
+fn stations_are_in_the_order_of_the_rope_across_a_splice() {
+    let model = model(single());
+    let side = |sign: f64| DVec3::new(0.0, sign, 0.1);
+    let contacts = [
+        on(&model, 1, 25, BodyPart::Peduncle, side(-1.0)),
+        on(&model, 0, 4, BodyPart::LeftFlipper, DVec3::Z),
+        on(&model, 0, 5, BodyPart::LeftFlipper, DVec3::Z),
+        on(&model, 0, 9, BodyPart::Body, side(1.0)),
+        on(&model, 0, 12, BodyPart::Body, DVec3::new(0.0, 0.01, 1.0)),
+    ];
+    let routes = found(&contacts, &[]);
+    let [route] = routes.as_slice() else { panic!("{routes:?}") };
+    let stations: Vec<_> =
+        route.stations.iter().map(|station| (station.part, station.side)).collect();
+    assert_eq!(
+        stations,
+        [
+            (BodyPart::LeftFlipper, None),
+            (BodyPart::Body, Some(Side::Left)),
+            (BodyPart::Body, None),
+            (BodyPart::Peduncle, Some(Side::Right)),
+        ]
+    );
+    assert!(route.stations.iter().all(|station| !station.in_mouth));
+}
+
+/// The trap's line is 10 m long, the buoy's 8 m, in segments of 0.5 m; contacts are at the middle of segments.
+#[test]
+fn ends_are_what_rope_leads_to_and_how_far() {
+    let model = model(single());
+    let touch = |line, segment| on(&model, line, segment, BodyPart::Body, DVec3::Z);
+    let ends = |contacts: &[ContactPoint], cuts: &[usize]| {
+        let routes = found(contacts, cuts);
+        let end = |route: &Route| route.ends.map(|end| (end.leads_to, end.rope_m));
+        routes.iter().map(end).collect::<Vec<_>>()
+    };
+    let one = [touch(0, 4)];
+    assert_eq!(ends(&one, &[]), [[(LeadsTo::Body(0), 2.25), (LeadsTo::Body(1), 15.75)]]);
+    assert_eq!(ends(&one, &[0]), [[(LeadsTo::Broken, 1.75), (LeadsTo::Body(1), 15.75)]]);
+    assert_eq!(ends(&one, &[24]), [[(LeadsTo::Body(0), 2.25), (LeadsTo::Broken, 9.75)]]);
+    // The tail beyond the buoy and the groundline are separate strands.
+    let two = [touch(2, 37), touch(3, 45)];
+    assert_eq!(
+        ends(&two, &[]),
+        [
+            [(LeadsTo::Body(1), 0.75), (LeadsTo::Bare, 1.25)],
+            [(LeadsTo::Body(0), 5.5), (LeadsTo::Body(2), 14.5)],
+        ]
+    );
+    assert!(ends(&[], &[]).is_empty());
 }

@@ -1,14 +1,8 @@
-//! Scripted states and contacts, on a small whale of known shape.
+//! Fixtures of the metrics' tests: scripted states and contacts on a small whale of known shape.
 
 mod encounter;
 mod gear;
-mod leaving;
-mod loads;
-mod press;
-mod route;
-mod twist;
 mod winding;
-mod wraps;
 
 use std::sync::Arc;
 
@@ -34,7 +28,7 @@ const FLIPPER_ROOT: DVec3 = DVec3::new(2.0, 1.0, -0.3);
 const FLIPPER_TIP: DVec3 = DVec3::new(1.4, 3.0, -0.6);
 const STEP_S: f64 = 0.01;
 
-/// A hook of every kind that does nothing.
+/// A plugin of every kind that does nothing.
 struct Idle(Descriptor);
 
 impl Idle {
@@ -214,7 +208,7 @@ fn whale() -> Whale {
     }
 }
 
-/// Height of the trunk's middle: it sags, so that its axis is not the x axis.
+/// Height of the trunk's centre; it sags, so that its axis is not the x axis.
 fn trunk_middle(x: f64) -> DVec3 {
     DVec3::new(x, 0.0, 0.01 * x * x)
 }
@@ -267,7 +261,7 @@ fn skin() -> Skin {
     skin
 }
 
-/// Adds a closed tube: rings of 48 vertices round middles, with half axes `u` and `v`.
+/// Adds a closed tube: rings of 48 vertices about the centres, with semi-axes `u` and `v`.
 fn tube(skin: &mut Skin, rings: Vec<(DVec3, DVec3, DVec3, Region)>) {
     const AROUND: u32 = 48;
     let base = skin.vertices.len() as u32;
@@ -293,7 +287,7 @@ fn tube(skin: &mut Skin, rings: Vec<(DVec3, DVec3, DVec3, Region)>) {
     skin.weights.resize(skin.vertices.len(), [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]);
 }
 
-/// Where a ray leaves a part of the skin: triangle and barycentric place.
+/// Intersection of a ray with a part of the skin: triangle and barycentric coordinates.
 fn ray(skin: &Skin, part: BodyPart, from: DVec3, toward: DVec3) -> (usize, [f64; 3]) {
     for (index, triangle) in
         skin.triangles.iter().enumerate().filter(|(index, _)| skin.regions[*index].part() == part)
@@ -311,7 +305,7 @@ fn ray(skin: &Skin, part: BodyPart, from: DVec3, toward: DVec3) -> (usize, [f64;
     panic!("the ray misses {}", part.name());
 }
 
-/// A contact of 10 N at the middle of segment `segment` of line 0, on a place of the skin.
+/// A contact of 10 N at the middle of segment `segment` of line 0, at a point of the skin.
 fn contact(
     model: &Model,
     segment: usize,
@@ -337,7 +331,7 @@ fn contact(
     }
 }
 
-/// Places on the peduncle along a helix of `turns` about the trunk's axis, one for each of `count` segments.
+/// Points on the peduncle along a helix of `turns` about the trunk's axis, one for each of `count` segments.
 fn helix(skin: &Skin, turns: f64, count: usize) -> Vec<(usize, [f64; 3])> {
     let place = |k: usize| {
         let share = (k as f64 + 0.5) / count as f64;

@@ -1,9 +1,9 @@
 //! Exchange between lanes and the rest of the solver: lengths, places, the seabed, contact and the ends of lines go in; places,
 //! tensions and ends of lines come out.
 
+use crate::bits::same_bits;
 use crate::forces::rope::Lengths;
 use crate::model::Model;
-use crate::same_bits::same_bits;
 use crate::state::RopeState;
 use crate::system::lanes::Lanes;
 use crate::system::lanes::layout::Piece;
@@ -274,6 +274,7 @@ impl Lanes {
 
     /// Adds a force and its block `-dF/dx` at a fraction of a segment.
     pub fn add_contact(&mut self, segment: usize, fraction: f64, force: DVec3, block: &DMat3) {
+        debug_assert_eq!(self.contact.len(), self.nodes.len(), "contact in the layout of nodes");
         let piece = &self.pieces[self.piece_of[segment]];
         let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
         let (lane, first, second) = (piece.lane, 1.0 - fraction, fraction);

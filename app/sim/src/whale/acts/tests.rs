@@ -1,4 +1,4 @@
-//! Acting over a motion that does nothing but what the test says.
+//! Acts over a scripted motion.
 
 use endline_sdk::{
     Act, BodyPart, Controls, Descriptor, HookError, MotionInput, MotionOutput, Posture, WhaleMotion,
@@ -8,7 +8,7 @@ use super::*;
 use crate::whale::Angle;
 use crate::whale::pose::angle_of;
 
-/// Swims at the speed asked for, wagging its flukes with time; keeps one float and has one act of its own.
+/// Swims at the requested speed with a periodic fluke angle; has one float of state and one act.
 struct Wag(Descriptor);
 
 impl Wag {
@@ -71,7 +71,7 @@ fn clip(id: &str, tracks: Vec<Track>) -> Clip {
     }
 }
 
-/// Acts 2 to 5, behind the one that the motion beneath has of its own.
+/// Acts 2 to 5; act 1 is that of the underlying motion.
 fn acting(answer: Option<Answer>) -> Acting {
     let raise = |side| {
         track(Moves::Angle(Angle::FlipperRaise(side)), &[(0.0, 0.0), (1.0, 0.6), (4.0, 0.0)])
@@ -102,7 +102,7 @@ const RIGHT: f64 = 3.0;
 const OPEN: f64 = 4.0;
 const ROUND: f64 = 5.0;
 
-/// Steps for a time; the act and the touched part are given by time.
+/// Steps for a time, with the act and the part in contact as functions of time.
 fn play(
     acting: &Acting,
     seconds: f64,
@@ -142,7 +142,7 @@ fn turned(out: &[MotionOutput], axis: usize) -> f64 {
 }
 
 #[test]
-fn without_an_act_the_motion_beneath_is_passed_on_bit_for_bit() {
+fn without_an_act_the_output_of_the_underlying_motion_is_unchanged() {
     let (shown, wag) = (play(&acting(None), 3.0, |_| 0.0, none), Wag::shared());
     let mut state = [0.0];
     for out in shown {
@@ -162,9 +162,9 @@ fn without_an_act_the_motion_beneath_is_passed_on_bit_for_bit() {
     }
 }
 
-/// The clip's own angles and turn, and the motion's wag in every angle that the clip leaves alone.
+/// Angles and turn of the clip, and the motion in every angle that the clip does not have.
 #[test]
-fn an_act_reaches_its_keys_turns_as_far_as_it_says_and_returns() {
+fn an_act_reaches_its_keys_and_its_turn_and_returns() {
     let out = play(&acting(None), 6.0, |_| LEFT, none);
     assert!(
         (out[99].posture.flipper_raise[0] - 0.6).abs() < 1e-9,
@@ -192,7 +192,7 @@ fn the_mirror_image_moves_the_other_side_and_turns_the_other_way() {
 }
 
 #[test]
-fn letting_go_breaks_it_off_within_the_fade() {
+fn the_end_of_the_request_ends_an_act_within_the_fade() {
     let out = play(&acting(None), 3.0, |time_s| if time_s < 1.0 { LEFT } else { 0.0 }, none);
     let raised = |index: usize| out[index].posture.flipper_raise[0];
     assert!(raised(99) > 0.59 && raised(124) > 0.1 && raised(124) < raised(99));
@@ -202,14 +202,14 @@ fn letting_go_breaks_it_off_within_the_fade() {
     );
 }
 
-/// Acts that change wildly: no angle jumps by more in one step than the clips' and the fades' rates allow.
+/// Random changes of act: no angle changes in one step by more than the rates of clips and fades allow.
 #[test]
-fn nothing_jumps_however_often_the_pilot_changes_its_mind() {
+fn no_angle_jumps_when_acts_change_often() {
     let wild = |time_s: f64| {
         [LEFT, OPEN, 0.0, RIGHT, 1.0, ROUND, OPEN, LEFT, 0.0][(time_s / 0.17) as usize % 9]
     };
     let out = play(&acting(None), 20.0, wild, none);
-    // The steepest clip rises 0.6 rad in a second, at most 1.5 times as fast; a fade of at most 0.9 rad takes half a second.
+    // The steepest clip rises by 0.6 rad in 1 s, with at most 1.5 times the mean rate; a fade of at most 0.9 rad takes 0.5 s.
     let bound = (1.5 * 0.6 + 1.5 * 0.9 / 0.5 + 0.2) * DT_S;
     let mut most = 0.0_f64;
     for pair in out.windows(2) {
@@ -222,7 +222,7 @@ fn nothing_jumps_however_often_the_pilot_changes_its_mind() {
 }
 
 #[test]
-fn a_touch_is_answered_on_the_touched_side() {
+fn the_response_is_on_the_side_of_the_contact() {
     let answer = Some(Answer { act: 2, above_n: 10.0, again_s: f64::INFINITY });
     for (part, side) in [(BodyPart::LeftFlipper, 0), (BodyPart::RightFluke, 1)] {
         let out = play(&acting(answer), 12.0, |_| 0.0, |time_s| (time_s > 2.0).then_some(part));
@@ -237,7 +237,7 @@ fn a_touch_is_answered_on_the_touched_side() {
 }
 
 #[test]
-fn a_lasting_touch_is_answered_again_where_asked_and_a_new_one_always() {
+fn continuing_contact_repeats_the_response_if_set_and_new_contact_always() {
     let again = |again_s| acting(Some(Answer { act: 2, above_n: 10.0, again_s }));
     let touch = |_: f64| Some(BodyPart::LeftFlipper);
     assert!((turned(&play(&again(6.0), 17.9, |_| 0.0, touch), 0) / 2.0 - 3.0).abs() < 0.05);
@@ -249,9 +249,9 @@ fn a_lasting_touch_is_answered_again_where_asked_and_a_new_one_always() {
     assert!(turned(&play(&weak, 8.0, |_| 0.0, touch), 0).abs() < 1e-15, "50 N are below 60");
 }
 
-/// A held act goes on until rope touches the part it minds; the control it held is the pilot's again.
+/// A held act ends at contact with a part of its list; its control is then the pilot's again.
 #[test]
-fn an_act_that_minds_rope_ends_at_its_touch() {
+fn an_act_ends_at_contact_with_its_parts() {
     let mouth = |out: &MotionOutput| out.posture.jaw;
     let flipper = play(
         &acting(None),
@@ -274,17 +274,17 @@ fn an_act_that_minds_rope_ends_at_its_touch() {
 }
 
 #[test]
-fn an_act_that_repeats_turns_on_and_on() {
+fn the_turn_of_a_repeated_act_accumulates() {
     let out = play(&acting(None), 20.0, |_| ROUND, none);
     assert!(
         (turned(&out, 2) - 5.0).abs() < 1e-3,
-        "{}: all but what the fade takes from the first step's rate",
+        "{}: the full turn except for the effect of the fade on the first step",
         turned(&out, 2)
     );
 }
 
 #[test]
-fn the_motions_own_acts_stay_its_own_and_unknown_ones_are_told() {
+fn acts_of_the_underlying_motion_are_passed_on_and_unknown_ones_are_errors() {
     let acting = acting(None);
     let ids: Vec<&str> = acting.descriptor().acts.iter().map(|act| act.id.as_ref()).collect();
     assert_eq!(ids, ["own", "left", "right", "open", "round"]);
@@ -308,4 +308,16 @@ fn the_motions_own_acts_stay_its_own_and_unknown_ones_are_told() {
     assert!(
         acting.step(&[], &input, &mut state).unwrap_err().message.contains("there is no act 6")
     );
+}
+
+#[test]
+fn floats_are_read_as_they_were_written() {
+    let mut state: Vec<f64> = (0..LEN).map(|index| 0.25 + index as f64).collect();
+    (state[0], state[2], state[3]) = (3.0, 1.0, 7.0);
+    let before = state.clone();
+    let floats = Floats::read(&state).unwrap();
+    state.fill(0.0);
+    floats.write(&mut state);
+    assert_eq!(state, before);
+    assert!(Floats::read(&state[1..]).unwrap_err().message.contains("floats for acts"));
 }

@@ -1,36 +1,51 @@
-//! How much of a skin is under water, and where: Archimedes on the triangles.
+//! Hydrodynamics of the body: submerged volume, added mass, and drag of swimming.
 //!
-//! With `s` the height above the water and `n` the outward normal, the divergence theorem over the wet skin gives the displaced volume
-//! `V = ∮ s n_z dA` and its first moments `∮ x s n_z dA`, `∮ y s n_z dA`; the waterplane adds nothing, since `s = 0` there. On a flat triangle
-//! of area vector `N` the mean of a product of two linear functions is `(Σ f_i g_i + Σ f_i Σ g_i)/12`. Triangles across the
-//! waterline are cut along it, so that a closed mesh is exact at any heel and draught.
-//! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the sums are our own.
+//! Submerged volume: with `s` the height above the water [m] and `n` the outward normal, the divergence theorem over the wet
+//! skin gives the volume `V = ∮ s n_z dA` [m³] and its first moments `∮ x s n_z dA`, `∮ y s n_z dA` [m⁴]; the waterplane
+//! contributes nothing, because
+//! `s = 0` there. On a flat triangle the mean of a product of two linear functions `f`, `g` is `(Σ f_i g_i + Σ f_i Σ g_i)/12`.
+//! Triangles across the waterline are cut along it, so that the result is exact for a closed mesh at any heel and draught.
+//! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the sums were derived here.
+//!
+//! Added mass of a prolate spheroid of semi-axes `a` along and `b` across, `e² = 1 - b²/a²`, as shares of the displaced water:
+//! `α₀ = 2(1-e²)/e³ (½ ln((1+e)/(1-e)) - e)`, `β₀ = 1/e² - (1-e²)/(2e³) ln((1+e)/(1-e))`,
+//! `k₁ = α₀/(2-α₀)` along, `k₂ = β₀/(2-β₀)` across, and for rotation about a transverse axis
+//! `k' = e⁴ (β₀-α₀) / ((2-e²) (2e² - (2-e²)(β₀-α₀)))`. Rotation about its own axis has no added mass, but fins have: two plates
+//! of half span `s` and chord `c` have the added moment of inertia `(π/8) ρ c s⁴` [kg m²].
+//! References: Lamb 1932, Hydrodynamics, articles 114 and 115; Newman 1977, Marine Hydrodynamics, section 4.15 for the plates.
+//!
+//! Drag of a swimming body: `D = ½ρ U² S C_D0 g k` [N], `C_D0 = C_f [1 + 1.5 (d/L)^1.5 + 7 (d/L)³]`, `C_f = 0.072 Re^-0.2`,
+//! `Re = U L/ν`, so that `D = c U^1.8` with `c` constant. For a coasting body of mass `m`, `U^-0.8 - 0.8 c t/m` is constant.
+//! Symbols: `U` speed [m/s], `S` wetted area [m²], `L` length [m], `d` greatest diameter [m], `g` factor of flippers and
+//! flukes, `k` factor of the oscillation of the body, `ν` kinematic viscosity [m²/s]. An open mouth multiplies the drag by up
+//! to its own factor.
+//! References: van der Hoop et al. 2013 (doi:10.1111/mms.12042) and 2017 (doi:10.1242/jeb.149781); `C_f` and form factor after
+//! Hoerner 1965.
 
-use glam::{DMat3, DVec3};
-
-use super::super::{Measures, Skin, pose, skin_vertex};
 use endline_sdk::Posture;
-use glam::DQuat;
+use glam::{DMat3, DQuat, DVec3};
+
+use crate::whale::{Measures, Skin, pose, skin_vertex};
 
 /// A closed surface of flat triangles in the whale's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hull {
     places: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    /// Volume it holds [m³].
+    /// Enclosed volume [m³].
     pub volume_m3: f64,
-    /// Middle of that volume [m].
+    /// Centroid of that volume [m].
     pub middle_m: DVec3,
-    /// Farthest place from the frame's origin [m].
+    /// Greatest distance of a vertex from the frame's origin [m].
     pub reach_m: f64,
 }
 
-/// What is under water.
+/// Submerged volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wetted {
     /// Volume [m³].
     pub volume_m3: f64,
-    /// Volume times how far its middle lies east and north of the point it is measured from [m⁴].
+    /// First moments of the volume, east and north of the reference point [m⁴].
     pub moment_m4: [f64; 2],
 }
 
@@ -45,17 +60,16 @@ impl Hull {
         Self::new(places, skin.triangles.clone())
     }
 
-    /// A closed surface by its corners.
+    /// A closed surface with these vertices.
     fn new(places: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
         let held = Measures::of_triangles(&places, &triangles, 1.0);
         let reach_m = places.iter().map(|place| place.length()).fold(0.0, f64::max);
         Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, reach_m }
     }
 
-    /// What is under water with the point `centre` of its frame `height_m` above the surface, turned by `orientation`.
+    /// Computes the submerged volume with the point `centre` of its frame `height_m` above the surface, at this orientation.
     ///
-    /// `turned` is scratch: each corner is turned once for all of its triangles.
-    #[must_use]
+    /// `turned` is a buffer of the rotated vertices.
     pub fn wetted(
         &self,
         centre: DVec3,
@@ -75,19 +89,18 @@ impl Hull {
         sum
     }
 
-    /// Scratch for [`wetted`](Self::wetted) that need not grow.
-    #[must_use]
+    /// Buffer for [`wetted`](Self::wetted) of sufficient capacity.
     pub fn scratch(&self) -> Vec<DVec3> {
         Vec::with_capacity(self.places.len())
     }
 }
 
 impl Wetted {
-    /// Adds the part of a triangle that is under water; heights are above the surface.
+    /// Adds the submerged part of a triangle; heights are above the surface.
     ///
-    /// Corners are handed over one by one: as an array they would go through memory, which costs more than the sum.
+    /// Corners are separate arguments: an array would be passed through memory, which costs more than the sum.
     fn add_cut(&mut self, a: DVec3, b: DVec3, c: DVec3) {
-        // The lone corner comes first.
+        // The single corner on its side of the surface is the first argument.
         match [a, b, c].map(|corner| corner.z > 0.0) {
             [false, false, false] => self.add(a, b, c),
             [true, true, true] => {}
@@ -100,14 +113,14 @@ impl Wetted {
         }
     }
 
-    /// Adds a triangle of which corner `a` alone is dry.
+    /// Adds a triangle of which only corner `a` is dry.
     fn add_below(&mut self, a: DVec3, b: DVec3, c: DVec3) {
         let (on_b, on_c) = (at_surface(a, b), at_surface(a, c));
         self.add(on_b, b, c);
         self.add(on_b, c, on_c);
     }
 
-    /// Adds a triangle of which corner `a` alone is wet.
+    /// Adds a triangle of which only corner `a` is wet.
     fn add_tip(&mut self, a: DVec3, b: DVec3, c: DVec3) {
         self.add(a, at_surface(a, b), at_surface(a, c));
     }
@@ -123,16 +136,129 @@ impl Wetted {
     }
 }
 
-/// Where an edge meets the surface.
+/// Intersection of an edge with the surface.
 fn at_surface(from: DVec3, to: DVec3) -> DVec3 {
     from.lerp(to, from.z / (from.z - to.z))
+}
+
+/// Added mass of a prolate spheroid as shares of the displaced water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shares {
+    /// Along, `k₁`.
+    pub along: f64,
+    /// Across, `k₂`.
+    pub across: f64,
+    /// In rotation about a cross axis, `k'`.
+    pub turning: f64,
+}
+
+/// Shares for a spheroid of this ratio of length to breadth, above 1.
+///
+/// Errors are below 1e-9 for ratios of 1.05 and more. Nearer to a sphere the difference of logarithms loses precision, and the
+/// value for 1.05 is returned.
+pub fn spheroid(slenderness: f64) -> Shares {
+    let slenderness = slenderness.max(1.05);
+    let square = 1.0 - 1.0 / (slenderness * slenderness);
+    let e = square.sqrt();
+    let log = libm::log1p(e) - libm::log1p(-e);
+    let alpha = 2.0 * (1.0 - square) / (square * e) * (0.5 * log - e);
+    let beta = 1.0 / square - (1.0 - square) / (2.0 * square * e) * log;
+    let (less, more) = (2.0 - square, beta - alpha);
+    Shares {
+        along: alpha / (2.0 - alpha),
+        across: beta / (2.0 - beta),
+        turning: square * square * more / (less * (2.0 * square - less * more)),
+    }
+}
+
+/// Added moment of inertia about the axis of a pair of fins of half span `s` and chord `c` [kg m²].
+pub fn fins(density_kg_m3: f64, half_span_m: f64, chord_m: f64) -> f64 {
+    let square = half_span_m * half_span_m;
+    core::f64::consts::FRAC_PI_8 * density_kg_m3 * chord_m * square * square
+}
+
+/// Kinematic viscosity of sea water of the reference [m²/s].
+const VISCOSITY_M2_S: f64 = 1e-6;
+
+/// Drag of a body along its axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxialDrag {
+    /// Length [m].
+    pub length_m: f64,
+    /// Greatest diameter [m].
+    pub diameter_m: f64,
+    /// Wetted area [m²].
+    pub wetted_area_m2: f64,
+    /// Factor of flippers and flukes, `g`.
+    pub appendages: f64,
+    /// Factor of the oscillation of the body in swimming, `k`.
+    pub oscillation: f64,
+    /// Factor of a mouth wide open.
+    pub open_mouth: f64,
+    /// Jaw angle at which the mouth is wide open [rad].
+    pub wide_rad: f64,
+}
+
+impl AxialDrag {
+    /// Drag coefficient `C_D0` on wetted area at a positive speed.
+    pub fn coefficient(&self, speed_m_s: f64) -> f64 {
+        let slenderness = self.diameter_m / self.length_m;
+        let friction = 0.072 * libm::pow(speed_m_s * self.length_m / VISCOSITY_M2_S, -0.2);
+        friction
+            * (1.0
+                + 1.5 * libm::pow(slenderness, 1.5)
+                + 7.0 * slenderness * slenderness * slenderness)
+    }
+
+    /// `c` of `D = c U^1.8` at a density of water and a jaw angle [N s^1.8/m^1.8].
+    pub fn factor(&self, density_kg_m3: f64, jaw_rad: f64) -> f64 {
+        let mouth = 1.0 + (self.open_mouth - 1.0) * (jaw_rad / self.wide_rad).clamp(0.0, 1.0);
+        0.5 * density_kg_m3
+            * self.wetted_area_m2
+            * self.coefficient(1.0)
+            * self.appendages
+            * self.oscillation
+            * mouth
+    }
+
+    /// Drag at a speed with the mouth closed [N].
+    pub fn drag_n(&self, density_kg_m3: f64, speed_m_s: f64) -> f64 {
+        drag_n(self.factor(density_kg_m3, 0.0), speed_m_s)
+    }
+
+    pub(super) fn fault(&self) -> Option<&'static str> {
+        let sizes = [self.length_m, self.diameter_m, self.wide_rad];
+        let factors = [self.wetted_area_m2, self.appendages, self.oscillation, self.open_mouth];
+        let sound = sizes.iter().all(|size| size.is_finite() && *size > 0.0)
+            && factors.iter().all(|factor| factor.is_finite() && *factor >= 0.0);
+        (!sound).then_some("a property of its drag is below zero")
+    }
+}
+
+/// Drag `c U^1.8` with the sign of the speed [N].
+pub fn drag_n(factor: f64, speed_m_s: f64) -> f64 {
+    factor * libm::pow(libm::fabs(speed_m_s), 0.8) * speed_m_s
+}
+
+/// Exact speed of a coasting body after a time, with `fading = c dt/m`; for a negative `fading`, the speed before that time
+/// [m/s].
+pub fn coast(speed_m_s: f64, fading: f64) -> f64 {
+    if speed_m_s == 0.0 || fading == 0.0 {
+        return speed_m_s;
+    }
+    let slowness = libm::pow(libm::fabs(speed_m_s), -0.8) + 0.8 * fading;
+    if slowness <= 0.0 {
+        // No such speed exists: extrapolate linearly with the present drag.
+        return speed_m_s - fading * libm::pow(libm::fabs(speed_m_s), 0.8) * speed_m_s;
+    }
+    libm::copysign(libm::pow(slowness, -1.25), speed_m_s)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A box of these half sides about the origin.
+    /// A box with these half extents about the origin.
     fn crate_of(half: DVec3) -> Hull {
         let corner = |k: u32| {
             half * DVec3::from_array(
@@ -147,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_displaces_what_lies_below_the_waterline() {
+    fn a_box_displaces_its_volume_below_the_waterline() {
         let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
         let mut turned = hull.scratch();
         let mut level_at =
@@ -159,10 +285,10 @@ mod tests {
         );
         assert!((level_at(-9.0).volume_m3 - 24.0).abs() < 1e-12);
         assert!(level_at(9.0).volume_m3.abs() < 1e-12);
-        // Heeled by 0.1 about x with its middle in the surface, the waterline cuts both sides: as much under as over.
+        // Heeled by 0.1 rad about x with its centre in the surface, half of the volume is submerged.
         let heeled = hull.wetted(DVec3::ZERO, DQuat::from_rotation_x(0.1), 0.0, &mut turned);
         assert!((heeled.volume_m3 - 12.0).abs() < 1e-12);
-        // Its moment about the middle is that of the level half, turned, and of the two wedges: L b³ tan φ/12 (1 + tan²φ/2) along the keel.
+        // Its moment about the centre is that of the upright half, rotated, and of the two wedges: L b³ tan φ/12 (1 + tan²φ/2) along the keel.
         let (sin, cos, tan) = (libm::sin(0.1), libm::cos(0.1), libm::tan(0.1));
         let (across, down) =
             (8.0 * 27.0 * tan / 12.0, -(12.0 * 0.25) + 8.0 * 27.0 * tan * tan / 24.0);
@@ -174,9 +300,10 @@ mod tests {
         );
     }
 
-    /// Scratch of another hull and pose changes no bit, and the sum is that of triangles turned and cut one by one.
+    /// A buffer used for another hull and pose does not change the result, which is bit-equal to the sum over separately
+    /// rotated triangles.
     #[test]
-    fn corners_turned_once_give_the_bits_of_triangles_turned_alone() {
+    fn shared_corners_give_the_bits_of_separate_triangles() {
         let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
         let (centre, axis) = (DVec3::new(0.3, -0.2, 0.1), DVec3::new(0.6, 0.48, 0.64));
         let (mut turned, mut cut) = (vec![DVec3::NAN; 99], [0; 4]);
@@ -196,7 +323,7 @@ mod tests {
         assert!(cut.iter().all(|triangles| *triangles > 20), "{cut:?}");
     }
 
-    /// Adds a triangle turned so that its lone corner comes first, by the number of its dry corners; that number.
+    /// Adds a triangle, permuted so that the single corner on its side is first; returns the number of dry corners.
     fn add_alone(sum: &mut Wetted, corners: [DVec3; 3]) -> usize {
         let dry = corners.map(|corner| corner.z > 0.0);
         let count = dry.iter().filter(|is_dry| **is_dry).count();
@@ -213,5 +340,76 @@ mod tests {
             _ => {}
         }
         count
+    }
+
+    #[test]
+    fn shares_are_those_of_lambs_table() {
+        // Lamb, article 115, printed to three digits with errors of up to two in the last: slenderness, k1, k2, k'.
+        let table = [
+            (1.50, 0.305, 0.621, 0.094),
+            (2.00, 0.209, 0.702, 0.240),
+            (3.99, 0.082, 0.860, 0.608),
+            (6.01, 0.045, 0.918, 0.764),
+            (9.97, 0.021, 0.960, 0.883),
+        ];
+        for (slenderness, along, across, turning) in table {
+            let shares = spheroid(slenderness);
+            for (ours, lamb) in
+                [(shares.along, along), (shares.across, across), (shares.turning, turning)]
+            {
+                assert!((ours - lamb).abs() < 2.5e-3, "{slenderness}: {ours} against {lamb}");
+            }
+        }
+    }
+
+    fn whale(length_m: f64, mass_kg: f64, diameter_m: f64) -> AxialDrag {
+        let wetted_area_m2 = 0.08 * libm::pow(mass_kg, 0.65);
+        AxialDrag {
+            length_m,
+            diameter_m,
+            wetted_area_m2,
+            appendages: 1.3,
+            oscillation: 1.5,
+            open_mouth: 2.5,
+            wide_rad: 0.26,
+        }
+    }
+
+    #[test]
+    fn drag_of_a_clean_whale_is_that_of_the_table() {
+        let speeds = [0.5, 1.0, 1.23, 1.5, 2.0, 2.5];
+        // Whales measured by van der Hoop: length, mass, diameter, coefficient at 1 m/s, drag at each speed.
+        let table = [
+            (whale(10.0, 7_000.0, 2.196), 0.00352, [25.5, 88.9, 129.0, 184.0, 310.0, 463.0]),
+            (whale(13.6, 32_670.0, 2.93), 0.00329, [64.9, 226.0, 328.0, 469.0, 787.0, 1175.0]),
+            (whale(13.7, 52_640.0, 2.96), 0.00329, [88.4, 308.0, 447.0, 639.0, 1072.0, 1602.0]),
+            (whale(4.12, 1_230.0, 0.72), 0.00392, [9.2, 31.9, 46.4, 66.3, 111.0, 166.0]),
+        ];
+        for (whale, coefficient, drags) in table {
+            assert!(
+                (whale.coefficient(1.0) / coefficient - 1.0).abs() < 0.01,
+                "{whale:?}: {}",
+                whale.coefficient(1.0)
+            );
+            for (speed, drag) in speeds.into_iter().zip(drags) {
+                let ours = whale.drag_n(1025.0, speed);
+                assert!(
+                    (ours / drag - 1.0).abs() < 0.01,
+                    "{whale:?} at {speed} m/s: {ours} against {drag} N"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn coasting_solves_the_equation_of_motion_in_both_directions() {
+        for speed in [2.5, 0.3, 1e-4, -1.2] {
+            let fading = 1e-4;
+            let (after, before) = (coast(speed, fading), coast(speed, -fading));
+            assert!((coast(after, -fading) / speed - 1.0).abs() < 1e-12);
+            let change = (after - before) / (2.0 * fading);
+            assert!((change / -drag_n(1.0, speed) - 1.0).abs() < 1e-6, "{speed}: {change}");
+        }
+        assert_eq!(coast(0.0, 0.1).to_bits(), 0.0_f64.to_bits());
     }
 }

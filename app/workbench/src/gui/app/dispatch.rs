@@ -9,6 +9,7 @@ use endline_session::command::{
     Command, EditAction, FileQuestion, RuleAction, RunAction, SearchAction, StudyAction,
 };
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
 use endline_session::workbench::{Event, Notice};
 
 use super::App;
@@ -37,7 +38,7 @@ impl App {
             self.select();
             let refused = find(command.id()).map_or(Ok(()), |info| info.enabled(&self.shared));
             if let Err(reason) = refused {
-                self.shared.workbench.notice = Some(Notice::hint(reason));
+                self.shared.workbench.say(Notice::hint(reason));
                 continue;
             }
             if let Err(reason) = self.dispatch(context, command) {
@@ -60,7 +61,7 @@ impl App {
     /// A command of the workbench, with what the window does for it.
     fn work(&mut self, command: Command) -> Result<(), String> {
         if let Command::Edit(EditAction::OpenScenario(path)) = &command
-            && self.shared.workbench.project.documents.is_unsaved(Documents::SCENARIO)
+            && self.shared.workbench.project().documents.is_unsaved(Documents::SCENARIO)
         {
             // Another text in its place would take the edits with it.
             self.questions.opening = Some(path.clone());
@@ -127,7 +128,7 @@ impl App {
             ViewAction::SavePicture(file) => {
                 view.save_picture(&self.shared, &file)?;
                 let said = format!("saved {}", file.display());
-                self.shared.workbench.notice = Some(Notice::done(said));
+                self.shared.workbench.say(Notice::done(said));
             }
         }
         Ok(())
@@ -219,7 +220,7 @@ impl App {
         match action {
             WindowAction::Palette => self.palette.toggle(context),
             WindowAction::Theme(theme) => self.shared.preferences.theme = theme,
-            WindowAction::Units(units) => self.shared.workbench.preferences.units = units,
+            WindowAction::Units(units) => self.shared.workbench.set_units(units),
             WindowAction::Size(size) => context.set_zoom_factor(size),
             WindowAction::CopyCommandLine => {
                 let line = self.shared.workbench.command_line();
@@ -255,7 +256,7 @@ impl App {
         let folder = folder.ok_or("the system names no home, where documents could be written")?;
         let page = page::write(folder, document)?;
         open_folder(&page)?;
-        self.shared.workbench.notice = Some(Notice::done(format!("opened {}", page.display())));
+        self.shared.workbench.say(Notice::done(format!("opened {}", page.display())));
         Ok(())
     }
 
@@ -274,8 +275,8 @@ impl App {
 
     fn copy(&mut self, context: &Context, line: String, what: &str) {
         context.copy_text(line);
-        let unsaved = !self.shared.workbench.project.documents.unsaved().is_empty();
-        self.shared.workbench.notice = Some(if unsaved {
+        let unsaved = !self.shared.workbench.project().documents.unsaved().is_empty();
+        self.shared.workbench.say(if unsaved {
             Notice::hint("copied; save first: the command reads the files")
         } else {
             Notice::done(format!("{what} copied"))
@@ -327,7 +328,18 @@ impl App {
                         self.shared.thumbnail.begin(view, &recording, waker);
                     }
                 }
-                Event::Duplicated { from, to } => self.panels.library.compare(from, to),
+                Event::AssemblyAdded(path) => {
+                    self.panels.assembly.choose(&self.shared, id_of(&path).to_owned());
+                }
+                Event::Duplicated { from, to } => {
+                    let id = id_of(&from);
+                    if from.starts_with("assemblies/")
+                        && self.panels.assembly.shows(&self.shared, id)
+                    {
+                        self.panels.assembly.choose(&self.shared, id_of(&to).to_owned());
+                    }
+                    self.panels.library.compare(from, to);
+                }
             }
         }
     }

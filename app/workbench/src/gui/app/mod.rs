@@ -6,6 +6,7 @@ mod tabs;
 use crate::gui::command::action::FlightAction;
 use crate::gui::command::keys;
 use endline_session::command::{EditAction, RunAction};
+use endline_session::workbench::Shown;
 use std::sync::{Arc, Mutex};
 
 use eframe::{CreationContext, Storage};
@@ -53,7 +54,8 @@ impl App {
         let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
         if let Some(text) = stored(PREFERENCES_KEY) {
             let stored: StoredPreferences = serde_json::from_str(&text).unwrap_or_default();
-            (shared.preferences, shared.workbench.preferences) = (stored.window, stored.workbench);
+            shared.preferences = stored.window;
+            shared.workbench.set_preferences(stored.workbench);
         }
         shared.pilot.invert_pitch = shared.preferences.invert_pitch;
         shared.pilot.mapping = shared.preferences.mapping.clone();
@@ -73,7 +75,7 @@ impl App {
         if first {
             layout::open_beside(&mut dock, PanelId::START, PanelId::VIEW);
         }
-        let left_behind = shared.workbench.project.autosave.left_behind();
+        let left_behind = shared.workbench.left_behind();
         Self {
             shared,
             panels,
@@ -197,16 +199,17 @@ impl App {
         }
     }
 
+    /// Checks what the panels drawn show.
+    fn check_shown(&mut self) {
+        let drawn = std::mem::take(&mut self.shared.drawn);
+        let [study, rules] = [PanelId::STUDY, PanelId::RULES].map(|panel| drawn.contains(&panel));
+        self.shared.workbench.check(Shown { study, rules });
+    }
+
     /// Keeps unsaved edits where it is time.
     fn keep(&mut self, context: &Context) {
         let now_s = context.input(|input| input.time);
-        if let Some(after_s) = self
-            .shared
-            .workbench
-            .project
-            .autosave
-            .keep(&self.shared.workbench.project.documents, now_s)
-        {
+        if let Some(after_s) = self.shared.workbench.store_unsaved(now_s) {
             context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
         }
         let size = self.shared.presented_from.unwrap_or_else(|| context.zoom_factor());
@@ -235,7 +238,7 @@ impl eframe::App for App {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        fields::show_in(ui.ctx(), self.shared.workbench.preferences.units);
+        fields::show_in(ui.ctx(), self.shared.workbench.preferences().units);
         let theme = self.shared.preferences.theme;
         if self.dressed.replace(theme) != Some(theme) {
             theme.apply(ui.ctx());
@@ -248,6 +251,7 @@ impl eframe::App for App {
             self.panels_in_place(ui);
         }
         self.over_all(ui);
+        self.check_shown();
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {
@@ -257,7 +261,7 @@ impl eframe::App for App {
         let Shared { preferences, workbench, .. } = &self.shared;
         let stored = StoredPreferences {
             window: preferences.clone(),
-            workbench: workbench.preferences.clone(),
+            workbench: workbench.preferences().clone(),
         };
         save_json(storage, PREFERENCES_KEY, &stored);
     }

@@ -26,6 +26,7 @@ impl TabViewer for Tabs<'_> {
 
     fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
         if let Some(panel) = self.panels.find(tab) {
+            self.shared.drawn.push(panel.id());
             panel.ui(ui, self.shared);
         }
     }

@@ -75,7 +75,7 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Draws what the chosen view shows at full size, 1920 by 1080, into a PNG file.",
         Make::File {
             question: |shared| {
-                let scenario = stem(shared.workbench.project.documents.scenario_path());
+                let scenario = stem(shared.workbench.project().documents.scenario_path());
                 let time_s = shared.workbench.view().map_or(0.0, |view| view.frame.time_s);
                 let name = format!("{scenario}-{time_s:.0}-s.png");
                 FileQuestion::write("picture", &["png"], name)
@@ -90,7 +90,7 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window goes on meanwhile.",
         Make::File {
             question: |shared| {
-                let scenario = stem(shared.workbench.project.documents.scenario_path());
+                let scenario = stem(shared.workbench.project().documents.scenario_path());
                 FileQuestion::write("film", &["mp4", "webm", "gif"], format!("{scenario}.mp4"))
             },
             command: |_, file| ViewAction::SaveFilm(file).into(),

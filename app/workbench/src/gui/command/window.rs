@@ -120,11 +120,11 @@ pub static COMMANDS: &[WindowInfo] = &[
 ];
 
 fn observation_opened(shared: &Shared) -> Result<(), String> {
-    let opened = shared.workbench.project.documents.observation_path();
+    let opened = shared.workbench.project().documents.observation_path();
     opened.map(|_| ()).ok_or_else(|| "open an observation first".to_owned())
 }
 
 fn study_opened(shared: &Shared) -> Result<(), String> {
-    let opened = shared.workbench.project.documents.study_path();
+    let opened = shared.workbench.project().documents.study_path();
     opened.map(|_| ()).ok_or_else(|| "open a study first".to_owned())
 }

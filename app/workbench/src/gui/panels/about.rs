@@ -1,4 +1,4 @@
-//! Which Endline this is, under which licence, how to cite it, and its documents.
+//! Version, licence, citation and documents of Endline.
 
 use egui::{RichText, Ui};
 use endline_session::VERSION;
@@ -9,22 +9,22 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// Where Endline is kept.
+/// Address of the repository.
 const REPOSITORY: &str = env!("CARGO_PKG_REPOSITORY");
 
-/// Draws it.
+/// Draws version, licence, citation and documents.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
     widgets::caption(ui, "About");
     let rows = [
         ("Version", VERSION.to_owned()),
-        ("Licence", format!("{}, whichever you prefer", env!("CARGO_PKG_LICENSE"))),
-        ("Library", shared.workbench.project.documents.root().display().to_string()),
+        ("Licence", format!("{}, at your choice", env!("CARGO_PKG_LICENSE"))),
+        ("Library", shared.workbench.project().documents.root().display().to_string()),
     ];
     widgets::numbers(ui, "about", &rows);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(citation()).color(faint));
-        if ui.small_button("Copy").on_hover_text("Copy how to cite it").clicked() {
+        if ui.small_button("Copy").on_hover_text("Copies the citation").clicked() {
             ui.ctx().copy_text(citation());
         }
     });
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// How a paper names this version.
+/// Citation of this version in a paper.
 fn citation() -> String {
     format!(
         "Endline {VERSION}: a workbench for fishing gear that entangled whales can escape from. {REPOSITORY}"

@@ -1,4 +1,4 @@
-//! Two runs beside one another: A as shown, B held or opened; their key figures and what differs.
+//! Comparison of two runs: A, the run shown, and B, held or from a recording; their figures and differences.
 
 use crate::gui::command::action::PanelAction;
 use crate::gui::widgets::command;
@@ -13,7 +13,7 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::words::capital;
 
-/// Two runs beside one another.
+/// The panel that compares two runs.
 #[derive(Debug, Default)]
 pub struct ComparePanel;
 
@@ -46,7 +46,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        for group in groups(&a, &b, shared.workbench.preferences.units) {
+        for group in groups(&a, &b, shared.workbench.preferences().units) {
             table(ui, &group);
         }
     });
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 fn buttons(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
         command(ui, shared, "Hold this run as B", RunAction::Hold);
-        if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked()
+        if ui.button("Recordings …").on_hover_text("Select a recording to compare with").clicked()
         {
             shared.give(PanelAction::Show(PanelId::RECORDINGS));
         }
@@ -63,14 +63,14 @@ fn buttons(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// How far each was run: figures of runs of different length do not compare.
+/// Draws how far each run has been computed, because figures of different durations are not comparable.
 fn standing(ui: &mut Ui, a: &LiveView, b: &LiveView) {
     let palette = Theme::palette_of(ui);
     if b.status == Status::Running {
-        ui.label(RichText::new(format!("B runs again: {:.2} s", b.newest_s)).color(palette.faint));
+        ui.label(RichText::new(format!("B is replayed: {:.2} s", b.newest_s)).color(palette.faint));
     } else if (a.newest_s - b.newest_s).abs() > 0.011 {
         let text = format!(
-            "A was run for {:.2} s, B for {:.2} s: peaks and times compare only over the same time.",
+            "A has {:.2} s, B {:.2} s. Peaks and times are comparable only over the same duration.",
             a.newest_s, b.newest_s
         );
         ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap());

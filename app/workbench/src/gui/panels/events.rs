@@ -1,4 +1,4 @@
-//! What happened when; a click shows that moment, and reads the body that it happened to.
+//! The list of events; a click shows the moment of an event and the reading of its body.
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, TextStyle, Ui};
 use endline_session::command::TimeAction;
@@ -35,10 +35,10 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     if view.events.is_empty() {
         return widgets::nothing(
             ui,
-            "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
+            "No events yet. Contacts, slips, wraps and parted lines will be listed here.",
         );
     }
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let mut wanted = None;
     ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
         for event in view.events.iter() {
@@ -51,7 +51,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     shared.commands.extend(wanted.into_iter().flat_map(|event| answers(event, &view.model)));
 }
 
-/// What a click on an event asks for: its moment, and to read the body that it happened to, if it did to one.
+/// Commands of a click on an event: its moment, and the reading of its body, if it has one.
 fn answers(event: &Event, model: &Model) -> impl Iterator<Item = WindowCommand> {
     let body = model.spec.bodies.iter().position(|body| body.id == event.subject);
     let inspect = body.map(|body| ViewAction::Inspect(Picked::Body(body)).into());
@@ -67,20 +67,20 @@ fn row(ui: &mut Ui, event: &Event, units: Units, now: bool) -> bool {
             RichText::new(words::event(event.kind)).color(words::event_colour(event.kind, palette)),
         );
         ui.label(event.subject.replace('_', " "));
-        let told = value(event, units);
+        let text = value(event, units);
         let font = TextStyle::Body.resolve(ui.style());
-        let breadth = ui.painter().layout_no_wrap(told.clone(), font, palette.text).size().x;
-        // In a narrow panel it goes to the next line.
+        let breadth = ui.painter().layout_no_wrap(text.clone(), font, palette.text).size().x;
+        // Wraps in a narrow panel.
         if breadth < ui.available_size_before_wrap().x {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(told));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(text));
         } else {
-            ui.label(told);
+            ui.label(text);
         }
     });
-    line.response.interact(Sense::click()).on_hover_text("Click to see this moment").clicked()
+    line.response.interact(Sense::click()).on_hover_text("Click to show this moment").clicked()
 }
 
-/// What an event's number is, and the number in the units chosen.
+/// Value of an event with its meaning, in the selected units.
 fn value(event: &Event, units: Units) -> String {
     let number = match event.kind.unit() {
         "N" => units.force().text(event.value),

@@ -1,4 +1,4 @@
-//! Keys, mouse and game controller, from the tables that declare them; which Endline this is, and its documents.
+//! Keys, mouse and pad, from the tables that declare them; version and documents.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::input::mapping::STEERING;
 
-/// What the mouse does in the 3-D view.
+/// Actions of the mouse in the 3-D view.
 pub const MOUSE: [(&str, &str); 4] = [
     ("Read a rope, body or the skin", "click"),
     ("Orbit", "drag"),
@@ -21,7 +21,7 @@ pub const MOUSE: [(&str, &str); 4] = [
     ("Zoom", "wheel"),
 ];
 
-/// The list of keys, and of what the pad does.
+/// The panel of keys and help.
 #[derive(Debug, Default)]
 pub struct HelpPanel;
 
@@ -34,7 +34,7 @@ impl Panel for HelpPanel {
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             about::show(ui, shared);
             widgets::caption(ui, "Files");
-            ui.label("Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".");
+            ui.label("Gear is text in the folder of the library: one TOML file per item, with values such as \"3/8 in\" or \"1700 lbf\".");
             for when in When::ALL {
                 table(ui, when.title(), &keys(when));
             }
@@ -42,18 +42,17 @@ impl Panel for HelpPanel {
     }
 }
 
-/// A key: what it does, how it is spelled, and the button of the game controller that does the same.
+/// A key: its function, its name, and the control of the pad with the same function.
 pub struct Row {
-    /// What it does.
+    /// Function.
     pub what: String,
-    /// The keys, or what the mouse does.
+    /// Keys, or action of the mouse.
     pub keys: String,
-    /// The button of the game controller; empty where none does.
+    /// Control of the pad; empty if there is none.
     pub pad: &'static str,
 }
 
-/// The keys that hold at a time.
-#[must_use]
+/// Keys that apply in a situation.
 pub fn keys(when: When) -> Vec<Row> {
     let steering = STEERING.iter().filter(|_| when == When::Flying);
     let mut rows: Vec<Row> = steering
@@ -77,8 +76,7 @@ pub fn keys(when: When) -> Vec<Row> {
     rows
 }
 
-/// Every command with its keys, and every key, as Markdown: what `docs/workbench.md` has.
-#[must_use]
+/// All commands and keys as Markdown, for `docs/workbench.md`.
 pub fn markdown() -> String {
     let mut text = String::new();
     // Writing to a text cannot fail.

@@ -1,4 +1,4 @@
-//! The panels, each in a file or folder of its own that owns its state.
+//! The panels, each with its own file or folder and state.
 
 mod about;
 pub mod assembly;
@@ -22,64 +22,63 @@ pub mod start;
 pub mod stories;
 pub mod study;
 pub mod summary;
-pub mod tension;
 pub mod view;
 
 use super::panel::{Panel, PanelId};
 
-/// Every panel of the window.
+/// All panels of the window.
 #[derive(Default)]
 pub struct Panels {
     /// Tables of the gear library.
     pub library: library::LibraryPanel,
-    /// A rig's parts and its statics.
+    /// Parts of an assembly and its statics.
     pub assembly: assembly::AssemblyPanel,
-    /// The scenario's fields.
+    /// Fields of the scenario.
     pub scenario: scenario::ScenarioPanel,
     /// The 3-D view.
     pub view: view::ViewPanel,
     /// Controls of the run.
     pub run: run::RunPanel,
     /// Tension over time.
-    pub tension: tension::TensionPanel,
+    pub tension: plots::TensionPanel,
     /// Plots of the run.
     pub plots: plots::PlotsPanel,
     /// Rope on the whale's body.
     pub entanglement: entanglement::EntanglementPanel,
-    /// What happened when.
+    /// Events.
     pub events: events::EventsPanel,
     /// Outcome and loads.
     pub summary: summary::SummaryPanel,
-    /// Everything wrong with the files.
+    /// Problems of the files.
     pub problems: problems::ProblemsPanel,
     /// Keys and pad.
     pub help: help::HelpPanel,
-    /// Where a user begins.
+    /// Start page.
     pub start: start::StartPanel,
-    /// Runs that were kept.
+    /// Recordings.
     pub recordings: recordings::RecordingsPanel,
-    /// What the pad does.
+    /// Assignment of the pad.
     pub pad: pad::PadPanel,
     /// The plugins.
     pub plugins: plugins::PluginsPanel,
-    /// The designer of a study.
+    /// Designer of a study.
     pub study: study::StudyPanel,
-    /// What a study found.
+    /// Results of a study.
     pub results: results::ResultsPanel,
-    /// What was seen on a whale, and the search for it.
+    /// An observation and its search.
     pub search: search::SearchPanel,
-    /// What a search found.
+    /// Results of a search.
     pub stories: stories::StoriesPanel,
-    /// What laws ask of an assembly.
+    /// Rules checked on an assembly.
     pub rules: rules::RulesPanel,
     /// The pilot program on a timeline.
     pub program: pilot::PilotPanel,
-    /// Two runs beside one another.
+    /// Comparison of two runs.
     pub compare: compare::ComparePanel,
 }
 
 impl Panels {
-    /// Every panel, in the order of [`PanelId::ALL`].
+    /// All panels, in the order of [`PanelId::ALL`].
     pub fn all(&mut self) -> [&mut dyn Panel; PanelId::ALL.len()] {
         [
             &mut self.library,
@@ -108,7 +107,7 @@ impl Panels {
         ]
     }
 
-    /// The panel of an id; `None` where no panel has it.
+    /// Finds a panel by its id.
     pub fn find(&mut self, id: &str) -> Option<&mut dyn Panel> {
         self.all().into_iter().find(|panel| panel.id().id() == id)
     }

@@ -1,4 +1,4 @@
-//! The pad: what each stick, trigger and button does, with live axes, dead zones and curve.
+//! Assignment of sticks, triggers and buttons of the pad, with live values, dead zones and curve.
 
 use std::ops::RangeInclusive;
 
@@ -10,22 +10,22 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::input::{AxisUse, Hands, Mapping, PadAxis, Pressed, Steered};
 
-/// What waits for a button or stick to be given to it.
+/// Function that waits for its button or stick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Learning {
     /// Nothing.
     #[default]
     Nothing,
-    /// Something a button does.
+    /// A function of a button.
     Button(Pressed),
     /// A function of a stick or trigger, first or second.
     Axis(Steered, bool),
 }
 
-/// A stick or trigger must go this far to be taken.
+/// Least deflection that assigns a stick or trigger.
 const FAR: f64 = 0.7;
 
-/// What the pad does.
+/// The panel of the pad.
 #[derive(Debug, Default)]
 pub struct PadPanel {
     learning: Learning,
@@ -39,7 +39,7 @@ impl Panel for PadPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.learn(shared);
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-            // Only the tables may be wider than the panel.
+            // Only the tables can be wider than the panel.
             ui.set_max_width(ui.clip_rect().width() - 16.0);
             head(ui, shared);
             zones(ui, shared);
@@ -48,7 +48,7 @@ impl Panel for PadPanel {
             widgets::caption(ui, "Buttons");
             self.buttons(ui, shared);
         });
-        // Live axes move without any event of the window.
+        // The values change without events of the window.
         if shared.pilot.pad_name().is_some() || self.learning != Learning::Nothing {
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
         }
@@ -56,7 +56,7 @@ impl Panel for PadPanel {
 }
 
 impl PadPanel {
-    /// Takes what the pilot pressed or moved for what waits for it.
+    /// Assigns the pressed button or moved stick to the waiting function.
     fn learn(&mut self, shared: &mut Shared) {
         match self.learning {
             Learning::Nothing => {
@@ -83,7 +83,7 @@ impl PadPanel {
     fn axes(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let faint = Theme::palette_of(ui).faint;
         Grid::new("pad-axes").num_columns(5).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
-            for head in ["", "", "", "with the second button held", ""] {
+            for head in ["", "", "", "while the second-function button is held", ""] {
                 ui.label(RichText::new(head).small().color(faint));
             }
             ui.end_row();
@@ -133,7 +133,7 @@ impl PadPanel {
             };
             if ui
                 .selectable_label(learning, text)
-                .on_hover_text("Click, then move the stick or trigger that is to do it")
+                .on_hover_text("Click, then move a stick or trigger to assign it")
                 .clicked()
             {
                 self.learning =
@@ -166,7 +166,7 @@ impl PadPanel {
                 };
                 if ui
                     .selectable_label(learning, text)
-                    .on_hover_text("Click, then press the button that is to do it")
+                    .on_hover_text("Click, then press a button to assign it")
                     .clicked()
                 {
                     shared.pilot.take_pressed();
@@ -188,7 +188,7 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
             }
             (Hands::On, Some(name)) => (name.to_owned(), palette.good),
             (Hands::On, None) => {
-                ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint)
+                ("no pad found; the keyboard steers too (F1)".to_owned(), palette.faint)
             }
         };
         ui.label(RichText::new(text).color(colour));
@@ -211,14 +211,14 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
 
 fn zones(ui: &mut Ui, shared: &mut Shared) {
     let mapping = &mut shared.pilot.mapping;
-    // Name and value take their room first.
+    // Name and value are laid out first.
     ui.spacing_mut().slider_width = (ui.available_width() - 190.0).clamp(40.0, 160.0);
     let mut tried = false;
     Grid::new("pad-zones").num_columns(2).spacing([10.0, 3.0]).show(ui, |ui| {
         row(
             ui,
             "Dead zone, sticks",
-            "How far a stick moves before it counts, as a share",
+            "Deflection of a stick that is ignored, as a share",
             &mut mapping.dead_zone,
             0.0..=0.5,
         );
@@ -226,7 +226,7 @@ fn zones(ui: &mut Ui, shared: &mut Shared) {
         row(
             ui,
             "Dead zone, triggers",
-            "The same of the triggers",
+            "Deflection of a trigger that is ignored, as a share",
             &mut mapping.trigger_dead_zone,
             0.0..=0.5,
         );
@@ -234,12 +234,18 @@ fn zones(ui: &mut Ui, shared: &mut Shared) {
         row(
             ui,
             "Curve",
-            "1 is even; above, sticks are finer about their middle",
+            "1 is linear; above 1, sticks are less sensitive near the middle",
             &mut mapping.curve,
             1.0..=3.0,
         );
         ui.end_row();
-        row(ui, "Rumble", "How hard the pad shakes; 0 not at all", &mut mapping.rumble, 0.0..=1.0);
+        row(
+            ui,
+            "Rumble",
+            "Strength of the vibration; 0 switches it off",
+            &mut mapping.rumble,
+            0.0..=1.0,
+        );
         ui.end_row();
         ui.label("");
         tried = ui.button("Try the rumble").clicked();
@@ -250,14 +256,14 @@ fn zones(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// A name and a slider that leaves what it shows as it is until it is moved, and takes what is typed to four decimals.
+/// Draws a label and a slider with four decimals, which does not round a value before it is moved.
 fn row(ui: &mut Ui, name: &str, help: &str, value: &mut f64, range: RangeInclusive<f64>) {
     ui.label(name).on_hover_text(help);
     ui.add(Slider::new(value, range).clamping(SliderClamping::Edits).max_decimals(4))
         .on_hover_text(help);
 }
 
-/// A bar of where something stands, -1 to 1 from its middle.
+/// Draws a bar for a value from -1 to 1.
 fn bar(ui: &mut Ui, value: f64) {
     let palette = Theme::palette_of(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(56.0, 12.0), Sense::hover());

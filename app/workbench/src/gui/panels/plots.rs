@@ -1,21 +1,21 @@
-//! Plots of the run, one below the other; written to files as pictures and tables.
+//! Plots of the run, also written to files as pictures and tables: the panel Plots, and the panel Tension with the tension of every line.
 
-use crate::gui::command::action::WindowAction;
-use crate::gui::widgets::command;
-use endline_session::command::ExportAction;
 use std::path::PathBuf;
 
 use egui::{ScrollArea, Ui};
+use endline_session::command::ExportAction;
 use endline_session::export::chart::Kind;
 
+use crate::gui::command::action::WindowAction;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::widgets;
+use crate::gui::widgets::command;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD, LEAST};
 
 /// Plots of the run.
 pub struct PlotsPanel {
-    /// The kinds shown.
+    /// Kinds of plots shown.
     kinds: Vec<Kind>,
     drawn: DrawnCharts,
 }
@@ -37,7 +37,7 @@ impl Panel for PlotsPanel {
         }
         self.toolbar(ui, shared);
         if self.kinds.is_empty() {
-            return widgets::nothing(ui, "Choose what to plot above.");
+            return widgets::nothing(ui, "Select plots above.");
         }
         let height = (ui.available_height() / self.kinds.len() as f32 - HEAD).max(LEAST);
         let compared =
@@ -79,9 +79,28 @@ impl PlotsPanel {
         });
     }
 
-    /// The command that writes the plots shown.
-    #[must_use]
+    /// Command that writes the plots shown.
     pub fn export(&self, file: PathBuf) -> ExportAction {
         ExportAction::Plots { kinds: self.kinds.clone(), file }
+    }
+}
+
+/// Tension of every line over time.
+#[derive(Default)]
+pub struct TensionPanel {
+    drawn: DrawnCharts,
+}
+
+impl Panel for TensionPanel {
+    fn id(&self) -> PanelId {
+        PanelId::TENSION
+    }
+
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        if let Some(view) = shared.workbench.view().cloned() {
+            widgets::kinematic_whale(ui, shared, &view);
+        }
+        let height = ui.available_height() - HEAD;
+        self.drawn.show(ui, shared, Kind::Tension, "", height);
     }
 }

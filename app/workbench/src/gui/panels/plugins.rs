@@ -1,4 +1,4 @@
-//! The plugins: a list by kind, and of the chosen one what it takes, where it comes from and how it was checked.
+//! The plugins: a list by kind, and for the selected one its attributes, file and check.
 
 use crate::gui::command::action::WindowAction;
 use endline_session::command::PluginAction;
@@ -18,10 +18,10 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
 
-/// Share of the panel's width that the list takes.
+/// Width of the list as a share of the panel.
 const LIST_SHARE: f32 = 0.38;
 
-/// Width of a field of the form.
+/// Width of a field of the form [points].
 const FIELD_WIDTH: f32 = 140.0;
 
 /// The plugins.
@@ -37,7 +37,7 @@ impl Panel for PluginsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let plugins = shared.workbench.plugins.every();
+        let plugins = shared.workbench.plugins().every();
         if !plugins.iter().any(|plugin| self.chosen.as_ref() == Some(&plugin.info.id)) {
             self.chosen = plugins.first().map(|plugin| plugin.info.id.clone());
         }
@@ -66,7 +66,7 @@ impl Panel for PluginsPanel {
 }
 
 impl PluginsPanel {
-    /// Every plugin under its kind, then what is left out.
+    /// Draws all plugins by kind, then files that are not used.
     fn list(&mut self, ui: &mut Ui, shared: &mut Shared, plugins: &[Switchable]) {
         let mut kind = None;
         for Switchable { info, on } in plugins {
@@ -75,9 +75,9 @@ impl PluginsPanel {
             }
             self.row(ui, shared, info, *on);
         }
-        let problems = shared.workbench.plugins.problems.clone();
+        let problems = shared.workbench.plugins().problems.clone();
         if !problems.is_empty() {
-            widgets::caption(ui, "Left out");
+            widgets::caption(ui, "Not used");
             problems.iter().for_each(|problem| left_out(ui, shared, problem));
         }
     }
@@ -87,7 +87,7 @@ impl PluginsPanel {
         ui.horizontal(|ui| {
             let mut wanted = on;
             let help =
-                if on { "In use; click to leave it out" } else { "Left out; click to use it" };
+                if on { "In use; click to switch it off" } else { "Switched off; click to use it" };
             if ui.checkbox(&mut wanted, "").on_hover_text(format!("{help}: {}", info.id)).changed()
             {
                 shared.give(PluginAction::Switch { id: info.id.clone(), on: wanted });
@@ -109,16 +109,16 @@ impl PluginsPanel {
 
 fn toolbar(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let busy = shared.workbench.plugins.busy();
+        let busy = shared.workbench.plugins().busy();
         if primary(ui, !busy, "Reload")
-            .on_hover_text("Load what was built anew; the next run uses it")
+            .on_hover_text("Loads plugins that were rebuilt; the next run uses them")
             .clicked()
         {
             shared.give(PluginAction::Reload);
         }
         let folders: Vec<_> = shared
             .workbench
-            .plugins
+            .plugins()
             .folders()
             .into_iter()
             .filter(|folder| folder.is_dir())
@@ -137,12 +137,12 @@ fn toolbar(ui: &mut Ui, shared: &mut Shared) {
             ui.spinner();
         }
         let words =
-            "Begin one in a terminal: endline plugins new my-friction --kind friction --lang rust";
+            "Create a plugin in a terminal: endline plugins new my-friction --kind friction --lang rust";
         ui.add(Label::new(RichText::new(words).color(Theme::palette_of(ui).faint)).truncate());
     });
 }
 
-/// A file that is not used: why, and what can be done about it.
+/// Draws a file that is not used, with the reason and actions.
 fn left_out(ui: &mut Ui, shared: &mut Shared, problem: &PluginProblem) {
     let palette = Theme::palette_of(ui);
     let name = problem
@@ -156,10 +156,10 @@ fn left_out(ui: &mut Ui, shared: &mut Shared, problem: &PluginProblem) {
         Standing::SetAside => ("quarantined", palette.error),
         Standing::Unusable => ("not usable", palette.error),
     };
-    let told = problem.to_string();
-    ui.add(Label::new(RichText::new(&name).color(colour)).truncate()).on_hover_text(&told);
+    let text = problem.to_string();
+    ui.add(Label::new(RichText::new(&name).color(colour)).truncate()).on_hover_text(&text);
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(word).size(12.0).color(palette.faint)).on_hover_text(&told);
+        ui.label(RichText::new(word).size(12.0).color(palette.faint)).on_hover_text(&text);
         if let Standing::Waiting(ask) = &problem.standing
             && ui.small_button("Allow").on_hover_text("A plugin runs with your rights").clicked()
         {
@@ -172,7 +172,7 @@ fn left_out(ui: &mut Ui, shared: &mut Shared, problem: &PluginProblem) {
     report(ui, shared, &problem.file);
 }
 
-/// What the chosen plugin is, does and takes.
+/// Draws the selected plugin: description, attributes, acts, actions.
 fn detail(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
     let palette = Theme::palette_of(ui);
     ui.heading(&info.name);
@@ -207,18 +207,14 @@ fn buttons(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
         if on && place_of(info.kind).is_some() {
             if shared.workbench.uses_plugin(info) {
                 ui.label(RichText::new("In this scenario").color(Theme::palette_of(ui).accent));
-            } else if ui
-                .button("Use in this scenario")
-                .on_hover_text("Undo takes it back")
-                .clicked()
-            {
+            } else if ui.button("Use in this scenario").on_hover_text("Undo reverts it").clicked() {
                 shared.give(PluginAction::Use(info.id.clone()));
             }
         }
         let Some(file) = &info.file else { return };
         if ui
-            .add_enabled(!shared.workbench.plugins.busy(), Button::new("Check"))
-            .on_hover_text("Try it in a process of its own")
+            .add_enabled(!shared.workbench.plugins().busy(), Button::new("Check"))
+            .on_hover_text("Checks it in a separate process")
             .clicked()
         {
             shared.give(PluginAction::Check(file.clone()));
@@ -231,7 +227,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
     });
 }
 
-/// File, hash, and what the check said.
+/// Draws file, hash and the result of the check.
 fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
     let faint = Theme::palette_of(ui).faint;
     let Some(file) = &info.file else {
@@ -250,10 +246,10 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
     )
     .on_hover_text(&hash);
     if info.out_of_process {
-        ui.label(RichText::new("It runs in a process of its own.").size(12.0).color(faint))
-            .on_hover_text("A crash or a hang of it ends the run, not the program");
+        ui.label(RichText::new("It runs in a separate process.").size(12.0).color(faint))
+            .on_hover_text("A crash or hang of the plugin ends the run, not the program");
     }
-    if shared.workbench.plugins.reports.contains_key(file) {
+    if shared.workbench.plugins().reports.contains_key(file) {
         report(ui, shared, file);
     } else {
         ui.label(
@@ -262,10 +258,10 @@ fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
     }
 }
 
-/// What the last check of a file said, line by line.
+/// Draws the lines of the last check of a file.
 fn report(ui: &mut Ui, shared: &Shared, file: &Path) {
     let palette = Theme::palette_of(ui);
-    let Some(report) = shared.workbench.plugins.reports.get(file) else { return };
+    let Some(report) = shared.workbench.plugins().reports.get(file) else { return };
     for line in report.text.lines() {
         let fault = line.contains("  FAULT  ");
         let colour = if fault { palette.error } else { palette.faint };
@@ -279,7 +275,7 @@ fn report(ui: &mut Ui, shared: &Shared, file: &Path) {
     };
 }
 
-/// A form where the scenario uses the plugin, else a table of what it takes.
+/// Draws the attributes: a form if the scenario uses the plugin, otherwise a table.
 fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
     let palette = Theme::palette_of(ui);
     let form =
@@ -287,7 +283,7 @@ fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
     let mut edits = Vec::new();
     Grid::new(("attributes", &info.id)).num_columns(3).spacing([10.0, 3.0]).show(ui, |ui| {
         for attribute in &info.attributes {
-            let (usual, range) = told(attribute);
+            let (usual, range) = default_and_range(attribute);
             let help = format!("{}\n{range}", attribute.help);
             ui.label(words::title(&attribute.key)).on_hover_text(&help);
             match form {
@@ -298,7 +294,7 @@ fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
                     );
                     let said = fields::Said { hint: &hint, help: &help };
                     let place = fields::Field {
-                        documents: &shared.workbench.project.documents,
+                        documents: &shared.workbench.project().documents,
                         path: Documents::SCENARIO,
                         field: &field,
                     };
@@ -319,20 +315,16 @@ fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
         }
     });
     for (field, value) in edits {
-        // The table of attributes may not be there yet.
+        // The table of attributes may not exist yet.
         let value = Setting::plain(&value);
-        if let Err(error) =
-            shared.workbench.project.documents.alter(Documents::SCENARIO, |scenario| {
-                scenario.put(&field, &value).map_err(|error| error.to_string())
-            })
-        {
-            shared.fault(error);
-        }
+        shared.alter(Documents::SCENARIO, |scenario| {
+            scenario.put(&field, &value).map_err(|error| error.to_string())
+        });
     }
 }
 
-/// What is taken where a file names nothing, and what may be written.
-fn told(attribute: &Attribute) -> (String, String) {
+/// Default value and allowed range.
+fn default_and_range(attribute: &Attribute) -> (String, String) {
     let in_unit = |value: f64| {
         let value = words::rounded(value);
         Quantity::from_si_unit(&attribute.unit).map_or_else(

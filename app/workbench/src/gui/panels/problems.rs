@@ -1,4 +1,4 @@
-//! Everything wrong with the files, each with its place and how to fix it.
+//! The list of problems of all files, with place and help.
 
 use crate::gui::command::action::PanelAction;
 use egui::{Label, RichText, ScrollArea, Ui};
@@ -28,12 +28,9 @@ impl Panel for ProblemsPanel {
 
 /// Draws the list of problems.
 fn show(ui: &mut Ui, shared: &mut Shared) {
-    let problems: Vec<Diagnostic> = shared.workbench.project.problems().cloned().collect();
-    if problems.is_empty() && shared.workbench.plugins.problems.is_empty() {
-        widgets::nothing(
-            ui,
-            "No problems: every file of the library and the scenario can be read.",
-        );
+    let problems: Vec<Diagnostic> = shared.workbench.project().problems().cloned().collect();
+    if problems.is_empty() && shared.workbench.plugins().problems.is_empty() {
+        widgets::nothing(ui, "No problems: all files of the library and the scenario are valid.");
         return;
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -42,16 +39,16 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
                 go_to(shared, problem);
             }
         }
-        for problem in &shared.workbench.plugins.problems {
+        for problem in &shared.workbench.plugins().problems {
             let warning = Theme::palette_of(ui).warning;
             ui.add(Label::new(RichText::new(format!("plugin: {problem}")).color(warning)).wrap());
         }
     });
 }
 
-/// Opens the panel where a problem can be fixed.
+/// Opens the panel for the file of a problem.
 fn go_to(shared: &mut Shared, problem: &Diagnostic) {
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     for (key, panel) in
         [(Documents::STUDY, PanelId::STUDY), (Documents::OBSERVATION, PanelId::SEARCH)]
     {

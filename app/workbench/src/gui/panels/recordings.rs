@@ -1,9 +1,9 @@
-//! Runs that were kept by themselves, to be opened and seen again.
+//! The list of recordings, which are stored automatically, with their thumbnails, names and notes.
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command;
 use endline_session::command::RunAction;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use egui::{
@@ -20,7 +20,7 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
-/// The list of recordings, read again when a run was kept.
+/// The list of recordings, read again after a run was stored.
 #[derive(Default)]
 pub struct RecordingsPanel {
     files: Option<(u64, Vec<Recorded>)>,
@@ -28,16 +28,16 @@ pub struct RecordingsPanel {
 
 struct Recorded {
     path: PathBuf,
-    /// Name and note as they are typed.
+    /// Name and note while they are typed.
     name: String,
     note: String,
     age: String,
     kept: Option<Kept>,
-    /// Its picture, read when it comes into sight; inside none where there is none.
+    /// Thumbnail, read when it becomes visible; the inner `None` if there is none.
     picture: Option<Option<TextureHandle>>,
 }
 
-/// Width and height of the pictures [points].
+/// Width and height of thumbnails [points].
 const PICTURE: Vec2 = vec2(96.0, 54.0);
 
 impl Panel for RecordingsPanel {
@@ -46,10 +46,10 @@ impl Panel for RecordingsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let Some(folder) = shared.workbench.recordings.clone() else {
+        let Some(folder) = shared.workbench.recordings().map(Path::to_owned) else {
             return widgets::nothing(
                 ui,
-                "No folder to keep recordings in: there is no user data folder here.",
+                "Recordings cannot be stored: the system has no folder for user data.",
             );
         };
         let version = shared.workbench.recordings_version();
@@ -59,7 +59,7 @@ impl Panel for RecordingsPanel {
         let files = self.files.as_mut().map_or(&mut [][..], |(_, files)| files);
         ui.horizontal_wrapped(|ui| {
             ui.label(
-                RichText::new("Every run is kept here when it ends or another begins.")
+                RichText::new("Every run is stored here when it ends or another one starts.")
                     .color(Theme::palette_of(ui).faint),
             );
             command(ui, shared, "Open other …", WindowAction::Ask("run.open-recording"));
@@ -75,14 +75,14 @@ impl Panel for RecordingsPanel {
     }
 }
 
-/// A recording's picture, and beside it what is known of it.
+/// Draws the thumbnail of a recording, and its facts beside it.
 fn row(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
     ui.horizontal_top(|ui| {
         let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
         if ui.is_rect_visible(rect) {
             picture(ui, rect, file);
         }
-        if response.on_hover_text("How it ended. A click opens it").clicked() {
+        if response.on_hover_text("The end of the run. Click to open the recording").clicked() {
             shared.give(RunAction::OpenRecording(file.path.clone()));
         }
         ui.vertical(|ui| about(ui, shared, file));
@@ -107,11 +107,11 @@ fn picture(ui: &Ui, rect: Rect, file: &mut Recorded) {
     }
 }
 
-/// How it ended and what can be done with it, above its note.
+/// Draws outcome and actions of a recording, above its note.
 fn about(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
     ui.horizontal_wrapped(|ui| {
         let name = TextEdit::singleline(&mut file.name).desired_width(190.0);
-        if ui.add(name).on_hover_text("Type another name").lost_focus()
+        if ui.add(name).on_hover_text("Click to rename").lost_focus()
             && file.name != files::stem(&file.path)
         {
             let (file, name) = (file.path.clone(), file.name.clone());
@@ -120,19 +120,20 @@ fn about(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
         ended(ui, shared, file);
         if ui
             .button("Open")
-            .on_hover_text("Run it again, to the bit, and look at any moment")
+            .on_hover_text("Replays the run to the bit, to show any moment")
             .clicked()
         {
             shared.give(RunAction::OpenRecording(file.path.clone()));
         }
-        if ui.button("Compare").on_hover_text("Run it again beside the run shown, as B").clicked() {
+        if ui.button("Compare").on_hover_text("Replays it beside the run shown, as run B").clicked()
+        {
             shared.give(RunAction::CompareWith(file.path.clone()));
         }
-        if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
+        if ui.button("Copy command").on_hover_text("Copies the command endline replay …").clicked()
+        {
             ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));
         }
-        if ui.button("Delete").on_hover_text("Moves it to the folder `deleted` beside it").clicked()
-        {
+        if ui.button("Delete").on_hover_text("Moves it to the folder `deleted`").clicked() {
             shared.give(RunAction::DeleteRecording(file.path.clone()));
         }
     });
@@ -144,7 +145,7 @@ fn about(ui: &mut Ui, shared: &mut Shared, file: &mut Recorded) {
     }
 }
 
-/// Outcome, greatest tension, length and age, as far as they are known.
+/// Outcome, greatest tension, duration and age, if known.
 fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
     let palette = Theme::palette_of(ui);
     let Some(kept) = &file.kept else {
@@ -156,13 +157,13 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
         let (words, help, colour) = words::outcome(outcome, palette);
         ui.label(RichText::new(words).color(colour)).on_hover_text(help);
     }
-    let force = shared.workbench.preferences.units.force().text(kept.greatest_tension_n);
+    let force = shared.workbench.preferences().units.force().text(kept.greatest_tension_n);
     let facts = format!("peak {force}, {:.0} s, {}", kept.simulated_s, file.age);
     ui.add(Label::new(RichText::new(facts).color(palette.faint)).extend())
         .on_hover_text(format!("of {}", kept.of));
 }
 
-fn list(folder: &std::path::Path) -> Vec<Recorded> {
+fn list(folder: &Path) -> Vec<Recorded> {
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut found: Vec<(SystemTime, PathBuf)> = files
         .filter(|path| path.extension().is_some_and(|ending| ending == recording::EXTENSION))
@@ -177,7 +178,7 @@ fn list(folder: &std::path::Path) -> Vec<Recorded> {
     found.into_iter().map(recorded).collect()
 }
 
-/// How long ago, in the largest whole unit.
+/// Age in the largest whole unit.
 fn age(at: SystemTime) -> String {
     let seconds = SystemTime::now().duration_since(at).unwrap_or_default().as_secs();
     let (count, unit) = match seconds {

@@ -1,4 +1,4 @@
-//! The run's controls and how it does.
+//! Controls of the run, its validity, and figures of the solver.
 
 use crate::gui::command::action::{FlightAction, WindowAction};
 use crate::gui::widgets::command;
@@ -16,8 +16,8 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
 
-/// Share of the computing time from which a part is told without hovering.
-const LEAST_TOLD: f64 = 0.05;
+/// Least share of the computing time of a part that is listed; smaller parts are shown on hover.
+const LEAST_LISTED: f64 = 0.05;
 
 /// Controls of the run, and figures of the solver.
 #[derive(Debug, Default)]
@@ -63,7 +63,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Says that the run shows gear from before the last edits, or something else than the scenario.
+/// Draws a note if the run shows gear from before the last edits, or another source than the scenario.
 fn stale(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     if shared.workbench.making() {
@@ -71,14 +71,14 @@ fn stale(ui: &mut Ui, shared: &mut Shared) {
             ui.spinner();
             ui.label(RichText::new("assembling the model").color(palette.faint));
         });
-    } else if shared.workbench.project.documents.any_error() {
-        let text = "The gear has errors. The run shown is from before them.";
+    } else if shared.workbench.project().documents.any_error() {
+        let text = "The files have errors. The run shown is from before the last edits.";
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {
         ui.horizontal_wrapped(|ui| {
             let text = match shared.workbench.guest() {
-                Some(guest) => format!("This is {guest}; the scenario is another."),
-                None => "Gear or scenario changed.".to_owned(),
+                Some(guest) => format!("This run is {guest}, not the open scenario."),
+                None => "Gear or scenario has changed.".to_owned(),
             };
             ui.label(RichText::new(text).color(palette.warning));
             command(ui, shared, "Apply", RunAction::Apply);
@@ -145,50 +145,50 @@ fn state(ui: &mut Ui, view: &LiveView) {
             (
                 "Solver speed",
                 format!("{:.1} × real time", view.times_real_time),
-                "Simulated seconds in a second of computing, without waiting",
+                "Simulated time per computing time, without waiting",
             ),
-            ("Solver steps", audit.solver_steps.to_string(), "Steps of time solved so far"),
+            ("Solver steps", audit.solver_steps.to_string(), "Time steps solved so far"),
             (
                 "Of these in contact",
                 audit.contact_steps.to_string(),
-                "Steps in which rope or gear was near the whale; these cost most",
+                "Steps with rope or gear near the whale, which are the most expensive",
             ),
             (
-                "Steps taken again",
+                "Steps repeated",
                 audit.halved.to_string(),
-                "Steps that did not converge at once and were taken again, halved",
+                "Steps that did not converge and were repeated with half the length",
             ),
             (
                 "Not converged",
                 audit.unconverged.to_string(),
-                "Steps kept although they did not converge; a few do no harm, many make a run invalid",
+                "Steps accepted without convergence; a few are harmless, many make a run invalid",
             ),
             (
                 "Rope through skin",
                 audit.tunnelled.to_string(),
-                "How often rope passed through the whale; anything but 0 is an error of the program",
+                "Number of times rope passed through the whale; must be 0",
             ),
             (
-                "Deepest under skin",
+                "Greatest penetration",
                 format!("{:.1} mm", audit.max_penetration_m * 1000.0),
-                "How far the middle of rope was pressed below the surface of the skin",
+                "Greatest depth of the rope's axis below the surface of the skin",
             ),
             (
                 "Rope nodes",
                 view.model.node_count.to_string(),
-                "Points at which rope is computed; more is finer and slower",
+                "Nodes of the rope discretization; more nodes are finer and slower",
             ),
             ("Skin triangles", skin.to_string(), "Triangles of the whale that rope can touch"),
             (
                 "State hash",
                 view.state_hash.clone(),
-                "Two runs with the same hash are in the same state, to the bit",
+                "Two runs with the same hash have identical states",
             ),
         ],
     );
 }
 
-/// Why the numbers so far cannot be trusted, and a resolution that was not kept.
+/// Draws why the run is invalid, and whether the resolution was insufficient.
 fn trust(ui: &mut Ui, view: &LiveView) {
     let palette = Theme::palette_of(ui);
     let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
@@ -199,11 +199,11 @@ fn trust(ui: &mut Ui, view: &LiveView) {
     let audit = &view.audit;
     if audit.resolution_missed > 0 {
         let text = format!(
-            "Resolution near the whale not kept for {:.0} % of the time",
+            "Resolution near the whale insufficient for {:.0} % of the time",
             100.0 * audit.resolution_missed as f64 / audit.resolution_looks.max(1) as f64
         );
         let help = format!(
-            "Segments there were up to {:.1} times as long as `near` or `edges` ask for. Give more rope nodes, or ask for longer segments.",
+            "Segments there were up to {:.1} times as long as `near` or `edges` require. Increase rope nodes, or allow longer segments.",
             audit.resolution_ratio
         );
         ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap())
@@ -211,15 +211,15 @@ fn trust(ui: &mut Ui, view: &LiveView) {
     }
 }
 
-/// What the computing time went to, the greatest share first; what each part is, on hover.
+/// Draws shares of the computing time, largest first, with explanations on hover.
 fn cost(ui: &mut Ui, view: &LiveView) {
     let shares = shares(&view.cost);
     if shares.is_empty() {
         return;
     }
-    let told = shares.iter().filter(|(_, share)| *share >= LEAST_TOLD);
-    let told = told.map(|(figure, share)| format!("{} {:.0} %", figure.label, 100.0 * share));
-    let text = format!("Time goes to {}", told.collect::<Vec<_>>().join(", "));
+    let listed = shares.iter().filter(|(_, share)| *share >= LEAST_LISTED);
+    let listed = listed.map(|(figure, share)| format!("{} {:.0} %", figure.label, 100.0 * share));
+    let text = format!("Computing time: {}", listed.collect::<Vec<_>>().join(", "));
     let part = |(figure, _): &(&Figure<Cost>, f64)| {
         let spent = figure.quantity.text(&(figure.read)(&view.cost), Units::Si);
         format!("{}: {spent}. {}", figure.label, figure.help)

@@ -34,7 +34,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     let Some(summary) = &view.summary else {
         return widgets::nothing(ui, "The statics of the gear are being solved.");
     };
-    let style = Style { view: View::Summary, units: shared.workbench.preferences.units };
+    let style = Style { view: View::Summary, units: shared.workbench.preferences().units };
     widgets::kinematic_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));

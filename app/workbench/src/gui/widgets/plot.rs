@@ -111,7 +111,8 @@ impl DrawnCharts {
 
     /// Updates a chart if the run has advanced since; returns its index.
     fn make(&mut self, kind: Kind, view: &LiveView, shared: &Shared) -> usize {
-        let (other, units) = (shared.workbench.compared_view(), shared.workbench.preferences.units);
+        let (other, units) =
+            (shared.workbench.compared_view(), shared.workbench.preferences().units);
         let of = (Part::of(kind, view), other.as_deref().map(|other| Part::of(kind, other)));
         let place = self.made.iter().position(|(known, _)| *known == kind);
         let known = place

@@ -5,7 +5,8 @@
     reason = "a test that cannot continue fails; no test uses all of this"
 )]
 
-use endline_session::command::{Command, RunAction};
+use endline_gear::Document;
+use endline_session::command::{Command, EditAction, RunAction};
 use endline_workbench::gui::command::action::WindowCommand;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use endline_session::edit::Documents;
 use endline_session::live::engine::{Engine, Launch, live};
 use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::task::Waker;
-use endline_session::workbench::{Notice, Workbench};
+use endline_session::workbench::{Folders, Notice, Workbench};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::shared::Shared;
@@ -33,15 +34,16 @@ pub type Window = Harness<'static, App>;
 pub trait Reach {
     /// The workbench.
     fn workbench(&self) -> &Workbench;
-    /// The workbench, to be changed.
+    /// The workbench, as the program around it has it.
     fn workbench_mut(&mut self) -> &mut Workbench;
     /// The open files.
     fn documents(&self) -> &Documents {
-        &self.workbench().project.documents
+        &self.workbench().project().documents
     }
-    /// The open files, to be changed.
-    fn documents_mut(&mut self) -> &mut Documents {
-        &mut self.workbench_mut().project.documents
+    /// Changes an open file.
+    fn alter(&mut self, path: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) {
+        let text = self.documents().altered(path, change).unwrap();
+        self.perform(EditAction::Replace { path: path.to_owned(), text });
     }
     /// The run shown.
     fn view(&self) -> Arc<LiveView> {
@@ -49,13 +51,14 @@ pub trait Reach {
     }
     /// The last notice.
     fn notice(&self) -> Notice {
-        self.workbench().notice.clone().unwrap()
+        self.workbench().notice().cloned().unwrap()
     }
     /// Performs a command without drawing.
     fn perform(&mut self, command: impl Into<Command>);
     /// Sets a field of a file.
     fn set(&mut self, path: &str, field: &str, value: &str) {
-        self.workbench_mut().set(path, field, value);
+        let [path, field, value] = [path, field, value].map(str::to_owned);
+        self.perform(EditAction::Set { path, field, value });
     }
 }
 
@@ -231,16 +234,17 @@ pub fn wait(harness: &mut Window, holds: impl Fn(&App) -> bool) {
     let patience = Instant::now() + Duration::from_secs(120);
     while !holds(harness.state()) {
         let workbench = harness.workbench();
-        let study = || workbench.studies.queue.jobs.last().map(|job| (job.state(), job.progress()));
-        let search = || workbench.searches.job.as_ref().map(|job| (job.state(), job.progress()));
+        let study =
+            || workbench.studies().queue.jobs.last().map(|job| (job.state(), job.progress()));
+        let search = || workbench.searches().job.as_ref().map(|job| (job.state(), job.progress()));
         assert!(
             Instant::now() < patience,
             "timeout: run {:?}, notice {:?}, study {:?}, search {:?}, rules {:?}",
             workbench.status(),
-            workbench.notice,
+            workbench.notice(),
             study(),
             search(),
-            workbench.rules.why
+            workbench.rules().why
         );
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
@@ -283,7 +287,9 @@ pub fn flown(folder: &Folder) -> Window {
     }
     let mut harness = opened_with(documents, linked(), live(), Pilot::default());
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    harness.workbench_mut().recordings = Some(folder.0.join("recordings"));
+    harness
+        .workbench_mut()
+        .write_to(Folders { recordings: Some(folder.0.join("recordings")), ..Folders::default() });
     harness.perform(RunAction::Speed(f64::INFINITY));
     harness.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));

@@ -9,6 +9,7 @@ use endline_session::edit::Documents;
 use endline_session::edit::recovery::{self, Autosave};
 use endline_session::live::engine::live;
 use endline_session::task::Waker;
+use endline_session::workbench::Folders;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::{WindowAction, WindowCommand};
 use endline_workbench::gui::command::declared;
@@ -58,7 +59,7 @@ fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
         report(&harness, &mut unsaved, &mut version);
         harness.run_steps(1 + dice.below(20));
         // The clock of the window runs faster here than a disk can write.
-        harness.workbench_mut().project.autosave.finish();
+        harness.workbench_mut().finish_storing();
         report(&harness, &mut unsaved, &mut version);
     }
 }
@@ -66,8 +67,7 @@ fn session(root: &Path, mut dice: Dice, fault: Fault) -> ! {
 /// Opens the window on the library and recovers what a killed session left.
 fn opened(root: &Path, fault: Fault) -> Window {
     let mut documents = Documents::open(root, &scenario(root)).unwrap();
-    let autosave = Autosave::in_folder(root.join("data"));
-    for (file, kept) in autosave.left_behind() {
+    for (file, kept) in Autosave::in_folder(root.join("data")).left_behind() {
         if kept.scenario == documents.scenario_path() {
             documents.restore(kept.texts.into_iter().collect());
         }
@@ -79,10 +79,13 @@ fn opened(root: &Path, fault: Fault) -> Window {
         App::new(creation, Shared::new(documents, host, live(), waker, Pilot::default()))
     };
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
-    let workbench = &mut harness.workbench_mut();
-    workbench.project.autosave = autosave;
-    workbench.studies.folder = Some(root.join("results"));
-    workbench.searches.folder = Some(root.join("results"));
+    let results = Some(root.join("results"));
+    harness.workbench_mut().write_to(Folders {
+        studies: results.clone(),
+        searches: results,
+        unsaved: Some(root.join("data")),
+        recordings: None,
+    });
     harness
 }
 

@@ -1,8 +1,8 @@
-//! One contact asked through a model's own door, and random numbers.
+//! One contact through a model's interface, and random numbers.
 #![allow(
     dead_code,
     clippy::unwrap_used,
-    reason = "each test uses its part of these helpers; where one cannot go on, the test fails there"
+    reason = "each test uses its part of these helpers; an error in one fails its test"
 )]
 
 use endline_sdk::{AttributeKind, Contacts, FrictionModel, FrictionResponse};
@@ -78,7 +78,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// A fresh contact on a plane, grain along y, rope along x.
+    /// A new contact on a plane, grain along y, rope along x.
     pub fn on_plane(model: &dyn FrictionModel, normal_force: f64, mu: f64) -> Self {
         Self {
             dt: 0.002,
@@ -93,7 +93,7 @@ impl Contact {
         }
     }
 
-    /// A fresh contact at random.
+    /// A random new contact.
     pub fn random(model: &dyn FrictionModel, random: &mut Random) -> Self {
         let normal = random.direction();
         let size = libm::exp10(random.between(-7.0, -2.0));
@@ -132,14 +132,14 @@ impl Contact {
         out[0]
     }
 
-    /// Ends the step: the floats move on.
+    /// Ends the step: updates the state.
     pub fn advance(&mut self, model: &dyn FrictionModel, attributes: &[f64]) {
         let mut out = vec![0.0; self.state.len()];
         self.ask(|contacts| model.advance(attributes, contacts, &mut out)).unwrap();
         self.state = out;
     }
 
-    /// Slips by a distance and ends the step; the force met.
+    /// Slips by a distance and ends the step; returns the force.
     pub fn slide(&mut self, model: &dyn FrictionModel, attributes: &[f64], slip: Vec3) -> Vec3 {
         self.slip = slip;
         let force = self.respond(model, attributes).force_n;
@@ -180,7 +180,7 @@ pub fn random_values(model: &dyn FrictionModel, random: &mut Random) -> Vec<f64>
     model.descriptor().attributes.iter().map(value).collect()
 }
 
-/// A block on a plane, drawn along x by a spring whose far end moves at a steady speed: the spring-slider of the text books.
+/// A block on a plane, pulled along x by a spring whose far end moves at a constant speed: the spring-slider of textbooks.
 pub struct Slider<'a> {
     pub model: &'a dyn FrictionModel,
     pub attributes: Vec<f64>,
@@ -208,7 +208,7 @@ impl<'a> Slider<'a> {
         self.spring * (self.hand - self.place)
     }
 
-    /// Backward Euler, the friction implicit as in the rope solve: Newton with the plugin's own derivative.
+    /// Backward Euler, with implicit friction as in the solver: Newton with the plugin's derivative.
     pub fn step(&mut self, hand_speed: f64) {
         let dt = self.contact.dt;
         self.hand += hand_speed * dt;

@@ -1,11 +1,11 @@
-//! Values of a gear type, and looking into the rig it builds.
+//! Values of a gear type, and queries of the rig that it builds.
 #![allow(dead_code, reason = "each test uses what it needs")]
 
 use endline_sdk::{AttributeValue, GearType, Rig, RigEnd, Site};
 
 pub const SITE: Site = Site { depth_m: 25.0, current_m_s: [0.0, 0.4] };
 
-/// Defaults, but for these.
+/// Defaults with these changes.
 pub fn values(gear: &dyn GearType, changes: &[(&str, AttributeValue)]) -> Vec<AttributeValue> {
     let attributes = &gear.descriptor().attributes;
     assert!(
@@ -51,7 +51,7 @@ pub fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum::<f64>().sqrt()
 }
 
-/// Ids of the lines that begin so.
+/// Ids of the lines with a prefix.
 pub fn lines<'a>(rig: &'a Rig, begin: &str) -> Vec<&'a str> {
     rig.lines.iter().map(|line| line.id.as_str()).filter(|id| id.starts_with(begin)).collect()
 }

@@ -7,7 +7,7 @@ use super::pointers::size;
 use crate::abi::table::*;
 use crate::hook::{Act, Attribute, AttributeKind, Descriptor};
 
-/// Who a plugin is, and the table of its functions; the plugin itself is never freed.
+/// The identity of a plugin, and the table of its functions; the plugin itself is never freed.
 pub(super) fn plugin(plugin: Exported) -> AbiPlugin {
     match plugin {
         Exported::Motion(plugin) => {

@@ -25,7 +25,7 @@ unsafe extern "C" fn friction_respond(
     message: *mut AbiMessage,
 ) -> i32 {
     guarded(message, || {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), known_part(contacts));
             plugin.respond(
@@ -48,7 +48,7 @@ unsafe extern "C" fn friction_advance(
     message: *mut AbiMessage,
 ) -> i32 {
     guarded(message, || {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), known_part(contacts));
             let out = array_mut(out, raw.count * raw.state_len);
@@ -60,7 +60,7 @@ unsafe extern "C" fn friction_advance(
 /// # Safety
 /// The arrays have the lengths that `raw` says.
 unsafe fn friction_contacts(raw: &AbiContacts) -> Contacts<'_> {
-    // SAFETY: the caller's promise.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         Contacts {
             dt_s: raw.dt_s,

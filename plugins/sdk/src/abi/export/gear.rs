@@ -26,7 +26,7 @@ unsafe extern "C" fn gear_build(
     message: *mut AbiMessage,
 ) -> i32 {
     guarded(message, || {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let plugin = &*context.cast::<Box<dyn GearType>>();
             let built = plugin.build(&attribute_values(array(values, value_count)), &*site)?;
@@ -48,7 +48,7 @@ unsafe extern "C" fn gear_step(
     message: *mut AbiMessage,
 ) -> i32 {
     guarded(message, || {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn GearType>>(), known_part(input));
             let step = GearStep {
@@ -73,16 +73,16 @@ unsafe extern "C" fn gear_step(
 /// The values' texts live through this call.
 unsafe fn attribute_values(values: &[AbiValue]) -> Vec<AttributeValue> {
     let value = |value: &AbiValue| match value.kind {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         ATTRIBUTE_ITEM => AttributeValue::Item(unsafe { text(value.item) }.into_owned()),
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         ATTRIBUTE_CHOICE => AttributeValue::Choice(unsafe { text(value.item) }.into_owned()),
         _ => AttributeValue::Number(value.number),
     };
     values.iter().map(value).collect()
 }
 
-/// Gives a rig to the program, part by part.
+/// Passes a rig to the program, part by part.
 ///
 /// # Safety
 /// `host` holds the program's functions.
@@ -133,7 +133,7 @@ fn taken(status: Option<i32>) -> Result<(), HookError> {
     if status == Some(STATUS_OK) {
         Ok(())
     } else {
-        Err(HookError::new("the program did not take what the gear type gave"))
+        Err(HookError::new("the program rejected the data of the gear type"))
     }
 }
 

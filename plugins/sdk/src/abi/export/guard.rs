@@ -33,7 +33,7 @@ fn panic_text(payload: &(dyn Any + Send)) -> &str {
     known.unwrap_or("a panic without a message")
 }
 
-/// Writes a message into the caller's buffer, cut at a character's end where it is too long.
+/// Writes a message into the caller's buffer, truncated at a character boundary.
 fn say(message: *mut AbiMessage, words: &str) {
     // SAFETY: the caller hands null or a buffer of `capacity` bytes that is its own alone.
     unsafe {

@@ -35,7 +35,7 @@ use pointers::{size, text};
 /// endline_sdk::export_plugin! { motion: Swim::new(), friction: Coulomb::new(), gear: Single::new() }
 /// ```
 ///
-/// Any number of plugins, each after its kind: `motion`, `friction` or `gear`. First may stand what the library says of itself,
+/// Any number of plugins, each after its kind: `motion`, `friction` or `gear`. An optional first entry describes the library,
 /// as in `about: "A. Author 2026, after Smith 1999";`. Without the feature nothing is generated, so that several plugin crates
 /// link into one binary.
 #[macro_export]
@@ -61,7 +61,7 @@ macro_rules! export_plugin {
                 factory(&FACTORY, id)
             }
 
-            /// Where the program enters this library.
+            /// The entry of this library.
             #[unsafe(no_mangle)]
             #[allow(non_upper_case_globals, reason = "the name is part of the ABI")]
             pub static endline_plugin_entry: AbiEntry = AbiEntry {
@@ -106,7 +106,7 @@ impl Exported {
 /// The factory of a library and all it points at; made once, never freed.
 pub struct Factory(AbiFactory);
 
-// SAFETY: the pointers lead to leaked memory that nobody writes to after it is made, and the
+// SAFETY: the pointers lead to leaked memory that is not written to after its creation, and the
 // traits behind `context` are `Send + Sync`.
 unsafe impl Send for Factory {}
 // SAFETY: as above.
@@ -125,7 +125,7 @@ pub fn init(
     })
 }
 
-/// The factory, where it was made and the id is its own; null otherwise.
+/// The factory for its own id, if its construction succeeded; else null.
 pub fn factory(store: &OnceLock<Factory>, id: AbiText) -> *const c_void {
     // SAFETY: the program hands over text that lives through this call.
     let asked = unsafe { text(id) };

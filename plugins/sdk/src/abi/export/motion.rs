@@ -26,7 +26,7 @@ unsafe extern "C" fn motion_step(
     message: *mut AbiMessage,
 ) -> i32 {
     guarded(message, || {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn WhaleMotion>>(), known_part(input));
             let parts = |what: &str, of: *const f64| {

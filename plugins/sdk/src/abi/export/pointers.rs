@@ -2,14 +2,14 @@
 
 use crate::abi::table::AbiText;
 
-/// A struct of the program's; what a program of an older minor version lacks is zero, a function then none.
+/// A struct of the program's; fields that an older minor version lacks are zero, functions null.
 ///
 /// # Safety
 /// `given` leads to a struct of as many bytes as its first field says, and `T` is made of numbers, pointers and
 /// functions that may be null.
 pub(super) unsafe fn known_part<T: Copy>(given: *const T) -> T {
     let mut known = std::mem::MaybeUninit::<T>::zeroed();
-    // SAFETY: the caller's promise; all zeros is a value of such a struct.
+    // SAFETY: guaranteed by the caller; all zeros is a value of such a struct.
     unsafe {
         let bytes = (given.cast::<u32>().read() as usize).min(size_of::<T>());
         std::ptr::copy_nonoverlapping(given.cast::<u8>(), known.as_mut_ptr().cast(), bytes);
@@ -20,21 +20,21 @@ pub(super) unsafe fn known_part<T: Copy>(given: *const T) -> T {
 /// # Safety
 /// The text lives as long as the caller uses it.
 pub(super) unsafe fn text<'a>(raw: AbiText) -> std::borrow::Cow<'a, str> {
-    // SAFETY: the caller's promise.
+    // SAFETY: guaranteed by the caller.
     String::from_utf8_lossy(unsafe { array(raw.text.cast(), raw.length) })
 }
 
 /// # Safety
 /// `count` values lie at `first`, or it is null; they live as long as the caller uses them.
 pub(super) unsafe fn array<'a, T>(first: *const T, count: usize) -> &'a [T] {
-    // SAFETY: the caller's promise.
+    // SAFETY: guaranteed by the caller.
     if first.is_null() { &[] } else { unsafe { std::slice::from_raw_parts(first, count) } }
 }
 
 /// # Safety
-/// As [`array`], and nobody else uses them meanwhile.
+/// As [`array`], and nothing else uses them during the call.
 pub(super) unsafe fn array_mut<'a, T>(first: *mut T, count: usize) -> &'a mut [T] {
-    // SAFETY: the caller's promise.
+    // SAFETY: guaranteed by the caller.
     if first.is_null() { &mut [] } else { unsafe { std::slice::from_raw_parts_mut(first, count) } }
 }
 

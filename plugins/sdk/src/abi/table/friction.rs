@@ -1,4 +1,4 @@
-//! The functions of a friction model and what they are given.
+//! The functions of a friction model and their input.
 
 use std::ffi::c_void;
 
@@ -11,7 +11,7 @@ use crate::friction::FrictionResponse;
 pub struct AbiFriction {
     /// Size of this struct in bytes.
     pub struct_size: u32,
-    /// `[any-thread]` Forces and derivatives: writes `contacts.count` answers. Called many times a step.
+    /// `[any-thread]` Forces and derivatives: writes `contacts.count` answers. Called many times per step.
     pub respond: Option<
         unsafe extern "C" fn(
             context: *const c_void,
@@ -41,7 +41,7 @@ pub struct AbiFriction {
 pub struct AbiContacts {
     /// Size of this struct in bytes.
     pub struct_size: u32,
-    /// How many contacts.
+    /// Number of contacts.
     pub count: usize,
     /// Length of the step [s].
     pub dt_s: f64,
@@ -51,19 +51,19 @@ pub struct AbiContacts {
     pub normal: *const [f64; 3],
     /// Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
     pub grain: *const [f64; 3],
-    /// Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
+    /// Unit vector along the rope; for a contact of a trap, buoy or anchor: the normal.
     pub along: *const [f64; 3],
-    /// Tangential displacement of rope against skin since the step began [m].
+    /// Tangential displacement of rope against skin since the start of the step [m].
     pub slip_m: *const [f64; 3],
-    /// Length of rope each contact stands for [m].
+    /// Length of rope of each contact [m].
     pub length_m: *const f64,
     /// Coefficient of friction.
     pub coefficient: *const f64,
     /// Number of the skin region.
     pub region: *const u32,
-    /// Index of the rope material; where a trap, buoy or anchor touches, 4294967295.
+    /// Index of the rope material; for a contact of a trap, buoy or anchor: 4294967295.
     pub rope: *const u32,
-    /// Floats as the step began, `state_len` for each contact.
+    /// Floats at the start of the step, `state_len` for each contact.
     pub state: *const f64,
     /// Floats for each contact.
     pub state_len: usize,

@@ -60,13 +60,13 @@ pub struct AbiGear {
 pub struct AbiValue {
     /// Kind of the attribute, as declared.
     pub kind: u32,
-    /// The number or count, where it is one.
+    /// The number or count.
     pub number: f64,
-    /// The item's id or the word, where it is one.
+    /// The id of the item, or the word.
     pub item: AbiText,
 }
 
-/// What a gear type may look at once a step.
+/// Input of a gear type, once per step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiGearStep {
@@ -76,7 +76,7 @@ pub struct AbiGearStep {
     pub time_s: f64,
     /// Length of the step [s].
     pub dt_s: f64,
-    /// How many lines its rig has.
+    /// Number of lines of its rig.
     pub line_count: usize,
     /// Tension of each line, in the order built, at end A then end B [N].
     pub end_tension_n: *const [f64; 2],
@@ -88,7 +88,7 @@ pub struct AbiGearStep {
 pub struct AbiRigHost {
     /// Size of this struct in bytes.
     pub struct_size: u32,
-    /// To be handed to each function.
+    /// First argument of each function.
     pub host: *mut c_void,
     /// Adds a trap, buoy or anchor.
     pub add_body: Option<unsafe extern "C" fn(host: *mut c_void, body: *const AbiBody) -> i32>,
@@ -98,7 +98,7 @@ pub struct AbiRigHost {
     pub add_line: Option<unsafe extern "C" fn(host: *mut c_void, line: *const AbiLine) -> i32>,
     /// Adds a weak link.
     pub add_link: Option<unsafe extern "C" fn(host: *mut c_void, link: *const AbiLink) -> i32>,
-    /// Gives a line added before the way it lies at first, `count` places from end A to end B [m].
+    /// Sets the initial path of a line added before, `count` places from end A to end B [m].
     pub lay_line: Option<
         unsafe extern "C" fn(
             host: *mut c_void,
@@ -115,7 +115,7 @@ pub struct AbiRigHost {
 pub struct AbiActionHost {
     /// Size of this struct in bytes.
     pub struct_size: u32,
-    /// To be handed to each function.
+    /// First argument of each function.
     pub host: *mut c_void,
     /// Cuts a line at [`END_A`] or [`END_B`].
     pub cut_line: Option<unsafe extern "C" fn(host: *mut c_void, line: u32, end: u32) -> i32>,
@@ -133,7 +133,7 @@ pub struct AbiBody {
     pub kind: u32,
     /// Id of the library item.
     pub item: AbiText,
-    /// First guess of its place [m].
+    /// Initial place [m].
     pub position_m: [f64; 3],
 }
 
@@ -143,11 +143,11 @@ pub struct AbiBody {
 pub struct AbiJoint {
     /// Id within the rig.
     pub id: AbiText,
-    /// First guess of its place [m].
+    /// Initial place [m].
     pub position_m: [f64; 3],
 }
 
-/// Where a line ends.
+/// An end of a line.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiRigEnd {
@@ -181,7 +181,7 @@ pub struct AbiLink {
     pub id: AbiText,
     /// Id of the weak link in the library.
     pub item: AbiText,
-    /// Id of the line it sits in.
+    /// Id of its line.
     pub line: AbiText,
     /// [`END_A`] or [`END_B`].
     pub end: u32,

@@ -1,15 +1,15 @@
 //! Structs and function pointers of the plugin ABI; `include/endline_plugin.h` is made from this folder.
 //!
-//! Rules for every function: nothing unwinds or `longjmp`s across; the callee keeps no pointer it
-//! was handed after it returns; memory is freed on the side that made it; strings are UTF-8.
+//! Rules for every function: nothing unwinds or `longjmp`s across; the callee does not store pointers that it
+//! receives; memory is freed on the side that made it; strings are UTF-8.
 //! A status is [`STATUS_OK`], or [`STATUS_ERROR`] or [`STATUS_CRASH`] with a message.
 //!
 //! Thread tags: `[main-thread]` is called once at a time, before any run; `[any-thread]` may be
-//! called by several runs at once and so writes nothing but what it is handed.
+//! called by several runs at once and therefore writes only to its arguments.
 //!
 //! A later minor version may add fields at the end of a struct that has `struct_size`, never
-//! change or remove one; each side reads of the other's struct what `struct_size` reaches, and takes the rest
-//! for zero. A struct without `struct_size` stays as it is.
+//! change or remove one; each side reads the other's struct up to `struct_size`, and uses zero
+//! for the rest. A struct without `struct_size` stays as it is.
 
 mod friction;
 mod gear;
@@ -40,7 +40,7 @@ pub const KIND_GEAR: u32 = 3;
 pub const STATUS_OK: i32 = 0;
 /// Status: could not be done; the message says why.
 pub const STATUS_ERROR: i32 = 1;
-/// Status: the plugin failed inside (in Rust, panicked); the message says what is known.
+/// Status: the plugin failed inside (in Rust, panicked); the message has the known details.
 pub const STATUS_CRASH: i32 = 2;
 
 /// Kind of attribute: a number in its SI unit.
@@ -49,16 +49,16 @@ pub const ATTRIBUTE_NUMBER: u32 = 0;
 pub const ATTRIBUTE_ITEM: u32 = 1;
 /// Kind of attribute: a whole number.
 pub const ATTRIBUTE_COUNT: u32 = 2;
-/// Kind of attribute: one of a few words.
+/// Kind of attribute: one of several words.
 pub const ATTRIBUTE_CHOICE: u32 = 3;
 
-/// Text: UTF-8, `length` bytes, no NUL needed; null stands for empty.
+/// Text: UTF-8, `length` bytes, not NUL-terminated; null means empty.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiText {
     /// First byte.
     pub text: *const c_char,
-    /// How many bytes.
+    /// Number of bytes.
     pub length: usize,
 }
 
@@ -74,7 +74,7 @@ pub struct AbiMessage {
     pub length: usize,
 }
 
-/// What a plugin library exports under the name `endline_plugin_entry`.
+/// The entry that a plugin library exports as `endline_plugin_entry`.
 #[repr(C)]
 #[derive(Debug)]
 pub struct AbiEntry {
@@ -98,15 +98,15 @@ pub struct AbiEntry {
 pub struct AbiFactory {
     /// Size of this struct in bytes.
     pub struct_size: u32,
-    /// How many plugins there are.
+    /// Number of plugins.
     pub plugin_count: u32,
     /// A pointer to each.
     pub plugins: *const *const AbiPlugin,
-    /// What the library says of itself: who made it, where its laws and figures come from. Since 3.1; may be null.
+    /// Author of the library, and sources of its laws and figures. Since 3.1; may be null.
     pub about: AbiText,
 }
 
-/// One plugin: who it is, what it takes, and its functions; lives as long as the library.
+/// A plugin: identity, attributes and functions; lives as long as the library.
 #[repr(C)]
 #[derive(Debug)]
 pub struct AbiPlugin {
@@ -122,23 +122,23 @@ pub struct AbiPlugin {
     pub name: AbiText,
     /// One sentence of help.
     pub help: AbiText,
-    /// Declared attributes, in the order in which values are handed over.
+    /// Declared attributes, in the order of their values.
     pub attributes: *const AbiAttribute,
-    /// How many attributes.
+    /// Number of attributes.
     pub attribute_count: usize,
-    /// Floats of state the engine keeps: in all for a motion or gear type, for each contact for a friction model.
+    /// Floats of state, stored by the engine: in total for a motion or gear type, for each contact for a friction model.
     pub state_len: usize,
-    /// Handed back as the first argument of every function of the table; the plugin's own, may be null.
+    /// First argument of every function of the table; owned by the plugin, may be null.
     pub context: *const c_void,
     /// [`AbiMotion`], [`AbiFriction`] or [`AbiGear`], as `kind` says.
     pub table: *const c_void,
     /// Acts of a whale motion, in the order of the control `act`; may be null for none.
     pub acts: *const AbiAct,
-    /// How many acts.
+    /// Number of acts.
     pub act_count: usize,
 }
 
-/// Something a whale motion does of itself when asked.
+/// An action of a whale motion on request.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiAct {
@@ -166,11 +166,11 @@ pub struct AbiAttribute {
     pub least: f64,
     /// Number, count: greatest allowed value.
     pub greatest: f64,
-    /// Number, count: value where a file names none.
+    /// Number, count: default value.
     pub default_number: f64,
     /// Item: folder of the library, such as `ropes`. Choice: the words, with `|` between.
     pub library: AbiText,
-    /// Item: id where a file names none; empty for no item. Choice: the word.
+    /// Item: default id; empty for no item. Choice: default word.
     pub default_item: AbiText,
 }
 
@@ -180,7 +180,7 @@ pub const ENTRY_NAME: &str = "endline_plugin_entry";
 pub const FACTORY_ID: &str = "endline.plugins/3";
 
 impl AbiText {
-    /// Text that lives as long as what it was made from.
+    /// Text with the lifetime of its source.
     #[must_use]
     pub const fn of(text: &str) -> Self {
         Self { text: text.as_ptr().cast(), length: text.len() }

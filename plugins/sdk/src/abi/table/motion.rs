@@ -1,4 +1,4 @@
-//! The functions of a whale motion and what they are given.
+//! The functions of a whale motion and their input.
 
 use std::ffi::c_void;
 
@@ -26,7 +26,7 @@ pub struct AbiMotion {
     >,
 }
 
-/// What a motion may look at.
+/// Input of a motion.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiMotionInput {
@@ -48,8 +48,8 @@ pub struct AbiMotionInput {
     pub controls: Controls,
     /// Normal contact force on each body part in the last step [N].
     pub contact_force_n: *const f64,
-    /// How many body parts.
+    /// Number of body parts.
     pub body_part_count: usize,
-    /// Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
+    /// Mean place of those forces on each part: distance to port from the midplane on the body at rest [m].
     pub contact_port_m: *const f64,
 }

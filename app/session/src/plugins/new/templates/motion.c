@@ -5,7 +5,7 @@
 
 #define TEXT(words) { words, sizeof(words) - 1 }
 
-/* Called from any thread, several at once: writes nothing but what it is handed. */
+/* Called from any thread, several at once: writes only through its arguments. */
 static int32_t step(const void *context, const double *attributes, size_t attribute_count, const endline_motion_input_t *input,
                     double *state, size_t state_len, endline_motion_output_t *out, endline_message_t *message) {
     (void)context, (void)attribute_count, (void)state, (void)state_len, (void)message;

@@ -130,6 +130,10 @@ impl RopeOnRope {
             }
         }
         self.pairs.sort_unstable_by_key(Pair::key);
+        debug_assert!(
+            self.pairs.windows(2).all(|two| two[0].key() < two[1].key()),
+            "each pair once"
+        );
         (self.broad, self.found) = (broad, found);
     }
 

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
+use crate::bits::unit;
 use crate::broad_phase::pieces::{Piece, Pieces};
 use crate::broad_phase::ropes::Reach;
 use crate::broad_phase::ropes::{Moves, Rope};
 use crate::contact::rope_on_rope::near::*;
 use crate::metrics::tests::{model, spec};
 use crate::model::Joint;
-use crate::random::unit;
 use crate::whale::Bounds;
 
 /// Number of steps, and their length [s].

@@ -181,6 +181,10 @@ impl Near {
                 }
             }
         }
+        debug_assert!(
+            self.groups.windows(2).all(|two| two[0].segment < two[1].segment),
+            "one group for each segment, in rising order"
+        );
         for group in &mut self.groups {
             let moves = self.pairs[group.pairs.clone()].iter().map(|pair| &self.skin[pair.skin]);
             group.follow_skin(moves);

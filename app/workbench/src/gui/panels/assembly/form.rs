@@ -1,9 +1,10 @@
-//! A gear type's attributes as a form, from what the plugin declares.
+//! Attributes of a gear type as a form, from the declarations of its plugin.
 
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::statics::TrialGear;
 
@@ -35,7 +36,7 @@ pub(super) fn show(
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
         scope_slider(ui, shared, file, scope);
     }
-    let placed = shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+    let placed = shared.workbench.project().documents.field(Documents::SCENARIO, "gear.0.assembly");
     let is_placed = placed.is_some_and(|id| *shown == TrialGear::Assembly(id));
     inserts::of_built(ui, panel, shared, (shown, is_placed));
     widgets::caption(ui, "Attributes");
@@ -50,12 +51,12 @@ pub(super) fn show(
     });
 }
 
-/// Scope under the hand: rope over depth, the gear follows while it moves.
+/// Draws a slider of the scope; the gear follows while it moves.
 fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = shared
         .workbench
-        .project
+        .project()
         .documents
         .field(file, "attributes.scope")
         .and_then(|text| text.parse::<f64>().ok());
@@ -66,18 +67,12 @@ fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attrib
         .max_decimals(4)
         .text("scope");
     ui.spacing_mut().slider_width = 110.0;
-    let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
-    if response.changed()
-        && let Err(error) = shared.workbench.project.documents.set_held(
-            file,
-            "attributes.scope",
-            &super::written(scope),
-        )
-    {
-        shared.fault(error);
+    let response = ui.add(slider).on_hover_text("Length of the endline divided by water depth");
+    if response.changed() {
+        shared.set_held(file, "attributes.scope", &super::written(scope));
     }
     if response.drag_stopped() || response.lost_focus() {
-        shared.workbench.project.documents.let_go();
+        shared.perform(EditAction::LetGo);
     }
 }
 
@@ -94,32 +89,32 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
                 words.iter().map(|word| (word.to_string(), word.to_string())).collect();
             if let Some(taken) = fields::choose(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 file,
                 &field,
                 &choices,
                 width,
             ) {
-                shared.workbench.set(file, &field, &taken);
+                shared.set(file, &field, &taken);
             }
         }
         AttributeKind::Number { .. } | AttributeKind::Count { .. } => {
             let (hint, help) = (usual(attribute), help(attribute));
             if let Some(typed) = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 file,
                 &field,
                 width,
                 fields::Said { hint: &hint, help: &help },
             ) {
-                shared.workbench.set(file, &field, &typed);
+                shared.set(file, &field, &typed);
             }
         }
     }
 }
 
-/// What is taken where the file names nothing.
+/// Default value.
 fn usual(attribute: &Attribute) -> String {
     let text = match &attribute.kind {
         AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),
@@ -131,7 +126,7 @@ fn usual(attribute: &Attribute) -> String {
     format!("{text} (usual)")
 }
 
-/// Help, range and what is usual.
+/// Help with the range.
 fn help(attribute: &Attribute) -> String {
     let range = match &attribute.kind {
         AttributeKind::Number { min, max, .. } => {

@@ -1,4 +1,4 @@
-//! Weak inserts and sleeves along a line: put in every so many feet, moved, taken out.
+//! Weak inserts and sleeves along lines: added at intervals, moved, removed.
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::Kind;
@@ -14,8 +14,8 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// Inserts of the lines of gear that a gear type builds: they stand in the scenario where it places the gear, unless the
-/// assembly's file has its own.
+/// Draws inserts of lines that a gear type builds. They are stored in the scenario if it places the gear, unless the assembly has its
+/// own.
 pub(super) fn of_built(
     ui: &mut Ui,
     panel: &AssemblyPanel,
@@ -26,7 +26,7 @@ pub(super) fn of_built(
     whole(ui, shared, gear);
     for line in built_lines(panel) {
         let (own, placed) = (format!("lines.{line}"), format!("gear.0.lines.{line}"));
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         let has_own = documents.has(file, &format!("{own}.inserts"))
             && !documents.has(Documents::SCENARIO, &format!("{placed}.inserts"));
         if is_placed && !has_own {
@@ -37,20 +37,20 @@ pub(super) fn of_built(
     }
 }
 
-/// Head of the inserts, and those of whole endlines, whatever lines they are made of.
+/// Draws the heading, and the button for inserts of whole endlines.
 pub(super) fn whole(ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
     widgets::caption(ui, "Weak inserts");
     ui.horizontal(|ui| {
         ui.label("whole endline");
         let button = ui.small_button("Put in every 60 ft");
-        let help = "3 ft of weak rope every 60 ft over the top three quarters, from the buoy through every line of each endline";
+        let help = "Adds 3 ft of weak rope every 60 ft in the top three quarters, from the buoy through all lines of each endline";
         if button.on_hover_text(help).clicked() {
             shared.perform(EditAction::AddInserts(gear.clone()));
         }
     });
 }
 
-/// Lines of the gear shown, pieces of one line taken together.
+/// Lines of the gear shown, with the pieces of a line as one.
 fn built_lines(panel: &AssemblyPanel) -> Vec<String> {
     let rest = panel.drawn().a[0].rest;
     let ids = rest
@@ -65,12 +65,12 @@ fn built_lines(panel: &AssemblyPanel) -> Vec<String> {
     lines
 }
 
-/// Inserts of one line under `field` of a file, such as `line.1`.
+/// Draws the inserts of a line at `field` of a file, such as `line.1`.
 pub(super) fn one(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, name: &str) {
     let inserts = format!("{field}.inserts");
     let there = shared
         .workbench
-        .project
+        .project()
         .documents
         .document(file)
         .is_ok_and(|document| document.has(&inserts));
@@ -79,7 +79,7 @@ pub(super) fn one(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, nam
         if there {
             if ui
                 .small_button("Take out")
-                .on_hover_text("Take the inserts out of this line")
+                .on_hover_text("Removes the inserts of this line")
                 .clicked()
             {
                 alter(shared, file, |document| {
@@ -88,7 +88,7 @@ pub(super) fn one(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, nam
             }
         } else if ui
             .small_button("Put in")
-            .on_hover_text("3 ft of weak rope every 60 ft over the top three quarters")
+            .on_hover_text("Adds 3 ft of weak rope every 60 ft in the top three quarters")
             .clicked()
         {
             alter(shared, file, |document| assembly::add_inserts(document, field));
@@ -104,20 +104,18 @@ fn alter(
     file: &str,
     change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>,
 ) {
-    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
-        shared.fault(error);
-    }
+    shared.alter(file, change);
 }
 
 fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
     let rows = [
-        ("Length", "length", "Length of each, such as 3 ft"),
-        ("First at", "first", "From the buoy's end to the first, such as 12 ft"),
-        ("Repeat every", "every", "From one to the next, such as 60 ft"),
+        ("Length", "length", "Length of an insert, such as 3 ft"),
+        ("First at", "first", "Distance from the buoy's end to the first insert, such as 12 ft"),
+        ("Repeat every", "every", "Distance between inserts, such as 60 ft"),
         (
             "Within top",
             "within",
-            "Share of the line, from the buoy's end, they lie in: 75 % or 0.75",
+            "Share of the line with inserts, from the buoy's end, such as 75 % or 0.75",
         ),
     ];
     ui.indent(inserts, |ui| {
@@ -131,13 +129,13 @@ fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
                 let (field, width) = (format!("{inserts}.{key}"), ui.available_width() - 8.0);
                 if let Some(typed) = fields::edit(
                     ui,
-                    &shared.workbench.project.documents,
+                    &shared.workbench.project().documents,
                     file,
                     &field,
                     width,
                     super::said(help),
                 ) {
-                    shared.workbench.set(file, &field, &typed);
+                    shared.set(file, &field, &typed);
                 }
                 ui.end_row();
             }

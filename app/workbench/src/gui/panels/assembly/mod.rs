@@ -1,5 +1,5 @@
-//! Gear from buoy to trap, of an assembly or of the scenario itself: its parts or attributes at the left, the rig at rest drawn to
-//! scale at slack and at running tide beside it, tensions and float height below.
+//! Gear of an assembly or of the scenario: parts or attributes at the left; its statics at slack and running tide, drawn to scale,
+//! beside it; tensions and float heights below.
 
 mod form;
 mod inserts;
@@ -28,14 +28,14 @@ use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::widgets;
 
-/// Gear from buoy to trap, at rest.
+/// The panel of gear and its statics.
 #[derive(Default)]
 pub struct AssemblyPanel {
-    /// The assembly that was chosen, and the scenario that was open; the scenario's gear is shown where there is none of this scenario.
+    /// Selected assembly, and the scenario that was open then; for another scenario its own gear is shown.
     chosen: Option<(PathBuf, String)>,
-    /// The gear it is compared with.
+    /// Assembly it is compared with.
     pub other: Option<String>,
-    /// Surface speed at running tide [m/s]; the scenario's where `None`.
+    /// Surface speed at running tide [m/s]; `None` for that of the scenario.
     pub running_m_s: Option<f64>,
     /// Whether the table of depths and currents is shown.
     pub sweep: bool,
@@ -49,18 +49,18 @@ pub struct AssemblyPanel {
     swept_for: Option<(u64, TrialGear)>,
 }
 
-/// The four rigs drawn: A and B, each at slack and at running tide.
+/// The four results drawn: A and B, each at slack and running tide.
 struct Drawn<'a> {
     a: [Rig<'a>; 2],
     b: [Rig<'a>; 2],
 }
 
-/// A rig at one tide.
+/// Statics of gear at one tide.
 #[derive(Clone, Copy, Default)]
 struct Rig<'a> {
-    /// At rest; as it was last while an edit keeps it from rest.
+    /// Last converged result, kept while an edit has errors.
     rest: Option<&'a RigAtRest>,
-    /// What keeps it from rest.
+    /// Reason why there is no new result.
     wrong: Option<&'a str>,
 }
 
@@ -77,15 +77,13 @@ impl AssemblyPanel {
         Drawn { a: pair(0), b: if self.other.is_some() { pair(2) } else { Default::default() } }
     }
 
-    /// Whether every rig asked for is there.
-    #[must_use]
+    /// Whether all requested statics are finished.
     pub fn settled(&self) -> bool {
         let (done, all) = self.statics.progress();
         all > 0 && done == all
     }
 
-    /// What came of the gear shown: at slack tide, then at running tide.
-    #[must_use]
+    /// Statics of the gear shown, at slack and running tide.
     pub fn answers(&self) -> [Option<&Answer>; 2] {
         [self.statics.newest(0), self.statics.newest(1)]
     }
@@ -100,7 +98,7 @@ impl Panel for AssemblyPanel {
         let Some(gear) = self.shown(shared) else {
             return widgets::nothing(
                 ui,
-                "No assembly here. Take one from a gear type with the New menu, or place one in the scenario.",
+                "No assembly. Create one from a gear type in the menu New, or place one in the scenario.",
             );
         };
         self.ask(shared, &gear);
@@ -137,36 +135,40 @@ impl Panel for AssemblyPanel {
 }
 
 impl AssemblyPanel {
-    /// Shows an assembly, until another scenario is opened.
+    /// Shows an assembly until another scenario is opened.
     pub fn choose(&mut self, shared: &Shared, id: String) {
-        let scenario = shared.workbench.project.documents.scenario_path().to_owned();
+        let scenario = shared.workbench.project().documents.scenario_path().to_owned();
         (self.chosen, self.selecting) = (Some((scenario, id)), false);
     }
 
-    /// Writes the gear shown, at rest in running tide, as a 3-D model in the format of the file's ending.
+    /// Whether an assembly is shown.
+    pub fn shows(&self, shared: &Shared, id: &str) -> bool {
+        self.shown(shared).is_some_and(|gear| gear == TrialGear::Assembly(id.to_owned()))
+    }
+
+    /// Writes the gear shown, at running tide, as a 3-D model in the format of the file's extension.
     pub fn export_model(&self, shared: &mut Shared, path: &Path) {
         let rest = self.answers()[1].and_then(|answer| answer.as_ref().ok());
         let Some(rest) = rest else {
-            shared.fault("the gear of the assembly panel is not at rest yet");
+            shared.fault("the statics of the panel Assembly have not converged yet");
             return;
         };
         let scene = Scene::of(&rest.model, &rest.frame, &GEAR_ALONE);
         shared.notice_saved(path, export::model(path, &scene));
     }
 
-    /// Below the drawings: the table of tensions, or of depths and currents.
+    /// Draws the table below the drawings: tensions, or depths and currents.
     fn foot(&mut self, ui: &mut Ui, shared: &Shared, gear: &TrialGear) {
         if self.sweep {
             sweep::show(ui, self, shared, gear);
         } else {
-            table::show(ui, self, shared.workbench.preferences.units);
+            table::show(ui, self, shared.workbench.preferences().units);
         }
     }
 
-    /// The gear shown: the assembly that was chosen, or the scenario's gear; without either the first assembly.
-    #[must_use]
+    /// The gear shown: the selected assembly, or the gear of the scenario, or the first assembly.
     pub fn shown(&self, shared: &Shared) -> Option<TrialGear> {
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         let there = |id: &String| documents.text(&path_of(id)).is_some();
         let open = documents.scenario_path();
         let chosen = self.chosen.as_ref().filter(|(scenario, _)| scenario.as_path() == open);
@@ -182,7 +184,7 @@ impl AssemblyPanel {
         first.map(|path| TrialGear::Assembly(id_of(path).to_owned()))
     }
 
-    /// Asks for statics where gear or sea have changed since.
+    /// Requests statics if gear or sea have changed.
     fn ask(&mut self, shared: &Shared, gear: &TrialGear) {
         let at = |gear: &TrialGear, current_m_s: Option<f64>| Trial {
             gear: gear.clone(),
@@ -194,42 +196,44 @@ impl AssemblyPanel {
             trials.extend([at(&other, Some(0.0)), at(&other, running)]);
         }
         self.statics.poll();
-        let wanted = (shared.workbench.project.documents.version(), trials);
+        let wanted = (shared.workbench.project().documents.version(), trials);
         if self.asked.as_ref() != Some(&wanted) {
             let scenario = shared
                 .workbench
-                .project
+                .project()
                 .documents
                 .text(Documents::SCENARIO)
                 .unwrap_or_default()
                 .to_owned();
-            let (library, (host, waker)) =
-                (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
+            let (library, (host, waker)) = (
+                shared.workbench.project().documents.library().clone(),
+                shared.workbench.helpers(),
+            );
             self.statics.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
             self.asked = Some(wanted);
         }
     }
 
-    /// What the gear is made of: a gear type's attributes, or its parts.
+    /// Draws the form of the gear: attributes of a gear type, or parts.
     fn make(&self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
         let file = path(gear);
         if let Some(name) = fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            &shared.workbench.project().documents,
             &file,
             "name",
             ui.available_width() - 8.0,
             said("Name shown to the user"),
         ) {
-            shared.workbench.set(&file, "name", &name);
+            shared.set(&file, "name", &name);
         }
-        match shared.workbench.project.documents.field(&file, "gear_type") {
+        match shared.workbench.project().documents.field(&file, "gear_type") {
             Some(gear_type) => form::show(ui, self, shared, gear, &gear_type),
             None => parts::show(ui, shared, gear),
         }
         let problems: Vec<_> = shared
             .workbench
-            .project
+            .project()
             .documents
             .problems()
             .iter()
@@ -242,12 +246,12 @@ impl AssemblyPanel {
     }
 }
 
-/// Path of an assembly's file.
+/// Path of the file of an assembly.
 fn path_of(id: &str) -> String {
     format!("assemblies/{id}.toml")
 }
 
-/// Path of the text that gear is written in.
+/// Path of the file that contains the gear.
 fn path(gear: &TrialGear) -> String {
     match gear {
         TrialGear::Assembly(id) => path_of(id),
@@ -255,9 +259,9 @@ fn path(gear: &TrialGear) -> String {
     }
 }
 
-/// Whether the open scenario is made of parts of its own.
+/// Whether the open scenario has its own parts.
 fn has_own(shared: &Shared) -> bool {
-    let has = |field| shared.workbench.project.documents.has(Documents::SCENARIO, field);
+    let has = |field| shared.workbench.project().documents.has(Documents::SCENARIO, field);
     has("line.0") && !has("gear.0")
 }
 
@@ -266,13 +270,13 @@ fn surface_m_s(rest: &RigAtRest) -> f64 {
     rest.model.spec.water.current.at(1.0, 0.0).length()
 }
 
-/// A number from a slider as a file has it: as typed, to four decimals, without zeros at its end.
+/// A number of a slider for a file: four decimals at most, without trailing zeros.
 fn written(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// What of a scene is written to a model: the gear alone.
+/// Parts of a scene for a model: only the gear.
 const GEAR_ALONE: Show = Show {
     surface: false,
     seabed: false,
@@ -284,25 +288,25 @@ const GEAR_ALONE: Show = Show {
     scale_n: None,
 };
 
-/// Every assembly: id and name.
+/// Id and name of all assemblies.
 fn assemblies(shared: &Shared) -> Vec<(String, String)> {
     let id = |path: &str| id_of(path).to_owned();
     let named = |path: &str| {
         (
             id(path),
-            shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| id(path)),
+            shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| id(path)),
         )
     };
-    shared.workbench.project.documents.files("assemblies").map(named).collect()
+    shared.workbench.project().documents.files("assemblies").map(named).collect()
 }
 
 fn said(help: &str) -> fields::Said<'_> {
     fields::Said { hint: "", help }
 }
 
-/// A choice of a library item for a field of a file; with `none` it may be empty.
+/// Draws the choice of a library item for a field; with `none` it can be empty.
 fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, none: bool) {
-    let library = shared.workbench.project.documents.library();
+    let library = shared.workbench.project().documents.library();
     let mut choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     if none {
@@ -310,8 +314,8 @@ fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, n
     }
     let width = ui.available_width() - 8.0;
     if let Some(taken) =
-        fields::choose(ui, &shared.workbench.project.documents, file, field, &choices, width)
+        fields::choose(ui, &shared.workbench.project().documents, file, field, &choices, width)
     {
-        shared.workbench.set(file, field, &taken);
+        shared.set(file, field, &taken);
     }
 }

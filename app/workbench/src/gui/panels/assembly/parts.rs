@@ -1,11 +1,11 @@
-//! Gear written out part by part, in an assembly or in the scenario, as a tree from buoy to trap: add, split, take out.
+//! Gear in parts, of an assembly or of the scenario, as a tree from buoy to trap: add, split, remove.
 //!
-//! The bodies of a scenario have their figures beside them, those of an assembly name items; where parts lie at first is asked of an
-//! assembly alone.
+//! Bodies of a scenario have figures, those of an assembly name items. Only parts of an assembly have first guesses of positions.
 
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
+use endline_session::command::EditAction;
 use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
@@ -15,13 +15,13 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
-/// Longest a line may be made with the slider, over its length when taken up.
+/// Range of the length slider, relative to the length at the start of a drag.
 const LONGEST: f64 = 2.0;
 
-/// Figures of a scenario's body: name, key and meaning.
+/// Figures of a body of a scenario: label, key and help.
 const OF_OWN_BODY: [(&str, &str, &str); 4] = [
     ("Mass", "mass", "Mass, such as 1.8 kg"),
-    ("Volume", "volume", "Volume of water that it displaces under water, such as 26.5 L"),
+    ("Volume", "volume", "Displaced volume, such as 26.5 L"),
     ("Radius", "radius", "Radius, such as 0.19 m"),
     ("Drag area", "drag_area", "Drag coefficient times frontal area, such as 0.054 m2"),
 ];
@@ -58,20 +58,25 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
     (0..splices).for_each(|index| joint(ui, shared, file, index));
 }
 
-/// How many tables of a list there are.
+/// Number of tables of a list.
 fn count(shared: &Shared, file: &str, list: &str) -> usize {
     (0..)
         .take_while(|index| {
-            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id")).is_some()
+            shared
+                .workbench
+                .project()
+                .documents
+                .field(file, &format!("{list}.{index}.id"))
+                .is_some()
         })
         .count()
 }
 
-/// Ids of a list's tables.
+/// Ids of the tables of a list.
 fn ids(shared: &Shared, file: &str, list: &str) -> Vec<String> {
     (0..)
         .map_while(|index| {
-            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id"))
+            shared.workbench.project().documents.field(file, &format!("{list}.{index}.id"))
         })
         .collect()
 }
@@ -81,12 +86,10 @@ fn change(
     file: &str,
     change: impl FnOnce(&mut Document) -> Result<(), String>,
 ) {
-    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
-        shared.fault(error);
-    }
+    shared.alter(file, change);
 }
 
-/// The menu of what can be added.
+/// Draws the menu of parts to add.
 fn add(ui: &mut Ui, shared: &mut Shared, file: &str) {
     ui.menu_button("Add ⏷", |ui| {
         for (word, kind, height) in
@@ -109,13 +112,13 @@ fn add(ui: &mut Ui, shared: &mut Shared, file: &str) {
     });
 }
 
-/// Id of the library's first item of a kind.
+/// Id of the first library item of a kind.
 fn first_item(shared: &Shared, kind: Kind) -> String {
-    let ids = shared.workbench.project.documents.library().ids(kind);
+    let ids = shared.workbench.project().documents.library().ids(kind);
     ids.first().map(|id| (*id).to_owned()).unwrap_or_default()
 }
 
-/// A part's place in its file.
+/// A part in its file.
 #[derive(Clone, Copy)]
 struct Part<'a> {
     file: &'a str,
@@ -124,7 +127,7 @@ struct Part<'a> {
     index: usize,
 }
 
-/// A part's head in the tree; answers whether it is to be taken out. Lines are unfolded at first.
+/// Draws the heading of a part in the tree; returns whether to remove it. Lines are open initially.
 fn head(ui: &mut Ui, part: Part<'_>, title: &str, show: impl FnOnce(&mut Ui)) -> bool {
     let id = ui.make_persistent_id(("part", part.file, part.list, part.index));
     let open = part.list == "line";
@@ -135,10 +138,7 @@ fn head(ui: &mut Ui, part: Part<'_>, title: &str, show: impl FnOnce(&mut Ui)) ->
         .show_header(ui, |ui| {
             ui.label(title);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                out = ui
-                    .small_button("✖")
-                    .on_hover_text("Take it out; Undo brings it back")
-                    .clicked();
+                out = ui.small_button("✖").on_hover_text("Removes it; Undo restores it").clicked();
             });
         })
         .body(show);
@@ -155,9 +155,9 @@ fn row(ui: &mut Ui, shared: &mut Shared, file: &str, name: &str, field: &str, he
     ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help);
     let width = ui.available_width() - 8.0;
     if let Some(typed) =
-        fields::edit(ui, &shared.workbench.project.documents, file, field, width, said(help))
+        fields::edit(ui, &shared.workbench.project().documents, file, field, width, said(help))
     {
-        shared.workbench.set(file, field, &typed);
+        shared.set(file, field, &typed);
     }
     ui.end_row();
 }
@@ -183,7 +183,7 @@ fn body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
                 file,
                 "Along",
                 &format!("{at}.position.0"),
-                "First guess of its place along the gear, such as 20 m",
+                "First guess of its position along the gear, such as 20 m",
             );
             row(
                 ui,
@@ -200,7 +200,7 @@ fn body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     }
 }
 
-/// A body of the scenario: the figures that it has.
+/// Draws a body of the scenario with its figures.
 fn own_body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("body.{index}");
     let [id, role] = ["id", "role"].map(|key| text(shared, file, &format!("{at}.{key}")));
@@ -232,7 +232,7 @@ fn joint(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
                 file,
                 "Along",
                 &format!("{at}.position.0"),
-                "First guess of its place along the gear",
+                "First guess of its position along the gear",
             );
             row(
                 ui,
@@ -270,7 +270,7 @@ fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
                     file,
                     "Rating",
                     &rating,
-                    "Force at which it parts, such as 600 lbf",
+                    "Tension above which it parts, such as 600 lbf",
                 );
             });
         }
@@ -281,7 +281,7 @@ fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
 }
 
 fn text(shared: &Shared, file: &str, field: &str) -> String {
-    shared.workbench.project.documents.field(file, field).unwrap_or_default()
+    shared.workbench.project().documents.field(file, field).unwrap_or_default()
 }
 
 fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
@@ -312,16 +312,16 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
         });
         inserts::one(ui, shared, file, &at, "Weak inserts");
         ui.horizontal(|ui| {
-            // A splice of the scenario's own has a place that only its author knows.
+            // In a scenario the position of a splice is not known.
             let split = (file != Documents::SCENARIO).then(|| ui
                 .small_button("Split")
-                .on_hover_text("Two lines of half the length with a splice between, to give them ropes of their own"));
+                .on_hover_text("Splits it into two lines of half the length with a splice between them, so that each can have its own rope"));
             if split.is_some_and(|button| button.clicked()) {
                 change(shared, file, |document| assembly::split_line(document, index));
             }
             let ends = [("top", "to"), ("foot", "from")];
             for (word, end) in ends {
-                if ui.small_button(format!("Link at the {word}")).on_hover_text("Put a weak link here").clicked() {
+                if ui.small_button(format!("Link at the {word}")).on_hover_text("Adds a weak link here").clicked() {
                     let item = first_item(shared, Kind::WeakLink);
                     change(shared, file, |document| {
                         assembly::add_link(document, &id, end, ("item", &item))
@@ -335,14 +335,14 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     }
 }
 
-/// Length under the hand; the gear follows while it moves.
+/// Draws a slider of the length; the gear follows while it moves.
 fn length_slider(ui: &mut Ui, shared: &mut Shared, file: &str, at: &str) {
     let field = format!("{at}.length");
     let Ok(length_m) = parse(&text(shared, file, &field), Quantity::Length) else { return };
-    // The end of the scale stays while the slider is held.
+    // The range is fixed while the slider is dragged.
     let scale = ui.make_persistent_id(("longest", file, at));
     let longest_m = ui.data(|data| data.get_temp::<f64>(scale)).unwrap_or(length_m * LONGEST);
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let mut shown = units.of_metres(length_m);
     ui.spacing_mut().slider_width = 130.0;
     let slider =
@@ -354,17 +354,12 @@ fn length_slider(ui: &mut Ui, shared: &mut Shared, file: &str, at: &str) {
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
-    if response.changed()
-        && let Err(error) = shared.workbench.project.documents.set_held(
-            file,
-            &field,
-            &format!("{} {}", super::written(shown), units.length_symbol()),
-        )
-    {
-        shared.fault(error);
+    if response.changed() {
+        let value = format!("{} {}", super::written(shown), units.length_symbol());
+        shared.set_held(file, &field, &value);
     }
     if response.drag_stopped() || response.lost_focus() {
         ui.data_mut(|data| data.remove_temp::<f64>(scale));
-        shared.workbench.project.documents.let_go();
+        shared.perform(EditAction::LetGo);
     }
 }

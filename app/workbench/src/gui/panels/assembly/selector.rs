@@ -1,4 +1,4 @@
-//! The gear selector: every assembly as a picture of it at rest, beside its name; a click shows it.
+//! The gear selector: a picture of the statics of every assembly; a click selects one.
 
 use egui::text::LayoutJob;
 use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
@@ -14,12 +14,12 @@ use super::side::A;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// Size of a picture.
+/// Size of a picture [points].
 const CARD: egui::Vec2 = vec2(168.0, 112.0);
-/// Height of the name below it: two rows.
+/// Height of the name below a picture, two rows [points].
 const NAME: f32 = 36.0;
 
-/// Draws all assemblies as cards; answers the one clicked.
+/// Draws all assemblies as cards; returns the one that was clicked.
 pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> Option<String> {
     let all = super::assemblies(shared);
     ask(panel, shared, &all);
@@ -43,10 +43,10 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> O
     taken
 }
 
-/// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
+/// Requests the statics of all assemblies in the scenario's sea, if files have changed.
 fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
     panel.pictured.poll();
-    let version = shared.workbench.project.documents.version();
+    let version = shared.workbench.project().documents.version();
     if panel.pictured_for == Some(version) {
         return;
     }
@@ -55,10 +55,15 @@ fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
         sea: TrialSea { depth: None, current_m_s: None },
     };
     let trials = all.iter().map(trial).collect();
-    let scenario =
-        shared.workbench.project.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let scenario = shared
+        .workbench
+        .project()
+        .documents
+        .text(Documents::SCENARIO)
+        .unwrap_or_default()
+        .to_owned();
     let (library, (host, waker)) =
-        (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
+        (shared.workbench.project().documents.library().clone(), shared.workbench.helpers());
     panel.pictured.ask(&scenario, &library, trials, &host, &waker);
     panel.pictured_for = Some(version);
 }
@@ -97,14 +102,14 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
     let text = ui.painter().layout_job(job);
     painter.with_clip_rect(below).galley(below.left_top() + vec2(2.0, 3.0), text, palette.text);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
-    let told = match answer {
-        Some(Err(why)) => format!("{name}\nnot at rest in this scenario's sea: {why}"),
+    let text = match answer {
+        Some(Err(why)) => format!("{name}\nno statics in this scenario's sea: {why}"),
         _ => name.to_owned(),
     };
-    response.on_hover_text(RichText::new(told)).clicked()
+    response.on_hover_text(RichText::new(text)).clicked()
 }
 
-/// Lines and bodies from the side, as large as they fit.
+/// Draws lines and bodies from the side, scaled to fit.
 fn draw(painter: &egui::Painter, room: Rect, rest: &RigAtRest, color: Color32, faint: Color32) {
     let of_lines = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
     let places = || of_lines().chain(rest.shape.bodies.iter().map(|body| &body.position_m));
@@ -120,7 +125,7 @@ fn draw(painter: &egui::Painter, room: Rect, rest: &RigAtRest, color: Color32, f
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
     let depth_m = rest.model.spec.water.depth_m.max(0.1);
     let middle = f64::midpoint(ends[0], ends[1]);
-    // One scale across and up, so that scope shows; a long trawl is pressed together.
+    // Equal scales, so that the scope is visible; a long trawl is compressed.
     let up = f64::from(room.height()) / depth_m;
     let across = (f64::from(room.width()) / (ends[1] - ends[0]).max(0.1)).min(up);
     let at = |place: &[f64; 3]| -> Pos2 {

@@ -1,4 +1,4 @@
-//! The rig from the side, to scale: slack tide beside running tide, A solid, B dashed.
+//! Side views of the gear, to scale: slack tide beside running tide, A solid, B dashed.
 
 use egui::{Color32, RichText, Ui, vec2};
 use egui_plot::{
@@ -9,15 +9,15 @@ use endline_sdk::LineEnd;
 use endline_session::statics::RigAtRest;
 use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole, Rope};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{AssemblyPanel, Drawn, Rig, strength, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// Width drawn over that of the gear: labels stand to the right of lines.
+/// Width of the drawing relative to the gear, for labels at the right of lines.
 const LABEL_ROOM: f64 = 1.35;
-/// Lines whose diameter and strength are printed on the picture at most.
+/// Maximum number of lines with diameter and strength.
 const LABELLED: usize = 6;
 
 /// One of the two gears.
@@ -51,7 +51,7 @@ impl Gear {
 /// Draws both tides.
 pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, shared: &Shared) {
     let drawn = panel.drawn();
-    let flat = Flat { axis: axis(&drawn), units: shared.workbench.preferences.units };
+    let flat = Flat { axis: axis(&drawn), units: shared.workbench.preferences().units };
     let size = vec2((ui.available_width() - 8.0) / 2.0, ui.available_height());
     let bounds = bounds(&drawn, &flat, f64::from((size.x - 60.0) / (size.y - 70.0).max(1.0)));
     ui.horizontal_top(|ui| {
@@ -61,7 +61,7 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, shared: &Shared) {
     });
 }
 
-/// The horizontal direction drawn: towards the node of A at running tide that lies farthest from its first.
+/// Horizontal direction of the drawing: towards the node of A at running tide that is farthest from the first.
 fn axis(drawn: &Drawn<'_>) -> DVec2 {
     let rest = drawn.a[1].rest.or(drawn.a[0].rest);
     let places =
@@ -74,8 +74,7 @@ fn axis(drawn: &Drawn<'_>) -> DVec2 {
     far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X)
 }
 
-/// One box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
-/// the picture.
+/// Common bounds of both tides: everything drawn and the sea from seabed to surface, with the aspect ratio of the picture.
 fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
     let rests = || drawn.a.iter().chain(&drawn.b).filter_map(|rig| rig.rest);
     let points = rests()
@@ -84,7 +83,7 @@ fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
     let floors =
         rests().map(|rest| [f64::NAN, -flat.units.of_metres(rest.model.spec.water.depth_m)]);
     let empty = ([f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]);
-    // f64::min and max take the number where the other is none.
+    // f64::min and max ignore NaN.
     let (low, high) = points.chain(floors).fold(empty, |(low, high), point| {
         (
             std::array::from_fn(|axis| low[axis].min(point[axis])),
@@ -147,7 +146,7 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
     });
 }
 
-/// What tide it is, and what keeps a rig from rest.
+/// Draws the name of the tide, and why there are no statics.
 fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Rig<'_>); 2], units: Units) {
     let palette = Theme::palette_of(ui);
     let title = match (tide, gears[0].1.rest) {
@@ -160,7 +159,7 @@ fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Rig<'_>); 2], units: Units)
         for (gear, rig) in gears {
             let unsettled = rig.rest.filter(|rest| !rest.shape.converged);
             let says = match (rig.wrong, rig.rest) {
-                (Some(why), Some(_)) => Some(format!("{}, as it was last: {why}", gear.name)),
+                (Some(why), Some(_)) => Some(format!("{}, last result: {why}", gear.name)),
                 (Some(why), None) => Some(format!("{}: {why}", gear.name)),
                 (None, _) => unsettled.map(|rest| format!("{}: {}", gear.name, rest.shape.outcome)),
             };
@@ -172,7 +171,7 @@ fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Rig<'_>); 2], units: Units)
     });
 }
 
-/// How places become points of the drawing.
+/// Projection of places to points of the drawing.
 struct Flat {
     axis: DVec2,
     units: Units,
@@ -184,14 +183,14 @@ impl Flat {
         [self.units.of_metres(along), self.units.of_metres(place[2])]
     }
 
-    /// Diameter of a rope and the strength that its line delivers.
+    /// Diameter and delivered strength of a line.
     fn rope(&self, rope: &Rope, delivered_n: f64) -> String {
         let strength = self.units.force().text(delivered_n);
         format!("{}, {strength}", self.units.diameter(rope.diameter_m))
     }
 }
 
-/// Colour of what parts: weak inserts and links.
+/// Colour of weak inserts and links.
 const PARTS: Color32 = Color32::from_rgb(0xd5, 0x5e, 0x00);
 
 fn rig(
@@ -238,7 +237,7 @@ fn rig(
     }
 }
 
-/// A rope's diameter and strength beside its line, on the side where there is room.
+/// Draws diameter and strength beside a line, on the side with room.
 fn label(plot: &mut PlotUi<'_>, at: [f64; 2], rope: &str, color: Color32) {
     let right = at[0] > plot.plot_bounds().center().x;
     let anchor = if right { egui::Align2::RIGHT_CENTER } else { egui::Align2::LEFT_CENTER };
@@ -246,7 +245,7 @@ fn label(plot: &mut PlotUi<'_>, at: [f64; 2], rope: &str, color: Color32) {
     plot.text(Text::new("", PlotPoint::new(at[0], at[1]), words).color(color).anchor(anchor));
 }
 
-/// Whether a piece is labelled for all pieces of its line: the longest piece of its rope is.
+/// Whether a piece has the label of its line: the longest piece of its rope has.
 fn speaks(lines: &[endline_sim::model::Line], index: usize) -> bool {
     let (of, length) = (
         |id: &str| id.split('.').next().map(str::to_owned),
@@ -275,11 +274,4 @@ fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Col
             .filled(!gear.dashed)
             .color(color),
     );
-}
-
-/// Height of a body's highest point above the calm surface [m].
-pub(super) fn top_m(body: &Body, at: &endline_session::settled::BodyShape) -> f64 {
-    let turn = endline_sim::DQuat::from_array(at.orientation);
-    let heights = body.corners().map(|corner| (turn * corner).z);
-    DVec3::from_array(at.position_m).z + heights.fold(f64::NEG_INFINITY, f64::max)
 }

@@ -1,4 +1,4 @@
-//! Delivered strength of a line or weak link: its mean in the table, and on hover the budget behind it, drawn factor by factor.
+//! Delivered strength of a line or weak link: its mean, and on hover the budget of factors.
 
 use egui::{Color32, CornerRadius, Grid, Rect, RichText, Sense, Ui, pos2, vec2};
 use endline_session::settled::{PartStrength, Sourced};
@@ -7,17 +7,17 @@ use endline_session::units::Units;
 
 use crate::gui::theme::Theme;
 
-/// Width of the longest bar, and height of each.
+/// Width of the longest bar and height of a bar [points].
 const BAR: [f32; 2] = [150.0, 12.0];
-/// Width of a source beside its factor.
+/// Width of the source of a factor [points].
 const SOURCE_WIDTH: f32 = 360.0;
 
-/// The budget of a part, by id.
+/// Strength budget of a part, by its id.
 pub(super) fn of<'a>(rest: &'a RigAtRest, part: &str) -> Option<&'a PartStrength> {
     rest.shape.strengths.iter().find(|strength| strength.part == part)
 }
 
-/// The mean delivered, with its budget on hover; its rating where a part has none, such as a link rated in its scenario.
+/// Draws the mean delivered strength with its budget on hover, or the rating of a part without a budget.
 pub(super) fn cell(ui: &mut Ui, strength: Option<&PartStrength>, rating_n: f64, units: Units) {
     let Some(strength) = strength else {
         ui.label(units.force().text(rating_n)).on_hover_text("As rated here, without variation");
@@ -28,14 +28,14 @@ pub(super) fn cell(ui: &mut Ui, strength: Option<&PartStrength>, rating_n: f64, 
     ui.label(text).on_hover_ui(|ui| budget(ui, strength, units));
 }
 
-/// A row of the budget: what is left after it.
+/// A row of the budget, with the strength that remains after it.
 struct Step<'a> {
     name: String,
     left_n: f64,
     figure: &'a Sourced,
 }
 
-/// From the stated strength down to what is delivered, each factor with bar, figure and source.
+/// Draws the budget from stated to delivered strength; each factor has bar, figure and source.
 fn budget(ui: &mut Ui, strength: &PartStrength, units: Units) {
     let palette = Theme::palette_of(ui);
     ui.label(RichText::new(format!("{}, {}", strength.part, strength.item)).strong());
@@ -58,14 +58,14 @@ fn budget(ui: &mut Ui, strength: &PartStrength, units: Units) {
         let [least, most] = strength.nine_of_ten_N.map(|force_n| units.force().text(force_n));
         let share = 100.0 * variation.value;
         ui.label(format!(
-            "Pieces vary by {share:.0} %: nine of ten hold {least} to {most}; this gear drew {}.",
+            "Pieces vary by {share:.0} %: 90 % hold {least} to {most}; this gear has {}.",
             units.force().text(strength.drawn_N)
         ));
     }
-    ui.label(format!("As sure as its least sure factor: {}.", strength.confidence));
+    ui.label(format!("Confidence of its least certain factor: {}.", strength.confidence));
 }
 
-/// The stated strength and what is left after each factor.
+/// Stated strength, and what remains after each factor.
 fn steps(strength: &PartStrength, units: Units) -> Vec<Step<'_>> {
     let mut left_n = strength.stated.value;
     let stated = Step {

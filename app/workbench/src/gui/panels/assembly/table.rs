@@ -1,16 +1,17 @@
-//! Tensions of every line and heights of every float, at slack and at running tide.
+//! Table of line tensions and float heights at slack and running tide.
 
 use egui::{Color32, Grid, RichText, Ui};
 use endline_session::statics::RigAtRest;
+use endline_session::statics::sweep::top_m;
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
-use super::side::{A, B, top_m};
+use super::side::{A, B};
 use super::strength;
 use super::{AssemblyPanel, Rig, surface_m_s};
 use crate::gui::theme::Theme;
 
-/// What is compared comes first, and is seen in a narrow panel.
+/// Columns; those that are compared come first, so that a narrow panel shows them.
 const HEADS: [&str; 8] = [
     "",
     "Line",
@@ -43,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {
         });
 }
 
-/// Height that all rows need.
+/// Height of all rows.
 pub(super) fn height(panel: &AssemblyPanel) -> f32 {
     let drawn = panel.drawn();
     let rows = |rigs: [Rig<'_>; 2]| {
@@ -71,7 +72,7 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, rigs: [Rig<'_>; 2], units:
         let strength = slack.or(running).and_then(|rest| strength::of(rest, &line.id));
         let strength_n = strength.map_or(f64::INFINITY, |strength| strength.drawn_N);
         ui.label(used(running, index, strength_n))
-            .on_hover_text("Greatest tension at running tide over strength");
+            .on_hover_text("Greatest tension at running tide divided by strength");
         strength::cell(ui, strength, rope.strength_n, units);
         ui.label(units.length(line.segments_m.iter().sum()));
         ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
@@ -122,7 +123,7 @@ fn used(rest: Option<&RigAtRest>, line: usize, strength_n: f64) -> String {
 }
 
 fn float(ui: &mut Ui, rest: Option<&RigAtRest>, body: usize, units: Units) {
-    // While gear is edited the two tides may be of different parts for a moment.
+    // While gear is edited, the two tides can have different parts for a moment.
     let at =
         rest.and_then(|rest| rest.model.spec.bodies.get(body).zip(rest.shape.bodies.get(body)));
     let Some((body, at)) = at else {
@@ -139,7 +140,7 @@ fn float(ui: &mut Ui, rest: Option<&RigAtRest>, body: usize, units: Units) {
     }
 }
 
-/// The gear as a whole: endline over depth, and whether it is at rest.
+/// Draws the row of the whole gear: endline over depth, and whether statics converged.
 fn whole(
     ui: &mut Ui,
     name: &str,

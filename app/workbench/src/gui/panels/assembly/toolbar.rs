@@ -1,25 +1,25 @@
-//! Which gear is shown, which it is compared with, and the tide it stands in.
+//! Tool bar of the assembly: gear shown, gear to compare with, running tide, and actions.
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::widgets::command;
 use egui::{RichText, Slider, SliderClamping, Ui};
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
-use endline_session::edit::library_table::id_of;
 use endline_session::statics::TrialGear;
 
 use super::{AssemblyPanel, assemblies, has_own, path_of, side, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
-/// Fastest current of the slider [m/s]: 2 knots.
+/// Greatest current of the slider, 2 knots [m/s].
 const FASTEST_M_S: f64 = 1.03;
 
 impl AssemblyPanel {
-    /// Which gear is shown, and what can be done with it.
+    /// Draws the tool bar.
     pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, gear: &TrialGear) {
         ui.horizontal_wrapped(|ui| {
             self.choose_gear(ui, shared, gear);
-            ui.menu_button("New ⏷", |ui| self.new_gear(ui, shared));
+            ui.menu_button("New ⏷", |ui| new_gear(ui, shared));
             if let TrialGear::Assembly(id) = gear {
                 self.of_assembly(ui, shared, id);
             }
@@ -31,23 +31,20 @@ impl AssemblyPanel {
         self.tide(ui, shared);
     }
 
-    /// What can be done with an assembly.
+    /// Draws the actions on an assembly.
     fn of_assembly(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
-        if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-            match shared.workbench.project.documents.duplicate(&path_of(id)) {
-                Ok(fresh) => self.choose(shared, id_of(&fresh).to_owned()),
-                Err(error) => shared.fault(error),
-            }
+        if ui.button("Duplicate").on_hover_text("Copies A to a new file").clicked() {
+            shared.give(EditAction::Duplicate(path_of(id)));
         }
         let placed =
-            shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
+            shared.workbench.project().documents.field(Documents::SCENARIO, "gear.0.assembly");
         let other = placed.is_some_and(|placed| placed != id);
         if other && primary(ui, true, "Use in scenario").clicked() {
-            shared.workbench.set(Documents::SCENARIO, "gear.0.assembly", id);
+            shared.set(Documents::SCENARIO, "gear.0.assembly", id);
         }
     }
 
-    /// The gear shown, A, and the gear it is compared with, B.
+    /// Draws the choice of the gear shown, A, and the gear to compare with, B.
     fn choose_gear(&mut self, ui: &mut Ui, shared: &Shared, gear: &TrialGear) {
         let choices = assemblies(shared);
         let own = has_own(shared).then_some("The scenario's own gear");
@@ -68,13 +65,13 @@ impl AssemblyPanel {
             self.other = taken;
         }
         ui.toggle_value(&mut self.selecting, "Pictures").on_hover_text(
-            "Choose A by its picture: every assembly at rest in this scenario's sea",
+            "Select A by its picture: the statics of every assembly in this scenario's sea",
         );
     }
 
-    /// The slider of the running tide.
+    /// Draws the slider of the running tide.
     fn tide(&mut self, ui: &mut Ui, shared: &Shared) {
-        let units = shared.workbench.preferences.units;
+        let units = shared.workbench.preferences().units;
         let of_scenario_m_s =
             self.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
         ui.horizontal(|ui| {
@@ -101,27 +98,15 @@ impl AssemblyPanel {
             }
         });
     }
+}
 
-    /// Gear types as starting points.
-    fn new_gear(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        for gear in shared.workbench.gear_types() {
-            let descriptor = gear.descriptor();
-            if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
-                let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
-                let fresh = shared
-                    .workbench
-                    .project
-                    .documents
-                    .fresh_path("assemblies", &format!("my-{stem}"));
-                let text = format!(
-                    "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
-                    descriptor.name.to_lowercase(),
-                    descriptor.id
-                );
-                shared.workbench.project.documents.put_all(vec![(fresh.clone(), text)]);
-                self.choose(shared, id_of(&fresh).to_owned());
-                ui.close();
-            }
+/// Draws the menu of gear types for a new assembly.
+fn new_gear(ui: &mut Ui, shared: &mut Shared) {
+    for gear in shared.workbench.gear_types() {
+        let descriptor = gear.descriptor();
+        if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
+            shared.give(EditAction::NewAssembly(descriptor.id.to_string()));
+            ui.close();
         }
     }
 }
@@ -135,8 +120,7 @@ fn model_menu(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// A choice among assemblies, or none of them: what is shown where it is, and its name in the list. The outer answer says whether
-/// something was taken, the inner one what.
+/// Draws a choice among assemblies, or none. The outer result is `None` if nothing was selected, the inner one if none was.
 fn pick(
     ui: &mut Ui,
     salt: &str,

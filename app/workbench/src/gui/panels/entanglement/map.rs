@@ -1,4 +1,4 @@
-//! The map of the skin, coloured by one measure of rope on each part, beside a scale that does not move with the run.
+//! The body map coloured by a measure of rope on each part, with a scale that does not change during the run.
 
 use std::sync::Arc;
 
@@ -15,13 +15,13 @@ use crate::gui::inspector::turns;
 use crate::gui::theme::Theme;
 use crate::scene::overlay::{gradient, scale_colour};
 
-/// What the map is coloured by.
+/// A measure for the colours of the map.
 struct Measure {
     label: &'static str,
     quantity: Quantity,
-    /// The scale's top in the measure's SI unit, unless a part has more.
+    /// Top of the scale in the SI unit of the measure, unless a part exceeds it.
     usual_top: f64,
-    /// Value at the moment shown, where it is known.
+    /// Value at the moment shown, if known.
     now: Option<fn(&LiveView, BodyPart) -> f64>,
     /// Greatest value, or sum, of the run so far.
     so_far: fn(&RegionSummary) -> f64,
@@ -107,12 +107,12 @@ impl SkinMap {
             let momentary = MEASURES[self.measure].now.is_some();
             let now = format!("At {:.2} s", view.frame.time_s);
             let now = ui.add_enabled(momentary, egui::Button::selectable(!so_far, now));
-            let now = now.on_hover_text("At the moment shown");
-            if now.on_disabled_hover_text("Known of the whole run only").clicked() {
+            let now = now.on_hover_text("Values at the moment shown");
+            if now.on_disabled_hover_text("Known only for the whole run").clicked() {
                 self.so_far = false;
             }
             let text = format!("Most until {:.2} s", view.newest_s);
-            let help = "The greatest of the run so far, whichever moment is shown";
+            let help = "Greatest values of the run so far, whichever moment is shown";
             if ui.selectable_label(so_far, text).on_hover_text(help).clicked() {
                 self.so_far = true;
             }
@@ -123,7 +123,7 @@ impl SkinMap {
         self.so_far || MEASURES[self.measure].now.is_none()
     }
 
-    /// The measure of each part, by its place in [`BodyPart::ALL`].
+    /// Value of each part, in the order of [`BodyPart::ALL`].
     fn values(&self, view: &LiveView, whale: &WhaleSummary) -> [f64; BodyPart::ALL.len()] {
         let measure = &MEASURES[self.measure];
         BodyPart::ALL.map(|part| match measure.now.filter(|_| !self.shows_so_far()) {
@@ -145,13 +145,13 @@ impl SkinMap {
     }
 }
 
-/// A sum over the contacts that press on a part at the moment shown.
+/// Sum over the contacts on a part at the moment shown.
 fn pressing(view: &LiveView, part: BodyPart, of: fn(&endline_sim::ContactPoint) -> f64) -> f64 {
     let own = view.frame.contacts.iter().filter(|contact| contact.region.part() == part);
     own.filter(|contact| contact.normal_force_n > 0.0).map(of).sum()
 }
 
-/// Where rope presses on the side of the whale that a face shows.
+/// Draws dots where rope presses on a face.
 fn contacts(
     map: &BodyMap,
     painter: &Painter,
@@ -170,7 +170,7 @@ fn contacts(
     }
 }
 
-/// The colours from none to the top, with numbers, and what the dots are.
+/// Draws the scale of colours with numbers, and the meaning of the dots.
 fn scale(ui: &mut Ui, measure: &Measure, top: f64, units: Units) {
     let text = |value: f64| measure.quantity.text(&value.into(), units);
     ui.horizontal_wrapped(|ui| {
@@ -178,11 +178,11 @@ fn scale(ui: &mut Ui, measure: &Measure, top: f64, units: Units) {
         let small = |words: String| RichText::new(words).small().color(faint);
         ui.label(small("0".to_owned()));
         let (rect, response) = ui.allocate_exact_size(vec2(120.0, 10.0), Sense::hover());
-        let told = || egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Scale of the map");
-        response.widget_info(told);
+        let label = || egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Scale of the map");
+        response.widget_info(label);
         gradient(ui.painter(), rect);
         let unit = if measure.quantity == Quantity::Turns { " turns" } else { "" };
         ui.label(small(format!("{}{unit}", text(top))));
-        ui.label(small("· dots: rope presses there at the moment shown".to_owned()));
+        ui.label(small("· dots: contacts of rope at the moment shown".to_owned()));
     });
 }

@@ -1,4 +1,4 @@
-//! How rope lies on the whale: a map of the body, numbers by part, the outcome and what it means.
+//! Rope on the whale: outcome, body map, wraps, and figures by body part.
 
 mod map;
 
@@ -18,7 +18,7 @@ use crate::gui::widgets::words::spoken;
 use crate::gui::widgets::{self, words};
 use map::SkinMap;
 
-/// Rope on the whale's body, and the outcome.
+/// The panel of rope on the whale.
 #[derive(Default)]
 pub struct EntanglementPanel {
     map: SkinMap,
@@ -36,7 +36,7 @@ impl Panel for EntanglementPanel {
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return widgets::nothing(ui, "No whale in this run.");
         };
-        let style = Style { view: View::Entanglement, units: shared.workbench.preferences.units };
+        let style = Style { view: View::Entanglement, units: shared.workbench.preferences().units };
         let parts = parts(whale, &view.frame.contacts);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let first = outcome(ui, whale, style);
@@ -49,19 +49,19 @@ impl Panel for EntanglementPanel {
     }
 }
 
-/// The outcome and the figures of the whale; answers the moment that was clicked [s].
+/// Draws the outcome and the figures of the whale; returns the moment that was clicked [s].
 fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
     let palette = Theme::palette_of(ui);
     let (text, meaning, colour) = words::outcome(whale.outcome, palette);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).heading().color(colour));
-        let standing = if whale.decided { "" } else { "so far: " };
-        ui.label(RichText::new(format!("{standing}{meaning}")).color(palette.faint));
+        let so_far = if whale.decided { "" } else { "so far: " };
+        ui.label(RichText::new(format!("{so_far}{meaning}")).color(palette.faint));
     });
     let wanted = list(ui, WHALE, whale, style);
     ui.label(
         RichText::new(
-            "Relative, given this encounter: it says nothing of how often whales meet gear.",
+            "Figures of this encounter only; they do not show how often whales meet gear.",
         )
         .small()
         .color(palette.faint),
@@ -69,14 +69,14 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
     wanted
 }
 
-/// Wrap by wrap at the moment shown; answers the moment asked for by a click on one.
+/// Draws the wraps at the moment shown; returns the moment that was clicked [s].
 fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "Wraps at this moment");
     let found = wraps(view);
     if found.is_empty() {
         ui.label(
-            RichText::new("No rope lies a quarter of a turn or more about a part.")
+            RichText::new("No rope is wrapped round a part by a quarter of a turn or more.")
                 .color(palette.faint),
         );
         return None;
@@ -96,14 +96,14 @@ fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
                     Some(since_s)
                         if ui
                             .link(format!("{since_s:.2} s"))
-                            .on_hover_text("See when it came half round")
+                            .on_hover_text("Show when it reached half a turn")
                             .clicked() =>
                     {
                         wanted = Some(since_s);
                     }
                     Some(_) => {}
                     None => {
-                        ui.label(RichText::new("not yet half round").color(palette.faint));
+                        ui.label(RichText::new("less than half a turn").color(palette.faint));
                     }
                 }
                 ui.label(units.length(wrap.touching_m));
@@ -113,7 +113,7 @@ fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
                     .map(|(line, length_m)| format!("{line} {}", units.length(*length_m)));
                 let lines = lines.collect::<Vec<_>>().join(", ");
                 ui.label(if lines.is_empty() {
-                    "loose: nothing presses".to_owned()
+                    "loose, without contact".to_owned()
                 } else {
                     lines
                 });

@@ -1,4 +1,4 @@
-//! The chosen entry beside its table: what it is, where it is used, how it differs from another.
+//! The selected entry: its texts, its uses, and its differences from another.
 
 use crate::gui::command::action::PanelAction;
 use endline_session::command::EditAction;
@@ -17,17 +17,17 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
-/// What the chosen entry is compared with.
+/// What the selected entry is compared with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Against {
-    /// Itself as its file on disk has it.
+    /// Its file on disk.
     #[default]
     Saved,
     /// Another entry, by its path.
     Entry(String),
 }
 
-/// Who uses an entry; looked up when it is chosen.
+/// Uses of an entry, found when it is selected.
 #[derive(Clone, Debug, Default)]
 pub struct Uses {
     path: String,
@@ -36,7 +36,7 @@ pub struct Uses {
     scenarios: Vec<std::path::PathBuf>,
 }
 
-/// How an entry differs from another, found once as long as both texts stay the same.
+/// Differences between two entries, reused until a text changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Compared {
     texts: Option<[String; 2]>,
@@ -44,7 +44,7 @@ pub(super) struct Compared {
 }
 
 impl Compared {
-    /// Fields that differ; `None` where the other text is no document.
+    /// Fields that differ; `None` if the other text is invalid.
     fn rows(
         &mut self,
         documents: &Documents,
@@ -63,19 +63,19 @@ impl Compared {
     }
 }
 
-/// Draws what there is to say of an entry.
+/// Draws the details of an entry.
 pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
         let kind = panel.kind;
         if super::picture::has(kind) {
             super::picture::show(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 kind,
                 path,
                 egui::vec2(190.0, 120.0),
             )
-            .on_hover_text("From its figures; all to one scale");
+            .on_hover_text("Drawn from its figures, at a common scale");
         }
         naming(ui, panel, shared, path);
         used_in(ui, panel, shared, path);
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, p
     });
 }
 
-/// Name, remarks, source and confidence, for editing.
+/// Draws name, remarks, source and confidence.
 fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.horizontal(|ui| {
@@ -96,13 +96,13 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
         });
     });
     let rows = [
-        ("Name", "name", "Name shown to the user"),
-        ("Remarks", "notes", "What a reader should know"),
-        ("Source", "source", "Where the figures come from that name no source of their own"),
+        ("Name", "name", "Name on screen"),
+        ("Remarks", "notes", "Remarks for readers"),
+        ("Source", "source", "Source of figures without their own source"),
         (
             "Confidence",
             "confidence",
-            "measured, derived or estimate; of figures that name none of their own",
+            "measured, derived or estimate; for figures without their own confidence",
         ),
     ];
     Grid::new("entry-words").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
@@ -111,13 +111,13 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
             let width = ui.available_width() - 8.0;
             if let Some(typed) = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 path,
                 key,
                 width,
                 fields::Said { hint: "", help },
             ) {
-                shared.workbench.set(path, key, &typed);
+                shared.set(path, key, &typed);
             }
             ui.end_row();
         }
@@ -125,9 +125,9 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
 }
 
 fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
-    let version = shared.workbench.project.documents.version();
+    let version = shared.workbench.project().documents.version();
     if panel.uses.path != path || panel.uses.version != version {
-        panel.uses = Uses { version, ..uses(&shared.workbench.project.documents, path) };
+        panel.uses = Uses { version, ..uses(&shared.workbench.project().documents, path) };
     }
     widgets::caption(ui, "Used in");
     let uses = panel.uses.clone();
@@ -153,7 +153,7 @@ fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
     });
 }
 
-/// Assemblies and scenarios whose text names an entry by its id.
+/// Assemblies and scenarios that contain the id of an entry.
 fn uses(documents: &Documents, path: &str) -> Uses {
     let named = format!("\"{}\"", id_of(path));
     let names = |text: &str| text.contains(&named);
@@ -177,14 +177,14 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
     let kind = panel.kind;
     choose(ui, panel, shared, path, kind);
     let other = match &panel.against {
-        Against::Saved => shared.workbench.project.documents.saved_text(path),
-        Against::Entry(other) => shared.workbench.project.documents.text(other),
+        Against::Saved => shared.workbench.project().documents.saved_text(path),
+        Against::Entry(other) => shared.workbench.project().documents.text(other),
     };
     let rows = other.and_then(|other| {
-        panel.compared.rows(&shared.workbench.project.documents, path, other, kind)
+        panel.compared.rows(&shared.workbench.project().documents, path, other, kind)
     });
     let Some(rows) = rows else {
-        ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
+        ui.label(RichText::new("new, not saved yet").color(Theme::palette_of(ui).faint));
         return;
     };
     if rows.is_empty() {
@@ -209,7 +209,7 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &st
 
 fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str, kind: Kind) {
     let name = |path: &str| {
-        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned())
+        shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| path.to_owned())
     };
     let shown = match &panel.against {
         Against::Saved => "its file on disk".to_owned(),
@@ -222,7 +222,7 @@ fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
             ui.selectable_value(&mut panel.against, Against::Saved, "its file on disk");
             for other in shared
                 .workbench
-                .project
+                .project()
                 .documents
                 .files(kind.folder())
                 .filter(|other| *other != path)
@@ -237,7 +237,7 @@ fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
     );
 }
 
-/// Fields that differ: name, here, there, by how much.
+/// Draws fields that differ: name, both values, difference.
 fn differences(
     documents: &Documents,
     path: &str,
@@ -255,7 +255,7 @@ fn differences(
     words.chain(figures).filter_map(row).collect()
 }
 
-/// How much more a figure is here than there.
+/// Relative difference of two values.
 fn by(here: &str, there: &str, quantity: Option<Quantity>) -> String {
     let si = |text: &str| quantity.and_then(|quantity| units::parse(text, quantity).ok());
     match (si(here), si(there)) {
@@ -271,7 +271,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_is_told_over_units() {
+    fn a_difference_is_stated_across_units() {
         assert_eq!(by("1,700 lbf", "3400 lbf", Some(Quantity::Force)), "-50.0 %");
         assert_eq!(by("1 in", "25.4 mm", Some(Quantity::Length)), "+0.0 %");
         assert_eq!(by("pp", "sink", None), "");

@@ -1,4 +1,4 @@
-//! Every figure of the chosen entry with its SI value, how sure it is, and where it comes from; the last two can be edited.
+//! Figures of the selected entry: SI value, confidence and source; the latter two can be edited.
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Confidence, Entry, Field, Figure, Kind, units};
@@ -9,18 +9,19 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets::{self, words};
 
-/// What the levels of confidence mean.
-const LEVELS: &str = "measured: or printed by its source as such\nderived: computed from measured figures\nestimate: from what is known of similar things";
+/// Meaning of the levels of confidence.
+const LEVELS: &str = "measured: a measurement, or published as one\nderived: computed from measured figures\nestimate: from similar items";
 
-/// What was typed: the figure's own field, and its text.
+/// Edited field and its new text.
 type Edit = (String, String);
 
 /// Draws the list.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, kind: Kind, path: &str) {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "Figures, with confidence and source");
-    let Some(entry) = shared.workbench.project.documents.library().entry(kind, id_of(path)) else {
-        ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
+    let Some(entry) = shared.workbench.project().documents.library().entry(kind, id_of(path))
+    else {
+        ui.label(RichText::new("has errors: see the red fields").color(palette.faint));
         return;
     };
     unsourced(ui, entry, palette);
@@ -39,21 +40,21 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, kind: Kind, path: &str) {
         }
     });
     for (field, text) in edits {
-        shared.workbench.set(path, &field, &text);
+        shared.set(path, &field, &text);
     }
 }
 
-/// Asks for the sources that are missing.
+/// Draws a request for missing sources.
 fn unsourced(ui: &mut Ui, entry: &Entry, palette: Palette) {
     let names = entry.figures.iter().filter(|(_, figure)| figure.is_unsourced());
     let names: Vec<String> = names.map(|(field, _)| words::title(field.key)).collect();
     if !names.is_empty() {
-        let ask = format!("{}: where is it from? Type the source below.", names.join(", "));
+        let ask = format!("{}: enter the source below.", names.join(", "));
         ui.label(RichText::new(ask).color(palette.warning));
     }
 }
 
-/// How sure a figure is, to be chosen.
+/// Draws the choice of the confidence of a figure.
 fn confidence(ui: &mut Ui, field: &Field, figure: &Figure, palette: Palette) -> Option<Edit> {
     let word = |sure: Confidence| {
         RichText::new(sure.word()).small().color(words::confidence_colour(sure, palette))
@@ -72,7 +73,7 @@ fn confidence(ui: &mut Ui, field: &Field, figure: &Figure, palette: Palette) -> 
         .then(|| (format!("{}.confidence", field.key), chosen.word().to_owned()))
 }
 
-/// Where a figure comes from, to be typed; the entry's own source stands faintly where the figure names none.
+/// Draws the source of a figure; the source of the entry is shown as a hint.
 fn source(
     ui: &mut Ui,
     shared: &Shared,
@@ -81,7 +82,7 @@ fn source(
     figure: &Figure,
 ) -> Option<Edit> {
     let own = format!("{}.source", field.key);
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     let said = fields::Said { hint: &figure.source, help: &figure.source };
     let width = ui.available_width().max(80.0) - 8.0;
     fields::edit(ui, documents, path, &own, width, said).map(|typed| (own, typed))

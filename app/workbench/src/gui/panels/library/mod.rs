@@ -1,4 +1,4 @@
-//! The gear library as tables: edit in place with units, located errors, save.
+//! The gear library as tables that are edited in place.
 
 mod detail;
 mod figures;
@@ -30,20 +30,20 @@ use rows::{Row, Wanted};
 /// Tables of the gear library.
 #[derive(Clone, Debug)]
 pub struct LibraryPanel {
-    /// Which table.
+    /// Table shown.
     kind: Kind,
-    /// Words that a row's id or name must hold.
+    /// Search words for id and name.
     pub search: String,
-    /// Key of the column it is sorted by, and whether downwards; by name where `None`.
+    /// Key of the sort column, and whether in descending order; `None` sorts by name.
     sort: Option<(&'static str, bool)>,
-    /// The row chosen, by its file's path.
+    /// Path of the selected entry.
     pub chosen: Option<String>,
-    /// What the chosen row is compared with.
+    /// What the selected entry is compared with.
     against: Against,
     uses: Uses,
     compared: detail::Compared,
     found: Option<(Wanted, Arc<Vec<Row>>)>,
-    /// The row to be brought into sight.
+    /// Entry to scroll to.
     go_to: Option<usize>,
 }
 
@@ -63,7 +63,7 @@ impl Default for LibraryPanel {
     }
 }
 
-/// Breadth at which the names of the tables, the search and the buttons fit beside one another, in points.
+/// Least width for tabs, search and buttons in one row [points].
 const TOOLBAR: f32 = 1130.0;
 
 impl Panel for LibraryPanel {
@@ -80,7 +80,7 @@ impl Panel for LibraryPanel {
         let folder = self.kind.folder();
         let chosen = self.chosen.clone();
         let shown = |path: &String| {
-            path.starts_with(folder) && shared.workbench.project.documents.text(path).is_some()
+            path.starts_with(folder) && shared.workbench.project().documents.text(path).is_some()
         };
         if let Some(path) = chosen.filter(shown) {
             let width = (whole.width() * 0.3).clamp(220.0, 380.0);
@@ -103,18 +103,17 @@ impl Panel for LibraryPanel {
 }
 
 impl LibraryPanel {
-    /// The table shown.
-    #[must_use]
+    /// Kind of the table shown.
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// Another table; what is searched for stays.
+    /// Changes the table; the search stays.
     pub fn turn_to(&mut self, kind: Kind) {
         *self = Self { kind, search: std::mem::take(&mut self.search), ..Self::default() };
     }
 
-    /// The table of an entry, with that entry chosen.
+    /// Shows the table of an entry and selects it.
     pub fn choose(&mut self, path: String) {
         let folder = path.split_once('/').map_or("", |(folder, _)| folder);
         if let Some(kind) = Kind::in_folder(folder) {
@@ -141,7 +140,7 @@ impl LibraryPanel {
         }
     }
 
-    /// What is done with the files, in this order on the screen whichever end the layout begins at.
+    /// Draws the buttons for files, in this order for either direction of the layout.
     fn buttons(&self, ui: &mut Ui, shared: &mut Shared) {
         let mut buttons: [fn(&Self, &mut Ui, &mut Shared); 6] = [
             |_, ui, shared| drop(command(ui, shared, "Duplicate", PanelAction::Duplicate)),
@@ -159,15 +158,15 @@ impl LibraryPanel {
         buttons.iter().for_each(|button| button(self, ui, shared));
     }
 
-    /// Chooses the copy of an entry and compares the two.
+    /// Selects the copy of an entry and compares both.
     pub fn compare(&mut self, entry: String, copy: String) {
         (self.against, self.chosen) = (Against::Entry(entry), Some(copy));
     }
 
-    /// The table as a whole, out and in.
+    /// Draws the menu for export and import of the table.
     fn table_menu(&self, ui: &mut Ui, shared: &mut Shared) {
         for (text, id) in
-            [("Save as CSV …", "panel.export-table"), ("Take in CSV …", "panel.import-table")]
+            [("Save as CSV …", "panel.export-table"), ("Import CSV …", "panel.import-table")]
         {
             if command(ui, shared, text, WindowAction::Ask(id)).clicked() {
                 ui.close();
@@ -175,39 +174,38 @@ impl LibraryPanel {
         }
         if ui.button("Copy for a spreadsheet").clicked() {
             let text = library_table::to_tabs(
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 self.kind,
                 &self.rows(shared),
             );
             ui.ctx().copy_text(text);
             ui.close();
         }
-        ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a head row, anywhere here.").small());
+        ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a header row, anywhere here.").small());
     }
 
-    /// The command that writes the table as it is shown.
-    #[must_use]
+    /// Command that exports the table as shown.
     pub fn export(&self, shared: &Shared, file: PathBuf) -> ExportAction {
         ExportAction::Table { kind: self.kind, rows: Some(self.rows(shared).to_vec()), file }
     }
 
-    /// Problems of the files of the shown table.
+    /// Problems of the files of the table shown.
     fn problems(&self, shared: &Shared) -> Vec<Diagnostic> {
         let folder = format!("{}/", self.kind.folder());
         let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
-        shared.workbench.project.documents.problems().iter().filter(own).cloned().collect()
+        shared.workbench.project().documents.problems().iter().filter(own).cloned().collect()
     }
 }
 
 fn save(ui: &mut Ui, shared: &mut Shared) {
-    let unsaved = shared.workbench.project.documents.unsaved().len();
-    let help = "Ctrl+S: write every changed file; comments stay";
+    let unsaved = shared.workbench.project().documents.unsaved().len();
+    let help = "Saves all changed files (Ctrl+S); comments are kept";
     if primary(ui, unsaved > 0, "Save").on_hover_text(help).clicked() {
         shared.give(EditAction::Save);
     }
 }
 
-/// What is wrong in the table, below it: place, reason, how to fix it.
+/// Draws the problems of the table: place, reason, help.
 fn reasons(ui: &mut Ui, problems: &[Diagnostic]) {
     ui.separator();
     ScrollArea::vertical().id_salt("reasons").auto_shrink(false).show(ui, |ui| {

@@ -1,16 +1,15 @@
-//! Cells taken from the clipboard into the table.
+//! Cells pasted from the clipboard into the table.
 
 use egui::{Event, Ui};
+use endline_session::command::EditAction;
 use endline_session::edit::library_table;
-
-use endline_session::workbench::Notice;
 
 use super::LibraryPanel;
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 
 impl LibraryPanel {
-    /// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
+    /// Pastes cells, starting at the cell with the focus, or as entries if there is a header row.
     pub(super) fn paste(&self, ui: &Ui, shared: &mut Shared) {
         let pasted = |event: &Event| matches!(event, Event::Paste(text) if text.trim_end().contains(['\t', '\n']));
         if !ui.input(|input| input.events.iter().any(pasted)) {
@@ -29,40 +28,28 @@ impl LibraryPanel {
         let head = library_table::cells(&text).is_ok_and(|cells| {
             cells.first().is_some_and(|row| library_table::is_head(self.kind, row))
         });
-        let taken = match at {
-            _ if head => {
-                library_table::import(&mut shared.workbench.project.documents, self.kind, &text)
-            }
+        let at = match at {
+            _ if head => None,
             Some((row, column)) => {
                 fields::forget(ui, &paths[row], keys[column]);
-                library_table::cells(&text).and_then(|cells| {
-                    library_table::spread(
-                        &mut shared.workbench.project.documents,
-                        &paths[row..],
-                        &keys[column..],
-                        &cells,
-                    )
-                })
+                Some((paths[row..].to_vec(), keys[column..].to_vec()))
             }
             None => {
-                Err("click the cell the table begins in, or copy it with its head row".to_owned())
+                let how = "click the first cell of the table, or copy it with its header row";
+                return shared.fault(format!("not pasted: {how}"));
             }
         };
-        shared.workbench.notice = Some(match taken {
-            Ok(taken) if taken.left_out.is_empty() => Notice::done(taken.sentence()),
-            Ok(taken) => Notice::hint(taken.sentence()),
-            Err(why) => Notice::fault(format!("not pasted: {why}")),
-        });
+        shared.perform(EditAction::Paste { kind: self.kind, cells: text, at });
     }
 
-    /// Keys of the table's columns after the name, in their order.
+    /// Keys of the columns after the name, in order.
     fn keys(&self) -> Vec<&'static str> {
         let words = self.kind.words().iter().map(|word| word.key);
         words.chain(self.kind.fields().iter().map(|field| field.key)).collect()
     }
 }
 
-/// Takes what was pasted out of the events, so that no text field takes it too.
+/// Removes the pasted text from the events, so that no text field receives it too.
 fn take_pasted(ui: &Ui) -> String {
     let mut text = String::new();
     ui.input_mut(|input| {

@@ -1,4 +1,4 @@
-//! Traps, buoys and anchors drawn from their figures, to scale with one another.
+//! Pictures of traps, buoys and anchors, drawn from their figures at a common scale.
 
 use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use endline_gear::{Kind, units};
@@ -6,11 +6,10 @@ use endline_session::edit::Documents;
 
 use crate::gui::theme::{Palette, Theme};
 
-/// Length that a picture's width stands for [m].
+/// Length across a picture [m].
 const WIDE_M: f32 = 1.6;
 
 /// Whether entries of a kind have a picture.
-#[must_use]
 pub(in super::super) fn has(kind: Kind) -> bool {
     matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor)
 }
@@ -40,7 +39,7 @@ fn metres(documents: &Documents, path: &str, key: &str) -> Option<f32> {
     Some(units::parse(&documents.field(path, key)?, field.quantity).ok()? as f32)
 }
 
-/// Points on the picture for a metre; smaller where the thing would not fit.
+/// Points per metre; less for an entry that would not fit.
 fn scale(rect: Rect, wide_m: f32, high_m: f32) -> f32 {
     let room = rect.shrink(8.0);
     (rect.width() / WIDE_M)
@@ -48,11 +47,11 @@ fn scale(rect: Rect, wide_m: f32, high_m: f32) -> f32 {
         .min(room.height() / high_m.max(0.01))
 }
 
-/// A trap or anchor: its box seen from a corner, with its mesh.
+/// Draws a trap or anchor as a box with mesh.
 fn a_box(painter: &Painter, rect: Rect, palette: Palette, documents: &Documents, path: &str) {
     let [length, width, height] =
         ["length", "width", "height"].map(|key| metres(documents, path, key).unwrap_or(0.3));
-    // Cabinet projection: the width goes back at 45 degrees, halved.
+    // Cabinet projection: depth is drawn at 45 degrees and half scale.
     let back = width * 0.5 * std::f32::consts::FRAC_1_SQRT_2;
     let scale = scale(rect, length + back, height + back);
     let low_left =
@@ -76,7 +75,7 @@ fn a_box(painter: &Painter, rect: Rect, palette: Palette, documents: &Documents,
     }
 }
 
-/// A buoy: its float with water up to its middle, and the line below.
+/// Draws a buoy: its float, half in water, and the line below.
 fn buoy(painter: &Painter, rect: Rect, palette: Palette, documents: &Documents, path: &str) {
     let diameter = metres(documents, path, "diameter").unwrap_or(0.2);
     let shape = documents.field(path, "shape").unwrap_or_default();

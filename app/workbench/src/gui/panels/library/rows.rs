@@ -1,4 +1,4 @@
-//! Which rows the table shows, and in which order.
+//! Rows of the table, filtered and sorted.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use endline_gear::{Diagnostic, Field, Kind, units};
 use super::LibraryPanel;
 use crate::gui::shared::Shared;
 
-/// What the rows shown were found for.
+/// Selection that the rows were made for.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Wanted {
     version: u64,
@@ -25,32 +25,33 @@ pub(super) struct Row {
     pub(super) path: String,
     /// Whether one of its cells has a problem.
     pub(super) problem: bool,
-    /// Whether the scenario is made of it.
+    /// Whether the scenario uses it.
     pub(super) used: bool,
 }
 
 impl LibraryPanel {
-    /// Files of the shown table that the search lets through, in the order chosen.
+    /// Files of the table that match the search, sorted.
     pub(super) fn rows(&self, shared: &Shared) -> Vec<String> {
         let words: Vec<String> =
             self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
-        let name =
-            |path: &str| shared.workbench.project.documents.field(path, "name").unwrap_or_default();
+        let name = |path: &str| {
+            shared.workbench.project().documents.field(path, "name").unwrap_or_default()
+        };
         let matches = |path: &&str| {
             let text = format!("{path} {}", name(path)).to_lowercase();
             words.iter().all(|word| text.contains(word))
         };
         let mut rows: Vec<String> = shared
             .workbench
-            .project
+            .project()
             .documents
             .files(self.kind.folder())
             .filter(matches)
             .map(str::to_owned)
             .collect();
-        // What this scenario is made of comes first.
+        // Entries used by the scenario first.
         rows.sort_by_cached_key(|path| {
-            (!shared.workbench.project.documents.in_use(path), name(path).to_lowercase())
+            (!shared.workbench.project().documents.in_use(path), name(path).to_lowercase())
         });
         if let Some((key, down)) = self.sort {
             let field = self.kind.fields().iter().find(|field| field.key == key);
@@ -65,11 +66,11 @@ impl LibraryPanel {
         rows
     }
 
-    /// The rows as the table shows them, found anew where texts or choices have changed.
+    /// Rows, made again if files or the selection have changed.
     pub(super) fn shown_rows(&mut self, shared: &Shared) -> Arc<Vec<Row>> {
         let wanted = Wanted {
-            version: shared.workbench.project.documents.version(),
-            scenario: shared.workbench.project.documents.scenario_path().to_owned(),
+            version: shared.workbench.project().documents.version(),
+            scenario: shared.workbench.project().documents.scenario_path().to_owned(),
             kind: self.kind,
             search: self.search.clone(),
             sort: self.sort,
@@ -79,7 +80,7 @@ impl LibraryPanel {
         }
         let row = |path: String| Row {
             problem: cell_problem(shared, self.kind, &path).is_some(),
-            used: shared.workbench.project.documents.in_use(&path),
+            used: shared.workbench.project().documents.in_use(&path),
             path,
         };
         let rows: Arc<Vec<Row>> = Arc::new(self.rows(shared).into_iter().map(row).collect());
@@ -88,14 +89,14 @@ impl LibraryPanel {
     }
 }
 
-/// The SI value of a cell, where it can be read.
+/// SI value of a cell, if valid.
 fn si_value(shared: &Shared, path: &str, field: &Field) -> Option<f64> {
-    units::parse(&shared.workbench.project.documents.field(path, field.key)?, field.quantity).ok()
+    units::parse(&shared.workbench.project().documents.field(path, field.key)?, field.quantity).ok()
 }
 
-/// Any problem at a cell of a row.
+/// First problem at a cell of a row.
 fn cell_problem<'a>(shared: &'a Shared, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
     let keys =
         kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
-    keys.filter_map(|key| shared.workbench.project.documents.problem_at(path, key)).next()
+    keys.filter_map(|key| shared.workbench.project().documents.problem_at(path, key)).next()
 }

@@ -18,7 +18,7 @@ const CELL_WIDTH: f32 = 112.0;
 const ROW: f32 = 25.0;
 const ROW_WITH_REASON: f32 = 41.0;
 
-/// What was typed into a cell: path of the file, key, text.
+/// Edited cell: path of the file, key, new text.
 type Edit = (String, &'static str, String);
 
 /// Draws the table.
@@ -51,11 +51,11 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
         });
     });
     for (path, field, value) in edits {
-        shared.workbench.set(&path, field, &value);
+        shared.set(&path, field, &value);
     }
     if let Some((row, key)) = went {
         panel.go_to = Some(row);
-        let documents = &shared.workbench.project.documents;
+        let documents = &shared.workbench.project().documents;
         fields::go_to(ui.ctx(), documents, &shown[row].path, key);
     }
 }
@@ -86,7 +86,7 @@ fn header(row: &mut TableRow<'_, '_>, panel: &mut LibraryPanel, kind: Kind) {
     }
 }
 
-/// A column's head; answers whether it was clicked to sort by.
+/// Draws the header of a column; returns whether it was clicked for sorting.
 fn heading(ui: &mut Ui, text: &str, sorted: Option<bool>, help: &str) -> bool {
     let palette = Theme::palette_of(ui);
     let arrow = sorted.map_or("", |down| if down { " ⏷" } else { " ⏶" });
@@ -98,7 +98,7 @@ fn heading(ui: &mut Ui, text: &str, sorted: Option<bool>, help: &str) -> bool {
 }
 
 fn field_help(field: &Field) -> String {
-    let needed = if field.needed { "" } else { "\nmay be left out" };
+    let needed = if field.needed { "" } else { "\noptional" };
     format!(
         "{}\n{}, {}; such as {}{needed}",
         field.help,
@@ -141,7 +141,7 @@ fn cells(
     }
 }
 
-/// Whether a cell is in sight, or next to what is, so that Tab still reaches it; the others are left empty.
+/// Whether a cell is visible, or next to a visible one so that Tab reaches it; other cells are not drawn.
 fn near(ui: &Ui) -> bool {
     ui.clip_rect().expand2(egui::vec2(2.0 * CELL_WIDTH, 0.0)).intersects(ui.max_rect())
 }
@@ -150,10 +150,11 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &R
     let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
     let name =
-        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
-    let mark = if shared.workbench.project.documents.is_unsaved(path) { "• " } else { "" };
+        shared.workbench.project().documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if shared.workbench.project().documents.is_unsaved(path) { "• " } else { "" };
     let chosen = panel.chosen.as_deref() == Some(path);
-    let colour = match (shared.workbench.project.documents.file_has_error(path), used && !chosen) {
+    let colour = match (shared.workbench.project().documents.file_has_error(path), used && !chosen)
+    {
         (true, _) => palette.error,
         (false, true) => palette.accent,
         (false, false) => palette.text,
@@ -182,7 +183,7 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, row: &R
     if response.contains_pointer() {
         let notes = shared
             .workbench
-            .project
+            .project()
             .documents
             .field(path, "notes")
             .map_or(String::new(), |notes| format!("\n\n{notes}"));
@@ -200,13 +201,13 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
             ui.add_space(1.0);
             let committed = fields::edit(
                 ui,
-                &shared.workbench.project.documents,
+                &shared.workbench.project().documents,
                 path,
                 key,
                 width,
                 fields::Said { hint: "", help },
             );
-            if let Some(problem) = shared.workbench.project.documents.problem_at(path, key) {
+            if let Some(problem) = shared.workbench.project().documents.problem_at(path, key) {
                 let error =
                     RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());
@@ -217,11 +218,11 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
     committed.map(|value| (path.to_owned(), key, value))
 }
 
-/// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate; a question mark where it was typed
-/// and nobody said where it comes from.
+/// Draws the confidence of a figure as a letter in the corner of its cell: m measured, d derived, e estimate, or a question mark for a
+/// typed value without a source.
 fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
     let entry =
-        shared.workbench.project.documents.library().entry(kind, library_table::id_of(path));
+        shared.workbench.project().documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let palette = Theme::palette_of(ui);
     let (letter, colour) = if figure.is_unsourced() {
@@ -240,18 +241,18 @@ fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
     );
 }
 
-/// Source and confidence of a figure, where its file can be read.
+/// Source and confidence of a figure, if its file is valid.
 fn provenance(shared: &Shared, kind: Kind, path: &str, field: &Field) -> String {
     let figure = shared
         .workbench
-        .project
+        .project()
         .documents
         .library()
         .entry(kind, library_table::id_of(path))
         .and_then(|entry| entry.figure(field.key));
     figure.map_or_else(String::new, |figure| {
         let si = units::format_si(figure.value, field.quantity);
-        let ask = if figure.is_unsourced() { "; choose the entry and give one" } else { "" };
+        let ask = if figure.is_unsourced() { "; select the entry and enter a source" } else { "" };
         format!("\n\n= {si}\n{}: {}{ask}", figure.confidence.word(), figure.source)
     })
 }

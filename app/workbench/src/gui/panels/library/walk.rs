@@ -1,4 +1,4 @@
-//! From cell to cell with the keys of a spreadsheet: Enter and the arrows up and down; Tab is egui's own.
+//! Movement between cells by Enter, up and down, as in a spreadsheet; egui handles Tab.
 
 use egui::{Key, Modifiers, Ui};
 use endline_gear::Kind;
@@ -6,7 +6,7 @@ use endline_gear::Kind;
 use super::rows::Row;
 use crate::gui::fields::edit_id;
 
-/// The row and the key of the cell that is asked for while another has the focus; taken from what is typed.
+/// Row and key of the cell that keys move to from the cell with the focus.
 pub(super) fn asked(ui: &Ui, kind: Kind, rows: &[Row]) -> Option<(usize, &'static str)> {
     const STEPS: [(Modifiers, Key, isize); 4] = [
         (Modifiers::SHIFT, Key::Enter, -1),
@@ -15,7 +15,7 @@ pub(super) fn asked(ui: &Ui, kind: Kind, rows: &[Row]) -> Option<(usize, &'stati
         (Modifiers::NONE, Key::ArrowUp, -1),
     ];
     let focused = ui.memory(|memory| memory.focused())?;
-    // Enter stays for the cell, which commits by it.
+    // Enter is not consumed, because it commits the cell.
     let pressed = |(modifiers, key, _): &(Modifiers, Key, isize)| {
         ui.input(|input| input.key_pressed(*key) && input.modifiers == *modifiers)
     };

@@ -1,4 +1,4 @@
-//! The chosen entry as a form: what begins it, how long it holds, what each control is told.
+//! The form of the selected entry: trigger, times, and values of controls.
 
 use egui::{ComboBox, Grid, RichText, Ui};
 use endline_sdk::Controls;
@@ -10,16 +10,16 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// What a time of an entry means.
+/// Times of an entry, with help.
 const HELP: [(&str, &str); 3] = [
-    ("delay", "Time from what begins it to its beginning, such as 0.4 s"),
-    ("hold", "How long it holds, such as 3 s; for ever where empty"),
-    ("ramp", "Time over which controls come to their values, and leave them after the hold"),
+    ("delay", "Time from the trigger to the start, such as 0.4 s"),
+    ("hold", "Duration, such as 3 s; empty: unlimited"),
+    ("ramp", "Time over which controls change to their values, and back after the hold"),
 ];
 
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     let mut typed: Vec<(&'static str, String)> = Vec::new();
-    widgets::caption(ui, "Begins");
+    widgets::caption(ui, "Trigger");
     Grid::new("begins").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         trigger(ui, shared, entry);
         typed.extend(word(
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
             shared,
             entry,
             entry.trigger,
-            "what begins it, such as 12 s, any, 5 m, 90 deg",
+            "Value of the trigger, such as 12 s, any, 5 m, 90 deg",
         ));
         ui.end_row();
         if entry.trigger == "within" {
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
                 shared,
                 entry,
                 "of",
-                "a line, body or joint by its id; any line where empty",
+                "Id of a line, body or joint; empty: any line",
             ));
             ui.end_row();
         }
@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
             ui.end_row();
         }
     });
-    widgets::caption(ui, "Controls; what is empty stays as it was");
+    widgets::caption(ui, "Controls (empty: unchanged)");
     Grid::new("controls").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for (control, name) in
             Controls::NAMES.iter().enumerate().filter(|(control, _)| *control != Controls::ACT)
@@ -67,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     }
 }
 
-/// What begins the entry, out of all that can.
+/// Draws the choice of the trigger.
 fn trigger(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     let words = TRIGGERS
         .iter()
@@ -87,7 +87,7 @@ fn trigger(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
         },
     );
     let Some((key, fresh)) = taken else { return };
-    // An entry with a time keeps its own; two at one time are an error.
+    // An entry with a time keeps it; two entries at the same time are an error.
     let text = match (key, entry.begin_s) {
         ("at", Some(begin_s)) => endline_session::edit::pilot_program::seconds(begin_s),
         ("after", _) => above(shared, entry.index).unwrap_or_default(),
@@ -99,7 +99,7 @@ fn trigger(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
 /// Id of the nearest entry above that has one.
 fn above(shared: &Shared, index: usize) -> Option<String> {
     (0..index).rev().find_map(|above| {
-        shared.workbench.project.documents.field(Documents::SCENARIO, &path(above, "id"))
+        shared.workbench.project().documents.field(Documents::SCENARIO, &path(above, "id"))
     })
 }
 
@@ -114,7 +114,7 @@ fn word(
     let width = (ui.available_width() - 12.0).max(60.0);
     let typed = fields::edit(
         ui,
-        &shared.workbench.project.documents,
+        &shared.workbench.project().documents,
         Documents::SCENARIO,
         &field,
         width,
@@ -131,12 +131,12 @@ fn number(
     hint: &str,
 ) -> Option<(&'static str, String)> {
     let field = path(entry.index, key);
-    // A grid would squeeze the first of two.
+    // A grid would make the first of two too narrow.
     let typed = ui.scope(|ui| {
         ui.set_min_width(62.0);
         fields::edit(
             ui,
-            &shared.workbench.project.documents,
+            &shared.workbench.project().documents,
             Documents::SCENARIO,
             &field,
             58.0,
@@ -146,7 +146,7 @@ fn number(
     typed.inner.map(|text| (key, text))
 }
 
-/// The act asked for, out of the whale's.
+/// Draws the choice of an act of the whale.
 fn act(ui: &mut Ui, shared: &Shared, entry: &Entry, typed: &mut Vec<(&'static str, String)>) {
     let stored = entry
         .controls
@@ -156,11 +156,11 @@ fn act(ui: &mut Ui, shared: &Shared, entry: &Entry, typed: &mut Vec<(&'static st
         .unwrap_or_default();
     ui.horizontal(|ui| {
         ui.label(RichText::new("act").color(Theme::palette_of(ui).faint));
-        let shown = if stored.is_empty() { "not named".to_owned() } else { stored.clone() };
+        let shown = if stored.is_empty() { "unchanged".to_owned() } else { stored.clone() };
         ComboBox::from_id_salt("act").width(180.0).truncate().selected_text(shown).show_ui(
             ui,
             |ui| {
-                let others = [("", "not named"), ("none", "none: ends an act")]
+                let others = [("", "unchanged"), ("none", "none: ends an act")]
                     .map(|(id, name)| (id.to_owned(), name.to_owned()));
                 let acts = shared
                     .workbench

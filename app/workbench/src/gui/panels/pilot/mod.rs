@@ -1,4 +1,4 @@
-//! The pilot program on a timeline: entries as bars to be dragged, the chosen one as a form, reactions below.
+//! The pilot program: a timeline with entries as bars, the form of the selected entry, and the list of reactions.
 
 mod form;
 mod tracks;
@@ -23,15 +23,15 @@ const FORM: f32 = 292.0;
 /// The pilot program on a timeline.
 #[derive(Clone, Debug, Default)]
 pub struct PilotPanel {
-    /// The entry that is edited.
+    /// Index of the selected entry.
     pub chosen: Option<usize>,
     drag: Option<tracks::Drag>,
-    /// Entries as read, with the version of the texts they were read from.
+    /// Entries, with the version of the files they were read from.
     read: Option<(u64, Arc<Vec<Entry>>)>,
 }
 
 impl PilotPanel {
-    /// The entries of the present text; read again where it has changed.
+    /// Entries of the scenario, read again if it has changed.
     fn entries(&mut self, documents: &Documents) -> Arc<Vec<Entry>> {
         let (version, read) =
             self.read.get_or_insert_with(|| (documents.version(), Arc::new(entries(documents))));
@@ -45,20 +45,20 @@ impl PilotPanel {
         let run = shared.workbench.view().is_some_and(|view| view.newest_s > 0.0);
         let shown_s = shared.workbench.view().map_or(0.0, |view| view.frame.time_s);
         ui.horizontal_wrapped(|ui| {
-            let help = "An entry at the moment shown";
+            let help = "Adds an entry at the moment shown";
             if ui.button("Add entry").on_hover_text(help).clicked() {
                 shared.give(EditAction::AddEntry);
             }
             if ui.add_enabled(self.chosen.is_some(), Button::new("Delete entry")).clicked() {
                 shared.give(PanelAction::DeleteEntry);
             }
-            let help = "What was flown or steered in the run shown becomes this program, entry by entry; one Undo takes it back";
+            let help = "Converts the controls of the run shown into entries of this program; one Undo reverts it";
             if ui.add_enabled(run, Button::new("Edit inputs of this run")).on_hover_text(help).clicked() {
                 shared.give(EditAction::EditInputs);
             }
             let text = format!("Rerun from {shown_s:.2} s");
-            let help = "The same inputs up to the moment shown, then this program as it stands now";
-            if ui.add_enabled(run && !shared.workbench.project.documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
+            let help = "Repeats the inputs up to the moment shown, then uses this program";
+            if ui.add_enabled(run && !shared.workbench.project().documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
                 shared.give(RunAction::Rerun);
             }
             let count = if all.len() == 1 { "1 entry".to_owned() } else { format!("{} entries", all.len()) };
@@ -66,13 +66,13 @@ impl PilotPanel {
         });
     }
 
-    /// Entries whose beginning shows only in the run.
+    /// Draws entries whose start depends on the run.
     fn reactions(&mut self, ui: &mut Ui, all: &[Entry]) {
         let unknown: Vec<&Entry> = all.iter().filter(|entry| entry.begin_s.is_none()).collect();
         if unknown.is_empty() {
             return;
         }
-        widgets::caption(ui, "Reactions: begin when something happens");
+        widgets::caption(ui, "Reactions: start on an event");
         for entry in unknown {
             let chosen = self.chosen == Some(entry.index);
             let label = Button::selectable(chosen, RichText::new(entry.words())).truncate();
@@ -89,10 +89,10 @@ impl Panel for PilotPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        if shared.workbench.project.documents.field(Documents::SCENARIO, "whale.item").is_none() {
+        if shared.workbench.project().documents.field(Documents::SCENARIO, "whale.item").is_none() {
             return widgets::nothing(ui, "This scenario has no whale to pilot.");
         }
-        let all = self.entries(&shared.workbench.project.documents);
+        let all = self.entries(&shared.workbench.project().documents);
         self.chosen = self.chosen.filter(|chosen| *chosen < all.len());
         self.toolbar(ui, shared, &all);
         let whole = ui.available_rect_before_wrap();
@@ -114,9 +114,7 @@ impl Panel for PilotPanel {
     }
 }
 
-/// Changes the program; one undo takes it back; what prevents it is shown in the status bar.
+/// Edits the program as one step of undo; an error is shown in the status bar.
 fn change(shared: &mut Shared, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = shared.workbench.project.documents.alter(Documents::SCENARIO, change) {
-        shared.fault(error);
-    }
+    shared.alter(Documents::SCENARIO, change);
 }

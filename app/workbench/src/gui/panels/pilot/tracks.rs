@@ -1,4 +1,4 @@
-//! A track for each control that the program names: when it is told what, to be dragged.
+//! The timeline: a track for each control in the program, with bars that can be dragged.
 
 use egui::{
     Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
@@ -21,32 +21,32 @@ const ROW: f32 = 24.0;
 const AXIS: f32 = 20.0;
 /// Width of the names [points].
 const NAMES: f32 = 92.0;
-/// How near to its end a bar is taken by its end [points].
+/// Distance to the end of a bar within which a drag moves the end [points].
 const EDGE: f32 = 6.0;
 
-/// A bar under the hand.
+/// A bar being dragged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
     index: usize,
-    /// Whether its end is dragged, not its beginning.
+    /// Whether its end is dragged instead of its start.
     end: bool,
-    /// From the pointer to what is dragged [s].
+    /// Offset from the pointer to the dragged start or end [s].
     off_s: f64,
-    /// Where that would go now [s].
+    /// Current time of the dragged start or end [s].
     to_s: f64,
 }
 
-/// What an entry commands of one control, as drawn.
+/// The bar of an entry for one control.
 struct Bar {
     index: usize,
     rect: Rect,
     text: String,
-    /// Height of the fill over the track's height, from the middle or the foot.
+    /// Height of the fill as a share of the track, from the middle or the bottom.
     level: f32,
     signed: bool,
 }
 
-/// Times on the width of the tracks.
+/// Scale of times on the width of the tracks.
 #[derive(Clone, Copy)]
 struct Axis {
     rect: Rect,
@@ -62,7 +62,7 @@ impl Axis {
         (f64::from((x - self.rect.left()) / self.rect.width()) * self.end_s).clamp(0.0, self.end_s)
     }
 
-    /// To a tenth of a second, or to a hundredth where that can be seen.
+    /// Rounds to a tenth of a second, or to a hundredth if that is visible.
     fn snapped_s(&self, time_s: f64) -> f64 {
         let grid = if self.end_s / f64::from(self.rect.width()) < 0.02 { 100.0 } else { 10.0 };
         (time_s * grid).round() / grid
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, shared: &mut Shared, all
         Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
     let duration_s = shared
         .workbench
-        .project
+        .project()
         .documents
         .field(Documents::SCENARIO, "duration")
         .and_then(|text| parse(&text, Quantity::Time).ok())
@@ -199,7 +199,7 @@ fn draw(painter: &Painter, bar: &Bar, chosen: bool, palette: Palette) {
     }
 }
 
-/// The entries as they are drawn, under the hand.
+/// Bars of the entries, and the drag.
 struct Timeline<'a> {
     all: &'a [Entry],
     bars: Vec<Bar>,
@@ -207,7 +207,7 @@ struct Timeline<'a> {
 }
 
 impl Timeline<'_> {
-    /// The bar under a place, the one drawn last first; and whether its end is.
+    /// The topmost bar at a place, and whether the place is at its end.
     fn hit(&self, at: Pos2) -> Option<(usize, bool)> {
         let under = |bar: &&Bar| bar.rect.expand2(vec2(2.0, 2.0)).contains(at);
         let bar = self.bars.iter().rev().find(under)?;
@@ -215,7 +215,7 @@ impl Timeline<'_> {
         Some((bar.index, end))
     }
 
-    /// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
+    /// Handles the mouse: a click selects, a drag moves the start or the hold, a click on the axis shows its moment.
     fn hand(&self, ui: &Ui, panel: &mut PilotPanel, shared: &mut Shared, response: &Response) {
         let pointer = response.interact_pointer_pos().or(response.hover_pos());
         let Some(at) = pointer else { return self.finish(panel, shared, response) };
@@ -243,7 +243,7 @@ impl Timeline<'_> {
         self.finish(panel, shared, response);
     }
 
-    /// Takes the bar that a drag begins on.
+    /// Starts to drag the bar under the pointer.
     fn take(&self, ui: &Ui, panel: &mut PilotPanel, response: &Response) {
         let origin = ui.input(|input| input.pointer.press_origin());
         let Some(origin) = origin.filter(|_| response.drag_started()) else { return };
@@ -255,13 +255,13 @@ impl Timeline<'_> {
         panel.drag = Some(Drag { index, end, off_s, to_s: held_s });
     }
 
-    /// Where the bars of an entry end, as drawn [s].
+    /// End of the bars of an entry [s].
     fn end_s(&self, index: usize) -> f64 {
         let own = self.bars.iter().filter(|bar| bar.index == index);
         self.axis.time_s(own.map(|bar| bar.rect.right()).fold(0.0, f32::max))
     }
 
-    /// Lets the bar go: one edit of the text.
+    /// Ends a drag, as one edit.
     fn finish(&self, panel: &mut PilotPanel, shared: &mut Shared, response: &Response) {
         if !response.drag_stopped() {
             return;
@@ -275,7 +275,7 @@ impl Timeline<'_> {
                 set(document, drag.index, "hold", &seconds((drag.to_s - begin_s).max(0.1)))
             }
             (false, "at") => move_to(document, drag.index, drag.to_s).map(|index| chosen = index),
-            // An entry after another keeps its place behind it: what is dragged is its delay.
+            // An entry after another keeps its trigger; the drag changes its delay.
             (false, _) => {
                 let delay = document.get(&path(drag.index, "delay"));
                 let delay_s = delay.and_then(|text| parse(&text, Quantity::Time).ok());

@@ -1,4 +1,4 @@
-//! Differences from the baseline as a forest of intervals, the bands of each rate, and the effect of each input as a tornado.
+//! Charts of results: a forest plot of differences from the baseline, bands of each rate, and a tornado chart of input effects.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::scales::{SERIES, ticks};
@@ -9,28 +9,28 @@ use super::rates::{points, rate};
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
 
-/// Height of a row.
+/// Height of a row [points].
 const ROW: f32 = 26.0;
-/// Room for the axis above the rows.
+/// Height of the axis above the rows [points].
 const HEAD: f32 = 20.0;
-/// Least room for names at the left, and the most as a share of the whole width.
+/// Least width for names at the left [points], and greatest as a share of the whole width.
 const NAMES: (f32, f32) = (120.0, 0.42);
 
-/// Letters of names and numbers.
+/// Font size of names and numbers [points].
 const NAME_FONT: FontId = FontId::proportional(12.5);
 
-/// A figure being drawn: rows below one another between two axes of values, of which one is in sight however the figure is scrolled.
+/// A chart being drawn: rows between two axes of values, so that one is visible wherever the chart is scrolled.
 struct Figure {
     painter: Painter,
     rect: Rect,
-    /// Room for names at the left.
+    /// Width for names at the left.
     names: f32,
     values: [f64; 2],
     palette: Palette,
 }
 
 impl Figure {
-    /// Room for rows of these names, so many for each name, with an axis above and below.
+    /// Allocates the rows of these names, with an axis above and below.
     fn new(ui: &mut Ui, names: &[String], each: usize, values: [f64; 2]) -> Self {
         let rows = each * names.len();
         let size = vec2(ui.available_width().max(420.0), HEAD + ROW * rows as f32 + 34.0);
@@ -81,7 +81,7 @@ impl Figure {
         }
     }
 
-    /// A line where there is no difference.
+    /// Draws the line of no difference.
     fn zero(&self) {
         let (x, bottom) = (self.x(0.0), self.rect.bottom() - 30.0);
         let line = [pos2(x, self.rect.top() + HEAD), pos2(x, bottom)];
@@ -98,20 +98,20 @@ impl Figure {
     }
 }
 
-/// An option's name, its difference from the baseline, and the interval.
+/// Name of an option, its difference from the baseline, and the interval.
 type Difference = (String, f64, Interval);
 
-/// Rows under a name: of all encounters, or of those of one level.
+/// Rows under a heading: of all encounters, or of one level.
 type Group = (String, Vec<Difference>);
 
-/// Differences from the baseline: of all encounters, then by level.
+/// Draws differences from the baseline: of all encounters, then by level.
 pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let findings = &shown.findings;
     let groups = groups(findings, event);
     let baseline = &findings.options[findings.baseline];
     let words = baseline.rate(event).map_or_else(String::new, rate);
     ui.label(format!(
-        "Difference of rates from {} ({words}), in points of a percent: left is rarer",
+        "Difference of rates from {} ({words}), in percentage points: negative is rarer",
         baseline.name
     ));
     let ends = groups.iter().flat_map(|(_, rows)| rows);
@@ -144,7 +144,7 @@ pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     }
 }
 
-/// The options other than the baseline: in all encounters, then by level where the event is the study's own.
+/// Options other than the baseline: in all encounters, then by level for the event of the study.
 fn groups(findings: &Findings, event: &str) -> Vec<Group> {
     let others = || (0..findings.options.len()).filter(|index| *index != findings.baseline);
     let row = |index: usize, paired: &Paired| {
@@ -162,7 +162,7 @@ fn groups(findings: &Findings, event: &str) -> Vec<Group> {
     std::iter::once(("all encounters".to_owned(), all)).chain(levels).collect()
 }
 
-/// An interval with its value; the marks of each group have a shape of their own.
+/// Draws an interval with its value; each group has its own mark.
 fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) {
     let [red, green, blue] = SERIES[kind % SERIES.len()];
     let colour = Color32::from_rgb(red, green, blue);
@@ -183,15 +183,15 @@ fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) 
     }
 }
 
-/// How sure the rate of a registered event is: for each option the bands of chance, of assumed inputs, and of segments and steps.
+/// Draws the uncertainty of the rate of a registered event: bands of chance, assumed inputs, and discretization for each option.
 pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let own = |bands: &&Bands| bands.event == event;
     let found: Vec<&Bands> = shown.findings.bands.iter().filter(own).collect();
     if found.is_empty() {
-        let none = "Bands are told of registered events. Choose one, or name this event under `registered` in the study before its first run.";
+        let none = "Bands exist only for registered events. Select one, or add this event to `registered` in the study before its first run.";
         return widgets::nothing(ui, none);
     }
-    ui.label("Rate of the event, by three causes of doubt that do not contain each other. More encounters narrow the first alone.");
+    ui.label("Rate of the event with three independent causes of uncertainty. More encounters narrow only the first.");
     let rows: Vec<Vec<(&str, [f64; 3], String)>> =
         found.iter().map(|bands| band_rows(bands)).collect();
     let ends = rows.iter().flatten().map(|(_, [.., high], _)| *high);
@@ -210,37 +210,37 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
     for (bands, own) in found.iter().zip(rows) {
         figure.name(row, &names[row], figure.palette.text);
         row += 1;
-        for (kind, (name, ends, told)) in own.into_iter().enumerate() {
+        for (kind, (name, ends, text)) in own.into_iter().enumerate() {
             figure.name(row, &names[row], figure.palette.faint);
             whisker(&figure, row, ends, kind);
-            figure.hover(ui, row, &format!("{}, {name}: {told}", bands.name));
+            figure.hover(ui, row, &format!("{}, {name}: {text}", bands.name));
             row += 1;
         }
     }
 }
 
-/// What is drawn of an option: name, least, rate and greatest, and what is told of it.
+/// Bands of an option: name; least, rate and greatest; text on hover.
 fn band_rows(bands: &Bands) -> Vec<(&'static str, [f64; 3], String)> {
     let (at, Interval { low, high }) = (bands.rate.rate, bands.rate.interval);
     let mut rows = vec![("chance", [low, at, high], rate(&bands.rate))];
     if let Some(band) = &bands.assumed {
-        let told = format!(
+        let text = format!(
             "{}, least with {}, greatest with {}; levels at random spread it over {}",
             band.rates().percents(),
             band.least_at,
             band.greatest_at,
             band.by_chance.percents()
         );
-        rows.push(("assumed inputs", [band.least, at, band.greatest], told));
+        rows.push(("assumed inputs", [band.least, at, band.greatest], text));
     }
     if let Some(band) = &bands.segments {
-        let told = format!("{}; {}", band.rate.percents(), band.source);
-        rows.push(("segments and steps", [band.rate.low, at, band.rate.high], told));
+        let text = format!("{}; {}", band.rate.percents(), band.source);
+        rows.push(("segments and steps", [band.rate.low, at, band.rate.high], text));
     }
     rows
 }
 
-/// Least and greatest rate over the parts of each input, the greatest effect first.
+/// Draws least and greatest rate over the parts of each input, largest effect first.
 pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
     let findings = &shown.findings;
     if findings.inputs.is_empty() {
@@ -254,7 +254,9 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
         .fold(0.02, f64::max);
     let words = endline_gear::StudyEvent::find(&findings.event)
         .map_or_else(|| findings.event.clone(), |event| event.words());
-    ui.label(format!("Rate of \"{words}\" with the baseline, by parts of each input's range"));
+    ui.label(format!(
+        "Rate of \"{words}\" with the baseline, for parts of the range of each input"
+    ));
     let names: Vec<String> =
         findings.inputs.iter().map(|input| input.name.replace('_', " ")).collect();
     let figure = Figure::new(ui, &names, 2, [0.0, 1.15 * most]);
@@ -285,13 +287,13 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
             &format!("{}{mark}", most.name),
             figure.palette.faint,
         );
-        let told: Vec<String> =
+        let text: Vec<String> =
             parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate))).collect();
         let best = if input.same_best {
-            "The option with the lowest rate is the same in every part."
+            "The same option has the lowest rate in every part."
         } else {
-            "Which option has the lowest rate hangs on this input."
+            "Which option has the lowest rate depends on this input."
         };
-        figure.hover(ui, row, &format!("{}\n{best}", told.join("\n")));
+        figure.hover(ui, row, &format!("{}\n{best}", text.join("\n")));
     }
 }

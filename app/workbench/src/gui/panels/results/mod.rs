@@ -1,4 +1,4 @@
-//! What a study found: rates, differences, distributions, sensitivity, claims, and every run, to be seen again.
+//! Results of a study: rates, uncertainty, differences, tensions, sensitivity, claims, and all runs, which can be replayed.
 
 mod figures;
 mod rates;
@@ -24,30 +24,30 @@ use crate::gui::widgets::command;
 use runs::{Listed, Sort};
 use spread::Placed;
 
-/// Which part of the results is shown.
+/// Part of the results that is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Part {
-    /// Rates of every option, and differences from the baseline, in numbers.
+    /// Table of rates and differences from the baseline.
     #[default]
     Rates,
-    /// How sure rates are, by three causes.
+    /// Uncertainty of rates by three causes.
     Bands,
-    /// Differences from the baseline with their intervals.
+    /// Chart of differences from the baseline.
     Forest,
     /// Greatest tensions of all runs.
     Tensions,
-    /// What each drawn input does.
+    /// Effect of each drawn input.
     Sensitivity,
-    /// Claims and whether their sign holds.
+    /// Claims and whether their sign is confirmed.
     Claims,
-    /// Every run.
+    /// Table of all runs.
     Runs,
 }
 
 impl Part {
     const ALL: [(Self, &'static str); 7] = [
         (Self::Rates, "Rates"),
-        (Self::Bands, "How sure"),
+        (Self::Bands, "Uncertainty"),
         (Self::Forest, "Differences"),
         (Self::Tensions, "Tensions"),
         (Self::Sensitivity, "Sensitivity"),
@@ -56,22 +56,22 @@ impl Part {
     ];
 }
 
-/// What a study found.
+/// Results of a study.
 #[derive(Default)]
 pub struct ResultsPanel {
-    /// Which part is shown.
+    /// Part shown.
     pub part: Part,
-    /// Name of the event shown; the study's own where `None`.
+    /// Name of the event shown; `None` for that of the study.
     event: Option<String>,
-    /// Column the runs are sorted by, and whether downwards.
+    /// Column by which runs are sorted, and whether in descending order.
     sort: (Sort, bool),
-    /// Id of the option whose runs are listed; all where `None`.
+    /// Id of the option whose runs are listed; `None` for all.
     only: Option<String>,
-    /// The run replayed last: option's place, encounter.
+    /// Option index and encounter of the last run replayed.
     replayed: Option<(usize, u32)>,
     listed: Option<Listed>,
     placed: Option<Placed>,
-    /// Hash of the study shown last: the choices above are of that study.
+    /// Hash of the study that the selections above belong to.
     of: Option<String>,
 }
 
@@ -81,8 +81,8 @@ impl Panel for ResultsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let Some(shown) = shared.workbench.studies.results.shown().cloned() else {
-            return missing(ui, &shared.workbench.studies.results);
+        let Some(shown) = shared.workbench.studies().results.shown().cloned() else {
+            return missing(ui, &shared.workbench.studies().results);
         };
         self.begin(&shown);
         self.head(ui, shared, &shown);
@@ -109,19 +109,20 @@ impl Panel for ResultsPanel {
     }
 }
 
-/// Says why there are no results.
+/// Draws the reason why there are no results.
 fn missing(ui: &mut Ui, results: &ResultsReader) {
-    // Every option's model is made for it, which takes a while.
+    // The model of every option is assembled, which takes some time.
     if results.busy() {
         ui.vertical_centered(|ui| ui.spinner());
-        return widgets::nothing(ui, "Reading the study and what it has found …");
+        return widgets::nothing(ui, "Reading the study and its results …");
     }
-    let none = "No results yet. Choose a study in Study and run it, or open the results of one that was run.";
+    let none =
+        "No results yet. Select a study in Study and run it, or open results of an earlier one.";
     widgets::nothing(ui, results.problem.as_deref().unwrap_or(none));
 }
 
 impl ResultsPanel {
-    /// Drops what was chosen of another study.
+    /// Clears selections that belong to another study.
     fn begin(&mut self, shown: &StudyResults) {
         let hash = &shown.opened.hash;
         if self.of.as_ref() != Some(hash) {
@@ -143,7 +144,7 @@ impl ResultsPanel {
             let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
             let state = if shown.whole { "" } else { ", so far" };
             let text = format!(
-                "{} {}{state}; {invalid} invalid runs left out",
+                "{} {}{state}; {invalid} invalid runs excluded",
                 findings.encounters,
                 if findings.encounters == 1 { "encounter" } else { "encounters" }
             );
@@ -153,7 +154,7 @@ impl ResultsPanel {
                 palette.warning
             }));
         });
-        let caveat = "Rates are relative, given an encounter, under this study's distribution of encounters; intervals of 95 %.";
+        let caveat = "Rates are per encounter, for the distribution of encounters of this study; 95 % intervals.";
         ui.label(RichText::new(caveat).small().color(palette.faint));
         ui.horizontal_wrapped(|ui| {
             for (part, name) in Part::ALL {
@@ -167,7 +168,7 @@ impl ResultsPanel {
             }
             if ui
                 .button("Copy command")
-                .on_hover_text("endline study report …, for a terminal")
+                .on_hover_text("Copies the command endline study report …")
                 .clicked()
             {
                 ui.ctx().copy_text(report_line(shared, shown));
@@ -194,7 +195,7 @@ impl ResultsPanel {
         );
     }
 
-    /// Shows a run in the 3-D view.
+    /// Replays a run in the 3-D view.
     fn replay(&mut self, shared: &mut Shared, option: usize, encounter: u32) {
         self.replayed = Some((option, encounter));
         shared.give(StudyAction::Replay { option, encounter });
@@ -205,7 +206,7 @@ fn report_line(shared: &Shared, shown: &StudyResults) -> String {
     let study = shell::word(&shown.opened.study.place.source.path);
     format!(
         "endline study report {study} --library {} --out {}",
-        shell::path(shared.workbench.project.documents.root()),
+        shell::path(shared.workbench.project().documents.root()),
         shell::path(&shown.folder)
     )
 }

@@ -1,4 +1,4 @@
-//! Rates and comparisons in numbers, each with its interval.
+//! Tables of rates, comparisons and claims, with intervals.
 
 use egui::{Grid, RichText, Ui};
 use endline_session::study::StudyResults;
@@ -13,7 +13,7 @@ pub(super) fn rate(rate: &Rate) -> String {
     format!("{:.1} % {}", 100.0 * rate.rate, percent(rate.interval))
 }
 
-/// `-3.5 [-6.1, -0.9]`, in points of a percent.
+/// `-3.5 [-6.1, -0.9]`, in percentage points.
 pub(super) fn points(difference: f64, interval: Interval) -> String {
     format!("{:+.1} {}", 100.0 * difference, percent(interval))
 }
@@ -27,22 +27,22 @@ pub(super) fn show(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let faint = Theme::palette_of(ui).faint;
     let heads = [
         ("Option", ""),
-        ("Runs", "Runs that count, of those made"),
-        ("Rate [%]", "Share of runs that came to the event, with its interval"),
+        ("Runs", "Valid runs of all runs"),
+        ("Rate [%]", "Share of runs with the event, with its interval"),
         (
             "Difference from baseline [points]",
-            "Rate less the baseline's in the same encounters; below zero is rarer",
+            "Rate minus that of the baseline in the same encounters; negative is rarer",
         ),
-        ("Ratio", "Rate over the baseline's"),
+        ("Ratio", "Rate divided by that of the baseline"),
         (
             "Chance that it is rarer",
             "Probability that the event is rarer than with the baseline, from 0 to 1",
         ),
         (
             "Lowest",
-            "How often this option has the lowest rate when encounters are drawn again: alone, or tied with others",
+            "How often this option has the lowest rate in resampled encounters: alone, or tied with others",
         ),
-        ("Undecided", "Runs too short for their outcome to stand; they count"),
+        ("Undecided", "Runs too short for a final outcome; they are included"),
     ];
     Grid::new("rates").num_columns(heads.len()).striped(true).spacing([16.0, 4.0]).show(ui, |ui| {
         for (head, help) in heads {
@@ -86,7 +86,7 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
     ui.end_row();
 }
 
-/// Rates by levels of the prior by which results are split.
+/// Draws rates by levels of the prior that splits the results.
 fn levels(ui: &mut Ui, shown: &StudyResults) {
     let faint = Theme::palette_of(ui).faint;
     for level in &shown.findings.levels {
@@ -96,7 +96,7 @@ fn levels(ui: &mut Ui, shown: &StudyResults) {
             |ui| {
                 for head in [
                     "Option",
-                    "Rate of what is asked [%]",
+                    "Rate of the event [%]",
                     "Difference from baseline [points]",
                     "Parted [%]",
                 ] {

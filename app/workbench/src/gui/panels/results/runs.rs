@@ -1,4 +1,4 @@
-//! Every run of a study as a table: sorted, filtered, and a click shows it in the 3-D view.
+//! Table of all runs of a study, sorted and filtered; a click replays a run in the 3-D view.
 
 use std::sync::Arc;
 
@@ -11,17 +11,17 @@ use super::ResultsPanel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// What runs are sorted by.
+/// Sort key of runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Sort {
-    /// Their encounters.
+    /// Encounter.
     #[default]
     Encounter,
-    /// Their greatest tension.
+    /// Greatest tension.
     Tension,
-    /// Wraps on all parts together at their greatest.
+    /// Greatest sum of wraps on all parts.
     Wraps,
-    /// Their outcomes.
+    /// Outcome.
     Outcome,
 }
 
@@ -38,7 +38,7 @@ struct RunRow {
     fault: String,
 }
 
-/// The rows last listed, with what they were listed for.
+/// Rows, with the selection they were made for.
 #[derive(Clone)]
 pub(super) struct Listed {
     shown: Arc<StudyResults>,
@@ -65,7 +65,7 @@ pub(super) fn show(
 ) {
     filter(ui, panel, shown);
     let rows = listed(panel, shown);
-    let unit = shared.workbench.preferences.units.force();
+    let unit = shared.workbench.preferences().units.force();
     let replayed = panel.replayed;
     let mut wanted = None;
     let mut sort = panel.sort;
@@ -92,7 +92,7 @@ pub(super) fn show(
                 line.set_selected(replayed == Some((row.option, row.encounter)));
                 cells(&mut line, row, shown, unit);
                 let response =
-                    line.response().on_hover_text("Click to see this run in the 3-D view");
+                    line.response().on_hover_text("Click to replay this run in the 3-D view");
                 if response.clicked() {
                     wanted = Some((row.option, row.encounter));
                 }
@@ -125,7 +125,7 @@ fn filter(ui: &mut Ui, panel: &mut ResultsPanel, shown: &StudyResults) {
                 }
             },
         );
-        ui.label(RichText::new("Click a run to see it.").color(Theme::palette_of(ui).faint));
+        ui.label(RichText::new("Click a run to replay it.").color(Theme::palette_of(ui).faint));
     });
 }
 
@@ -143,7 +143,7 @@ fn head(ui: &mut Ui, name: &str, by: Option<Sort>, sort: &mut (Sort, bool)) {
     let button = egui::Button::new(RichText::new(format!("{name}{arrow}")).small().color(colour))
         .frame(false);
     if ui.add(button).clicked() {
-        // Numbers are looked at from the top.
+        // Numbers are sorted in descending order first.
         *sort = if sort.0 == by {
             (by, !sort.1)
         } else {
@@ -175,7 +175,7 @@ fn cells(
     line.col(|ui| drop(ui.label(&row.parted)));
 }
 
-/// The rows as they are sorted and filtered now, listed anew where that or the results have changed.
+/// Sorted and filtered rows, made again if the selection or the results have changed.
 fn listed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>) -> Arc<Vec<RunRow>> {
     let same = |listed: &&Listed| {
         Arc::ptr_eq(&listed.shown, shown) && listed.only == panel.only && listed.sort == panel.sort

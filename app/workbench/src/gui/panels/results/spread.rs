@@ -1,4 +1,4 @@
-//! Greatest tensions of all runs: a curve for each option, a dot for each run, and a click shows that run.
+//! Distribution of the greatest tensions: a curve for each option and a dot for each run; a click on a dot replays the run.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
-/// Nearest a click must come to a dot [points].
+/// Greatest distance of a click to its dot [points].
 const REACH: f32 = 14.0;
 
-/// The dots last placed, with what they were placed for.
+/// Dots, with the results and units they were made for.
 #[derive(Clone)]
 pub(super) struct Placed {
     shown: Arc<StudyResults>,
@@ -33,7 +33,7 @@ struct Dot {
     encounter: u32,
     tension_n: f64,
     outcome: String,
-    /// Logarithm of one more than the tension in the unit shown, and the share of runs below.
+    /// Logarithm of the tension plus one in the unit shown, and the share of runs below.
     at: [f64; 2],
 }
 
@@ -44,13 +44,13 @@ pub(super) fn show(
     shared: &mut Shared,
     shown: &Arc<StudyResults>,
 ) {
-    let unit = shared.workbench.preferences.units.force();
+    let unit = shared.workbench.preferences().units.force();
     let dots = placed(panel, shown, unit);
     if dots.is_empty() {
         return widgets::nothing(ui, "No run has a tension yet.");
     }
     ui.label(
-        RichText::new("Share of runs whose greatest tension stays below a value. Each dot is a run: click it to see it.")
+        RichText::new("Share of runs with a greatest tension below a value. Each dot is a run; click it to replay the run.")
             .color(Theme::palette_of(ui).faint),
     );
     let response = frame(unit).height(ui.available_height()).show(ui, |plot| {
@@ -64,7 +64,7 @@ pub(super) fn show(
     let nearest = dots.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let Some(nearest) = nearest.filter(|dot| distance(dot) < REACH) else { return };
     let text = format!(
-        "{}, encounter {}: {}, {}\nClick to see it in the 3-D view",
+        "{}, encounter {}: {}, {}\nClick to replay it in the 3-D view",
         shown.findings.options[nearest.option].name,
         nearest.encounter,
         unit.text(nearest.tension_n),
@@ -76,7 +76,7 @@ pub(super) fn show(
     response.response.on_hover_text_at_pointer(text);
 }
 
-/// Axes: tension on a logarithmic scale, share of runs.
+/// Axes: tension on a logarithmic scale, and share of runs.
 fn frame(unit: ForceUnit) -> Plot<'static> {
     let x = AxisHints::new_x()
         .label(format!("greatest tension [{}]", unit.symbol()))
@@ -85,7 +85,7 @@ fn frame(unit: ForceUnit) -> Plot<'static> {
         .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
         .min_thickness(46.0);
     Plot::new("tensions of runs")
-        // Shares rise to the right: below them there is room.
+        // The curves rise to the right, so the lower right is free.
         .legend(Legend::default().position(egui_plot::Corner::RightBottom).background_alpha(0.6))
         .x_grid_spacer(|input| marks(input.bounds))
         .include_x(0.0)
@@ -97,7 +97,7 @@ fn frame(unit: ForceUnit) -> Plot<'static> {
         .show_background(false)
 }
 
-/// Marks of the axis of tensions: 0, then 1 and 3 times powers of ten.
+/// Grid marks of the tension axis: 0, then 1 and 3 times powers of ten.
 fn marks((least, most): (f64, f64)) -> Vec<GridMark> {
     let round = (0..8).flat_map(|power| [1.0, 3.0].map(|lead| lead * 10.0_f64.powi(power)));
     let places = std::iter::once(0.0).chain(round).map(|tension| (1.0 + tension).log10());
@@ -105,12 +105,12 @@ fn marks((least, most): (f64, f64)) -> Vec<GridMark> {
     within.map(|value| GridMark { value, step_size: 0.5 }).collect()
 }
 
-/// The runs of an option: a line, and a mark for each run in the option's own shape.
+/// Draws the runs of an option: a line, and a mark for each run.
 fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>) {
     let [red, green, blue] = SERIES[index % SERIES.len()];
     let colour = Color32::from_rgb(red, green, blue);
     let line = Line::new(name, PlotPoints::Owned(points.clone()));
-    // Colours come again after seven; lines do not.
+    // Colours repeat after seven options; line styles differ.
     let style = if index < SERIES.len() { LineStyle::Solid } else { LineStyle::dashed_dense() };
     plot.line(line.color(colour).width(1.3).style(style));
     let shapes = [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Diamond, MarkerShape::Up];
@@ -118,7 +118,7 @@ fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>
     plot.points(marks.shape(shapes[index % shapes.len()]).allow_hover(false));
 }
 
-/// The dots, placed anew where the results or the unit have changed.
+/// Dots, made again if the results or the unit have changed.
 fn placed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>, unit: ForceUnit) -> Arc<Vec<Dot>> {
     let same = |placed: &&Placed| Arc::ptr_eq(&placed.shown, shown) && placed.unit == unit;
     if let Some(placed) = panel.placed.as_ref().filter(same) {
@@ -129,7 +129,7 @@ fn placed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>, unit: ForceUnit) 
     dots
 }
 
-/// Every run that counts, by option and rising tension.
+/// All valid runs, by option and ascending tension.
 fn dots(shown: &StudyResults, unit: ForceUnit) -> Vec<Dot> {
     let mut all = Vec::new();
     for (index, option) in shown.findings.options.iter().enumerate() {

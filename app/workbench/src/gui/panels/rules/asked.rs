@@ -1,20 +1,21 @@
-//! What is asked: the assembly, and where, when and how it is fished.
+//! The question to the rules: the assembly, and where, when and how it is fished.
 
 use egui::{ComboBox, RichText, TextEdit, Ui};
+use endline_session::command::RuleAction;
 use endline_session::edit::library_table::id_of;
 use endline_session::workbench::RuleQuestion;
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
-/// Texts being typed, before they are taken over.
+/// Texts being typed and not applied yet.
 #[derive(Debug, Default)]
 pub(super) struct Typed {
-    /// The field being typed in, and what stands there.
+    /// The field being typed in, and its content.
     now: Option<(&'static str, String)>,
 }
 
-/// Width from which on all stands on one line.
+/// Least width for one line [points].
 const ONE_LINE: f32 = 900.0;
 
 /// A field of the question.
@@ -31,33 +32,33 @@ const FIELDS: [Field; 4] = [
         name: "Day",
         width: 82.0,
         hint: "2024-06-01",
-        help: "Day on which it is fished: year, month and day. Rules have days in force and seasons",
+        help: "Date of fishing: year, month, day. Rules have dates of validity and seasons",
         of: |question| &mut question.on,
     },
     Field {
         name: "Distance",
         width: 58.0,
         hint: "5 nmi",
-        help: "Distance from shore. Rules that ask for it cannot be checked without",
+        help: "Distance from shore, needed by some rules",
         of: |question| &mut question.distance,
     },
     Field {
         name: "Depth",
         width: 66.0,
         hint: "25 m",
-        help: "Depth of the water. A gear type builds for it; without, for 25 m",
+        help: "Water depth, for which a gear type is built; 25 m if empty",
         of: |question| &mut question.depth,
     },
     Field {
         name: "Traps",
         width: 42.0,
         hint: "count",
-        help: "Traps on one set, in place of those of the assembly",
+        help: "Number of traps on one set, instead of that of the assembly",
         of: |question| &mut question.traps,
     },
 ];
 
-/// Draws the question on one line, or two in a narrow panel.
+/// Draws the question on one line, or on two in a narrow panel.
 pub(super) fn show(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared) {
     let whole = ui.available_width() >= ONE_LINE;
     let mut fields = |ui: &mut Ui, shared: &mut Shared| {
@@ -80,9 +81,10 @@ fn name(ui: &mut Ui, text: &str) {
 }
 
 fn assembly(ui: &mut Ui, shared: &mut Shared) {
-    let documents = &shared.workbench.project.documents;
+    let documents = &shared.workbench.project().documents;
     let named = |id: &str| documents.field(&format!("assemblies/{id}.toml"), "name");
-    let question = &mut shared.workbench.rules.question;
+    let question = &shared.workbench.rules().question;
+    let mut chosen = None;
     let shown = named(&question.assembly).unwrap_or_else(|| question.assembly.clone());
     let combo = ComboBox::from_id_salt("rules assembly").width(190.0).truncate();
     let response = combo.selected_text(&shown).show_ui(ui, |ui| {
@@ -90,15 +92,19 @@ fn assembly(ui: &mut Ui, shared: &mut Shared) {
             let id = id_of(path);
             let name = named(id).unwrap_or_else(|| id.to_owned());
             if ui.selectable_label(question.assembly == id, name).on_hover_text(id).clicked() {
-                id.clone_into(&mut question.assembly);
+                chosen = Some(RuleQuestion { assembly: id.to_owned(), ..question.clone() });
             }
         }
     });
     response.response.on_hover_text(format!("The assembly that is checked: {shown}"));
+    if let Some(question) = chosen {
+        shared.perform(RuleAction::Ask(question));
+    }
 }
 
 fn area(ui: &mut Ui, shared: &mut Shared) {
-    let checks = &mut shared.workbench.rules;
+    let checks = &shared.workbench.rules();
+    let mut chosen = None;
     let Some(packs) = checks.packs.clone() else { return };
     let named = |id: &str| {
         let area = packs.areas().find(|area| area.id.value == id);
@@ -111,17 +117,21 @@ fn area(ui: &mut Ui, shared: &mut Shared) {
             let id = &area.id.value;
             let own = checks.question.area == *id;
             if ui.selectable_label(own, &area.name).on_hover_text(id).clicked() {
-                checks.question.area.clone_from(id);
+                chosen = Some(RuleQuestion { area: id.clone(), ..checks.question.clone() });
             }
         }
     });
-    response.response.on_hover_text(format!("The area in which it is fished: {shown}"));
+    response.response.on_hover_text(format!("The area of fishing: {shown}"));
+    if let Some(question) = chosen {
+        shared.perform(RuleAction::Ask(question));
+    }
 }
 
-/// A field for typing, taken over on Enter or when it is left.
+/// Draws a text field, applied on Enter or when it loses the focus.
 fn one(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared, field: &Field) {
     name(ui, field.name);
-    let stored = (field.of)(&mut shared.workbench.rules.question);
+    let mut question = shared.workbench.rules().question.clone();
+    let stored = (field.of)(&mut question);
     let own = typed.now.as_ref().filter(|(name, _)| *name == field.name);
     let mut text = own.map_or_else(|| stored.clone(), |(_, text)| text.clone());
     let editor = TextEdit::singleline(&mut text).desired_width(field.width).hint_text(field.hint);
@@ -133,6 +143,7 @@ fn one(ui: &mut Ui, typed: &mut Typed, shared: &mut Shared, field: &Field) {
         let escaped = ui.input(|input| input.key_pressed(egui::Key::Escape));
         if !escaped {
             text.trim().clone_into(stored);
+            shared.perform(RuleAction::Ask(question));
         }
     }
 }

@@ -1,5 +1,5 @@
-//! What laws ask of an assembly: every rule with its verdict, the edits by which the assembly would comply, a study of
-//! options for rules, and the compliance sheet.
+//! Rules of law checked on an assembly: every rule with its verdict, edits by which the assembly would comply, a study of options for
+//! rules, and the compliance sheet.
 
 mod asked;
 mod rule;
@@ -19,19 +19,19 @@ use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
 use crate::gui::widgets::command;
 
-/// Least width at which the chosen rule stands beside the table.
+/// Least width at which the selected rule is beside the table [points].
 const WIDE: f32 = 820.0;
 
 /// Height of the table's head, and of a row with its spacing.
 const HEAD_HEIGHT: f32 = 30.0;
 const ROW_HEIGHT: f32 = 24.5;
 
-/// What laws ask of an assembly.
+/// The panel of rules.
 #[derive(Debug, Default)]
 pub struct RulesPanel {
-    /// Id of the chosen rule; the first of the table where it is not there.
+    /// Id of the selected rule; the first of the table if it is not in it.
     pub chosen: Option<String>,
-    /// Rules that are compared as options, in the order in which they were chosen.
+    /// Rules that are compared as options, in order of selection.
     pub compared: Vec<String>,
     /// Whether rules that do not apply are listed too.
     pub all: bool,
@@ -45,28 +45,27 @@ impl Panel for RulesPanel {
 
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         asked::show(ui, &mut self.typed, shared);
-        shared.workbench.ask_for_rules();
         ui.separator();
-        let why = &shared.workbench.rules.why;
+        let why = &shared.workbench.rules().why;
         if !why.is_empty() {
             let colour = Theme::palette_of(ui).error;
             ui.add(Label::new(RichText::new(why).color(colour)).wrap());
             return;
         }
-        let Some(answer) = shared.workbench.rules.answer.clone() else {
+        let Some(answer) = shared.workbench.rules().answer.clone() else {
             return widgets::nothing(ui, "Reading the rules …");
         };
         self.head(ui, shared, &answer);
         let rules = listed(&answer, self.all);
         if rules.is_empty() {
-            return widgets::nothing(ui, "No rule applies here and then.");
+            return widgets::nothing(ui, "No rule applies in this area on this date.");
         }
         self.body(ui, shared, &answer, &rules);
     }
 }
 
 impl RulesPanel {
-    /// What came of it in numbers, and what can be done with all of it.
+    /// Draws the counts of verdicts, and actions for all rules.
     fn head(&mut self, ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer) {
         let palette = Theme::palette_of(ui);
         let counts = answer.sheet.counts;
@@ -81,27 +80,27 @@ impl RulesPanel {
                 "{} pass, {} cannot be checked, {} do not apply",
                 counts.pass, counts.cannot_be_checked, counts.not_applicable
             ));
-            ui.checkbox(&mut self.all, "All").on_hover_text("List rules that do not apply too");
+            ui.checkbox(&mut self.all, "All").on_hover_text("Also lists rules that do not apply");
             ui.separator();
-            command(ui, shared, "Take all edits", RuleAction::TakeAll);
+            command(ui, shared, "Apply all edits", RuleAction::TakeAll);
             self.compare(ui, shared, palette);
             sheet(ui, shared, palette);
-            if shared.workbench.rules.busy() {
+            if shared.workbench.rules().busy() {
                 ui.spinner();
             }
         });
     }
 
-    /// The button that makes a study of the rules ticked.
+    /// Draws the button that makes a study of the ticked rules.
     fn compare(&mut self, ui: &mut Ui, shared: &mut Shared, palette: Palette) {
         let ticked = self.compared.len();
         if ticked < 2 {
-            let hint = "Tick two rules or more at the left of the table, such as one insert and two: the study then compares the gear edited for each in the same encounters";
+            let hint = "Tick at least two rules at the left of the table, such as one insert and two inserts. A study then compares gear that complies with each";
             ui.add_enabled(false, egui::Button::new("Compare options …"))
                 .on_disabled_hover_text(hint);
             return;
         }
-        if shared.workbench.rules.comparing() {
+        if shared.workbench.rules().comparing() {
             ui.label(RichText::new("making the study …").color(palette.faint));
             return;
         }
@@ -109,7 +108,7 @@ impl RulesPanel {
         command(ui, shared, &text, RuleAction::Compare(self.compared.clone()));
     }
 
-    /// The table, and the chosen rule beside or below it.
+    /// Draws the table, and the selected rule beside or below it.
     fn body(
         &mut self,
         ui: &mut Ui,
@@ -139,17 +138,17 @@ impl RulesPanel {
     }
 }
 
-/// The button that writes the compliance sheet, and the one that opens the sheet written last and says whether it is outdated.
+/// Draws the buttons that write the compliance sheet and that open the last one, marked if it is outdated.
 fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
-    if shared.workbench.rules.writing() {
-        ui.label(RichText::new("hauling the gear for its sheet …").color(palette.faint));
+    if shared.workbench.rules().writing() {
+        ui.label(RichText::new("simulating the hauling for the sheet …").color(palette.faint));
         return;
     }
     command(ui, shared, "Compliance sheet", RuleAction::Sheet);
-    let Some(page) = shared.workbench.rules.page().map(Path::to_owned) else { return };
+    let Some(page) = shared.workbench.rules().page().map(Path::to_owned) else { return };
     let file = page.display();
     let (text, help) = if shared.workbench.sheet_is_outdated() {
-        let why = "The gear, its place or the rules have changed since this sheet was written. Compliance sheet writes it again.";
+        let why = "The gear, its place or the rules have changed since this sheet was written. Click Compliance sheet to update it.";
         (RichText::new("Open the outdated sheet").color(palette.warning), format!("{why}\n{file}"))
     } else {
         (RichText::new("Open it"), file.to_string())
@@ -159,12 +158,12 @@ fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
     }
 }
 
-/// Rules in the order of the table: what fails first, what does not apply last or not at all.
+/// Rules in the order of the table: failures first, rules that do not apply last or omitted.
 fn listed(answer: &RuleAnswer, all: bool) -> Vec<&RuleResult> {
     let mut order = vec![Verdict::Fail, Verdict::CannotBeChecked, Verdict::Pass];
     order.extend(all.then_some(Verdict::NotApplicable));
     let rules = order.into_iter().flat_map(|verdict| answer.sheet.with(verdict));
-    // Advice stands behind what binds.
+    // Advice comes after law.
     let (mut binding, advice): (Vec<_>, Vec<_>) =
         rules.partition(|rule| rule.binding || rule.verdict != Verdict::Fail);
     let fails = binding.iter().take_while(|rule| rule.verdict == Verdict::Fail).count();
@@ -172,12 +171,12 @@ fn listed(answer: &RuleAnswer, all: bool) -> Vec<&RuleResult> {
     binding
 }
 
-/// A reason as it is told where there are fields above in place of options of a command.
+/// A reason with names of fields instead of options of the command line.
 fn on_screen(why: &str) -> String {
     why.replace("needs --", "needs the ")
 }
 
-/// The colour of a verdict; what fails and does not bind is worth a look.
+/// Colour of a verdict; failed advice is a warning.
 fn colour(rule: &RuleResult, palette: Palette) -> egui::Color32 {
     match (rule.verdict, rule.binding) {
         (Verdict::Pass, _) => palette.good,

@@ -1,4 +1,4 @@
-//! The chosen rule: what it asks and who says so, what was measured, and the edits by which the gear would comply.
+//! The selected rule: its requirement and source, the measured values, and edits by which the gear would comply.
 
 use egui::{Frame, Label, RichText, Stroke, Ui};
 use endline_session::command::RuleAction;
@@ -13,7 +13,7 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::command;
 
-/// Fields shown of an edit.
+/// Maximum number of fields shown of an edit.
 const MOST_FIELDS: usize = 6;
 
 /// Draws a rule.
@@ -35,14 +35,14 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: 
     }
 }
 
-/// The rule's id, whether it binds, since when, and how sure its wording is.
+/// Id of the rule, whether it is binding, its dates, and the reliability of its wording.
 fn standing(rule: &RuleResult) -> String {
-    let binds = if rule.binding { "law" } else { "advice, does not bind" };
+    let binds = if rule.binding { "law" } else { "advice, not binding" };
     let from = rule.from.as_ref().map_or(String::new(), |from| format!(", from {from}"));
     let until = rule.until.as_ref().map_or(String::new(), |until| format!(" to {until}"));
     let sure = match rule.confidence {
-        "measured" => "its source was read",
-        "derived" => "read in a summary",
+        "measured" => "checked with the source",
+        "derived" => "from a summary",
         _ => "from memory, not verified",
     };
     format!("{}: {binds}{from}{until}; {sure}", rule.rule)
@@ -58,7 +58,7 @@ fn measured(ui: &mut Ui, rule: &RuleResult) {
     }
 }
 
-/// The edits that were tried and serve, or why there is none.
+/// Draws the edits by which the gear complies, or why there is none.
 fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResult) {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "To comply");
@@ -74,10 +74,10 @@ fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResul
     };
     let Some(remedy) = remedies.rules.iter().find(|one| one.rule == rule.rule) else { return };
     if rule.verdict == Verdict::CannotBeChecked {
-        let text = "No edit of the assembly answers what is not known.";
+        let text = "The missing information cannot be supplied by an edit of the assembly.";
         ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
     } else if !remedy.why_none.is_empty() {
-        let text = format!("No edit meets it: {}.", on_screen(&remedy.why_none));
+        let text = format!("No edit makes the gear comply: {}.", on_screen(&remedy.why_none));
         ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
     }
     for proposal in &remedy.proposals {
@@ -87,12 +87,12 @@ fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResul
     }
 }
 
-/// The place of a proposal among all.
+/// Index of a proposal among all.
 fn number(remedies: &Remedies, rule: &str, proposal: &Proposal) -> Option<usize> {
     remedies.numbered().position(|(remedy, one)| remedy.rule == rule && one == proposal)
 }
 
-/// An edit with what it changes, passes and breaks, and the button that takes it.
+/// Draws an edit: its changes, the rules it passes and breaks, and the button that applies it.
 fn card(ui: &mut Ui, shared: &mut Shared, number: usize, edit: &Proposal) {
     let palette = Theme::palette_of(ui);
     ui.add_space(4.0);
@@ -116,11 +116,11 @@ fn card(ui: &mut Ui, shared: &mut Shared, number: usize, edit: &Proposal) {
             ui.label(RichText::new(more).small().color(palette.faint));
         }
         outcome(ui, edit);
-        command(ui, shared, "Take this edit", RuleAction::Take(number));
+        command(ui, shared, "Apply this edit", RuleAction::Take(number));
     });
 }
 
-/// What the check says of the edited copy.
+/// Draws the verdicts of the edited copy.
 fn outcome(ui: &mut Ui, edit: &Proposal) {
     let palette = Theme::palette_of(ui);
     let mut say = |text: String, colour| {
@@ -136,7 +136,7 @@ fn outcome(ui: &mut Ui, edit: &Proposal) {
     let share = 100.0 * edit.rope_share;
     let parts = match edit.parts {
         0 => String::new(),
-        parts => format!(", {parts} parts come or go"),
+        parts => format!(", {parts} parts are added or removed"),
     };
     say(format!("{share:.0} % of the rope is replaced{parts}"), palette.faint);
 }

@@ -1,4 +1,4 @@
-//! Every rule as a row: whether it is an option to compare, its verdict, what it asks, and what was measured.
+//! The table of rules: tick for comparison, verdict, requirement, measured value.
 
 use egui::{Align, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -8,14 +8,14 @@ use super::{RulesPanel, colour, on_screen};
 use crate::gui::theme::Theme;
 
 const HEADS: [(&str, &str); 4] = [
-    ("", "Tick two or more to compare them as options of a study"),
-    ("Verdict", "What the rule says of the gear, where and when it is fished"),
-    ("Asks", "What the rule asks for; its citation is shown on hover"),
-    ("Measured", "What was measured beside the limit, or why there is nothing"),
+    ("", "Tick at least two rules to compare them as options of a study"),
+    ("Verdict", "Verdict for this gear, area and date"),
+    ("Requires", "Requirement of the rule, with the citation on hover"),
+    ("Measured", "Measured value and limit, or why there is none"),
 ];
 
 impl RulesPanel {
-    /// Draws the rules; a click chooses one.
+    /// Draws the table; a click selects a rule.
     pub(super) fn table(&mut self, ui: &mut Ui, rules: &[&RuleResult], chosen: usize) {
         let measured = (0.27 * ui.available_width()).clamp(130.0, 300.0);
         let table = TableBuilder::new(ui)
@@ -82,20 +82,20 @@ fn cells(line: &mut TableRow<'_, '_>, rule: &RuleResult) {
     line.col(|ui| drop(ui.add(Label::new(&rule.asks).selectable(false).truncate())));
     line.col(|ui| {
         let palette = Theme::palette_of(ui);
-        let text = told(rule);
+        let text = comparison(rule);
         let colour = if rule.measured.is_empty() { palette.faint } else { palette.text };
         ui.add(Label::new(RichText::new(text).color(colour)).selectable(false).truncate());
     });
 }
 
-/// The comparison that decided, or why there is none.
-fn told(rule: &RuleResult) -> String {
+/// The decisive comparison, or why there is none.
+fn comparison(rule: &RuleResult) -> String {
     let wanted = rule.verdict == Verdict::Pass;
     let decides = rule.measured.iter().find(|one| one.holds == wanted).or(rule.measured.first());
     decides.map_or_else(|| on_screen(&rule.why), |one| compared(&one.says))
 }
 
-/// A comparison with its signs as they are printed.
+/// A comparison with mathematical signs.
 pub(super) fn compared(says: &str) -> String {
     says.replace("<=", "≤").replace(">=", "≥").replace("==", "=")
 }

@@ -1,7 +1,6 @@
 //! The scenario of a run as a form: gear, sea, whale, friction, weak links, run.
 
 mod attributes;
-mod friction;
 mod links;
 
 use crate::gui::command::action::{PanelAction, ViewAction};
@@ -153,7 +152,7 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
         shared.give(PanelAction::Show(PanelId::VIEW));
         shared.give(ViewAction::Pose);
     }
-    friction::show(ui, shared, edits);
+    attributes::show_friction(ui, shared, edits);
 }
 
 /// Draws animal, state and motion.
@@ -291,7 +290,7 @@ fn rows(ui: &mut Ui, shared: &Shared, id: &str, rows: &[Row<'_>], edits: &mut Ve
 
 /// Draws the problem of a field, in its text or in the last model.
 fn problem(ui: &mut Ui, shared: &Shared, field: &str) {
-    if let Some(problem) = shared.workbench.project.problem_at(Documents::SCENARIO, field) {
+    if let Some(problem) = shared.workbench.project().problem_at(Documents::SCENARIO, field) {
         let error = RichText::new(message(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
     }

@@ -1,9 +1,7 @@
 //! The search for a real case: an observation as a form on the body map of the whale, and the progress of the search.
 
-mod about;
 mod body;
-mod part;
-mod rope;
+mod form;
 mod run;
 
 use std::path::{Path, PathBuf};
@@ -35,7 +33,7 @@ pub struct SearchPanel {
     map: body::Map,
     /// Observations of the library, by file and name, while the list of them is open.
     listed: Option<Vec<(PathBuf, String)>>,
-    text: about::Typed,
+    text: form::Typed,
 }
 
 impl Default for SearchPanel {
@@ -45,7 +43,7 @@ impl Default for SearchPanel {
             of: None,
             map: body::Map::default(),
             listed: None,
-            text: about::Typed::default(),
+            text: form::Typed::default(),
         }
     }
 }
@@ -70,9 +68,9 @@ impl Panel for SearchPanel {
         ScrollArea::vertical().id_salt("observation").auto_shrink(false).show(ui, |ui| {
             let mut edits = Edits::new();
             body::show(ui, self, shared);
-            part::show(ui, self.chosen, shared, &mut edits);
-            rope::show(ui, shared, &mut edits);
-            about::show(ui, &mut self.text, shared, &mut edits);
+            form::show_part(ui, self.chosen, shared, &mut edits);
+            form::show_rope(ui, shared, &mut edits);
+            form::show_case(ui, &mut self.text, shared, &mut edits);
             problems(ui, shared);
             apply(shared, edits);
         });

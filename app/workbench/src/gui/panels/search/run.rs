@@ -18,7 +18,7 @@ use crate::gui::widgets::words::time_left;
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     start(ui, shared);
     effort(ui, shared);
-    let Some(job) = &shared.workbench.searches.job else { return };
+    let Some(job) = &shared.workbench.searches().job else { return };
     let (state, found) = (job.state(), job.found());
     let stale = shared.workbench.stories_are_of_another();
     if job.is_unfinished() {
@@ -36,10 +36,10 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the buttons that start, pause and cancel the search.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let searches = &shared.workbench.searches;
+        let searches = &shared.workbench.searches();
         let at_work = searches.at_work().map(SearchJob::state);
         let trials = searches.job.as_ref().map_or(0, |job| job.found().trials);
-        let at_most = searches.trials;
+        let at_most = searches.effort.trials;
         let continues = trials > 0 && !shared.workbench.stories_are_of_another();
         if let Some(state) = at_work {
             let words = if state == State::Paused { "Resume" } else { "Pause" };
@@ -69,23 +69,27 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the limits of the search.
 fn effort(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    let searches = &mut shared.workbench.searches;
+    let now = shared.workbench.searches().effort;
+    let mut effort = now;
     ui.horizontal_wrapped(|ui| {
         let label = |ui: &mut Ui, words: &str| ui.label(RichText::new(words).color(faint));
         let most = std::thread::available_parallelism().map_or(1, usize::from);
         label(ui, "Runs");
-        ui.add(DragValue::new(&mut searches.trials).range(32..=1_000_000).speed(8))
+        ui.add(DragValue::new(&mut effort.trials).range(32..=1_000_000).speed(8))
             .on_hover_text("Maximum number of runs; increase it to continue");
         label(ui, "threads");
-        ui.add(DragValue::new(&mut searches.threads).range(1..=most).speed(0.05))
+        ui.add(DragValue::new(&mut effort.threads).range(1..=most).speed(0.05))
             .on_hover_text("Simultaneous runs");
         label(ui, "neighbours");
-        ui.add(DragValue::new(&mut searches.neighbours).range(0..=200).speed(0.1)).on_hover_text(
+        ui.add(DragValue::new(&mut effort.neighbours).range(0..=200).speed(0.1)).on_hover_text(
             "Slightly varied runs for each matching story, which show whether it depends on chance",
         );
         let help = "Runs at normal priority instead of low; the window may respond more slowly";
-        ui.checkbox(&mut searches.normal_priority, "Full speed").on_hover_text(help);
+        ui.checkbox(&mut effort.normal_priority, "Full speed").on_hover_text(help);
     });
+    if effort != now {
+        shared.perform(SearchAction::Effort(effort));
+    }
 }
 
 fn progress(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound) {

@@ -1,26 +1,25 @@
 //! The start page: three purposes, recent files, and all items of the library, with a search.
 
-mod doors;
-mod item;
-mod sketch;
-
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::{
-    Align, CollapsingHeader, Label, Layout as Flow, RichText, ScrollArea, Sense, TextEdit, Ui, vec2,
+    Align, CollapsingHeader, Frame, Label, Layout as Flow, RichText, ScrollArea, Sense, TextEdit,
+    Ui, vec2,
 };
 use endline_session::command::{EditAction, SearchAction, StudyAction};
 use endline_session::units::Units;
+use item::{Group, Item, What};
 
-use crate::gui::command::action::PanelAction;
-use crate::gui::files;
+use crate::gui::command::action::{FlightAction, PanelAction, WindowAction};
 use crate::gui::layout::Layout;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets;
-use item::{Group, Item, What};
+use crate::gui::{files, widgets};
+
+mod item;
+mod sketch;
 
 /// Width of a column of items [points].
 const COLUMN: f32 = 400.0;
@@ -53,7 +52,7 @@ impl Panel for StartPanel {
         let items = self.items.as_ref().map_or(&[][..], |(_, items)| items);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             head(ui, shared);
-            doors::show(ui, shared, &root);
+            purposes(ui, shared, &root);
             recent(ui, shared);
             ui.add_space(10.0);
             let hint = "Search scenarios, studies and cases";
@@ -68,17 +67,25 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     ui.label("Fishing gear, and whales that get out of it alive.");
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
+        let now = shared.workbench.preferences().units;
         for units in Units::ALL {
-            ui.radio_value(&mut shared.workbench.preferences.units, units, units.name())
-                .on_hover_text(units.help());
+            if ui.radio(units == now, units.name()).on_hover_text(units.help()).clicked() {
+                shared.give(WindowAction::Units(units));
+            }
         }
     });
     ui.add_space(6.0);
 }
 
 fn recent(ui: &mut Ui, shared: &mut Shared) {
-    let recent: Vec<PathBuf> =
-        shared.workbench.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+    let recent: Vec<PathBuf> = shared
+        .workbench
+        .preferences()
+        .recent
+        .iter()
+        .filter(|path| path.exists())
+        .cloned()
+        .collect();
     if recent.is_empty() {
         return;
     }
@@ -165,4 +172,106 @@ fn card(ui: &mut Ui, shared: &mut Shared, item: &Item) {
             ui.add(Label::new(notes).wrap()).on_hover_text(&item.notes);
         });
     });
+}
+
+/// Least width of a purpose [points].
+const WIDTH: f32 = 250.0;
+
+type Action = fn(&mut Shared, &Path);
+
+/// A purpose: title, description, and buttons with their actions.
+struct Purpose {
+    title: &'static str,
+    description: &'static str,
+    buttons: &'static [(&'static str, Action)],
+}
+
+const PURPOSES: [Purpose; 3] = [
+    Purpose {
+        title: "Design gear",
+        description: "Edit traps, ropes, buoys and weak links; see the gear at slack and running tide; let a whale meet it.",
+        buttons: &[
+            ("Single trap", |shared, root| design(shared, root, "hello-endline")),
+            ("Trawl of ten", |shared, root| design(shared, root, "trawl-10")),
+            ("On demand", |shared, root| design(shared, root, "on-demand-release")),
+            ("Gillnet", |shared, root| design(shared, root, "gillnet")),
+        ],
+    },
+    Purpose {
+        title: "Compare for a rule",
+        description: "Compare options on the same encounters, with confidence intervals and a report; check the rules that apply to gear, with a compliance sheet.",
+        buttons: &[
+            ("Weak links", |shared, root| open_study(shared, root, "weak-links")),
+            ("Kinds of gear", |shared, root| open_study(shared, root, "gear-types")),
+            ("Check the rules", |shared, _| {
+                shared.give(PanelAction::Arrange(Layout::Design));
+                shared.give(PanelAction::Show(PanelId::RULES));
+            }),
+        ],
+    },
+    Purpose {
+        title: "Fly, or explain a case",
+        description: "Steer a whale by pad or keys; replay real cases; record an observation on a whale and search for encounters that end like it.",
+        buttons: &[
+            ("Fly a whale", |shared, root| {
+                open_scenario(shared, root, "hello-endline");
+                shared.give(PanelAction::Arrange(Layout::Fly));
+                shared.give(FlightAction::Toggle);
+            }),
+            ("Case E25-05", |shared, root| open_scenario(shared, root, "case-e25-05-roll")),
+            ("Describe a whale", |shared, _| {
+                shared.give(SearchAction::New);
+                shared.give(PanelAction::Arrange(Layout::Search));
+            }),
+        ],
+    },
+];
+
+/// Draws the purposes, side by side if there is room.
+fn purposes(ui: &mut Ui, shared: &mut Shared, root: &Path) {
+    let columns = ((ui.available_width() / WIDTH) as usize).clamp(1, PURPOSES.len());
+    for row in PURPOSES.chunks(columns) {
+        ui.columns(columns, |columns| {
+            for (ui, purpose) in columns.iter_mut().zip(row) {
+                ui.with_layout(Flow::top_down(Align::Min), |ui| {
+                    purpose_card(ui, shared, root, purpose)
+                });
+            }
+        });
+    }
+}
+
+fn purpose_card(ui: &mut Ui, shared: &mut Shared, root: &Path, purpose: &Purpose) {
+    let palette = Theme::palette_of(ui);
+    Frame::group(ui.style()).fill(palette.field).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.set_min_height(112.0);
+        ui.label(RichText::new(purpose.title).size(16.0).strong());
+        ui.label(RichText::new(purpose.description).color(palette.faint));
+        ui.add_space(4.0);
+        ui.horizontal_wrapped(|ui| {
+            for (label, action) in purpose.buttons {
+                if ui.button(*label).clicked() {
+                    action(shared, root);
+                }
+            }
+        });
+    });
+}
+
+fn scenario(root: &Path, id: &str) -> PathBuf {
+    root.join(format!("scenarios/{id}.toml"))
+}
+
+fn open_scenario(shared: &mut Shared, root: &Path, id: &str) {
+    open(shared, What::Scenario, &scenario(root, id));
+}
+
+fn design(shared: &mut Shared, root: &Path, id: &str) {
+    open_scenario(shared, root, id);
+    shared.give(PanelAction::Arrange(Layout::Design));
+}
+
+fn open_study(shared: &mut Shared, root: &Path, id: &str) {
+    open(shared, What::Study, &root.join(format!("studies/{id}.toml")));
 }

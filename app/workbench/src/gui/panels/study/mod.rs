@@ -3,7 +3,6 @@
 mod options;
 mod priors;
 mod queue;
-mod settable;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command;
@@ -111,8 +110,7 @@ fn pick(ui: &mut Ui, shared: &mut Shared) {
 /// Draws the buttons that run the study and open results.
 fn start(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    shared.workbench.check_study();
-    let ready = shared.workbench.study_is_sound() && shared.workbench.studies.check.is_clean();
+    let ready = shared.workbench.study_is_sound() && shared.workbench.studies().check.is_clean();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
             .on_hover_text("Runs the missing encounters at low priority. Saves no file; a cancelled study continues when it is run again")
@@ -123,7 +121,10 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
         command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
         command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
         let help = "Runs at normal priority instead of low; the window may respond more slowly";
-        ui.checkbox(&mut shared.workbench.studies.queue.normal_priority, "Full speed").on_hover_text(help);
+        let mut full_speed = shared.workbench.studies().queue.normal_priority;
+        if ui.checkbox(&mut full_speed, "Full speed").on_hover_text(help).changed() {
+            shared.perform(StudyAction::FullSpeed(full_speed));
+        }
         if !ready {
             ui.label(RichText::new("has errors: see below or in Problems").color(faint));
         }
@@ -134,7 +135,7 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Question");
     text(ui, shared, "Name", "name", "Shown in the report");
     text(ui, shared, "Notes", "notes", "Purpose of the study, shown below the name in the report");
-    let scenarios = shared.workbench.studies.scenarios.iter();
+    let scenarios = shared.workbench.studies().scenarios.iter();
     let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
     choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);
     design(ui, shared);
@@ -185,7 +186,7 @@ fn text(ui: &mut Ui, shared: &mut Shared, name: &str, field: &str, help: &str) {
             width,
             Said { hint: "", help },
         ) {
-            shared.workbench.set(Documents::STUDY, field, &typed);
+            shared.set(Documents::STUDY, field, &typed);
         }
     });
 }
@@ -283,7 +284,7 @@ fn problems(ui: &mut Ui, shared: &Shared) {
         .filter(|problem| problem.file == file)
         .cloned()
         .collect();
-    let check = &shared.workbench.studies.check;
+    let check = &shared.workbench.studies().check;
     for problem in own.iter().chain(check.problems()) {
         widgets::problem(ui, problem);
     }

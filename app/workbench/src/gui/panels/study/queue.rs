@@ -13,42 +13,22 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::time_left;
 
-/// An action on a job.
-#[derive(Clone, Copy)]
-enum Act {
-    Pause,
-    Resume,
-    Cancel,
-    Forget,
-}
-
 /// Draws the queue.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
-    let mut act = None;
-    let mut wanted = None;
-    for (index, job) in shared.workbench.studies.queue.jobs.iter().enumerate() {
+    let mut actions = Vec::new();
+    for job in &shared.workbench.studies().queue.jobs {
         ui.add_space(3.0);
-        if let Some(done) = row(ui, job, &mut wanted) {
-            act = Some((index, done));
-        }
+        row(ui, job, &mut actions);
     }
-    if shared.workbench.studies.queue.jobs.iter().any(Job::at_work) {
+    if shared.workbench.studies().queue.jobs.iter().any(Job::at_work) {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
     }
-    match act {
-        Some((index, Act::Pause)) => shared.workbench.studies.queue.jobs[index].pause(),
-        Some((index, Act::Resume)) => shared.workbench.studies.queue.jobs[index].resume(),
-        Some((index, Act::Cancel)) => shared.workbench.studies.queue.jobs[index].cancel(),
-        Some((index, Act::Forget)) => drop(shared.workbench.studies.queue.jobs.remove(index)),
-        None => {}
-    }
+    actions.into_iter().for_each(|action| shared.give(action));
     ready(ui, shared);
-    shared.commands.extend(wanted.map(|chosen| StudyAction::ShowResults(chosen).into()));
 }
 
-fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act> {
+fn row(ui: &mut Ui, job: &StudyJob, actions: &mut Vec<StudyAction>) {
     let (state, progress, palette) = (job.state(), job.progress(), Theme::palette_of(ui));
-    let mut act = None;
     ui.horizontal(|ui| {
         ui.add(egui::Label::new(&job.request.name).truncate())
             .on_hover_text(job.request.file.display().to_string());
@@ -86,37 +66,42 @@ fn row(ui: &mut Ui, job: &StudyJob, wanted: &mut Option<PathBuf>) -> Option<Act>
             ui.add(ProgressBar::new(progress.share()).desired_width(170.0).text(text));
         }
         match state {
-            State::Running | State::Opening => act = button(ui, "Pause", Act::Pause).or(act),
-            State::Paused => act = button(ui, "Resume", Act::Resume).or(act),
+            State::Running | State::Opening => {
+                button(ui, "Pause", StudyAction::PauseJob(job.request.file.clone()), actions)
+            }
+            State::Paused => {
+                button(ui, "Resume", StudyAction::PauseJob(job.request.file.clone()), actions)
+            }
             _ => {}
         }
         if job.is_unfinished() {
-            act = button(ui, "Cancel", Act::Cancel).or(act);
+            button(ui, "Cancel", StudyAction::CancelJob(job.request.file.clone()), actions);
         } else {
-            act = button(ui, "✖", Act::Forget).or(act);
+            button(ui, "✖", StudyAction::ForgetJob(job.request.file.clone()), actions);
         }
         if progress.blocks.done > 0
             && let Some(folder) = job.folder()
             && ui.small_button("Results").clicked()
         {
-            *wanted = Some(folder);
+            actions.push(StudyAction::ShowResults(folder));
         }
         let full = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
         ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(full);
     });
-    act
 }
 
-fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
-    ui.small_button(text).clicked().then_some(act)
+fn button(ui: &mut Ui, text: &str, action: StudyAction, actions: &mut Vec<StudyAction>) {
+    if ui.small_button(text).clicked() {
+        actions.push(action);
+    }
 }
 
 /// Draws the list of results of earlier studies.
 fn ready(ui: &mut Ui, shared: &mut Shared) {
-    let root = shared.workbench.studies.root();
+    let root = shared.workbench.studies().root();
     let id = egui::Id::new("ready studies");
     let count =
-        shared.workbench.studies.queue.jobs.iter().filter(|job| !job.is_unfinished()).count();
+        shared.workbench.studies().queue.jobs.iter().filter(|job| !job.is_unfinished()).count();
     let known = ui
         .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
         .filter(|(seen, _)| *seen == count);

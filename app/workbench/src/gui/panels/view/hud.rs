@@ -23,7 +23,6 @@ fn attitude(orientation: DQuat) -> (f64, f64) {
 }
 
 /// Name and value of each reading.
-#[must_use]
 pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
     let Some(whale) = &view.frame.whale else { return Vec::new() };
     let ahead = whale.orientation * DVec3::X;
@@ -53,7 +52,6 @@ fn with_side(degrees: f64, [none, below, above]: [&str; 3]) -> String {
 }
 
 /// Id of the line with the greatest tension now, and the tension [N].
-#[must_use]
 pub fn greatest(view: &LiveView) -> (&str, f64) {
     let segments = view.frame.tension_n.iter().copied().enumerate();
     let most =
@@ -66,7 +64,6 @@ pub fn greatest(view: &LiveView) -> (&str, f64) {
 }
 
 /// Force of rope on each body part now, largest first, in one line; empty without contact.
-#[must_use]
 pub fn rope_forces(view: &LiveView, units: Units) -> String {
     let mut forces = BodyPart::ALL.map(|part| (part, 0.0));
     for contact in &view.frame.contacts {
@@ -81,7 +78,6 @@ pub fn rope_forces(view: &LiveView, units: Units) -> String {
 }
 
 /// Hint while the run does not advance, when steering has no effect; empty while it runs.
-#[must_use]
 pub fn waiting(view: &LiveView) -> &'static str {
     match view.status {
         Status::Running => "",
@@ -93,7 +89,6 @@ pub fn waiting(view: &LiveView) -> &'static str {
 }
 
 /// Controls of mouth, flippers and acts in one line; `act` is the name of the selected act.
-#[must_use]
 pub fn controls_text(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
     match hands {
         Hands::On => {}

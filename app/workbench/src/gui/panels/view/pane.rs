@@ -76,7 +76,7 @@ pub(super) fn show(
     paint(ui, panel, shared, pane, &look.camera);
     paint_over(ui, panel, shared, view, pane, &look.camera);
     if look.response.hovered() {
-        let units = shared.workbench.preferences.units;
+        let units = shared.workbench.preferences().units;
         picking::glance(ui, &panel.picks, &look.response, view, units);
     }
     if pane.run == 0 {
@@ -126,7 +126,7 @@ fn paint_over(
             time_s: view.frame.time_s,
             scale_n,
             metres_a_point,
-            units: shared.workbench.preferences.units,
+            units: shared.workbench.preferences().units,
         },
     );
     picking::paint_marks(
@@ -135,7 +135,7 @@ fn paint_over(
         pane,
         camera,
         view,
-        shared.workbench.preferences.units,
+        shared.workbench.preferences().units,
     );
     if several && slot == panel.chosen {
         painter.rect_stroke(
@@ -157,7 +157,7 @@ fn paint_over(
             &painter,
             rect,
             view,
-            shared.workbench.preferences.units,
+            shared.workbench.preferences().units,
             &(hud::waiting(view).to_owned()
                 + &hud::controls_text(&view.controls, act, shared.pilot.hands())),
         );
@@ -178,7 +178,7 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     };
     let greatest_n = if panel.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
     let arrows = if greatest_n > 0.0 {
-        format!("longest arrow {}", shared.workbench.preferences.units.force().text(greatest_n))
+        format!("longest arrow {}", shared.workbench.preferences().units.force().text(greatest_n))
     } else {
         String::new()
     };

@@ -57,7 +57,6 @@ impl Picks {
     }
 
     /// Whether a reading or the ruler is shown.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.read.is_some() || self.ruler
     }
@@ -114,7 +113,7 @@ pub(super) fn show_cards(
     view: &LiveView,
     rect: Rect,
 ) -> Vec<Rect> {
-    let units = shared.workbench.preferences.units;
+    let units = shared.workbench.preferences().units;
     let readings =
         [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
     let mut place = Rect::from_min_size(

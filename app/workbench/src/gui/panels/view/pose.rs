@@ -45,7 +45,6 @@ pub enum Handle {
 
 impl Start {
     /// Reads the start from the scenario; `None` if it has no whale or a value is invalid.
-    #[must_use]
     pub fn of(documents: &Documents) -> Option<Self> {
         let field = |key: &str| documents.field(Documents::SCENARIO, &format!("whale.{key}"));
         let read = |key: &str, quantity| field(key).and_then(|text| parse(&text, quantity).ok());
@@ -63,9 +62,6 @@ impl Start {
     }
 
     /// Writes the start to the scenario, keeping the unit of each value.
-    ///
-    /// # Errors
-    /// Where the scenario has no whale.
     pub fn write(&self, document: &mut Document) -> Result<(), String> {
         let message = |error: endline_gear::EditError| error.to_string();
         let places = [self.place.x, self.place.y].into_iter().enumerate();
@@ -88,7 +84,6 @@ impl Start {
     }
 
     /// Position of a handle.
-    #[must_use]
     pub fn handle(&self, handle: Handle) -> DVec3 {
         match handle {
             Handle::Place => self.place,
@@ -98,7 +93,6 @@ impl Start {
     }
 
     /// Returns the start after a handle was dragged to a ray from the eye.
-    #[must_use]
     pub fn dragged(self, handle: Handle, eye: DVec3, along: DVec3, right: DVec3) -> Self {
         match handle {
             Handle::Place => Self { place: horizontally(self.place, eye, along, right), ..self },
@@ -191,7 +185,7 @@ pub(super) fn show(
         sheet.handle(handle, at, active);
         if active {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
-            sheet.label_start(&start, at, shared.workbench.preferences.units);
+            sheet.label_start(&start, at, shared.workbench.preferences().units);
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
@@ -208,13 +202,7 @@ pub(super) fn show(
 
 /// Writes the start as one edit; applies it immediately if the run has not started.
 fn write_start(shared: &mut Shared, start: &Start) {
-    if let Err(error) = shared
-        .workbench
-        .project
-        .documents
-        .alter(Documents::SCENARIO, |document| start.write(document))
-    {
-        shared.fault(error);
+    if !shared.alter(Documents::SCENARIO, |document| start.write(document)) {
         return;
     }
     if shared.workbench.view().is_some_and(|view| view.newest_s <= 0.0) {

@@ -197,7 +197,6 @@ impl Drawn {
 }
 
 /// Tension at the top of the colour scale [N].
-#[must_use]
 pub fn scale_top(view: &LiveView, top: ScaleTop) -> f64 {
     let peak = || {
         view.summary
@@ -227,9 +226,6 @@ const PICTURE_SIZE: [u32; 2] = [1920, 1080];
 
 impl ViewPanel {
     /// Starts a film of the run, as the active pane shows it.
-    ///
-    /// # Errors
-    /// Without a run, while another film is made, or where the file cannot be begun.
     pub fn film(&mut self, shared: &mut Shared, out: PathBuf) -> Result<FilmJob, String> {
         if shared.film.is_some() {
             return Err("a film is in progress; wait for it or cancel it".to_owned());
@@ -243,23 +239,20 @@ impl ViewPanel {
             show: self.show,
             water: water(shared),
             caption: caption(shared),
-            units: shared.workbench.preferences.units,
+            units: shared.workbench.preferences().units,
             out,
         };
         FilmJob::begin(order, shared.workbench.helpers().1)
     }
 
     /// Saves the active pane as a PNG, drawn again at full size.
-    ///
-    /// # Errors
-    /// Without a run or OpenGL, or where the file cannot be written.
     pub fn save_picture(&mut self, shared: &Shared, file: &Path) -> Result<(), String> {
         let view = shared.workbench.view().ok_or("there is no run to draw")?;
         let (model, frame) = (Arc::clone(&view.model), Arc::clone(&view.frame));
         let show = Show { scale_n: Some(self.scale_n), ..self.show };
         let camera = self.eye().camera.clone();
         let (water, caption) = (water(shared), caption(shared));
-        let (units, file) = (shared.workbench.preferences.units, PathBuf::from(file));
+        let (units, file) = (shared.workbench.preferences().units, PathBuf::from(file));
         // On a separate thread, because the OpenGL of the window is current on this one.
         let drawing = std::thread::spawn(move || {
             let request = RenderRequest {

@@ -1,0 +1,193 @@
+//! The pilot program: controls that change at set times or on events.
+//!
+//! ```text
+//! v_0 = 0,  v_k = v_(k-1) + w_k (c_k - v_(k-1))     over the entries in the order in which they began
+//! w = min((t - b)/r, 1)                             during the duration, from the start b over the ramp r
+//! w = max(min(h/r, 1) - (t - b - h)/r, 0)           after the duration h
+//! ```
+//!
+//! for each control with the value `c_k` in entry `k`; times in seconds. An entry does not affect controls that it does not
+//! name. A ramp of zero is a jump; an infinite duration never ends. Acts are not blended: the act is that of the entry from `b`
+//! to `b + h`.
+//!
+//! The program is pure: the observations of its triggers and the start times of its entries are part of the [`State`], updated
+//! at the end of each step, so that a run continues identically from a snapshot. It chooses inputs only, and these are
+//! recorded.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use endline_sdk::Controls;
+use glam::DVec3;
+
+use crate::geometry::distance::segment_segment;
+use crate::model::{Model, PilotEntry, PilotProgram, Target, Trigger};
+use crate::state::{Begun, PilotMemory, Seen, State, WhaleState};
+
+/// Tolerance of time comparisons: 0.3 s includes the step at 0.29999999999999999 [s].
+const GRACE_S: f64 = 1e-7;
+
+impl PilotProgram {
+    /// Controls for the step that starts from a state.
+    pub fn at(&self, state: &State) -> Controls {
+        let mut controls = [0.0; Controls::COUNT];
+        for begun in &state.pilot.begun {
+            let Some(entry) = self.entries.get(begun.entry) else { continue };
+            let weight = entry.weight(state.time_s - begun.at_s);
+            let held = state.time_s - begun.at_s < entry.hold_s - GRACE_S;
+            for (index, (control, wanted)) in controls.iter_mut().zip(entry.controls).enumerate() {
+                let Some(wanted) = wanted else { continue };
+                // A weight of 1 gives the exact value of the entry.
+                match if index == Controls::ACT { f64::from(u8::from(held)) } else { weight } {
+                    1.0 => *control = wanted,
+                    weight => *control += weight * (wanted - *control),
+                }
+            }
+        }
+        Controls::from_array(controls)
+    }
+}
+
+impl PilotEntry {
+    /// Weight of its controls at a time after its start.
+    fn weight(&self, since_s: f64) -> f64 {
+        let ramped =
+            |time_s: f64| if time_s < self.ramp_s { (time_s / self.ramp_s).max(0.0) } else { 1.0 };
+        let over_s = since_s - self.hold_s;
+        if over_s < -GRACE_S {
+            ramped(since_s)
+        } else if over_s < self.ramp_s {
+            (ramped(self.hold_s) - over_s / self.ramp_s).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Initialises the progress of a model's program at a state.
+pub(crate) fn begin(model: &Model, state: &mut State) {
+    let entries = model.spec.whale.as_ref().map_or(0, |whale| whale.pilot.entries.len());
+    state.pilot =
+        PilotMemory { seen: vec![Seen::default(); entries], begun: Vec::with_capacity(entries) };
+    poll(model, state);
+}
+
+/// Evaluates triggers at a new state and starts entries.
+pub(crate) fn poll(model: &Model, state: &mut State) {
+    let Some(whale) = &model.spec.whale else { return };
+    let mut memory = std::mem::take(&mut state.pilot);
+    debug_assert_eq!(memory.seen.len(), whale.pilot.entries.len(), "one observation per entry");
+    let known = memory.begun.len();
+    for (index, entry) in whale.pilot.entries.iter().enumerate() {
+        let Some(seen) = memory.seen.get(index).copied().filter(|seen| !seen.begun) else {
+            continue;
+        };
+        let mut seen = match entry.trigger {
+            Trigger::After(other) => Seen { met_s: began_s(&memory, other), ..seen },
+            _ => observe(model, state, &entry.trigger, seen),
+        };
+        let begins_s = seen.met_s.map(|met_s| met_s + entry.delay_s);
+        if let Some(at_s) = begins_s.filter(|at_s| *at_s <= state.time_s + GRACE_S) {
+            seen.begun = true;
+            memory.begun.push(Begun { entry: index, at_s });
+        }
+        memory.seen[index] = seen;
+    }
+    memory.begun[known..].sort_unstable_by(|one, other| {
+        one.at_s.total_cmp(&other.at_s).then(one.entry.cmp(&other.entry))
+    });
+    state.pilot = memory;
+}
+
+/// Start of an entry [s].
+fn began_s(memory: &PilotMemory, entry: usize) -> Option<f64> {
+    if !memory.seen.get(entry)?.begun {
+        return None;
+    }
+    memory.begun.iter().find(|begun| begun.entry == entry).map(|begun| begun.at_s)
+}
+
+/// Updates the observation of a trigger with this state.
+fn observe(model: &Model, state: &State, trigger: &Trigger, before: Seen) -> Seen {
+    let (Some(spec), Some(whale)) = (&model.spec.whale, &state.whale) else { return before };
+    if before.met_s.is_some() {
+        return before;
+    }
+    let now = state.time_s;
+    match trigger {
+        Trigger::Time(time_s) => Seen { met_s: Some(*time_s), ..before },
+        Trigger::Touch(part) => {
+            let touched = |force: &f64| *force > 0.0;
+            let met = match part {
+                Some(part) => touched(&whale.contact_force_n[*part as usize]),
+                None => whale.contact_force_n.iter().any(touched),
+            };
+            Seen { met_s: met.then_some(now), ..before }
+        }
+        Trigger::Within(distance_m, target) => {
+            let met = is_within(model, state, axis(whale, spec.length_m), *distance_m, target);
+            Seen { met_s: met.then_some(now), ..before }
+        }
+        Trigger::Depth(depth_m) => {
+            crossing(before, -whale.position.z - depth_m, f64::INFINITY, now)
+        }
+        Trigger::Heading(bearing_rad) => {
+            crossing(before, turn(bearing(whale) - bearing_rad), FRAC_PI_2, now)
+        }
+        Trigger::After(_) => before,
+    }
+}
+
+/// Updates an observation of a crossing: a difference that is zero or has changed sign since the last evaluation, with both
+/// values below `most` (a heading also changes sign behind the whale).
+fn crossing(before: Seen, difference: f64, most: f64, now: f64) -> Seen {
+    let near = |difference: f64| difference.abs() < most;
+    let crossed = before
+        .last
+        .is_some_and(|last| (last < 0.0) != (difference < 0.0) && near(last) && near(difference));
+    Seen { met_s: (crossed || difference == 0.0).then_some(now), last: Some(difference), ..before }
+}
+
+/// Compass bearing of the whale's x axis [rad].
+fn bearing(whale: &WhaleState) -> f64 {
+    let ahead = whale.orientation * DVec3::X;
+    libm::atan2(ahead.x, ahead.y)
+}
+
+/// An angle reduced to the range from -π to π [rad].
+fn turn(angle: f64) -> f64 {
+    angle - TAU * ((angle + PI) / TAU).floor()
+}
+
+/// Line from snout to fluke notch of the straight whale [m].
+fn axis(whale: &WhaleState, length_m: f64) -> [DVec3; 2] {
+    let half = whale.orientation * DVec3::new(0.5 * length_m, 0.0, 0.0);
+    [whale.position + half, whale.position - half]
+}
+
+/// Whether a target is within a distance of the axis.
+fn is_within(
+    model: &Model,
+    state: &State,
+    axis: [DVec3; 2],
+    distance_m: f64,
+    target: &Target,
+) -> bool {
+    let near = |other: [DVec3; 2]| {
+        let (s, t) = segment_segment(axis, other);
+        axis[0].lerp(axis[1], s).distance_squared(other[0].lerp(other[1], t))
+            <= distance_m * distance_m
+    };
+    let line = |line: usize| {
+        let (nodes, segments) = (model.line_nodes[line].clone(), model.line_segments[line].clone());
+        let pairs = state.rope.position[nodes].windows(2).zip(&state.rope.cut[segments]);
+        pairs.into_iter().any(|(ends, cut)| !cut && near([ends[0], ends[1]]))
+    };
+    match target {
+        Target::AnyLine => (0..model.spec.lines.len()).any(line),
+        Target::Lines(lines) => lines.clone().any(line),
+        Target::Body(body) => state.bodies.get(*body).is_some_and(|body| near([body.position; 2])),
+        Target::Joint(joint) => {
+            state.joint_place(model, *joint).is_some_and(|place| near([place; 2]))
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! Comparisons of a study: claims (one rate is greater than another), shares observed on real whales, and the effect of
+//! finer segments and steps found by another study.
+
+use crate::diagnostic::At;
+use crate::fields::{Fields, Problems, Range};
+use crate::limits;
+use crate::tree::{Content, Node};
+use crate::units::Quantity;
+
+use super::event::{self, StudyEvent};
+use super::option::{StudyOption, check_known, texts};
+
+/// A statement with a sign.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Id.
+    pub id: At<String>,
+    /// The statement in words.
+    pub says: String,
+    /// Its source.
+    pub source: String,
+    /// Event with the greater rate.
+    pub event: StudyEvent,
+    /// Pooled options of the greater rate.
+    pub more: Vec<String>,
+    /// Event with the smaller rate, usually the same one.
+    pub less_event: StudyEvent,
+    /// Pooled options of the smaller rate.
+    pub less: Vec<String>,
+}
+
+/// Reads `[[claim]]`, sorted by id.
+pub(super) fn read_claims(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Claim> {
+    let mut claims: Vec<Claim> = fields
+        .tables("claim")
+        .iter()
+        .filter_map(|node| read_claim(node, options, fields.problems()))
+        .collect();
+    claims.sort_by(|one, other| one.id.value.cmp(&other.id.value));
+    claims
+}
+
+fn read_claim(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Claim> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_id("id", "write an id such as \"slack-mouth\"");
+    let says = fields.need_text("says", "write the statement in words");
+    let source = fields.need_text("source", "name the source of the statement");
+    let event = event::need(&fields, "event");
+    let less_event = event::maybe(&fields, "less_event");
+    let more = known_options(&fields, "more", options);
+    let less = known_options(&fields, "less", options);
+    fields.finish();
+    let event = event?;
+    Some(Claim {
+        id: id?,
+        says: says?.value,
+        source: source?.value,
+        less_event: less_event.unwrap_or_else(|| event.clone()),
+        event,
+        more: more?,
+        less: less?,
+    })
+}
+
+/// Options by id, at least one.
+fn known_options(
+    fields: &Fields<'_>,
+    key: &'static str,
+    options: &[StudyOption],
+) -> Option<Vec<String>> {
+    let named: Vec<At<String>> = texts(fields, key);
+    if named.is_empty() {
+        fields.missing(key, "name one or more options, such as [\"slack\"]");
+        return None;
+    }
+    named.iter().for_each(|id| check_known(id, options, fields.problems()));
+    Some(named.into_iter().map(|id| id.value).collect())
+}
+
+/// An observed share, and the share of the study to compare with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObservedShare {
+    /// Id.
+    pub id: At<String>,
+    /// The observation in words.
+    pub says: String,
+    /// Its source.
+    pub source: String,
+    /// Counted event.
+    pub of: StudyEvent,
+    /// Event that selects encounters; `None` for all.
+    pub among: Option<StudyEvent>,
+    /// Option; `None` for the baseline.
+    pub option: Option<String>,
+    /// Option for the relative reduction of the event, which replaces the share of the event.
+    pub fewer_with: Option<String>,
+    /// Factor on the share before the comparison [1].
+    pub times: f64,
+    /// Range of shares that agree with the observation [1].
+    pub observed: [f64; 2],
+    /// Presumed reason of a difference, and limits of the comparison; may be empty.
+    pub notes: String,
+}
+
+/// Reads `[[observation]]`, sorted by id.
+pub(super) fn read_observations(
+    fields: &Fields<'_>,
+    options: &[StudyOption],
+) -> Vec<ObservedShare> {
+    let mut observations: Vec<ObservedShare> = fields
+        .tables("observation")
+        .iter()
+        .filter_map(|node| read_observation(node, options, fields.problems()))
+        .collect();
+    observations.sort_by(|one, other| one.id.value.cmp(&other.id.value));
+    observations
+}
+
+fn read_observation(
+    node: &Node,
+    options: &[StudyOption],
+    problems: &Problems,
+) -> Option<ObservedShare> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_id("id", "write an id such as \"mouth\"");
+    let says = fields.need_text("says", "write the observation in words");
+    let source = fields.need_text("source", "name the source of the observation");
+    let of = event::need(&fields, "of");
+    let among = event::maybe(&fields, "among");
+    let (option, fewer_with) =
+        (known_option(&fields, "option", options), known_option(&fields, "fewer_with", options));
+    let times = fields.value("times", Quantity::Ratio, Range::Positive);
+    let observed = observed(&fields);
+    let notes = fields.text("notes").map(|notes| notes.value).unwrap_or_default();
+    fields.finish();
+    Some(ObservedShare {
+        id: id?,
+        says: says?.value,
+        source: source?.value,
+        of: of?,
+        among,
+        option: option.map(|option| option.value),
+        fewer_with: fewer_with.map(|option| option.value),
+        times: times.map_or(1.0, |times| times.value),
+        observed: observed?,
+        notes,
+    })
+}
+
+/// An option by id, if present.
+fn known_option(
+    fields: &Fields<'_>,
+    key: &'static str,
+    options: &[StudyOption],
+) -> Option<At<String>> {
+    let named = fields.text(key)?;
+    check_known(&named, options, fields.problems());
+    Some(named)
+}
+
+/// Two shares in rising order.
+fn observed(fields: &Fields<'_>) -> Option<[f64; 2]> {
+    let help = "write the least and the greatest share that agree, such as observed = [0.60, 0.89]";
+    let Some(node) = fields.get("observed") else {
+        fields.missing("observed", help);
+        return None;
+    };
+    let numbers: Vec<f64> = match &node.content {
+        Content::List(items) => items
+            .iter()
+            .filter_map(|item| match item.content {
+                Content::Number(number) => Some(number),
+                _ => None,
+            })
+            .collect(),
+        _ => Vec::new(),
+    };
+    match *numbers.as_slice() {
+        [low, high] if low < high => Some([low, high]),
+        _ => {
+            fields.problems().push(node.place.error("these are not two rising shares", help));
+            None
+        }
+    }
+}
+
+/// Frequency of an event with the segments and steps of this study and with finer ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Discretisation {
+    /// The event.
+    pub event: StudyEvent,
+    /// Encounters with the event in both discretisations.
+    pub both: u64,
+    /// Encounters with the event only in that of this study.
+    pub only_here: u64,
+    /// Encounters with the event only in the finer one.
+    pub only_finer: u64,
+    /// Encounters without the event.
+    pub neither: u64,
+    /// The study and the program version.
+    pub source: String,
+}
+
+/// Reads `[[discretisation]]`.
+pub(super) fn read_discretisations(fields: &Fields<'_>) -> Vec<Discretisation> {
+    let nodes = fields.tables("discretisation").iter();
+    nodes.filter_map(|node| read_discretisation(node, fields.problems())).collect()
+}
+
+fn read_discretisation(node: &Node, problems: &Problems) -> Option<Discretisation> {
+    let fields = Fields::of(node, problems);
+    let event = event::need(&fields, "event");
+    let encounters = count(&fields, "encounters");
+    let both = count(&fields, "both");
+    let only_here = count(&fields, "only_here");
+    let only_finer = count(&fields, "only_finer");
+    let source = fields.need_text("source", "name the study and the program version");
+    fields.finish();
+    let (encounters, both) = (encounters?, both?.value);
+    let (only_here, only_finer) = (only_here?.value, only_finer?.value);
+    let with_event = both.saturating_add(only_here).saturating_add(only_finer);
+    let Some(neither) = encounters.value.checked_sub(with_event) else {
+        problems.push(encounters.place.error(
+            format!(
+                "`encounters` is {}, fewer than the {with_event} with the event",
+                encounters.value
+            ),
+            "write the number of all compared encounters, including those without the event",
+        ));
+        return None;
+    };
+    Some(Discretisation {
+        event: event?,
+        both,
+        only_here,
+        only_finer,
+        neither,
+        source: source?.value,
+    })
+}
+
+/// A required number of encounters.
+fn count<'a>(fields: &Fields<'a>, key: &'a str) -> Option<At<u64>> {
+    fields.require(key, "write a number of encounters, such as 8");
+    fields.count(key, &limits::COUNTED)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::study::Study;
+
+    const OBSERVED_STUDY: &str = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 4\nbaseline = \"a\"\n\
+        [[option]]\nid = \"a\"\n[[option]]\nid = \"b\"\n[encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n\
+        [[observation]]\nid = \"o\"\nsays = \"seen\"\nsource = \"a paper\"\nof = \"held_lodged\"\namong = \"entangled\"\nfewer_with = \"b\"\ntimes = 0.5\nobserved = [0.6, 0.9]\n";
+
+    #[test]
+    fn an_observation_is_read_and_changes_no_run() {
+        let study = Study::read("s.toml", OBSERVED_STUDY).unwrap();
+        let [seen] = study.observations.as_slice() else { panic!("{:?}", study.observations) };
+        assert_eq!((seen.of.name(), seen.observed), ("held_lodged".to_owned(), [0.6, 0.9]));
+        assert_eq!((seen.option.as_deref(), seen.fewer_with.as_deref()), (None, Some("b")));
+        let without = &OBSERVED_STUDY[..OBSERVED_STUDY.find("[[observation]]").unwrap()];
+        assert_eq!(Study::read("s.toml", without).unwrap().canonical, study.canonical);
+    }
+
+    #[test]
+    fn problems_of_an_observation_are_reported() {
+        for (from, to, expected) in [
+            ("fewer_with = \"b\"", "fewer_with = \"c\"", "there is no option `c`"),
+            ("[0.6, 0.9]", "[0.9, 0.6]", "these are not two rising shares"),
+            ("observed = [0.6, 0.9]\n", "", "`observed` is missing"),
+            ("held_lodged", "held_loged", "there is no event `held_loged`"),
+        ] {
+            let problems = Study::read("s.toml", &OBSERVED_STUDY.replace(from, to)).unwrap_err();
+            assert!(
+                problems.iter().any(|problem| problem.message.contains(expected)),
+                "{expected}: {problems:?}"
+            );
+        }
+    }
+
+    const REFINED_STUDY: &str = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 4\nbaseline = \"a\"\n\
+        [[option]]\nid = \"a\"\n[encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n\
+        [[discretisation]]\nevent = \"lodged\"\nencounters = 220\nboth = 19\nonly_here = 1\nonly_finer = 5\nsource = \"a study\"\n";
+
+    #[test]
+    fn a_discretisation_is_read_and_changes_no_run() {
+        let study = Study::read("s.toml", REFINED_STUDY).unwrap();
+        let [found] = study.discretisations.as_slice() else {
+            panic!("{:?}", study.discretisations)
+        };
+        assert_eq!((found.event.name(), found.neither), ("lodged".to_owned(), 195));
+        let without = &REFINED_STUDY[..REFINED_STUDY.find("[[discretisation]]").unwrap()];
+        assert_eq!(Study::read("s.toml", without).unwrap().canonical, study.canonical);
+    }
+
+    #[test]
+    fn problems_of_a_discretisation_are_reported() {
+        for (from, to, expected) in [
+            ("encounters = 220", "encounters = 24", "fewer than the 25 with the event"),
+            ("both = 19\n", "", "`both` is missing"),
+            ("\"lodged\"", "\"lodgd\"", "there is no event `lodgd`"),
+            ("only_finer = 5", "only_finer = 0.5", "`only_finer` is 0.5"),
+        ] {
+            let problems = Study::read("s.toml", &REFINED_STUDY.replace(from, to)).unwrap_err();
+            assert!(
+                problems.iter().any(|problem| problem.message.contains(expected)),
+                "{expected}: {problems:?}"
+            );
+        }
+    }
+}
