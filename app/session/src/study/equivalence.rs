@@ -254,9 +254,8 @@ mod tests {
     use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
     use endline_sim::model::PilotProgram;
     use endline_sim::whale::jaws::JawStrength;
-    use endline_sim::whale::joints::JointRanges;
-    use endline_sim::whale::measures::Measures;
-    use endline_sim::whale::skin::Skin;
+    use endline_sim::whale::pose::JointRanges;
+    use endline_sim::whale::skin::{Measures, Skin};
     use endline_sim::{DQuat, DVec3};
 
     use super::*;
