@@ -28,7 +28,7 @@ pub fn raised(error: Error) -> PyErr {
 
 /// The exception of a plain message.
 pub fn failed(message: String) -> PyErr {
-    raised(Error::Replay(message))
+    raised(Error::Message(message))
 }
 
 fn add_details(

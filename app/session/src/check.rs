@@ -1,4 +1,4 @@
-//! Checking what a user names: a library file, a scenario, a folder of either.
+//! Checks of the paths that a user names: a library file, a scenario, a folder of either.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,20 +14,19 @@ use crate::search::Question;
 use crate::source::{Overrides, prepare};
 use crate::study::PreparedStudy;
 
-/// What a check found.
+/// The findings of a check.
 #[derive(Clone, Debug, Default)]
 pub struct Checked {
-    /// Files looked at.
+    /// Files checked.
     pub files: usize,
     /// All problems, file by file.
     pub problems: Vec<Diagnostic>,
-    /// Folders looked at, as the system knows them: links may lead back.
+    /// Folders visited, by the system's path: links may lead back.
     seen: BTreeSet<PathBuf>,
 }
 
 /// Checks a path: a folder that is a library with its scenarios, any other folder with the
 /// scenarios and library files under it, a scenario, or one library file.
-#[must_use]
 pub fn check_path(path: &Path, library: Option<&Path>, host: &PluginHost) -> Checked {
     let mut checked = Checked::default();
     if path.is_dir() {
@@ -38,12 +37,12 @@ pub fn check_path(path: &Path, library: Option<&Path>, host: &PluginHost) -> Che
     checked
 }
 
-/// A file called by its name alone, with the folder that tells its kind where that is one of a library's.
+/// A file named without its folder, with the folder where that is one of a library's and decides the file's kind.
 fn in_its_folder(path: &Path) -> PathBuf {
     let whole = std::path::absolute(path).unwrap_or_default();
     let folder = whole.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-    let tells = OTHERS.contains(&&*folder) || endline_gear::Kind::in_folder(&folder).is_some();
-    if path.parent() == Some(Path::new("")) && tells { whole } else { path.to_owned() }
+    let decides = OTHERS.contains(&&*folder) || endline_gear::Kind::in_folder(&folder).is_some();
+    if path.parent() == Some(Path::new("")) && decides { whole } else { path.to_owned() }
 }
 
 /// Folders of a library that hold other files than items and scenarios.
@@ -72,7 +71,7 @@ impl Checked {
             }
         }
         if self.files == before && self.problems.is_empty() {
-            self.tell(
+            self.report(
                 folder,
                 "nothing to check here",
                 "expected a gear library, a scenario or a library file (.toml)",
@@ -80,7 +79,7 @@ impl Checked {
         }
     }
 
-    /// Notes a folder as looked at; false where it was already.
+    /// Records a folder as visited; false where it was already.
     fn enters(&mut self, folder: &Path) -> bool {
         let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
         self.seen.insert(whole)
@@ -136,7 +135,7 @@ impl Checked {
         self.files += 1;
         let text = match read::text(path) {
             Ok(text) => text,
-            Err(error) => return self.tell(path, &format!("cannot be read: {error}"), ""),
+            Err(error) => return self.report(path, &format!("cannot be read: {error}"), ""),
         };
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let (meshes, unread) = Sources::beside(path);
@@ -160,7 +159,7 @@ impl Checked {
         }
     }
 
-    /// A study is checked by assembling every option with what is drawn first.
+    /// A study is checked by assembling every option with the first encounter drawn.
     fn study(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
         self.note(path, PreparedStudy::open(path, library, host).map(|_| ()));
@@ -209,7 +208,7 @@ impl Checked {
         self.note(path, prepare(path, library, host, Overrides::default()).map(|_| ()));
     }
 
-    /// Keeps what is wrong with a file, each problem once.
+    /// Adds the problems of a file, each once.
     fn note(&mut self, path: &Path, checked: Result<(), Error>) {
         match checked {
             Ok(()) => {}
@@ -223,11 +222,11 @@ impl Checked {
             Err(Error::File { file, message }) => {
                 self.problems.push(Diagnostic::of_file(file, message, ""))
             }
-            Err(error) => self.tell(path, &error.to_string(), ""),
+            Err(error) => self.report(path, &error.to_string(), ""),
         }
     }
 
-    fn tell(&mut self, path: &Path, message: &str, help: &str) {
+    fn report(&mut self, path: &Path, message: &str, help: &str) {
         self.problems.push(Diagnostic::of_file(path.display().to_string(), message, help));
     }
 }
@@ -238,13 +237,13 @@ fn kind(path: &Path) -> Option<String> {
     Document::parse(&text).ok()?.get("kind")
 }
 
-/// A library's problems name files within it; a user needs the way there.
+/// A library's problems name files within it; a user needs their paths.
 fn under(root: &Path, mut problem: Diagnostic) -> Diagnostic {
     problem.file = root.join(&problem.file).display().to_string();
     problem
 }
 
-/// What is in a folder, by name.
+/// The entries of a folder, by name.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
         .into_iter()

@@ -1,4 +1,4 @@
-//! What can go wrong in a session, said to the user once.
+//! Errors of a session.
 
 use std::fmt;
 use std::path::Path;
@@ -6,29 +6,29 @@ use std::path::Path;
 use endline_gear::Diagnostic;
 use endline_sim::Stop;
 
-/// Why a session could not do what was asked.
+/// Why a session could not do a request.
 #[derive(Clone, Debug)]
 pub enum Error {
-    /// A file, and what is the matter with it.
+    /// A file, and what is wrong with it.
     File {
         /// The file as the user named it.
         file: String,
-        /// What is the matter, reading on from the file's name.
+        /// What is wrong, as the rest of a sentence that begins with the file's name.
         message: String,
     },
     /// Files of the gear library, a scenario or a project with located errors.
     Diagnostics(Vec<Diagnostic>),
-    /// The statics did not come to rest, and the run was not told to start regardless.
+    /// Statics found no rest, and the run was not allowed to start without it.
     Unsettled {
-        /// What was found instead, with the part and the force.
+        /// The part and the force out of balance.
         why: String,
         /// Passes made.
         passes: usize,
     },
-    /// The run cannot go on.
+    /// The run cannot continue.
     Stopped(Stop),
-    /// A recording that cannot be run again here.
-    Replay(String),
+    /// Anything else, in words.
+    Message(String),
 }
 
 impl Error {
@@ -54,13 +54,13 @@ impl fmt::Display for Error {
             }
             Self::Unsettled { why, passes } => write!(
                 f,
-                "the gear did not come to rest in {passes} passes: {why}\n\
+                "statics found no rest of the gear in {passes} passes: {why}\n\
                  see `endline settle` for the trace; --allow-unsettled starts the run regardless"
             ),
             Self::Stopped(stop) => {
                 write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason)
             }
-            Self::Replay(message) => f.write_str(message),
+            Self::Message(message) => f.write_str(message),
         }
     }
 }

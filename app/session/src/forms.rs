@@ -10,8 +10,8 @@ use crate::haul::{HaulSheet, SweepRow};
 use crate::mill::StrengthLaw;
 use crate::report::Report;
 use crate::rules::RuleSheet;
-use crate::rules::listing::Listing;
-use crate::rules::mend::Mends;
+use crate::rules::packs::Listing;
+use crate::rules::remedy::Remedies;
 use crate::search::Stories;
 use crate::settled::SettledShape;
 use crate::study::prepared::Plan;
@@ -31,7 +31,6 @@ pub struct Form {
 
 impl Form {
     /// The schema, under the form's name.
-    #[must_use]
     pub fn titled(&self) -> Schema {
         let mut schema = (self.schema)();
         schema.insert("title".into(), self.name.into());
@@ -39,8 +38,7 @@ impl Form {
     }
 }
 
-/// The schema of what a type is written as.
-#[must_use]
+/// The schema of a type's JSON.
 pub fn schema_of<T: JsonSchema>() -> Schema {
     SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>()
 }
@@ -67,7 +65,7 @@ pub static FORMS: &[Form] = &[
         commands: &["rules list"],
         schema: schema_of::<Listing<'static>>,
     },
-    Form { name: "endline.rules.mend/1", commands: &["rules mend"], schema: schema_of::<Mends> },
+    Form { name: "endline.rules.fix/1", commands: &["rules fix"], schema: schema_of::<Remedies> },
     Form { name: "endline.haul/1", commands: &["haul"], schema: schema_of::<HaulSheet> },
     Form {
         name: "endline.haul_sweep/1",

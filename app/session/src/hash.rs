@@ -30,7 +30,6 @@ pub struct StateHash {
 
 impl StateHash {
     /// Hashes a state and the input of the step that led to it.
-    #[must_use]
     pub fn of(input: &Input, state: &State) -> Self {
         // No `..`: a new field of the state must find its part here before this compiles. The pilot's memory chooses
         // inputs, which are hashed; so a run flown by hand and its program, which sees nothing, have the same hashes.
@@ -77,13 +76,11 @@ impl StateHash {
     }
 
     /// Name of the first part in which two hashes differ; `None` where they are equal.
-    #[must_use]
     pub fn first_difference(&self, other: &Self) -> Option<&'static str> {
         (0..PARTS).find(|&part| self.parts[part] != other.parts[part]).map(|part| PART_NAMES[part])
     }
 
     /// All parts in one number, as sixteen hexadecimal digits.
-    #[must_use]
     pub fn hex(&self) -> String {
         let mut whole = Fold::new();
         self.parts.iter().for_each(|part| whole.word(*part));
@@ -93,7 +90,6 @@ impl StateHash {
 
 /// Hash of an input: the part `input` of the step it led to, so that a changed input is found
 /// before it is stepped with.
-#[must_use]
 pub fn input_hash(input: &Input) -> u64 {
     let mut fold = Fold::new();
     fold.controls(&input.controls);

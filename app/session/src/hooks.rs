@@ -15,9 +15,8 @@ use crate::plugins::{
 /// A plugin that has not opened after this is taken to hang.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A loader of these folders that asks for what the user has not allowed; what came with the program needs no leave. What was allowed
+/// A loader of these folders that asks about libraries that the user has not allowed; those that ship with the program need no permission. What was allowed
 /// and is not trusted runs in processes of its own.
-#[must_use]
 pub fn plugin_loader(folders: &[PathBuf]) -> Loader {
     let own: Vec<PathBuf> = program_folder().into_iter().collect();
     let loader = Loader::new(folders, Choices::kept_in(chosen_file(), &own));
@@ -30,12 +29,11 @@ pub fn plugin_loader(folders: &[PathBuf]) -> Loader {
 
 /// Loads the plugins of these folders for the program `endline`, which opens each new file first
 /// in a child of its own (`endline plugins check`): one that crashes, hangs or lies is set aside.
-#[must_use]
 pub fn load_plugins(folders: &[PathBuf]) -> (PluginHost, Vec<PluginProblem>) {
     load_with(&mut plugin_loader(folders))
 }
 
-/// The same with a loader that was used before: what has not changed is not opened again.
+/// Loads with a loader that was used before: unchanged files are not opened again.
 pub fn load_with(loader: &mut Loader) -> (PluginHost, Vec<PluginProblem>) {
     match program() {
         Ok(program) => loader.load(&remembering(known_file(), &by_child(program, PATIENCE))),

@@ -1,31 +1,31 @@
-//! All a user can do with Endline, without a screen: prepare a scenario, run it, record it, replay it.
+//! Everything that a user can do with Endline without a screen: prepare a scenario, run it, record it, replay it.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
 //! | [`source`] | scenario, gear library and options become a model |
 //! | [`run`] | a model stepped through time, measured and recorded |
 //! | [`hash`] | 64 bits for each part of a state |
 //! | [`recording`] | the file of a run; running it again and comparing every step |
 //! | [`report`] | the summary of a run |
-//! | [`touching`] | what a body does to the whale at the moment shown |
+//! | [`touching`] | the contact of a body with the whale at the moment shown |
 //! | [`figures`] | every figure of a run, declared once; comparison of two runs |
 //! | [`forms`] | the JSON forms that commands print, with their schemas |
 //! | [`settled`] | the gear at rest as JSON |
 //! | [`statics`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
-//! | [`check`] | every problem of what a user names |
-//! | [`command`] | what a user can ask for, declared once |
-//! | [`workbench`] | what a user has open and does, driven by commands |
+//! | [`check`] | every problem of the files a user names |
+//! | [`command`] | the commands of a user, declared once |
+//! | [`workbench`] | open files, runs and results, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
-//! | [`haul`] | gear hauled over a block: loads, what comes nearest to parting, and its probability |
+//! | [`haul`] | gear hauled over a block: loads, the part nearest to parting, and the probability that it parts |
 //! | [`mill`] | breaks of a product: its law of strength, and the probability that it is approved |
 //! | [`campaign`] | studies and searches at work: threads, processes, pause, progress |
 //! | [`encounters`] | encounters of whales with gear, drawn from priors |
 //! | `page` | what HTML pages share |
 //! | [`table`] | tables of results as CSV and Parquet |
-//! | [`rules`] | what laws ask of an assembly: rule packs checked |
-//! | [`search`] | which encounters end like what was seen on a real whale |
-//! | [`scene`] | what a frame looks like, as triangles |
+//! | [`rules`] | rule packs of fishing law, checked on an assembly |
+//! | [`search`] | encounters that end like an observation of a real whale |
+//! | [`scene`] | the triangles of a frame |
 //! | [`export`] | charts and 3-D models written to files |
 //! | [`scales`] | round values for axes, colours of series |
 //! | [`shell`] | words of a command line as a shell takes them |
@@ -79,7 +79,6 @@ pub mod shell;
 pub mod shipped;
 pub mod source;
 pub mod statics;
-pub mod strength;
 pub mod study;
 pub mod table;
 pub mod task;

@@ -1,4 +1,4 @@
-//! Where the gear library of a scenario is.
+//! Where the gear library of a scenario is, and the library inside the program, written to the user's data folder where no other is found.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,6 @@ const LIBRARY: &str = "gear-library";
 /// the scenario that is a library, else `ENDLINE_LIBRARY`, else a `gear-library` beside the
 /// program, above it (a build in a source folder), or in the working folder, else the user's copy of
 /// the one that the program [carries](shipped::carry).
-///
-/// # Errors
-/// With every place that was looked in, for the user.
 pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf, String> {
     if let Some(folder) = given {
         return if is_library(folder) {
@@ -23,31 +20,31 @@ pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf,
             Err(no_library(&[folder.to_path_buf()]))
         };
     }
-    let mut looked = Vec::new();
-    around(scenario, &mut looked);
-    looked.extend(env::var_os("ENDLINE_LIBRARY").map(PathBuf::from));
+    let mut searched = Vec::new();
+    around(scenario, &mut searched);
+    searched.extend(env::var_os("ENDLINE_LIBRARY").map(PathBuf::from));
     let program = plugins::program().ok();
-    looked.extend(
+    searched.extend(
         program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))),
     );
-    looked.push(PathBuf::from(LIBRARY));
-    if let Some(found) = looked.iter().find(|folder| is_library(folder)) {
+    searched.push(PathBuf::from(LIBRARY));
+    if let Some(found) = searched.iter().find(|folder| is_library(folder)) {
         return Ok(found.clone());
     }
     match shipped::library() {
         Some(Ok(folder)) => Ok(folder),
         Some(Err(reason)) => {
-            Err(format!("{}\nand its own cannot be written: {reason}", no_library(&looked)))
+            Err(format!("{}\nand its own cannot be written: {reason}", no_library(&searched)))
         }
-        None => Err(no_library(&looked)),
+        None => Err(no_library(&searched)),
     }
 }
 
 /// The folders above a scenario, each also with a `gear-library` in it.
-fn around(scenario: Option<&Path>, looked: &mut Vec<PathBuf>) {
+fn around(scenario: Option<&Path>, searched: &mut Vec<PathBuf>) {
     let Some(scenario) = scenario else { return };
     let whole = std::path::absolute(scenario).unwrap_or_else(|_| scenario.to_path_buf());
-    looked.extend(whole.ancestors().skip(1).map(Path::to_path_buf));
+    searched.extend(whole.ancestors().skip(1).map(Path::to_path_buf));
 }
 
 /// A folder with ropes and scenarios in it.
@@ -55,9 +52,9 @@ pub(crate) fn is_library(folder: &Path) -> bool {
     folder.join("ropes").is_dir() && folder.join("scenarios").is_dir()
 }
 
-fn no_library(looked: &[PathBuf]) -> String {
+fn no_library(searched: &[PathBuf]) -> String {
     let places: Vec<String> =
-        looked.iter().map(|folder| format!("  {}", folder.display())).collect();
+        searched.iter().map(|folder| format!("  {}", folder.display())).collect();
     format!(
         "no gear library found: expected a folder that holds `ropes` and `scenarios`\nlooked in:\n{}\nname one with --library FOLDER or ENDLINE_LIBRARY",
         places.join("\n")
@@ -65,9 +62,6 @@ fn no_library(looked: &[PathBuf]) -> String {
 }
 
 /// The file that a user names: itself, or that of an item of a library's folder (`studies`, `observations`) by its id.
-///
-/// # Errors
-/// Where there is neither, with the nearest id.
 pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf, String> {
     if Path::new(name).is_file() || name.ends_with(".toml") {
         return Ok(PathBuf::from(name));
@@ -83,7 +77,6 @@ pub fn named(name: &str, folder: &str, library: Option<&Path>) -> Result<PathBuf
 }
 
 /// Whether a scenario is named, by its file or its id, and not a recording.
-#[must_use]
 pub fn is_scenario(file: &Path) -> bool {
     let extension = file.extension();
     extension.is_some_and(|extension| extension == "toml")
@@ -91,9 +84,6 @@ pub fn is_scenario(file: &Path) -> bool {
 }
 
 /// Ids of the items in one folder of a library, such as `ropes`, in order.
-///
-/// # Errors
-/// Where the library has no such folder, with the nearest.
 pub fn ids(root: &Path, folder: &str) -> Result<Vec<String>, String> {
     let items = root.join(folder);
     let (ids, inside) = (ids_in(&items), Path::new(folder).components().count() == 1);
@@ -114,10 +104,7 @@ fn ids_in(folder: &Path) -> Vec<String> {
     toml_files(folder).iter().filter_map(stem).collect()
 }
 
-/// Writes a text to a new file; never over one that is there.
-///
-/// # Errors
-/// Where the file is there already, or cannot be written.
+/// Writes a text to a new file; refuses to replace one.
 pub fn write_new(path: &Path, text: &str) -> std::io::Result<()> {
     use std::io::Write;
     let mut file = std::fs::File::create_new(path)?;
@@ -126,19 +113,16 @@ pub fn write_new(path: &Path, text: &str) -> std::io::Result<()> {
 }
 
 /// Files of the scenarios of a library, by name.
-#[must_use]
 pub fn scenarios(root: &Path) -> Vec<PathBuf> {
     toml_files(&root.join("scenarios"))
 }
 
 /// Files of the studies of a library, by name.
-#[must_use]
 pub fn studies(root: &Path) -> Vec<PathBuf> {
     toml_files(&root.join("studies"))
 }
 
 /// Files of the observations of a library, by name.
-#[must_use]
 pub fn observations(root: &Path) -> Vec<PathBuf> {
     toml_files(&root.join("observations"))
 }

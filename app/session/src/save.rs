@@ -13,17 +13,11 @@ use endline_gear::read;
 use crate::error::Error;
 
 /// Writes beside the file, syncs, then renames over it.
-///
-/// # Errors
-/// Where the folder cannot be written; the old file is then untouched.
 pub fn atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     atomically_with(path, |file| file.write_all(bytes))
 }
 
-/// The same for what is written piece by piece.
-///
-/// # Errors
-/// Where the folder cannot be written, or `write` fails; the old file is then untouched.
+/// Writes piece by piece, beside the file, then renames over it.
 pub fn atomically_with(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -41,9 +35,6 @@ pub fn atomically_with(
 }
 
 /// The text of a file; none where there is no such file.
-///
-/// # Errors
-/// A file that is there and cannot be read: whoever took it for missing would write over it.
 pub fn text_if_there(path: &Path) -> Result<Option<String>, Error> {
     match read::text(path) {
         Ok(text) => Ok(Some(text)),
@@ -53,9 +44,6 @@ pub fn text_if_there(path: &Path) -> Result<Option<String>, Error> {
 }
 
 /// Copies a file, or a folder with all that is in it.
-///
-/// # Errors
-/// What cannot be read or written, by its path.
 pub(crate) fn copy_tree(from: &Path, to: &Path) -> Result<(), Error> {
     let failed = |error: io::Error| Error::at(from, format!("cannot be copied: {error}"));
     if !from.is_dir() {
@@ -85,7 +73,7 @@ fn write_synced(
 /// How old a file of a save must be to have been left by a program that was killed: a save takes seconds.
 const LEFT_BEHIND: Duration = Duration::from_secs(3600);
 
-/// Removes what killed programs left of saves in a folder, the first time that this program saves there.
+/// Removes incomplete saves of killed programs from a folder, the first time that this program saves there.
 fn sweep_once(folder: &Path) {
     static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     if SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {

@@ -1,4 +1,4 @@
-//! Round values for scales and axes, and colours of series that any colour vision tells apart.
+//! Round values for scales and axes, and colours of series that are distinct in any colour vision.
 
 /// Colours of series on a dark or light background (Okabe and Ito 2008, without yellow and black).
 pub const SERIES: [[u8; 3]; 7] = [
@@ -22,13 +22,11 @@ pub const SERIES_ON_WHITE: [[u8; 3]; 6] = [
 ];
 
 /// A colour as HTML and SVG write it, such as `#0072b2`.
-#[must_use]
 pub fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above `value`; zero where there is none.
-#[must_use]
 pub fn nice_below(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 0.0;
@@ -39,7 +37,6 @@ pub fn nice_below(value: f64) -> f64 {
 }
 
 /// The least of 1, 2, 5 times a power of ten that is not below `value`; zero where there is none.
-#[must_use]
 pub fn nice_above(value: f64) -> f64 {
     let below = nice_below(value);
     // The next of 1, 2, 5 is at most 2.5 times as much.
@@ -53,7 +50,6 @@ fn step(wanted: f64) -> f64 {
 }
 
 /// Round values from `least` to `most`, about `count` steps; only `least` where the range is empty.
-#[must_use]
 pub fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
     let step = step((most - least) / f64::from(count.max(1)));
     if step <= 0.0 {
@@ -66,9 +62,8 @@ pub fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// Decimals that tell values this far apart from one another: none from 1 on, one from 0.1 on, and so
+/// Decimals that distinguish values this far apart: none from 1 on, one from 0.1 on, and so
 /// on.
-#[must_use]
 pub fn decimals(step: f64) -> usize {
     if step.is_finite() && step > 0.0 {
         (-(step.log10() + 1e-9).floor()).clamp(0.0, 9.0) as usize

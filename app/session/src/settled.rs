@@ -1,6 +1,6 @@
-//! The gear at rest as JSON: schema `endline.settle/1`, with the keys of the run summary where they are the same.
+//! The gear at rest as JSON, schema `endline.settle/1`, and the strength of each part, with the keys of the run summary where they agree.
 
-use endline_gear::StrengthBudget;
+use endline_gear::{StrengthBudget, StrengthFigure};
 use endline_sim::metrics::{Metrics, ProbeSummary};
 use endline_sim::{Model, Settled, State};
 use schemars::JsonSchema;
@@ -8,7 +8,6 @@ use serde::{Serialize, Serializer};
 
 use crate::figures::{self, PROBE};
 use crate::source::Prepared;
-use crate::strength::PartStrength;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "endline.settle/1";
@@ -24,7 +23,7 @@ pub struct SettledShape {
     pub scenario: String,
     /// Whether the gear is at rest.
     pub converged: bool,
-    /// What was found: `at rest`, or why not.
+    /// The outcome: `at rest`, or why not.
     pub outcome: String,
     /// The part with the greatest force out of balance.
     pub worst_part: Option<String>,
@@ -38,7 +37,7 @@ pub struct SettledShape {
     pub nodes: usize,
     /// One for each line.
     pub lines: Vec<LineShape>,
-    /// What each piece of a line and each weak link holds, and why.
+    /// The strength of each piece of a line and each weak link, with its factors.
     pub strengths: Vec<PartStrength>,
     /// One for each body.
     pub bodies: Vec<BodyShape>,
@@ -79,7 +78,6 @@ pub struct BodyShape {
 
 impl SettledShape {
     /// Of a settled model; `wall_s` is the real time it took [s].
-    #[must_use]
     pub fn of(prepared: &Prepared, settled: &Settled, wall_s: f64) -> Self {
         Self::named(
             &prepared.source.scenario_name,
@@ -90,8 +88,7 @@ impl SettledShape {
         )
     }
 
-    /// The same of a model whose scenario goes by a name.
-    #[must_use]
+    /// The shape of a model, with the name of its scenario.
     pub fn named(
         scenario: &str,
         model: &Model,
@@ -118,7 +115,6 @@ impl SettledShape {
     }
 
     /// One line of JSON.
-    #[must_use]
     pub fn json(&self) -> String {
         // Structs of numbers and strings always serialise.
         serde_json::to_string(self).unwrap_or_default()
@@ -165,4 +161,87 @@ fn probes(model: &Model, state: &State) -> Vec<ProbeSummary> {
 
 fn as_figures<S: Serializer>(probes: &[ProbeSummary], serializer: S) -> Result<S::Ok, S::Error> {
     figures::list(PROBE, probes).serialize(serializer)
+}
+
+/// The strength of a piece of a line or a weak link, with its factors.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct PartStrength {
+    /// Its id in the model.
+    pub part: String,
+    /// The rope or weak link it is of.
+    pub item: String,
+    /// Strength as its source states it [N].
+    pub stated: Sourced,
+    /// The factors by which it is reduced.
+    pub factors: Vec<PartFactor>,
+    /// Coefficient of variation between pieces.
+    pub variation: Option<Sourced>,
+    /// Mean strength delivered [N].
+    pub delivered_N: f64,
+    /// The strengths between which nine pieces of ten lie [N].
+    pub nine_of_ten_N: [f64; 2],
+    /// Strength of the piece that this run drew [N].
+    pub drawn_N: f64,
+    /// How sure the least sure of its numbers is.
+    pub confidence: &'static str,
+}
+
+/// A factor of a budget.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct PartFactor {
+    /// Its purpose.
+    pub name: String,
+    /// The factor with its source.
+    #[serde(flatten)]
+    pub figure: Sourced,
+}
+
+/// A number with where it comes from.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct Sourced {
+    /// The number.
+    pub value: f64,
+    /// Source.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: &'static str,
+}
+
+impl From<&StrengthFigure> for Sourced {
+    fn from(figure: &StrengthFigure) -> Self {
+        Self {
+            value: figure.value,
+            source: figure.source.clone(),
+            confidence: figure.confidence.word(),
+        }
+    }
+}
+
+impl From<&StrengthBudget> for PartStrength {
+    fn from(budget: &StrengthBudget) -> Self {
+        let factors = budget.factors.iter().map(|factor| PartFactor {
+            name: factor.name.clone(),
+            figure: (&factor.figure).into(),
+        });
+        Self {
+            part: budget.part.clone(),
+            item: budget.item.clone(),
+            stated: (&budget.stated).into(),
+            factors: factors.collect(),
+            variation: budget.variation.as_ref().map(Sourced::from),
+            delivered_N: budget.delivered_n(),
+            nine_of_ten_N: budget.nine_of_ten_n(),
+            drawn_N: budget.drawn_n(),
+            confidence: budget.confidence().word(),
+        }
+    }
+}
+
+impl PartStrength {
+    /// Its factors as a product, such as `1.11 mean of new pieces × 0.74 wear`; empty where there is none.
+    pub fn product(&self) -> String {
+        let factor = |factor: &PartFactor| format!("{:.2} {}", factor.figure.value, factor.name);
+        self.factors.iter().map(factor).collect::<Vec<_>>().join(" × ")
+    }
 }

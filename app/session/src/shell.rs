@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-/// A word as a shell takes it: in quotation marks where it needs them.
-#[must_use]
+/// A word quoted for a shell where it needs that.
 pub fn word(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+%@".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -12,8 +11,7 @@ pub fn word(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
-/// A path as a shell takes it.
-#[must_use]
+/// A path quoted for a shell where it needs that.
 pub fn path(path: &Path) -> String {
     word(&path.display().to_string())
 }
@@ -22,7 +20,7 @@ pub fn path(path: &Path) -> String {
 mod tests {
     use super::*;
 
-    /// The shell itself is asked what it takes a word for.
+    /// Compares with the words that a shell reads.
     #[cfg(unix)]
     #[test]
     fn a_shell_takes_a_word_for_what_it_was() {

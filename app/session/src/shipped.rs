@@ -14,16 +14,16 @@ use crate::error::Error;
 use crate::plugins::data_folder;
 use crate::save;
 
-/// Name of the list of what was written.
+/// Name of the list of the files written.
 const WRITTEN: &str = ".shipped";
 
 /// Files of a library, by their path in it with `/` between.
 pub type Files = &'static [(&'static str, &'static [u8])];
 
-/// What the program carries, and what it calls with a line for the user.
+/// The files inside the program, and the function that receives a line for the user.
 struct Carried {
     files: Files,
-    tell: fn(&str),
+    note: fn(&str),
 }
 
 static CARRIED: OnceLock<Carried> = OnceLock::new();
@@ -31,11 +31,11 @@ static CARRIED: OnceLock<Carried> = OnceLock::new();
 /// The folder that this process has written to, or seen to be up to date.
 static FOLDER: OnceLock<Result<PathBuf, String>> = OnceLock::new();
 
-/// Says once, before a library is looked for, which files the program carries, and what to call with a line for the user when they
-/// are written. Said before, it stays as it was.
-pub fn carry(files: Files, tell: fn(&str)) {
+/// Sets once, before a library is searched for, the files that the program carries, and the function that receives a line for the user when they
+/// are written. A second call has no effect.
+pub fn carry(files: Files, note: fn(&str)) {
     // Said before in this process, it stays as it was.
-    let _ = CARRIED.set(Carried { files, tell });
+    let _ = CARRIED.set(Carried { files, note });
 }
 
 /// Files of the library that the program carries; none where it carries none.
@@ -46,11 +46,11 @@ pub(crate) fn carried() -> Files {
 /// The user's copy of the library that the program carries, brought up to date; none where it carries none, or the user has no
 /// data folder.
 pub(crate) fn library() -> Option<Result<PathBuf, String>> {
-    let Carried { files, tell } = CARRIED.get()?;
+    let Carried { files, note } = CARRIED.get()?;
     let folder = data_folder()?.join("gear-library");
     let unpacked = || {
-        let told = unpack(files, &folder).map_err(|error| error.to_string())?;
-        told.iter().for_each(|told| tell(told));
+        let done = unpack(files, &folder).map_err(|error| error.to_string())?;
+        done.iter().for_each(|done| note(done));
         Ok(folder)
     };
     Some(FOLDER.get_or_init(unpacked).clone())
@@ -85,7 +85,7 @@ fn unpack(files: Files, folder: &Path) -> Result<Option<String>, Error> {
         written += 1;
     }
     write(&list, new.as_bytes())?;
-    Ok(Some(told(folder, written, &kept)))
+    Ok(Some(summary(folder, written, &kept)))
 }
 
 fn write(file: &Path, bytes: &[u8]) -> Result<(), Error> {
@@ -104,15 +104,15 @@ fn hash(bytes: &[u8]) -> String {
     blake3::hash(bytes).to_hex().to_string()
 }
 
-fn told(folder: &Path, written: usize, kept: &[&str]) -> String {
-    let mut told = format!(
+fn summary(folder: &Path, written: usize, kept: &[&str]) -> String {
+    let mut text = format!(
         "the gear library that comes with Endline was written to {} ({written} files); it is yours to edit",
         folder.display()
     );
     if !kept.is_empty() {
-        told += &format!("; edited by you and left as they are: {}", kept.join(", "));
+        text += &format!("; edited by you and left as they are: {}", kept.join(", "));
     }
-    told
+    text
 }
 
 #[cfg(test)]
@@ -132,18 +132,18 @@ mod tests {
 
         fs::write(folder.join("ropes/b.toml"), "b = 7").unwrap();
         fs::write(folder.join("ropes/mine.toml"), "mine").unwrap();
-        let told = unpack(NEW, &folder).unwrap().unwrap();
+        let done = unpack(NEW, &folder).unwrap().unwrap();
         assert!(
-            told.contains("(2 files)") && told.ends_with("left as they are: ropes/b.toml"),
-            "{told}"
+            done.contains("(2 files)") && done.ends_with("left as they are: ropes/b.toml"),
+            "{done}"
         );
         let found =
             ["ropes/a.toml", "ropes/b.toml", "ropes/deep/c.toml", "ropes/mine.toml"].map(read);
         assert_eq!(found, ["a = 2", "b = 7", "c = 2", "mine"]);
 
         // What was edited stays the user's in the version after that, too.
-        let told = unpack(OLD, &folder).unwrap().unwrap();
-        assert!(told.ends_with("left as they are: ropes/b.toml"), "{told}");
+        let done = unpack(OLD, &folder).unwrap().unwrap();
+        assert!(done.ends_with("left as they are: ropes/b.toml"), "{done}");
         fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -24,11 +24,8 @@ impl<T> Default for Task<T> {
 }
 
 impl<T: Send + 'static> Task<T> {
-    /// Starts the work on a thread of this name; the result of work still under way is dropped.
-    /// The waker is called when the result is there.
-    ///
-    /// # Errors
-    /// Where the system gives no thread.
+    /// Starts the work on a thread of this name; the result of work still in progress is dropped.
+    /// The waker is called when the result is ready.
     pub fn start(
         &mut self,
         name: &str,
@@ -46,13 +43,12 @@ impl<T: Send + 'static> Task<T> {
         Ok(())
     }
 
-    /// Whether work is under way, or its result not yet taken.
-    #[must_use]
+    /// Whether work is in progress, or its result not yet taken.
     pub fn busy(&self) -> bool {
         self.pending.is_some()
     }
 
-    /// The result, once, when it is there.
+    /// The result, once, when it is ready.
     pub fn poll(&mut self) -> Option<Result<T, Fault>> {
         let result = match self.pending.as_ref()?.try_recv() {
             Ok(result) => Ok(result),

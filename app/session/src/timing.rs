@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use endline_sim::{Cost, CostPart};
 
-/// Time since it was first asked for: the clock that steps tell their costs by [ns].
+/// Time since the first call: the clock of the costs of steps [ns].
 pub(crate) fn clock_ns() -> u64 {
     static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
     BEGAN.elapsed().as_nanos() as u64
@@ -25,31 +25,29 @@ pub struct Phase {
 pub struct Timing {
     /// Real time of the statics [s].
     pub settle_wall_s: f64,
-    /// Steps before rope first came near the whale; all of them where it never did.
+    /// Steps before rope was first near the whale; all of them where it never was.
     pub approach: Phase,
     /// That step and all after it.
     pub contact: Phase,
-    /// What the time of the steps, and of what is measured after them, went to.
+    /// The time of the steps, and of the metrics after them, by purpose.
     pub cost: Cost,
     near: bool,
 }
 
 impl Phase {
-    /// Simulated seconds for each real one; 0 where nothing was simulated.
-    #[must_use]
+    /// Simulated seconds for each real one; 0 where no time was simulated.
     pub fn times_real_time(&self) -> f64 {
         if self.wall_s > 0.0 { self.simulated_s / self.wall_s } else { 0.0 }
     }
 }
 
 impl Timing {
-    /// Nothing but statics done.
-    #[must_use]
+    /// The time of statics alone.
     pub fn settled_in(wall: Duration) -> Self {
         Self { settle_wall_s: wall.as_secs_f64(), ..Self::default() }
     }
 
-    /// Adds a step; `near` tells that rope was near the whale in it.
+    /// Adds a step; `near` is whether rope was near the whale in it.
     pub fn add(&mut self, wall: Duration, simulated_s: f64, near: bool) {
         self.near |= near;
         let phase = if self.near { &mut self.contact } else { &mut self.approach };
@@ -57,14 +55,13 @@ impl Timing {
         phase.wall_s += wall.as_secs_f64();
     }
 
-    /// Adds what a step went to, and the time taken after it to measure it.
+    /// Adds the cost of a step, and the time of its metrics.
     pub fn add_cost(&mut self, step: &Cost, measured_in: Duration) {
         self.cost.add(step);
         self.cost.add_ns(CostPart::Metrics, measured_in.as_nanos() as u64);
     }
 
     /// Both phases together, without the statics.
-    #[must_use]
     pub fn whole(&self) -> Phase {
         Phase {
             simulated_s: self.approach.simulated_s + self.contact.simulated_s,

@@ -1,4 +1,4 @@
-//! What a body does to the whale at the moment shown, from its frame and the events up to it.
+//! The contact of a body with the whale at the moment shown, from its frame and the events up to it.
 //!
 //! The summary of a run stands for its newest moment. An earlier moment that is shown has its frame, and of the events those before it.
 
@@ -17,13 +17,12 @@ pub struct BodyOnSkin {
     pub friction_n: f64,
     /// Since when it has touched, short gaps left out [s].
     pub since_s: Option<f64>,
-    /// When it came to count as caught, if it does [s].
+    /// When it was classified as caught, if it was [s].
     pub caught_s: Option<f64>,
 }
 
 impl BodyOnSkin {
     /// Of the body of an index and id; empty where it does not touch.
-    #[must_use]
     pub fn at(frame: &Frame, events: &[Event], body: usize, id: &str) -> Self {
         let mut found = Self::default();
         let mut friction = DVec3::ZERO;
@@ -46,13 +45,12 @@ impl BodyOnSkin {
     }
 
     /// The part that it presses on most.
-    #[must_use]
     pub fn part(&self) -> Option<BodyPart> {
         self.parts.first().map(|(part, _)| *part)
     }
 }
 
-/// When the spell of touching that goes on at a time began, and when the body came to count as caught in it [s].
+/// Start of the contact in progress at a time, and when the body was classified as caught in it [s].
 fn spell(events: &[Event], id: &str, time_s: f64) -> (Option<f64>, Option<f64>) {
     let mut found = (None, None);
     // An event bears the time of the end of its step, which may differ from the frame's by rounding.
@@ -68,7 +66,6 @@ fn spell(events: &[Event], id: &str, time_s: f64) -> (Option<f64>, Option<f64>) 
 }
 
 /// Pushes of bodies on a part of the whale: index of each body and the sum of its pushes there, the hardest first [N].
-#[must_use]
 pub fn bodies_on(frame: &Frame, part: BodyPart) -> Vec<(usize, f64)> {
     let mut found: Vec<(usize, f64)> = Vec::new();
     let here = frame.body_contacts.iter().filter(|contact| contact.region.part() == part);

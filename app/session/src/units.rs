@@ -6,6 +6,14 @@ use serde::{Deserialize, Serialize};
 /// Newtons in a pound-force, exact by definition.
 pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
+/// A force in newtons and pounds-force, such as `1512 N (340 lbf)`; `none` for an infinite one.
+pub fn newtons_and_lbf(newtons: f64, decimals: usize) -> String {
+    if !newtons.is_finite() {
+        return "none".to_owned();
+    }
+    format!("{newtons:.decimals$} N ({:.decimals$} lbf)", newtons / N_PER_LBF)
+}
+
 /// Unit that forces are shown in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ForceUnit {
@@ -18,7 +26,6 @@ pub enum ForceUnit {
 
 impl ForceUnit {
     /// Its symbol.
-    #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Lbf => "lbf",
@@ -27,7 +34,6 @@ impl ForceUnit {
     }
 
     /// A force given in newtons, in this unit.
-    #[must_use]
     pub fn of_newtons(self, force_n: f64) -> f64 {
         match self {
             Self::Lbf => force_n / N_PER_LBF,
@@ -35,8 +41,7 @@ impl ForceUnit {
         }
     }
 
-    /// A pressure given in pascals, as text with the unit that goes with this unit of forces.
-    #[must_use]
+    /// A pressure given in pascals, as text with the unit that belongs to this unit of forces.
     pub fn pressure(self, pressure_pa: f64) -> String {
         match self {
             Self::Lbf => format!("{:.1} psi", pressure_pa / PASCALS_PER_PSI),
@@ -45,7 +50,6 @@ impl ForceUnit {
     }
 
     /// A force given in newtons, as text with its unit.
-    #[must_use]
     pub fn text(self, force_n: f64) -> String {
         let value = self.of_newtons(force_n);
         let digits = usize::from(value.abs() < 100.0);
@@ -53,7 +57,8 @@ impl ForceUnit {
     }
 }
 
-const METRES_PER_FOOT: f64 = 0.3048;
+/// Metres in a foot.
+pub(crate) const METRES_PER_FOOT: f64 = 0.3048;
 /// Metres in a fathom.
 pub(crate) const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
 /// Metres in an inch.
@@ -62,7 +67,7 @@ pub(crate) const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
 const PASCALS_PER_PSI: f64 = 6_894.757;
 /// Kilograms in a pound, exact by definition.
 const KG_PER_POUND: f64 = 0.453_592_37;
-/// Lengths below this are told as diameters are [m].
+/// Lengths below this are shown as diameters are [m].
 const THIN_M: f64 = 0.06;
 /// Metric units of length, speed, force and mass, as files have them.
 const METRIC: [&str; 9] = ["m", "cm", "mm", "km", "m/s", "N", "kN", "kg", "g"];
@@ -86,7 +91,6 @@ impl Units {
     pub const ALL: [Self; 3] = [Self::Noaa, Self::Mixed, Self::Si];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Noaa => "NOAA",
@@ -95,8 +99,7 @@ impl Units {
         }
     }
 
-    /// What it is, in a few words.
-    #[must_use]
+    /// Its description, in a few words.
     pub fn help(self) -> &'static str {
         match self {
             Self::Noaa => "lbf, feet, fathoms, knots, fractions of an inch",
@@ -106,7 +109,6 @@ impl Units {
     }
 
     /// Unit of forces.
-    #[must_use]
     pub fn force(self) -> ForceUnit {
         if self == Self::Si { ForceUnit::Newton } else { ForceUnit::Lbf }
     }
@@ -116,19 +118,16 @@ impl Units {
     }
 
     /// Symbol of lengths.
-    #[must_use]
     pub fn length_symbol(self) -> &'static str {
         if self.trade() { "ft" } else { "m" }
     }
 
     /// A length given in metres, in this profile's unit.
-    #[must_use]
     pub fn of_metres(self, length_m: f64) -> f64 {
         if self.trade() { length_m / METRES_PER_FOOT } else { length_m }
     }
 
     /// A length with its unit.
-    #[must_use]
     pub fn length(self, length_m: f64) -> String {
         let value = self.of_metres(length_m);
         let digits = if value.abs() < 10.0 { 2 } else { usize::from(value.abs() < 100.0) };
@@ -136,7 +135,6 @@ impl Units {
     }
 
     /// A depth of water with its unit.
-    #[must_use]
     pub fn depth(self, depth_m: f64) -> String {
         if self.trade() {
             format!("{:.1} fathom", depth_m / METRES_PER_FATHOM)
@@ -146,31 +144,26 @@ impl Units {
     }
 
     /// Symbol of speeds.
-    #[must_use]
     pub fn speed_symbol(self) -> &'static str {
         if self.trade() { "kn" } else { "m/s" }
     }
 
     /// A speed given in metres a second, in this profile's unit.
-    #[must_use]
     pub fn of_m_s(self, speed_m_s: f64) -> f64 {
         if self.trade() { speed_m_s / M_S_PER_KNOT } else { speed_m_s }
     }
 
     /// A speed of this profile's unit in metres a second.
-    #[must_use]
     pub fn to_m_s(self, speed: f64) -> f64 {
         if self.trade() { speed * M_S_PER_KNOT } else { speed }
     }
 
     /// A speed with its unit.
-    #[must_use]
     pub fn speed(self, speed_m_s: f64) -> String {
         format!("{} {}", rounded(self.of_m_s(speed_m_s), 2), self.speed_symbol())
     }
 
     /// A rope's diameter: to the nearest sixteenth of an inch, or in millimetres.
-    #[must_use]
     pub fn diameter(self, diameter_m: f64) -> String {
         if !self.trade() {
             return format!("{:.1} mm", diameter_m * 1000.0);
@@ -187,7 +180,6 @@ impl Units {
 impl Units {
     /// A value as a file has it, such as `25 m`, in the unit that this profile shows it in; `None` where it has that kind of unit
     /// already, or none that is known.
-    #[must_use]
     pub fn instead_of(self, text: &str) -> Option<String> {
         if !text.starts_with(|first: char| first.is_ascii_digit() || first == '-') {
             return None;
@@ -213,8 +205,7 @@ impl Units {
     }
 }
 
-/// A number to so many decimals; what rounds to nothing has no sign.
-#[must_use]
+/// A number with this many decimals; zero has no sign.
 pub fn rounded(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
@@ -222,7 +213,6 @@ pub fn rounded(value: f64, digits: usize) -> String {
 }
 
 /// Compass bearing of a heading in the world: 0 north, 90 east [degrees, 0 to 360).
-#[must_use]
 pub fn bearing_degrees(east: f64, north: f64) -> f64 {
     east.atan2(north).to_degrees().rem_euclid(360.0)
 }
@@ -232,8 +222,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_force_has_both_units() {
+        assert_eq!(newtons_and_lbf(7_561.976_745_942_85, 1), "7562.0 N (1700.0 lbf)");
+        assert_eq!(newtons_and_lbf(f64::INFINITY, 0), "none");
+    }
+
+    #[test]
     fn a_value_of_a_file_is_told_in_the_unit_of_the_profile_where_that_is_another() {
-        for (units, text, told) in [
+        for (units, text, shown) in [
             (Units::Noaa, "25 m", Some("82.0 ft")),
             (Units::Noaa, "0.25 m/s", Some("0.49 kn")),
             (Units::Noaa, "9.5 mm", Some("3/8 in")),
@@ -251,7 +247,7 @@ mod tests {
             (Units::Noaa, "pp", None),
             (Units::Noaa, "", None),
         ] {
-            assert_eq!(units.instead_of(text).as_deref(), told, "{units:?} {text}");
+            assert_eq!(units.instead_of(text).as_deref(), shown, "{units:?} {text}");
         }
     }
 

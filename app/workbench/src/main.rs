@@ -7,6 +7,6 @@ use endline_workbench::cli;
 fn main() -> ExitCode {
     match cli::run(std::env::args_os()) {
         Ok(code) => code,
-        Err(failure) => failure.tell(),
+        Err(failure) => failure.print(),
     }
 }

@@ -68,14 +68,17 @@ fn an_animated_model_has_bodies_lines_and_whale_where_the_run_has_them() {
     let mut ends = Vec::new();
     for body in run["bodies"].as_array().unwrap() {
         let name = body["id"].as_str().unwrap();
-        let told: Vec<f64> = body["position_m"]
+        let simulated: Vec<f64> = body["position_m"]
             .as_array()
             .unwrap()
             .iter()
             .map(|part| part.as_f64().unwrap())
             .collect();
         let there = back(&last(&gltf, name, Translation));
-        assert!(there.distance(DVec3::from_slice(&told)) < 1e-5, "{name}: {there} and {told:?}");
+        assert!(
+            there.distance(DVec3::from_slice(&simulated)) < 1e-5,
+            "{name}: {there} and {simulated:?}"
+        );
         ends.push(there);
     }
 

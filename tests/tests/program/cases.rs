@@ -1,10 +1,10 @@
-//! Validation cases: the cheap ones hold, faults are told where they stand, and the document says what the cases say.
+//! Validation cases: the cheap ones hold, faults are reported at their places, and the document agrees with the cases.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 use crate::common;
 use crate::common::{Place, library, text};
-use endline_session::cases::{Cases, Effort, Outcome, words};
+use endline_session::cases::{Cases, Effort, Outcome, outcome};
 use endline_session::load_plugins;
 
 fn outcome(cases: &Cases, id: &str) -> Outcome {
@@ -32,15 +32,19 @@ fn quick_cases_pass_and_the_document_says_what_they_expect() {
             let row =
                 row.unwrap_or_else(|| panic!("docs/validation.md lacks {id}, {}", verdict.name));
             let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-            assert_eq!(cells[3], words::value(verdict.expected, verdict.unit), "expected in {row}");
-            assert_eq!(cells[6], words::limit(verdict), "tolerance in {row}");
+            assert_eq!(
+                cells[3],
+                outcome::value(verdict.expected, verdict.unit),
+                "expected in {row}"
+            );
+            assert_eq!(cells[6], outcome::limit(verdict), "tolerance in {row}");
         }
-        let told: Vec<String> = outcome
+        let verdicts: Vec<String> = outcome
             .verdicts
             .iter()
             .map(|verdict| format!("{}: {}", verdict.name, verdict.error))
             .collect();
-        assert!(outcome.passed, "{id}: {:?} {}", outcome.stopped, told.join(", "));
+        assert!(outcome.passed, "{id}: {:?} {}", outcome.stopped, verdicts.join(", "));
     }
 }
 
@@ -106,7 +110,7 @@ fn the_page_of_cases_has_plots_with_text() {
     assert!(std::fs::read_to_string(plot).unwrap().contains("<text"));
 }
 
-/// Faults of a case file are told with file, line and what was expected; `check` and `validate` say the same.
+/// Faults of a case file are reported with file, line and what was expected; `check` and `validate` say the same.
 #[test]
 fn faults_of_a_case_are_told_where_they_stand() {
     let (place, mut whole) = (Place::new("case-faults"), None);
@@ -143,7 +147,7 @@ fn faults_of_a_case_are_told_where_they_stand() {
         .fails(1, &["reference-y", "reference-a-100"]);
 }
 
-/// A line drawn through still water from rest comes to the force it has at rest in a current of that speed.
+/// A line drawn through still water from rest approaches the force it has at rest in a current of that speed.
 #[test]
 fn towing_by_dynamics_and_by_statics_agree() {
     let cases = Cases::open(Some(&library())).unwrap();

@@ -87,14 +87,14 @@ fn a_scenario_from_standard_input_runs_as_its_file_does() {
 
 #[test]
 fn standard_error_tells_as_much_as_is_asked_for() {
-    let place = Place::new("told");
+    let place = Place::new("verbosity");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
-    let told = |flag: &str| place.endline(&[flag, "run", &scenario]).done().stderr;
+    let printed = |flag: &str| place.endline(&[flag, "run", &scenario]).done().stderr;
     let (library, plugins) = (place.path("gear-library"), "plugin: org.endline.");
-    let details = told("--verbose");
+    let details = printed("--verbose");
     assert!(details.contains(&format!("gear library: {}", library.display())), "{details}");
     assert!(details.contains(plugins), "{details}");
-    assert_eq!(told("--quiet"), "");
+    assert_eq!(printed("--quiet"), "");
     place.endline(&["--quiet", "run", "nothing"]).fails(1, &["nothing"]);
     place.endline(&["--quiet", "--verbose", "run", &scenario]).fails(2, &["--verbose"]);
 }
@@ -136,7 +136,7 @@ fn a_resolution_that_cannot_be_kept_is_told_and_counts_agree() {
     );
     assert!(count(&few, "resolution_missed") <= count(&few, "resolution_looks"));
     let table = place.endline(&["run", &scenario]).done().stdout;
-    assert!(table.contains("looks at which resolution was missed"), "{table}");
+    assert!(table.contains("checks at which resolution was missed"), "{table}");
     for audit in [equal, few] {
         let [contact, touching, all] =
             ["contact_steps", "touching_steps", "solver_steps"].map(|key| count(&audit, key));
@@ -164,9 +164,9 @@ fn escapes_of_a_file_do_not_reach_the_terminal() {
     edit(scenario.as_ref(), "duration", "duration = \"\\u001b]52;c;cm0gLXJm\\u0007 1 s\"");
     let refused = place.endline(&["check", &scenario]);
     assert_eq!(refused.code, Some(1), "{refused}");
-    let told = refused.stdout + &refused.stderr;
-    assert!(!told.contains(['\u{1b}', '\u{7}']), "{told:?}");
-    assert!(told.contains("]52;c;"), "{told}");
+    let printed = refused.stdout + &refused.stderr;
+    assert!(!printed.contains(['\u{1b}', '\u{7}']), "{printed:?}");
+    assert!(printed.contains("]52;c;"), "{printed}");
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn settle_prints_shape_tensions_and_residual() {
     assert!(place.endline(&["settle", &scenario]).done().stdout.contains("at rest"));
 }
 
-/// In 2 m/s nothing holds the shipped single: a run does not start from gear that drags, unless told.
+/// In 2 m/s nothing holds the shipped single: a run does not start from gear that drags, unless it is allowed.
 #[test]
 fn a_run_refuses_unsettled_gear_unless_told() {
     let place = Place::new("unsettled");
@@ -208,8 +208,8 @@ fn a_run_refuses_unsettled_gear_unless_told() {
     refused.fails(1, &why);
     refused.fails(1, &["--allow-unsettled"]);
     assert_eq!(refused.stdout, "");
-    let told = place.endline(&["run", &scenario, "--json", "--allow-unsettled"]).done().json();
-    assert_eq!(told["valid"], true);
+    let printed = place.endline(&["run", &scenario, "--json", "--allow-unsettled"]).done().json();
+    assert_eq!(printed["valid"], true);
 }
 
 /// A whale that swims away from the gear touches nothing: the run is over after half a minute, and its recording is as long.
@@ -219,9 +219,9 @@ fn a_run_ends_when_it_is_over_if_told() {
     let scenario = place.short_scenario("hello-endline", "40 s");
     edit(scenario.as_ref(), "heading", "heading = \"180 deg\"");
     let folder = place.path("out").display().to_string();
-    let told = place.endline(&["run", &scenario, "--json", "--until-over", "--out", &folder]);
+    let printed = place.endline(&["run", &scenario, "--json", "--until-over", "--out", &folder]);
     let seconds = |json: &Value| json["simulated_s"].as_f64().unwrap();
-    assert!((seconds(&told.done().json()) - 30.0).abs() < 1e-9);
+    assert!((seconds(&printed.done().json()) - 30.0).abs() < 1e-9);
     let recording = format!("{folder}/recording.endline");
     place.endline(&["replay", &recording, "--verify"]).done();
     let whole = place.endline(&["run", &scenario, "--json"]).done().json();
@@ -294,7 +294,7 @@ fn missing_files_are_named() {
     nowhere.fails(1, &["no-such-library", "ropes", "--library"]);
 }
 
-/// A fault written into a rope file: the line it replaces, the faulty line, and what must be told.
+/// A fault written into a rope file: the line it replaces, the faulty line, and the expected message.
 const FAULTS: [(&str, &str, &[&str]); 3] = [
     ("diameter", "diamter = \"3/8 in\"", &["diamter", "diameter"]),
     ("diameter", "diameter = \"3/8 furlong\"", &["furlong", "a length"]),
@@ -351,8 +351,8 @@ fn a_whale_is_built_as_gltf() {
     let build = |whale: &[&str]| {
         place.endline(&[&["whale", "build"], whale, &["--library", &library]].concat())
     };
-    let told = build(&["right-whale", "--length", "10 m", "--out", &out]).done().stdout;
-    assert!(told.contains(": 10 m, ") && told.contains(" bones, "), "{told}");
+    let printed = build(&["right-whale", "--length", "10 m", "--out", &out]).done().stdout;
+    assert!(printed.contains(": 10 m, ") && printed.contains(" bones, "), "{printed}");
     let bytes = fs::read(&out).unwrap();
     assert!(bytes.starts_with(b"glTF") && bytes.len() > 300_000);
     assert_eq!(u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize, bytes.len());
@@ -386,12 +386,12 @@ fn a_whale_from_a_mesh_file_runs_and_replays() {
     assert_ne!(own["model_hash"], plain["model_hash"]);
     fs::remove_file(whales.join("mine.glb")).unwrap();
     place.endline(&["replay", "own/recording.endline", "--verify"]).done();
-    let told = ["right-whale.toml:", "there is no file `whales/mine.glb`"];
-    place.endline(&["run", &scenario]).fails(1, &told);
+    let printed = ["right-whale.toml:", "there is no file `whales/mine.glb`"];
+    place.endline(&["run", &scenario]).fails(1, &printed);
     // The file alone too, and by its name in its folder.
-    place.endline(&["check", &text(&item)]).fails(1, &told);
+    place.endline(&["check", &text(&item)]).fails(1, &printed);
     let mut inside = place.command(&["check", "right-whale.toml"]);
-    called(inside.current_dir(&whales)).fails(1, &told);
+    called(inside.current_dir(&whales)).fails(1, &printed);
 }
 
 #[test]
@@ -478,7 +478,7 @@ fn library(place: &Place, name: &str, source: &str) -> String {
 }
 
 #[test]
-fn a_bad_plugin_is_told_and_the_rest_goes_on() {
+fn a_bad_plugin_is_reported_and_the_others_work() {
     let place = Place::new("bad-plugins");
     for (name, source, words) in
         [("wrong_abi", WRONG_ABI, &["4711"][..]), ("panics", PANICS, &["panics."][..])]

@@ -1,4 +1,4 @@
-//! The same run gives the same bits: twice, on any number of threads, and with its scratch memory dropped at any time.
+//! A run repeated gives equal bits: twice, on any number of threads, and with its scratch memory dropped at any time.
 
 #![allow(
     clippy::unwrap_used,

@@ -44,14 +44,14 @@ fn tables_of_a_recording_hold_its_moments() {
     let export = ["export", &recording, "--out", &tables, "--format", "csv", "--rate", "200"];
     place.endline(&export).done().prints(&["nodes", "segments", "contacts"]);
 
-    let (_, told) = table(&place, "columns");
-    let told: BTreeSet<(String, String)> =
-        told.into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
+    let (_, described) = table(&place, "columns");
+    let described: BTreeSet<(String, String)> =
+        described.into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
     for name in ["nodes", "segments", "bodies", "whale", "contacts"] {
         let (names, rows) = table(&place, name);
         assert!(!rows.is_empty(), "{name}");
         let own = names.into_iter().map(|column| (name.to_owned(), column));
-        assert!(own.collect::<BTreeSet<_>>().is_subset(&told), "{name}");
+        assert!(own.collect::<BTreeSet<_>>().is_subset(&described), "{name}");
     }
 
     let tension = greatest(&place, "segments", "line", "tension_N");
@@ -75,8 +75,8 @@ fn tables_of_a_recording_hold_its_moments() {
     }
     let (_, contacts) = table(&place, "contacts");
     let first: f64 = contacts[0][0].parse().unwrap();
-    let told = run["whale"]["first_contact_s"].as_f64().unwrap();
-    assert!((first - told).abs() < 0.01, "{first} s, {told} s");
+    let reported = run["whale"]["first_contact_s"].as_f64().unwrap();
+    assert!((first - reported).abs() < 0.01, "{first} s, {reported} s");
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn a_file_with_thousands_of_mistakes_tells_the_first_and_counts_the_rest() {
     called.fails(1, &["unknown0", "more problems are not shown"]);
     assert!(called.stdout.len() + called.stderr.len() < 200_000, "{}", called.stdout.len());
 
-    // One line of 100 kB is not told whole with each of its mistakes.
+    // One line of 100 kB is not printed whole with each of its mistakes.
     let keys: Vec<String> =
         (0..2000).map(|key| format!("{{ time = \"{key} furlong\", pitch = 1 }}")).collect();
     let act = place.write(
@@ -82,10 +82,10 @@ fn nothing_of_a_file_steers_the_terminal() {
     edit(&rope, "strength", "strength = \"12 \u{1b}[31mfurlong\"");
     let called = place.endline(&["check", rope.to_str().unwrap()]);
     assert_ne!(called.code, Some(0), "{called}");
-    let told = called.stdout + &called.stderr;
+    let printed = called.stdout + &called.stderr;
     assert!(
-        !told.contains('\u{1b}') && !told.contains('\u{202e}') && told.contains("\\u001b"),
-        "{told}"
+        !printed.contains('\u{1b}') && !printed.contains('\u{202e}') && printed.contains("\\u001b"),
+        "{printed}"
     );
 }
 
@@ -110,8 +110,8 @@ fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it
     let written_over = "--out would write over";
     called.fails(2, &[written_over]);
     place.endline(&["pilot", file, "--out", file]).fails(2, &[written_over]);
-    let go_on = ["run", &scenario, "--from", file, "--at", "0.05s", "--out", "out"];
-    place.endline(&go_on).fails(2, &[written_over]);
+    let from = ["run", &scenario, "--from", file, "--at", "0.05s", "--out", "out"];
+    place.endline(&from).fails(2, &[written_over]);
     assert_eq!(fs::read(&path).unwrap(), sound, "the recording is as it was");
 
     let mut recording = endline_session::Recording::load(&path).unwrap();
@@ -152,7 +152,7 @@ const TAKING: [(&str, &str); 33] = [
     ("toml", "sheet FILE --area maine --on 2024-06-01 --to OUT.html"),
     ("toml", "rules check FILE --area maine --on 2024-06-01"),
     ("toml", "rules check pair --area maine --on 2024-06-01 --pack FILE"),
-    ("toml", "rules mend FILE --area maine --on 2024-06-01"),
+    ("toml", "rules fix FILE --area maine --on 2024-06-01"),
     ("toml", "rules study pair --option us.weak --option us.traps --out OUT.toml --like FILE"),
     ("toml", "rules list --pack FILE"),
     ("csv", "mill FILE"),

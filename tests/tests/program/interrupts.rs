@@ -1,4 +1,4 @@
-//! Interrupted as terminals and batch systems do it: what there is is kept and told, and the program says how to go on.
+//! Interrupted as terminals and batch systems do it: results so far are stored and printed, with the command that continues.
 #![cfg(target_os = "linux")]
 #![allow(
     clippy::unwrap_used,
@@ -45,7 +45,7 @@ fn started(place: &Place, arguments: &[&str]) -> Child {
 }
 
 #[test]
-fn an_interrupted_run_tells_its_summary_and_its_recording_goes_on() {
+fn an_interrupted_run_prints_its_summary_and_its_recording_continues() {
     let place = Place::new("interrupted-run");
     let scenario = place.encounter();
     edit(scenario.as_ref(), "duration", "duration = \"900 s\"");
@@ -55,7 +55,7 @@ fn an_interrupted_run_tells_its_summary_and_its_recording_goes_on() {
     std::thread::sleep(Duration::from_millis(300));
     send(&child, "-TERM");
     let called = ended(child);
-    called.fails(143, &["interrupted at", "to go on from there", "--from", "recording.endline"]);
+    called.fails(143, &["interrupted at", "to continue from there", "--from", "recording.endline"]);
     let json = called.json();
     assert!(json["stopped"].as_str().unwrap().contains("it was interrupted"), "{called}");
     let recording = text(&out.join("recording.endline"));
@@ -84,7 +84,7 @@ fn a_run_under_nohup_outlives_its_terminal() {
 }
 
 #[test]
-fn an_interrupted_study_keeps_its_encounters_and_the_same_command_goes_on() {
+fn an_interrupted_study_keeps_its_encounters_and_the_same_command_continues() {
     let place = Place::new("interrupted-study");
     let study = small(&place);
     edit(study.as_ref(), "encounters", "encounters = 10");
@@ -94,7 +94,7 @@ fn an_interrupted_study_keeps_its_encounters_and_the_same_command_goes_on() {
     wait("an encounter", || blocks(&cut) > 0);
     send(&child, "-INT");
     let called = ended(child);
-    called.fails(130, &["interrupted:", "of 10 encounters are kept", "the same command goes on"]);
+    called.fails(130, &["interrupted:", "of 10 encounters are kept", "the same command continues"]);
     let kept = blocks(&cut);
     assert!((1..10).contains(&kept), "{kept} encounters were kept");
     place.endline(&arguments).done();

@@ -23,9 +23,9 @@ fn breaks_become_a_law_two_probabilities_and_a_weak_link() {
     let item = fs::read_to_string(place.path("weak-links/sleeve.toml")).unwrap();
     assert!(item.contains("mill.csv: mean and standard deviation of 10 breaks"), "{item}");
     place.endline(&["check", "weak-links/sleeve.toml"]).done();
-    let told =
+    let called =
         place.endline(&["mill", "--break", "1650 lbf", "--break", "7.5 kN", "--break", "1700 lbf"]);
-    assert!(told.done().stdout.contains("NOAA bulletin 307460d"));
+    assert!(called.done().stdout.contains("NOAA bulletin 307460d"));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use crate::common::{Called, Place, called, edit, text};
 
-/// What a library does half a second into a run, and what the run then says of it.
+/// Behaviour of a library half a second into a run, and the message of the run.
 const HARM: [(&str, &str, &str); 9] = [
     ("null", "*(volatile int *)0 = 1;", "signal: 11"),
     ("abort", "abort();", "signal: 6"),
@@ -73,14 +73,14 @@ fn whatever_a_library_does_the_run_ends_with_a_reason_and_the_program_lives() {
     let scenario = encounter(&place);
     let folders = HARM.map(|(name, harm, _)| allowed(&place, name, harm));
     std::thread::scope(|threads| {
-        for ((name, _, told), folder) in HARM.into_iter().zip(&folders) {
+        for ((name, _, message), folder) in HARM.into_iter().zip(&folders) {
             let (place, scenario) = (&place, &scenario);
             threads.spawn(move || {
                 let called = run(place, folder, scenario);
-                called.fails(1, &["plugin `org.example.motion.late`", told]);
+                called.fails(1, &["plugin `org.example.motion.late`", message]);
                 let at = called.json()["stopped"].clone();
                 assert!(at.to_string().contains("0.51"), "{name}: {at}");
-                assert!(endline_tests::documented("plugin-abi.md", &[name, told]), "{name}");
+                assert!(endline_tests::documented("plugin-abi.md", &[name, message]), "{name}");
             });
         }
     });
@@ -105,7 +105,7 @@ fn a_library_gives_the_same_bits_in_a_process_of_its_own_as_in_the_programs() {
     let shipped = endline_tests::products().unwrap().join("plugins");
     let libraries: Vec<String> =
         fs::read_dir(&shipped).unwrap().map(|entry| text(&entry.unwrap().path())).collect();
-    let hash_where = |how: &str, told: bool| {
+    let hash_where = |how: &str, listed_so: bool| {
         let allow = ["plugins", "allow", how].into_iter().filter(|word| !word.is_empty());
         let allow: Vec<&str> = allow.chain(libraries.iter().map(String::as_str)).collect();
         place.alone(&allow).done();
@@ -114,7 +114,7 @@ fn a_library_gives_the_same_bits_in_a_process_of_its_own_as_in_the_programs() {
         };
         let listed = with(&["plugins", "list"]).stdout;
         assert!(!listed.contains("linked in"), "{listed}");
-        assert_eq!(listed.contains("in a process of its own"), told, "{listed}");
+        assert_eq!(listed.contains("in a process of its own"), listed_so, "{listed}");
         with(&["run", &scenario, "--json"]).json()["state_hash"].clone()
     };
     let own_process = hash_where("", true);

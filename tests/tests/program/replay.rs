@@ -1,4 +1,4 @@
-//! Recordings as users have them: they replay bit for bit, and every damage is told by its place.
+//! Recordings as users have them: they replay bit for bit, and every damage is reported at its place.
 
 #![allow(
     clippy::unwrap_used,
@@ -66,10 +66,10 @@ fn one_changed_input_byte_is_found_at_its_step() {
         let mut changed = whole.clone();
         changed[inputs.start + (step - 1) * INPUT_BYTES + byte] ^= 1;
         fs::write(place.path("changed.endline"), &changed).unwrap();
-        let told = format!("step {step} ");
+        let place_of_step = format!("step {step} ");
         place
             .endline(&["replay", "changed.endline", "--verify"])
-            .fails(1, &[&told, "input differs", "changed after the recording was saved"]);
+            .fails(1, &[&place_of_step, "input differs", "changed after the recording was saved"]);
         place.endline(&["replay", "changed.endline"]).fails(1, &["--verify"]);
     }
 }
@@ -123,7 +123,7 @@ fn a_stretch_of_a_recording_is_a_film_and_what_is_no_stretch_is_refused() {
     let bytes = fs::read(place.path("run.gif")).unwrap();
     assert!(bytes.starts_with(b"GIF89a"));
     assert_eq!(u16::from_le_bytes([bytes[6], bytes[7]]), 160, "its width");
-    // Each picture is told by a graphic control extension of its own.
+    // Each picture has a graphic control extension of its own.
     let pictures = bytes.windows(3).filter(|bytes| *bytes == [0x21, 0xf9, 0x04]).count();
     assert_eq!(pictures, 3, "at 0, 0.1 and 0.2 s");
     call("run.png", &film).fails(2, &["run.png is no film", ".gif, .mp4, .webm or .glb"]);

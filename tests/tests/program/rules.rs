@@ -49,12 +49,12 @@ fn an_assembly_passes_fails_or_leaves_a_rule_open_and_the_exit_code_says_whether
     place.write("assemblies/floating.toml", &assembly.replace("\"sink-3-8\"", "\"pp-3-8\""));
     let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
     // What is proposed or voluntary is advice: it fails, and the call does not.
-    let told = ["fail", "bay.sinking", "mend: Use sinking rope.", "0 >= 0.5", "(proposed)"];
-    fails.fails(0, &[&told[..], &["1 fail (1 of them advice that does not bind)"]].concat());
+    let printed = ["fail", "bay.sinking", "fix: Use sinking rope.", "0 >= 0.5", "(proposed)"];
+    fails.fails(0, &[&printed[..], &["1 fail (1 of them advice that does not bind)"]].concat());
     for (standing, code) in [("law", 1), ("voluntary", 0)] {
         place.write("bay.toml", &PACK.replace("\"proposed\"", &format!("\"{standing}\"")));
         let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
-        fails.fails(code, &["mend: Use sinking rope.", "1 fail"]);
+        fails.fails(code, &["fix: Use sinking rope.", "1 fail"]);
     }
 
     let maine = check(&place, &["single", "--area", "me-b", "--on", "2024-06-01"]);
@@ -93,13 +93,13 @@ fn mistakes_in_a_pack_stand_at_their_lines_and_the_packs_that_ship_have_none() {
         .replace("least = 0.5", "least = \"1 m\"");
     place.write("bay.toml", &pack);
     let called = place.endline(&["--library", library().to_str().unwrap(), "check", "bay.toml"]);
-    let told = [
+    let printed = [
         "bay.toml:15:8",
         "unknown field `mened`",
         "bay.toml:19:9",
         "compares a plain number and a length",
     ];
-    called.fails(1, &told);
+    called.fails(1, &printed);
     place.write("bay.toml", &PACK.replace("areas = [\"my-bay\"]", "areas = [\"my-by\"]"));
     let called = place.endline(&["--library", library().to_str().unwrap(), "check", "bay.toml"]);
     called.fails(1, &["no pack declares the area `my-by`", "did you mean `my-bay`?"]);
@@ -179,16 +179,15 @@ fn the_json_of_check_and_list_tells_all_that_a_script_needs() {
 }
 
 #[test]
-fn edits_that_mend_are_proposed_and_written_to_a_new_assembly_that_complies() {
-    let place = Place::new("rule-mend");
+fn edits_that_meet_rules_are_proposed_and_written_to_a_new_assembly_that_complies() {
+    let place = Place::new("rule-fix");
     let library = text(&place.library());
     let at = ["--area", "me-b", "--on", "2024-06-01", "--distance", "5 nmi"];
-    let mend = |more: &[&str]| {
-        place
-            .endline(&[&["--library", &library, "rules", "mend", "single"], &at[..], more].concat())
+    let fix = |more: &[&str]| {
+        place.endline(&[&["--library", &library, "rules", "fix", "single"], &at[..], more].concat())
     };
-    let json = mend(&["--json"]).done().json();
-    assert_eq!(json["schema"], "endline.rules.mend/1");
+    let json = fix(&["--json"]).done().json();
+    assert_eq!(json["schema"], "endline.rules.fix/1");
     let rules = json["rules"].as_array().unwrap();
     let of = |id: &str| rules.iter().find(|one| one["rule"] == id).unwrap();
     let two = of("me.inserts.3-12.two")["proposals"].as_array().unwrap();
@@ -199,28 +198,28 @@ fn edits_that_mend_are_proposed_and_written_to_a_new_assembly_that_complies() {
         assert!(!edit["changes"].as_array().unwrap().is_empty(), "{edit}");
     }
     assert!(of("us.soak")["why_none"].as_str().unwrap().contains("does not say"));
-    let told =
-        ["single in me-b", "25 % and 50 % of endline-top", "still fails", "no edit mends it"];
-    mend(&[]).fails(0, &told);
+    let printed =
+        ["single in me-b", "25 % and 50 % of endline-top", "still fails", "no edit meets it"];
+    fix(&[]).fails(0, &printed);
 
     // All edits together: the assembly written complies with every rule that binds.
-    mend(&["--write", "single-mended"]).done();
+    fix(&["--write", "single-fixed"]).done();
     let check = |assembly: &str| {
         place.endline(&[&["--library", &library, "rules", "check", assembly], &at[..]].concat())
     };
     check("single").fails(1, &["us.weak"]);
-    check("single-mended").fails(0, &["0 fail"]);
-    let file = place.path("gear-library/assemblies/single-mended.toml");
+    check("single-fixed").fails(0, &["0 fail"]);
+    let file = place.path("gear-library/assemblies/single-fixed.toml");
     let written = fs::read_to_string(&file).unwrap();
     assert!(
-        written.contains("(mended)") && written.contains("[lines.endline-top.inserts]"),
+        written.contains("(fixed)") && written.contains("[lines.endline-top.inserts]"),
         "{written}"
     );
     // Never over a file that is there; a number that no proposal has is wrong use.
-    mend(&["--write", "single-mended"]).fails(1, &["is there already"]);
+    fix(&["--write", "single-fixed"]).fails(1, &["is there already"]);
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
-    mend(&["--write", "one.toml", "--take", "99"]).fails(2, &["--take 99", "numbers 1 to"]);
-    mend(&["--write", "one.toml", "--take", "1"]).done();
+    fix(&["--write", "one.toml", "--take", "99"]).fails(2, &["--take 99", "numbers 1 to"]);
+    fix(&["--write", "one.toml", "--take", "1"]).done();
     assert!(place.path("one.toml").is_file());
 }
 

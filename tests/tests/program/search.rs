@@ -48,7 +48,7 @@ fn place(name: &str) -> Place {
 }
 
 #[test]
-fn a_search_goes_on_where_it_stood_and_says_plainly_what_it_did_not_find() {
+fn a_search_continues_after_an_end_and_says_when_it_found_nothing() {
     let place = place("search");
     let call = |out: &str, trials: &str, threads: &str| {
         let arguments = [

@@ -47,7 +47,7 @@ fn new_blocks(process: Child) -> usize {
 }
 
 #[test]
-fn processes_on_one_folder_share_the_work_and_go_on_with_that_of_a_killed_one() {
+fn processes_on_one_folder_share_the_work_and_continue_that_of_a_killed_one() {
     let place = Place::new("study-shared");
     let study = study(&place);
     let out = |name: &str| place.folder.join(name).display().to_string();

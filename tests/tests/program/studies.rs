@@ -192,7 +192,7 @@ fn moments(count: u32) -> impl Iterator<Item = f64> {
 }
 
 #[test]
-fn killed_at_any_moment_it_goes_on_to_the_same_table() {
+fn killed_at_any_moment_it_continues_to_the_same_table() {
     let place = Place::new("study-kills");
     let study = small(&place);
     let whole_at = place.folder.join("whole");
@@ -316,7 +316,7 @@ observed = [0.0, 1.0]
 "#;
 
 #[test]
-fn one_command_runs_studies_and_cases_and_tells_what_agrees() {
+fn one_command_runs_studies_and_cases_and_reports_agreement() {
     let place = Place::new("study-hindcast");
     let study = small(&place);
     // Only studies of the library itself are found.
@@ -349,7 +349,7 @@ fn one_command_runs_studies_and_cases_and_tells_what_agrees() {
     assert!(row("B9").contains("2295") && row("B9").contains("| agrees |"), "{page}");
     assert!(!page.contains("added after"), "all were there before the first run: {page}");
 
-    // What is added after the first run is told.
+    // An observation added after the first run is marked.
     let text = fs::read_to_string(&study).unwrap();
     fs::write(&study, text.replace("[0.9, 1.0]", "[0.0, 1.0]")).unwrap();
     let again = call(&whole).stdout;
@@ -423,7 +423,7 @@ fn bundle(place: &Place, folder: &Path, whole: &[u8]) {
 }
 
 #[test]
-fn mistakes_are_told_at_their_place() {
+fn mistakes_are_reported_at_their_places() {
     let place = Place::new("study-mistakes");
     let study = small(&place);
     let plan = |from: &str, to: &str| {

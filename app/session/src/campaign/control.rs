@@ -41,7 +41,6 @@ pub struct Progress {
 
 impl Progress {
     /// Time left at the mean pace so far; `None` before the first encounter is done.
-    #[must_use]
     pub fn left(&self) -> Option<Duration> {
         let Count { done, found, total } = self.encounters;
         let fresh = done.saturating_sub(found);
@@ -51,7 +50,6 @@ impl Progress {
     }
 
     /// Share of the encounters that are done, 0 to 1.
-    #[must_use]
     pub fn share(&self) -> f32 {
         let Count { done, total, .. } = self.encounters;
         if total == 0 { 0.0 } else { done as f32 / total as f32 }
@@ -101,7 +99,6 @@ impl fmt::Debug for Control {
 impl Control {
     /// A control of a campaign that may run. `watcher` is called at the start, after each encounter and after each block, from the
     /// threads that run them.
-    #[must_use]
     pub fn new(watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
         Self {
             wish: Mutex::new(Wish::Run),
@@ -141,19 +138,16 @@ impl Control {
     }
 
     /// Whether it is paused.
-    #[must_use]
     pub fn is_paused(&self) -> bool {
         *lock(&self.wish) == Wish::Pause
     }
 
     /// Whether it is cancelled.
-    #[must_use]
     pub fn is_cancelled(&self) -> bool {
         *lock(&self.wish) == Wish::Cancel
     }
 
     /// Its progress.
-    #[must_use]
     pub fn progress(&self) -> Progress {
         *lock(&self.progress)
     }

@@ -15,17 +15,11 @@ pub(crate) fn path_under(root: &Path, id: &str, hash: &str) -> PathBuf {
 }
 
 /// Makes a folder unless it exists.
-///
-/// # Errors
-/// Where it cannot be made.
 pub(crate) fn make(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).map_err(|error| Error::at(path, format!("cannot be made: {error}")))
 }
 
 /// The label in a file; `None` if there is no file.
-///
-/// # Errors
-/// A file that cannot be read, or holds something else.
 pub(crate) fn read_label<L: DeserializeOwned>(file: &Path) -> Result<Option<L>, Error> {
     let Some(text) = save::text_if_there(file)? else { return Ok(None) };
     let label = serde_json::from_str(&text);
@@ -33,9 +27,6 @@ pub(crate) fn read_label<L: DeserializeOwned>(file: &Path) -> Result<Option<L>, 
 }
 
 /// Writes a label.
-///
-/// # Errors
-/// Where it cannot be written.
 pub(crate) fn write_label(file: &Path, label: &impl Serialize) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(label).unwrap_or_default() + "\n";
     save::atomically(file, text.as_bytes())

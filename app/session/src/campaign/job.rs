@@ -62,7 +62,6 @@ impl<F> AtWork<F> {
 
 impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
     /// A job that waits. The waker is called at every change.
-    #[must_use]
     pub fn new(request: R, waker: Waker) -> Self {
         let progressed = Arc::clone(&waker);
         let shared = AtWork {
@@ -103,7 +102,6 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
     }
 
     /// Its state.
-    #[must_use]
     pub fn state(&self) -> State {
         let (state, control) = (lock(&self.shared.state).clone(), &self.shared.control);
         match state {
@@ -120,19 +118,16 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
     }
 
     /// Its progress.
-    #[must_use]
     pub fn progress(&self) -> Progress {
         self.shared.control.progress()
     }
 
     /// The results so far.
-    #[must_use]
     pub fn found(&self) -> F {
         lock(&self.shared.found).clone()
     }
 
     /// Whether its threads are at work.
-    #[must_use]
     pub fn at_work(&self) -> bool {
         matches!(
             self.state(),
@@ -147,7 +142,6 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
     }
 
     /// Whether it waits, is at work or is paused.
-    #[must_use]
     pub fn is_unfinished(&self) -> bool {
         !matches!(self.state(), State::Done | State::Cancelled | State::Failed(_))
     }
@@ -199,7 +193,7 @@ mod tests {
     #[test]
     fn a_job_ends_as_its_work_does_and_a_panic_is_a_failure() {
         assert_eq!(end(|_| Ok(State::Done)), State::Done);
-        let failed = end(|_| Err(Error::Replay("no such file".into())));
+        let failed = end(|_| Err(Error::Message("no such file".into())));
         assert_eq!(failed, State::Failed("no such file".into()));
         let State::Failed(why) = end(|_| panic!("on purpose")) else { panic!() };
         assert!(why.starts_with("the test ended by a fault inside the program"), "{why}");

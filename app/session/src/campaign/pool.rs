@@ -17,15 +17,9 @@ pub(crate) trait Work: Sync {
     type Piece;
 
     /// The next piece to run in this process.
-    ///
-    /// # Errors
-    /// A folder that cannot be read or written.
     fn next(&self) -> Result<Next<Self::Piece>, Error>;
 
     /// Runs a piece and stores its result; false if the control cancelled it.
-    ///
-    /// # Errors
-    /// A folder that cannot be written.
     fn run(&self, piece: Self::Piece) -> Result<bool, Error>;
 }
 
@@ -58,9 +52,6 @@ impl Failure {
 }
 
 /// Runs work on threads, while `collect` takes in results on this one.
-///
-/// # Errors
-/// The first failure of a thread, else that of `collect`.
 pub(crate) fn run<T>(
     work: &impl Work,
     threads: usize,
@@ -123,7 +114,7 @@ mod tests {
 
         fn run(&self, number: u32) -> Result<bool, Error> {
             if number == self.fails {
-                return Err(Error::Replay(format!("number {number}")));
+                return Err(Error::Message(format!("number {number}")));
             }
             self.sum.fetch_add(number, Ordering::SeqCst);
             Ok(true)
@@ -147,7 +138,7 @@ mod tests {
     fn the_first_failure_ends_the_pool() {
         assert_eq!(sum(3, 7).unwrap_err().to_string(), "number 7");
         let numbers = Numbers { next: AtomicU32::new(0), sum: AtomicU32::new(0), fails: u32::MAX };
-        let collect = |_: &Failure| Err::<(), _>(Error::Replay("the folder".into()));
+        let collect = |_: &Failure| Err::<(), _>(Error::Message("the folder".into()));
         let error = run(&numbers, 2, &Control::default(), collect).unwrap_err();
         assert_eq!(error.to_string(), "the folder");
     }

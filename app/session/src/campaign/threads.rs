@@ -16,16 +16,12 @@ impl Shard {
     pub const WHOLE: Self = Self { part: 0, of: 1 };
 
     /// Whether a block belongs to it.
-    #[must_use]
     pub fn holds(self, block: u32) -> bool {
         block % self.of == self.part
     }
 }
 
 /// Gives this thread, and the threads that it starts, the lowest priority. Does nothing on systems other than Unix.
-///
-/// # Errors
-/// Where the system refuses.
 pub fn try_lower_priority() -> io::Result<()> {
     #[cfg(unix)]
     rustix::process::nice(19)?;
@@ -40,7 +36,6 @@ pub(crate) fn lower_priority() {
 }
 
 /// Threads for encounters: all cores but one, which the window uses.
-#[must_use]
 pub fn default_count() -> usize {
     std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1))
 }

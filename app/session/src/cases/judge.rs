@@ -1,16 +1,15 @@
-//! From readings to verdicts.
+//! From runs to readings, and from readings to verdicts.
 
 use endline_gear::{At, Case, Check, Diagnostic, Measure, Samples, Table};
 use endline_sim::Model;
+use endline_sim::metrics::reading;
 
-use crate::error::Error;
-
-use super::Finer;
-use super::curves;
-use super::observed::Observed;
-use super::outcome::{Convergence, Outcome, Verdict, error};
-use super::reference::{Reference, begin, of_table, probes};
+use super::outcome::{Convergence, Observed, Outcome, Verdict, error_of};
+use super::rows::{Reference, begin, of_table, probes};
 use super::setup::Setup;
+use super::{Finer, rows, setup};
+use crate::error::Error;
+use crate::run::{Run, RunOptions};
 
 /// Readings nearer than this share of their size are the same: they show no order of convergence.
 const SAME: f64 = 1e-10;
@@ -47,7 +46,7 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
     if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
 }
 
-/// The verdicts of a case, with what halving came to.
+/// The verdicts of a case, with the orders of convergence.
 pub(super) fn outcome(
     case: &Case,
     setup: &Setup,
@@ -70,7 +69,7 @@ pub(super) fn outcome(
         verdict.segment = reference.convergence(check, base, finer.segment.as_ref())?;
         verdicts.push(verdict);
     }
-    let curves = curves::of(&reference, case, base)?;
+    let curves = rows::of(&reference, case, base)?;
     Ok(Outcome { curves, ..Outcome::begin(case, setup) }.judged(verdicts))
 }
 
@@ -165,7 +164,10 @@ impl Reference<'_> {
         let [whole, half, quarter] =
             [self.measure(check, base)?, self.measure(check, half)?, self.measure(check, quarter)?];
         let order = order(&whole.readings, &half.readings, &quarter.readings);
-        Ok(Some(Convergence { error_at_half: error(half.expected, half.got, check.limit), order }))
+        Ok(Some(Convergence {
+            error_at_half: error_of(half.expected, half.got, check.limit),
+            order,
+        }))
     }
 }
 
@@ -212,6 +214,88 @@ fn by_second(unit: &str) -> &'static str {
         "N" => "N/s",
         "J" => "W",
         _ => "1/s",
+    }
+}
+
+/// Points of a curve in a plot.
+const TRACE_POINTS: f64 = 400.0;
+
+/// Runs a case at a share of its step and segments; the reason where it does not get to its end.
+pub(super) fn observe(
+    setup: &Setup,
+    case: &Case,
+    table: Option<&Table>,
+    share: [u32; 2],
+) -> Result<Result<Observed, String>, Error> {
+    let prepared = setup.finer(share)?;
+    if let (Some(haul), Samples::Every(between_s)) = (&case.haul, &case.samples) {
+        return Ok(setup::observe(&prepared.model, haul, *between_s));
+    }
+    let times = times(case, table, &prepared.model)?;
+    let mut run = match Run::new(prepared, RunOptions::default()) {
+        Ok(run) => run,
+        Err(error @ Error::Unsettled { .. }) => return Ok(Err(error.to_string())),
+        Err(error) => return Err(error),
+    };
+    let Some(times) = times else {
+        let mut observed = Observed::default();
+        observed.sample(&run, 0.0);
+        return Ok(Ok(observed));
+    };
+    let mut observed = Observed::default();
+    let between = run.model().spec.settings.duration_s / TRACE_POINTS;
+    for time in times {
+        while run.state().time_s < time - 1e-9 {
+            observed.follow(&run, between);
+            if let Err(stop) = run.step(run.pilot()) {
+                return Ok(Err(Error::Stopped(stop).to_string()));
+            }
+        }
+        observed.follow(&run, between);
+        observed.sample(&run, time);
+    }
+    Ok(Ok(observed))
+}
+
+/// When samples are taken [s]; `None` for once at rest.
+fn times(case: &Case, table: Option<&Table>, model: &Model) -> Result<Option<Vec<f64>>, Error> {
+    match (&case.samples, table) {
+        (Samples::Every(between_s), _) => {
+            let count = (model.spec.settings.duration_s / between_s + 1e-9).floor();
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a positive whole number"
+            )]
+            let times = (0..=count as u64).map(|index| index as f64 * between_s);
+            Ok(Some(times.collect()))
+        }
+        (Samples::Table, Some(table)) => table.column("t").map(Some).map_err(Error::from),
+        _ => Ok(None),
+    }
+}
+
+impl Observed {
+    fn sample(&mut self, run: &Run, time_s: f64) {
+        self.times_s.push(time_s);
+        read_all(run, &mut self.samples);
+    }
+
+    /// Keeps a point for the plot, where it is time for one.
+    fn follow(&mut self, run: &Run, between_s: f64) {
+        let now = run.state().time_s;
+        if self.trace.0.last().is_none_or(|last| now - last >= between_s - 1e-12) {
+            self.trace.0.push(now);
+            read_all(run, &mut self.trace.1);
+        }
+    }
+}
+
+fn read_all(run: &Run, into: &mut Vec<Vec<f64>>) {
+    let model = run.model();
+    into.resize(model.spec.probes.len(), Vec::new());
+    for (readings, probe) in into.iter_mut().zip(&model.spec.probes) {
+        readings.push(reading(model, run.state(), probe.target));
     }
 }
 

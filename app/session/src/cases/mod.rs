@@ -1,20 +1,14 @@
-//! Validation cases run and judged: what was expected, what was got, and how it converges.
+//! Validation cases: run, compared with expected values, and studied for convergence.
 //!
 //! A case ([`endline_gear::Case`]) names a scenario of the same library. It is run at the scenario's own step and
 //! segments, and where it says so at a half and a quarter of each, one at a time; the order of convergence is
 //! `p = log₂(|r₁ - r½| / |r½ - r¼|)` of its readings `r`, which needs no exact answer.
 //! Reference: Roache 1998, Verification of codes and calculations (doi:10.2514/2.457).
 
-mod curves;
-mod hauled;
 mod judge;
-mod observe;
-mod observed;
-mod outcome;
-mod reference;
+pub mod outcome;
 mod rows;
 mod setup;
-pub mod words;
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +20,7 @@ use crate::plugins::PluginHost;
 
 pub use outcome::{Convergence, Curve, Outcome, Point, Verdict};
 
-use observed::Observed;
+use outcome::Observed;
 use outcome::failed;
 use setup::Setup;
 
@@ -56,19 +50,13 @@ pub enum Effort {
 
 impl Cases {
     /// The cases of a library folder, found as [`locate::library`] says where `library` is `None`.
-    ///
-    /// # Errors
-    /// No library, or a file of it that cannot be read.
     pub fn open(library: Option<&Path>) -> Result<Self, Error> {
-        let root = locate::library(None, library).map_err(Error::Replay)?;
+        let root = locate::library(None, library).map_err(Error::Message)?;
         let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
         Ok(Self { root, sources })
     }
 
     /// Ids of all cases, in order.
-    ///
-    /// # Errors
-    /// Where the folder `cases` cannot be read.
     pub fn ids(&self) -> Result<Vec<String>, Error> {
         let folder = self.root.join("cases");
         let entries = std::fs::read_dir(&folder)
@@ -85,9 +73,6 @@ impl Cases {
     }
 
     /// Reads a case and its table.
-    ///
-    /// # Errors
-    /// A file that is not there, or every located error of it.
     pub fn load(&self, id: &str) -> Result<Loaded, Error> {
         let path = self.root.join("cases").join(format!("{id}.toml"));
         let case = Case::read(&path.display().to_string(), &self.text(&path, || self.known(id))?)
@@ -104,9 +89,6 @@ impl Cases {
     }
 
     /// Checks a case with its table and its scenario, without running it.
-    ///
-    /// # Errors
-    /// Faults of the case, its scenario or its table.
     pub fn check(&self, id: &str, host: &PluginHost) -> Result<(), Error> {
         let Loaded { case, table } = self.load(id)?;
         match (&case.samples, &table) {
@@ -114,16 +96,13 @@ impl Cases {
             (Samples::Rows(_), None) => Err(no_table(&case)),
             _ => {
                 let model = Setup::new(self, &case, &[], host)?.model;
-                hauled::check(&case, &model)?;
+                setup::check(&case, &model)?;
                 judge::check_names(&case, &model, table.as_ref())
             }
         }
     }
 
     /// Runs a case. What stops its run is in the outcome; it then has not passed.
-    ///
-    /// # Errors
-    /// Faults of the case, its scenario or its table.
     pub fn run(
         &self,
         loaded: &Loaded,
@@ -136,9 +115,9 @@ impl Cases {
             return rows::run(self, case, rows, table, host);
         }
         let setup = Setup::new(self, case, &[], host)?;
-        hauled::check(case, &setup.model)?;
+        setup::check(case, &setup.model)?;
         judge::check_names(case, &setup.model, table.as_ref())?;
-        let base = match observe::observe(&setup, case, table.as_ref(), [1, 1])? {
+        let base = match judge::observe(&setup, case, table.as_ref(), [1, 1])? {
             Ok(base) => base,
             Err(reason) => return Ok(failed(case, &setup, reason)),
         };
@@ -172,11 +151,11 @@ struct Finer {
 }
 
 impl Finer {
-    /// A finer run that stops leaves its knob without an order; the base run is what is judged.
+    /// A finer run that stops leaves its parameter without an order of convergence; the base run is judged.
     fn observe(setup: &Setup, case: &Case, table: Option<&Table>) -> Result<Self, Error> {
         let pair = |half: [u32; 2], quarter: [u32; 2]| -> Result<Option<[Observed; 2]>, Error> {
-            let half = observe::observe(setup, case, table, half)?;
-            let quarter = observe::observe(setup, case, table, quarter)?;
+            let half = judge::observe(setup, case, table, half)?;
+            let quarter = judge::observe(setup, case, table, quarter)?;
             Ok(half.ok().zip(quarter.ok()).map(|(half, quarter)| [half, quarter]))
         };
         let step = if case.halve_step { pair([2, 1], [4, 1])? } else { None };

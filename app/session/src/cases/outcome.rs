@@ -1,4 +1,4 @@
-//! What came of a case, for a table, a plot and JSON (schema `endline.validate/1`).
+//! Observed readings and the outcome of a case, for a table, a plot, words and JSON (schema `endline.validate/1`).
 
 use endline_gear::{Case, Limit};
 use schemars::JsonSchema;
@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::setup::Setup;
 
-/// What came of a case.
+/// The outcome of a case.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Outcome {
     /// Id.
@@ -30,7 +30,7 @@ pub struct Outcome {
     pub segments: usize,
     /// Whether all verdicts are good and nothing stopped it.
     pub passed: bool,
-    /// Why there are no verdicts: the run stopped, or the gear did not come to rest.
+    /// Why there are no verdicts: the run stopped, or statics found no rest.
     pub stopped: Option<String>,
     /// One for each comparison.
     pub verdicts: Vec<Verdict>,
@@ -43,15 +43,15 @@ pub struct Outcome {
 /// A comparison.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Verdict {
-    /// What is compared.
+    /// The quantity compared.
     pub name: String,
     /// Unit of `expected` and `got`: `m`, `N`, `J`, one of these by second, or empty for a pure number.
     pub unit: &'static str,
-    /// What should come out; 0 where `got` is itself a difference.
+    /// Expected value; 0 where `got` is itself a difference.
     pub expected: f64,
-    /// What came out.
+    /// Observed value.
     pub got: f64,
-    /// How far off it is: a share where `limit` is one, else in `unit`; outside of the limits where there are two.
+    /// The error: a share where `limit` is one, else in `unit`; the distance outside the limits where there are two.
     pub error: f64,
     /// How far off it may be.
     pub limit: f64,
@@ -67,7 +67,7 @@ pub struct Verdict {
     pub segment: Option<Convergence>,
 }
 
-/// What halving comes to.
+/// What halving changes.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct Convergence {
     /// Error at half.
@@ -76,7 +76,7 @@ pub struct Convergence {
     pub order: Option<f64>,
 }
 
-/// A probe over time, beside what it should be.
+/// A probe over time, beside its expected value.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Curve {
     /// Id of the probe.
@@ -137,7 +137,7 @@ pub(super) fn failed(case: &Case, setup: &Setup, reason: String) -> Outcome {
 }
 
 impl Verdict {
-    /// Judges what was got.
+    /// Judges an observed value.
     pub(super) fn new(
         name: String,
         unit: &'static str,
@@ -145,7 +145,7 @@ impl Verdict {
         got: f64,
         limit: Limit,
     ) -> Self {
-        let error = error(expected, got, limit);
+        let error = error_of(expected, got, limit);
         let (most, between, share) = match limit {
             Limit::Share(most) => (most, None, true),
             Limit::Absolute(most) => (most, None, false),
@@ -169,13 +169,67 @@ impl Verdict {
     }
 }
 
-/// How far what was got is off, in the terms of its limit.
-pub(super) fn error(expected: f64, got: f64, limit: Limit) -> f64 {
+/// The error of an observed value, in the terms of its limit.
+pub(super) fn error_of(expected: f64, got: f64, limit: Limit) -> f64 {
     match limit {
         Limit::Share(_) if expected != 0.0 => (got / expected - 1.0).abs(),
         Limit::Share(_) | Limit::Absolute(_) => (got - expected).abs(),
         Limit::Between(least, most) if got.is_finite() => (least - got).max(got - most).max(0.0),
         Limit::Between(..) => f64::NAN,
+    }
+}
+
+/// Readings of every probe.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Observed {
+    /// Times of the samples [s].
+    pub times_s: Vec<f64>,
+    /// By probe of the model: its reading at each time.
+    pub samples: Vec<Vec<f64>>,
+    /// Readings at closer times, for a plot: times and readings.
+    pub trace: (Vec<f64>, Vec<Vec<f64>>),
+}
+
+/// A value with its unit: metres below a centimetre in millimetres, six significant digits.
+pub fn value(number: f64, unit: &str) -> String {
+    match unit {
+        "m" if number.abs() < 0.01 && number.abs() > 0.0 => {
+            format!("{} mm", significant(1e3 * number))
+        }
+        "" => significant(number),
+        _ => format!("{} {unit}", significant(number)),
+    }
+}
+
+/// A share in percent.
+pub fn percent(share: f64) -> String {
+    let digits = if share.abs() < 0.1 { 3 } else { 1 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// How far off a verdict is.
+pub fn error(verdict: &Verdict, error: f64) -> String {
+    if verdict.share { percent(error) } else { value(error, verdict.unit) }
+}
+
+/// How far off it may be.
+pub fn limit(verdict: &Verdict) -> String {
+    match verdict.between {
+        Some([least, most]) => {
+            format!("{} to {}", value(least, verdict.unit), value(most, verdict.unit))
+        }
+        None if verdict.share => format!("{} %", significant(100.0 * verdict.limit)),
+        None => value(verdict.limit, verdict.unit),
+    }
+}
+
+/// Six significant digits, without zeros at the end.
+fn significant(number: f64) -> String {
+    let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
+    if rounded.abs() >= 1e6 || (rounded.abs() < 1e-4 && rounded.abs() > 0.0) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
     }
 }
 
@@ -185,11 +239,11 @@ mod tests {
 
     #[test]
     fn errors_are_in_the_terms_of_their_limit() {
-        assert!((error(200.0, 201.0, Limit::Share(0.01)) - 0.005).abs() < 1e-12);
-        assert!((error(200.0, 199.0, Limit::Absolute(2.0)) - 1.0).abs() < 1e-12);
-        assert!((error(0.0, 0.003, Limit::Share(0.01)) - 0.003).abs() < 1e-12);
-        assert!(error(0.5, 0.4, Limit::Between(0.3, 0.6)).abs() < 1e-12);
-        assert!((error(0.5, 0.7, Limit::Between(0.3, 0.6)) - 0.1).abs() < 1e-12);
+        assert!((error_of(200.0, 201.0, Limit::Share(0.01)) - 0.005).abs() < 1e-12);
+        assert!((error_of(200.0, 199.0, Limit::Absolute(2.0)) - 1.0).abs() < 1e-12);
+        assert!((error_of(0.0, 0.003, Limit::Share(0.01)) - 0.003).abs() < 1e-12);
+        assert!(error_of(0.5, 0.4, Limit::Between(0.3, 0.6)).abs() < 1e-12);
+        assert!((error_of(0.5, 0.7, Limit::Between(0.3, 0.6)) - 0.1).abs() < 1e-12);
     }
 
     #[test]
@@ -197,5 +251,15 @@ mod tests {
         for limit in [Limit::Share(1.0), Limit::Absolute(1.0), Limit::Between(0.0, 1.0)] {
             assert!(!Verdict::new("x".into(), "N", 1.0, f64::NAN, limit).passed);
         }
+    }
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(value(0.000_523_4, "m"), "0.5234 mm");
+        assert_eq!(value(50.340_610_59, "m"), "50.3406 m");
+        assert_eq!(value(23.936_301, "N"), "23.9363 N");
+        assert_eq!(value(2.566_316, ""), "2.56632");
+        assert_eq!(percent(0.001_31), "0.131 %");
+        assert_eq!(percent(0.25), "25.0 %");
     }
 }

@@ -1,16 +1,16 @@
-//! A case over rows of measurements: each row's gear is settled or run, and read.
+//! References of cases: tables, curves and rows of measurements, each compared with readings.
 
-use endline_gear::{Case, Check, Measure, Rows, Table};
+use endline_gear::{At, Case, Check, Measure, Rows, Table};
+use endline_sim::Model;
 use endline_sim::metrics::{reading, unit};
 use endline_sim::model::Probe;
 
+use super::Cases;
+use super::outcome::{Curve, Observed, Outcome, Point, Verdict, failed};
+use super::setup::Setup;
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::run::{Run, RunOptions};
-
-use super::Cases;
-use super::outcome::{Outcome, Point, Verdict, failed};
-use super::setup::Setup;
 
 /// A row of measurements beside the same simulated.
 struct Pair {
@@ -210,12 +210,142 @@ fn slope(places: &[f64], values: &[f64]) -> f64 {
     across / places.iter().map(|place| (place - middle) * (place - middle)).sum::<f64>()
 }
 
+/// The probes that the checks compare, over time, each once; none of gear at rest.
+pub(super) fn of(
+    reference: &Reference<'_>,
+    case: &Case,
+    base: &Observed,
+) -> Result<Vec<Curve>, Error> {
+    let mut curves: Vec<Curve> = Vec::new();
+    if base.trace.0.is_empty() {
+        return Ok(curves);
+    }
+    for check in &case.checks {
+        for name in probes(&check.measure) {
+            if curves.iter().any(|curve| curve.probe == name.value) {
+                continue;
+            }
+            let probe = reference.probe(&name.value);
+            let expected = if of_table(&check.measure) {
+                base.times_s
+                    .iter()
+                    .zip(reference.column(&name.value)?)
+                    .map(|(time, reading)| [*time, reading])
+                    .collect()
+            } else {
+                expected(check, &base.times_s, &base.samples[probe])
+            };
+            curves.push(Curve {
+                probe: name.value.clone(),
+                unit: reference.unit(&name.value),
+                times_s: base.trace.0.clone(),
+                got: base.trace.1[probe].clone(),
+                expected,
+            });
+        }
+    }
+    Ok(curves)
+}
+
+/// Times [s] and expected readings of a check without a table; a rate continues from the reading where it begins.
+fn expected(check: &Check, times_s: &[f64], readings: &[f64]) -> Vec<[f64; 2]> {
+    let Some(end_s) = times_s.last().copied() else { return Vec::new() };
+    match check.measure {
+        Measure::Value(_, expected) => vec![[end_s, expected]],
+        Measure::Mean { from_s, over, expected, .. } => {
+            vec![[from_s, over * expected], [end_s, over * expected]]
+        }
+        Measure::Greatest(_, expected) => {
+            let peak = readings.iter().zip(times_s).max_by(|one, other| one.0.total_cmp(other.0));
+            peak.map(|(_, time)| vec![[*time, expected]]).unwrap_or_default()
+        }
+        Measure::Rate { from_s, expected, .. } => {
+            let first = begin(times_s, from_s);
+            let from = times_s.get(first).zip(readings.get(first));
+            from.map(|(time, reading)| {
+                vec![[*time, *reading], [end_s, reading + expected * (end_s - time)]]
+            })
+            .unwrap_or_default()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The reference that readings are compared with.
+pub(super) struct Reference<'a> {
+    /// The model that is run.
+    pub model: &'a Model,
+    /// The published table, where the case has one.
+    pub table: Option<&'a Table>,
+}
+
+impl Reference<'_> {
+    /// Index of a probe in the model.
+    pub fn probe(&self, name: &str) -> usize {
+        // Names were checked before the run.
+        self.model.spec.probes.iter().position(|probe| probe.id == name).unwrap_or_default()
+    }
+
+    /// Unit of a probe.
+    pub fn unit(&self, name: &str) -> &'static str {
+        self.model.spec.probes.get(self.probe(name)).map_or("", |probe| unit(probe.target))
+    }
+
+    /// A column of the table; empty without one.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
+        self.table.map_or(Ok(Vec::new()), |table| table.column(name).map_err(Error::from))
+    }
+}
+
+/// The probes a measure reads.
+pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
+    match measure {
+        Measure::Distance(points) => points.iter().flatten().collect(),
+        Measure::Series(probes) => probes.iter().collect(),
+        Measure::Peak(of)
+        | Measure::Value(of, _)
+        | Measure::Greatest(of, _)
+        | Measure::Mean { of, .. }
+        | Measure::Rate { of, .. } => {
+            vec![of]
+        }
+        Measure::Gain(of, over) | Measure::Loss(of, over) | Measure::Ratio { of, over, .. } => {
+            vec![of, over]
+        }
+        Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => Vec::new(),
+    }
+}
+
+/// Whether a measure compares with the table's columns.
+pub(super) fn of_table(measure: &Measure) -> bool {
+    matches!(measure, Measure::Distance(_) | Measure::Series(_) | Measure::Peak(_))
+}
+
+/// Number of the first sample at or after a time.
+pub(super) fn begin(times_s: &[f64], from_s: f64) -> usize {
+    times_s.iter().position(|time| *time >= from_s - 1e-9).unwrap_or(times_s.len())
+}
+
 #[cfg(test)]
 mod tests {
+    use endline_gear::Limit;
+
     use super::*;
 
     #[test]
     fn the_slope_of_points_on_a_line_is_the_lines() {
         assert!((slope(&[1.0, 2.0, 5.0], &[3.5, 4.0, 5.5]) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn expected_readings_stand_where_they_are_compared() {
+        let case = "format = 1\nkind = \"case\"\nname = \"x\"\nsource = \"x\"\nconfidence = \"derived\"\ngroup = \"x\"\nscenario = \"x\"\n\
+                    every = \"1 s\"\n[[check]]\nname = \"a\"\nmeasure = \"rate\"\nof = \"z\"\nfrom = \"1 s\"\nexpected = \"2 m/s\"\n\
+                    tolerance = 0.1\n[[check]]\nname = \"b\"\nmeasure = \"greatest\"\nof = \"z\"\nexpected = \"9 m\"\ntolerance = 0.1\n";
+        let case = Case::read("x.toml", case).unwrap();
+        let (times, readings) = ([0.0, 1.0, 2.0, 3.0], [5.0, 4.0, 7.0, 6.0]);
+        assert_eq!(expected(&case.checks[0], &times, &readings), [[1.0, 4.0], [3.0, 8.0]]);
+        assert_eq!(expected(&case.checks[1], &times, &readings), [[2.0, 9.0]]);
+        assert_eq!(case.checks[0].limit, Limit::Share(0.1));
     }
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use endline_gear::Kind;
 
-use super::condition::{can_redo, can_undo, has_moments, has_whale, unsaved};
 use super::info::{Choice, FileQuestion, Make, Shortcut, When};
+use super::info::{can_redo, can_undo, has_moments, has_whale, unsaved};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::edit::saving::Keep;
@@ -69,7 +69,7 @@ pub enum EditAction {
         /// What is kept.
         keep: Keep,
     },
-    /// Save the scenario to another file and go on with that.
+    /// Save the scenario to another file, which is open from then on.
     SaveScenarioAs(PathBuf),
     /// Open a scenario.
     OpenScenario(PathBuf),
@@ -100,7 +100,6 @@ pub enum EditAction {
 
 impl EditAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Set { .. } => "edit.set",
@@ -158,7 +157,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "edit.save-scenario-as",
         "Save the scenario as",
-        "Writes the scenario to another file and goes on with that.",
+        "Writes the scenario to another file, which is open from then on.",
         Make::File {
             question: |workbench| {
                 let path = workbench.project.documents.scenario_path();
@@ -194,7 +193,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "edit.weak-links",
         "Weak links on or off",
-        "Changes the scenario so that weak links part, or do not, and makes the model anew.",
+        "Changes the scenario so that weak links part, or do not, and makes the model again.",
         Make::Plain(|| Command::Edit(EditAction::ToggleWeakLinks)),
     )
     .with_keys(&[Shortcut::with_pad("K", When::Idle, "Y")]),

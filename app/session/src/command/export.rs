@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use endline_gear::Kind;
 
-use super::condition::ready;
+use super::info::ready;
 use super::info::{FileQuestion, Make};
 use super::{Command, Info};
 use crate::export::chart;
@@ -37,7 +37,6 @@ pub enum ExportAction {
 
 impl ExportAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Recording(_) => "export.recording",

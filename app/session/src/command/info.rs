@@ -1,6 +1,8 @@
-//! How a command is declared: its identity, name, help and keys, when it is enabled, and how it is made.
+//! The declaration of a command: its identity, name, help and keys, the conditions under which it is enabled, and its values.
 
 use std::path::{Path, PathBuf};
+
+use crate::workbench::{Direction, Workbench};
 
 /// When a shortcut holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,31 +11,29 @@ pub enum When {
     Always,
     /// While no text is typed.
     Idle,
-    /// While no text is typed and nobody steers the whale.
-    Looking,
+    /// While no text is typed and the whale is not steered.
+    NotFlying,
     /// While somebody steers the whale.
     Flying,
 }
 
 impl When {
     /// All of them, in the order of the list of keys.
-    pub const ALL: [Self; 4] = [Self::Always, Self::Idle, Self::Looking, Self::Flying];
+    pub const ALL: [Self; 4] = [Self::Always, Self::Idle, Self::NotFlying, Self::Flying];
 
     /// The title of its keys in the list of keys.
-    #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Self::Always => "At any time",
             Self::Idle => "While no text is typed",
-            Self::Looking => "While nobody steers",
+            Self::NotFlying => "While the whale is not steered",
             Self::Flying => "While steering the whale",
         }
     }
 
     /// Whether two may hold at the same time.
-    #[must_use]
     pub fn overlaps(self, other: Self) -> bool {
-        !matches!((self, other), (Self::Looking, Self::Flying) | (Self::Flying, Self::Looking))
+        !matches!((self, other), (Self::NotFlying, Self::Flying) | (Self::Flying, Self::NotFlying))
     }
 }
 
@@ -50,13 +50,11 @@ pub struct Shortcut {
 
 impl Shortcut {
     /// Keys without a button of the game controller.
-    #[must_use]
     pub const fn new(keys: &'static str, when: When) -> Self {
         Self { keys, when, pad: "" }
     }
 
     /// Keys that a button of the game controller stands for too.
-    #[must_use]
     pub const fn with_pad(keys: &'static str, when: When, pad: &'static str) -> Self {
         Self { keys, when, pad }
     }
@@ -65,20 +63,20 @@ impl Shortcut {
 /// Whether a file is to be read or written, or a folder to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileUse {
-    /// A file that is there.
+    /// An existing file.
     Read,
     /// A file to be written.
     Write,
-    /// A folder that is there.
+    /// An existing folder.
     Folder,
 }
 
-/// What to ask a user for a file with.
+/// A question to the user for a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileQuestion {
-    /// What it is for.
+    /// Its purpose.
     pub purpose: FileUse,
-    /// What sort of file it is, in words.
+    /// The kind of file, in words.
     pub sort: &'static str,
     /// File name extensions, the usual one first; empty for any.
     pub extensions: &'static [&'static str],
@@ -90,41 +88,38 @@ pub struct FileQuestion {
 
 impl FileQuestion {
     /// A file to be read.
-    #[must_use]
     pub fn read(sort: &'static str, extensions: &'static [&'static str]) -> Self {
         let (folder, file_name) = (None, String::new());
         Self { purpose: FileUse::Read, sort, extensions, folder, file_name }
     }
 
     /// A file to be written, with the name proposed.
-    #[must_use]
     pub fn write(sort: &'static str, extensions: &'static [&'static str], name: String) -> Self {
         Self { purpose: FileUse::Write, file_name: name, ..Self::read(sort, extensions) }
     }
 
     /// A folder to be read.
-    #[must_use]
     pub fn folder(sort: &'static str) -> Self {
         Self { purpose: FileUse::Folder, ..Self::read(sort, &[]) }
     }
 
-    /// The same question, beginning in a folder.
+    /// The question, beginning in a folder.
     #[must_use]
     pub fn within(self, folder: &Path) -> Self {
         Self { folder: Some(folder.to_owned()), ..self }
     }
 }
 
-/// A command with the name of what it was chosen from.
+/// A command with the name of the thing chosen.
 pub struct Choice<Command> {
-    /// What is chosen, as it follows the name of the command.
+    /// The name of the thing chosen, written after the name of the command.
     pub name: String,
     /// The command.
     pub command: Command,
 }
 
 impl<Command> Choice<Command> {
-    /// A command under the name of what is chosen.
+    /// A command for the thing chosen, by its name.
     pub fn new(name: impl Into<String>, command: Command) -> Self {
         Self { name: name.into(), command }
     }
@@ -132,13 +127,13 @@ impl<Command> Choice<Command> {
 
 /// How a declared command is made.
 pub enum Make<Context, Command> {
-    /// It needs nothing more.
+    /// It needs no value.
     Plain(fn() -> Command),
-    /// One is made for each of what there is to choose from.
+    /// One is made for each thing that can be chosen.
     Choices(fn(&Context) -> Vec<Choice<Command>>),
     /// It needs a file or folder.
     File {
-        /// What to ask the user.
+        /// The question to the user.
         question: fn(&Context) -> FileQuestion,
         /// The command for the answer.
         command: fn(&Context, PathBuf) -> Command,
@@ -147,13 +142,13 @@ pub enum Make<Context, Command> {
     Values(&'static str),
 }
 
-/// A command as it is declared. `Context` is what it is judged on: the workbench, or the window around it.
+/// The declaration of a command. Its condition is tested on `Context`: the workbench, or the window around it.
 pub struct CommandInfo<Context, Command> {
     /// Stable identity: group and verb, such as `run.start`.
     pub id: &'static str,
     /// Name in menus, palette, list of keys and documents.
     pub name: &'static str,
-    /// What it does, in a sentence.
+    /// Its effect, in a sentence.
     pub help: &'static str,
     /// Keys that give it.
     pub keys: &'static [Shortcut],
@@ -164,16 +159,12 @@ pub struct CommandInfo<Context, Command> {
 }
 
 /// A command that can always be given.
-///
-/// # Errors
-/// Never.
 pub fn always<Context>(_: &Context) -> Result<(), String> {
     Ok(())
 }
 
 impl<Context, Command> CommandInfo<Context, Command> {
     /// A command without keys that is always enabled.
-    #[must_use]
     pub const fn new(
         id: &'static str,
         name: &'static str,
@@ -183,17 +174,218 @@ impl<Context, Command> CommandInfo<Context, Command> {
         Self { id, name, help, keys: &[], enabled: always::<Context>, make }
     }
 
-    /// The same command, given by keys.
+    /// The command with keys.
     #[must_use]
     pub const fn with_keys(mut self, keys: &'static [Shortcut]) -> Self {
         self.keys = keys;
         self
     }
 
-    /// The same command, enabled under a condition.
-    #[must_use]
+    /// The command, enabled under a condition.
     pub const fn only_if(mut self, enabled: fn(&Context) -> Result<(), String>) -> Self {
         self.enabled = enabled;
         self
     }
+}
+
+type Condition = Result<(), String>;
+
+/// A reason where something is not so.
+fn require(so: bool, reason: &str) -> Condition {
+    if so { Ok(()) } else { Err(reason.to_owned()) }
+}
+
+/// A run exists.
+pub(super) fn ready(workbench: &Workbench) -> Condition {
+    require(workbench.view().is_some(), "no run is there yet")
+}
+
+/// The run is running.
+pub(super) fn running(workbench: &Workbench) -> Condition {
+    require(workbench.running(), "the run is not running")
+}
+
+/// A run exists and is not running.
+pub(super) fn is_still(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    require(!workbench.running(), "pause the run first")
+}
+
+/// The run has taken steps.
+pub(super) fn has_moments(workbench: &Workbench) -> Condition {
+    let moments = workbench.view().is_some_and(|view| view.newest_s > 0.0);
+    require(moments, "nothing was run yet")
+}
+
+/// A moment before the newest is shown.
+pub(super) fn earlier_moment(workbench: &Workbench) -> Condition {
+    has_moments(workbench)?;
+    let sought = workbench.view().is_some_and(|view| view.sought);
+    require(sought, "the newest moment is shown already")
+}
+
+/// The run can be played back.
+pub(super) fn can_replay(workbench: &Workbench) -> Condition {
+    has_moments(workbench)?;
+    require(workbench.replaying() || !workbench.running(), "pause the run first")
+}
+
+/// No text has an error.
+pub(super) fn no_errors(workbench: &Workbench) -> Condition {
+    let fine = !workbench.project.documents.any_error();
+    require(fine, "the gear has errors; see Problems")
+}
+
+/// Texts have changed since the model was made, and have no errors.
+pub(super) fn can_apply(workbench: &Workbench) -> Condition {
+    no_errors(workbench)?;
+    require(workbench.stale(), "nothing has changed since the model was made")
+}
+
+/// The inputs of the run can be run in a new model.
+pub(super) fn can_rerun(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    no_errors(workbench)
+}
+
+/// There is a slower speed.
+pub(super) fn slower(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    let next = workbench.next_speed(Direction::Slower);
+    require(next.is_some(), "this is the slowest speed")
+}
+
+/// There is a faster speed.
+pub(super) fn faster(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    let next = workbench.next_speed(Direction::Faster);
+    require(next.is_some(), "this is the fastest speed")
+}
+
+/// An assembly was checked under rules.
+pub(super) fn has_verdicts(workbench: &Workbench) -> Condition {
+    require(workbench.rules.answer.is_some(), "check an assembly in Rules first")?;
+    require(!workbench.rules.comparing(), "a study is being made already")?;
+    require(!workbench.rules.writing(), "a sheet is being written already")
+}
+
+/// Edits were proposed by which the assembly checked would comply.
+pub(super) fn has_edits(workbench: &Workbench) -> Condition {
+    has_verdicts(workbench)?;
+    let remedies = workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+    let any = remedies.is_some_and(|remedies| remedies.numbered().next().is_some());
+    require(any, "no edit is proposed")
+}
+
+/// Edits exist by which the gear meets rules that bind.
+pub(super) fn has_edit_of_all(workbench: &Workbench) -> Condition {
+    has_verdicts(workbench)?;
+    let remedies = workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+    let any = remedies.is_some_and(|remedies| remedies.all.is_some());
+    require(any, "no edit is proposed for a rule that binds")
+}
+
+/// Two runs are compared.
+pub(super) fn compares(workbench: &Workbench) -> Condition {
+    require(workbench.comparison().is_some(), "no run is compared with the one shown")
+}
+
+/// An edit can be taken back.
+pub(super) fn can_undo(workbench: &Workbench) -> Condition {
+    let (undo, _) = workbench.project.documents.can_undo_redo();
+    require(undo, "nothing to undo")
+}
+
+/// An edit that was taken back can be done again.
+pub(super) fn can_redo(workbench: &Workbench) -> Condition {
+    let (_, redo) = workbench.project.documents.can_undo_redo();
+    require(redo, "nothing to redo")
+}
+
+/// A file differs from its text.
+pub(super) fn unsaved(workbench: &Workbench) -> Condition {
+    require(!workbench.project.documents.unsaved().is_empty(), "nothing to save")
+}
+
+/// The scenario has a whale.
+pub(super) fn has_whale(workbench: &Workbench) -> Condition {
+    require(workbench.project.has_whale(), "this scenario has no whale to pilot")
+}
+
+/// A study is open.
+pub(super) fn study_opened(workbench: &Workbench) -> Condition {
+    let opened = workbench.project.documents.study_path().is_some();
+    require(opened, "open a study first")
+}
+
+/// The open study and the gear have no errors.
+pub(super) fn study_runs(workbench: &Workbench) -> Condition {
+    study_opened(workbench)?;
+    require(workbench.study_is_sound(), "study or gear have errors; see Problems")
+}
+
+/// A study is at work or paused.
+pub(super) fn study_at_work(workbench: &Workbench) -> Condition {
+    require(workbench.studies.queue.current().is_some(), "no study is at work")
+}
+
+/// An observation is open.
+pub(super) fn observation_opened(workbench: &Workbench) -> Condition {
+    let opened = workbench.project.documents.observation_path().is_some();
+    require(opened, "open an observation first")
+}
+
+/// The open observation and the gear have no errors, and no search is at work.
+pub(super) fn search_runs(workbench: &Workbench) -> Condition {
+    observation_opened(workbench)?;
+    require(workbench.observation_is_sound(), "observation or gear have errors; see Problems")?;
+    require(workbench.searches.at_work().is_none(), "a search is at work; pause or cancel it")
+}
+
+/// A search is at work or paused.
+pub(super) fn search_at_work(workbench: &Workbench) -> Condition {
+    require(workbench.searches.at_work().is_some(), "no search is at work")
+}
+
+/// Stories of a search are shown.
+pub(super) fn has_stories(workbench: &Workbench) -> Condition {
+    let stories = workbench.searches.job.as_ref().and_then(|job| job.found().stories);
+    let shown = stories.is_some_and(|found| !found.stories.is_empty());
+    require(shown, "no story was found yet")
+}
+
+/// Results of a study are shown.
+pub(super) fn has_results(workbench: &Workbench) -> Condition {
+    let shown = workbench.studies.results.shown().is_some();
+    require(shown, "no results of a study are shown")
+}
+
+/// The results shown are those of a whole study, with their report.
+pub(super) fn has_report(workbench: &Workbench) -> Condition {
+    has_results(workbench)?;
+    let written = workbench.report_shown().is_some();
+    require(written, "the report is written when the study has run to its end")
+}
+
+/// Plugins can be loaded again.
+pub(super) fn loads_plugins(workbench: &Workbench) -> Condition {
+    require(workbench.plugins.has_loader(), "there are no folders of plugins here")
+}
+
+/// A plugin library waits to be allowed.
+pub(super) fn plugins_waiting(workbench: &Workbench) -> Condition {
+    let waiting = workbench.plugins.waiting().next().is_some();
+    require(waiting, "no plugin waits to be allowed")
+}
+
+/// A plugin can be switched on or off.
+pub(super) fn plugins_to_switch(workbench: &Workbench) -> Condition {
+    loads_plugins(workbench)?;
+    require(!workbench.plugins.every().is_empty(), "there are no plugins")
+}
+
+/// A plugin can be put into the scenario.
+pub(super) fn plugins_to_use(workbench: &Workbench) -> Condition {
+    let usable = !workbench.usable_plugins().is_empty();
+    require(usable, "no plugin that the scenario does not use already")
 }

@@ -8,7 +8,6 @@
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each group is dispatched")]
 
-mod condition;
 pub mod edit;
 pub mod export;
 pub mod info;
@@ -32,7 +31,7 @@ pub use search::SearchAction;
 pub use study::StudyAction;
 pub use time::TimeAction;
 
-/// What a user asks for.
+/// A request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Make, start, pause and compare runs.
@@ -103,14 +102,12 @@ pub fn declared() -> impl Iterator<Item = &'static Info> {
 }
 
 /// The declaration of an identity such as `run.start`.
-#[must_use]
 pub fn find(id: &str) -> Option<&'static Info> {
     declared().find(|info| info.id == id)
 }
 
 impl Command {
     /// The identity it is declared by, such as `run.start`.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Run(action) => action.id(),
@@ -126,10 +123,7 @@ impl Command {
 }
 
 impl Workbench {
-    /// Does what is asked for. What comes of it at once or later stands in the workbench; the notice says it in words.
-    ///
-    /// # Errors
-    /// With the reason, where nothing could be done.
+    /// Performs the command. Its results are in the workbench, at once or later; the notice describes them.
     pub fn perform(&mut self, command: Command) -> Result<(), String> {
         if let Err(reason) = find(command.id()).map_or(Ok(()), |info| (info.enabled)(self)) {
             self.notice = Some(Notice::hint(&reason));

@@ -4,15 +4,15 @@
 
 use std::path::PathBuf;
 
-use super::condition::{loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting};
 use super::info::{Choice, Make};
+use super::info::{loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 
 /// An action on plugins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PluginAction {
-    /// Load the plugins again: what was built anew counts from the next run on.
+    /// Load the plugins again: rebuilt ones count from the next run on.
     Reload,
     /// Let a library be opened that has the bytes of a hash.
     Allow {
@@ -36,7 +36,6 @@ pub enum PluginAction {
 
 impl PluginAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Reload => "plugin.reload",
@@ -53,7 +52,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "plugin.reload",
         "Reload plugins",
-        "Loads the plugins again. A plugin that was built anew counts from the next run on.",
+        "Loads the plugins again. A plugin that was rebuilt counts from the next run on.",
         Make::Plain(|| Command::Plugin(PluginAction::Reload)),
     )
     .only_if(loads_plugins),

@@ -1,9 +1,9 @@
-//! Commands on what rules say of an assembly: edits by which it would comply, a study of options, its compliance sheet.
+//! Commands on the rules for an assembly: edits by which it would comply, a study of options, its compliance sheet.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
-use super::condition::{has_edit_of_all, has_edits, has_verdicts};
 use super::info::Make;
+use super::info::{has_edit_of_all, has_edits, has_verdicts};
 use super::{Command, Info};
 use crate::workbench::{RuleQuestion, Workbench};
 
@@ -14,9 +14,9 @@ pub enum RuleAction {
     Ask(RuleQuestion),
     /// Make a proposed edit of the assembly checked, by its place among all proposals, from 0.
     Take(usize),
-    /// Make all edits that mend the rules that bind.
+    /// Make all edits by which the assembly meets the rules that bind.
     TakeAll,
-    /// Make a study of the assembly mended for each of these rules.
+    /// Make a study of the assembly edited for each of these rules.
     Compare(Vec<String>),
     /// Write the compliance sheet of the assembly checked.
     Sheet,
@@ -24,7 +24,6 @@ pub enum RuleAction {
 
 impl RuleAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Ask(_) => "rules.ask",
@@ -61,7 +60,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "rules.compare",
         "Compare options of rules",
-        "Writes a study to a new file and opens it: the assembly checked, mended for each of the chosen rules, in the same encounters.",
+        "Writes a study to a new file and opens it: the assembly checked, edited for each of the chosen rules, in the same encounters.",
         Make::Values("rules"),
     )
     .only_if(has_verdicts),

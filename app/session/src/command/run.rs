@@ -1,4 +1,4 @@
-//! Commands that make, start, pause and compare runs.
+//! Commands that make, start, pause and compare runs, and move in their time.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use endline_sdk::Controls;
 
-use super::condition::{
+use super::info::{Choice, FileQuestion, Make, Shortcut, When};
+use super::info::{
     can_apply, can_rerun, compares, earlier_moment, faster, has_moments, is_still, no_errors,
     ready, running, slower,
 };
-use super::info::{Choice, FileQuestion, Make, Shortcut, When};
 use super::{Command, Info};
 use crate::workbench::{Direction, SPEEDS, Workbench};
 
@@ -29,7 +29,7 @@ pub enum RunAction {
     Reset,
     /// Make the model of the texts as they stand.
     Apply,
-    /// Simulated seconds for each real one; infinite for as fast as the solver goes.
+    /// Simulated seconds for each real one; infinite for as fast as the solver runs.
     Speed(f64),
     /// The next slower speed.
     Slower,
@@ -37,7 +37,7 @@ pub enum RunAction {
     Faster,
     /// Run again up to the moment shown.
     Branch,
-    /// The same inputs up to the moment shown in a new model; then its pilot program steers.
+    /// Run the inputs up to the moment shown in a new model; then its pilot program steers.
     Rerun,
     /// Keep the run shown to compare with; the texts make a new one.
     Hold,
@@ -71,7 +71,6 @@ pub enum RunAction {
 
 impl RunAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Start => "run.start",
@@ -173,15 +172,15 @@ pub static COMMANDS: &[Info] = &[
     .only_if(faster),
     Info::new(
         "run.branch",
-        "Go on from the moment shown",
-        "Runs the same inputs again up to the moment shown and pauses, so that the run can go on in another way.",
+        "Continue from the moment shown",
+        "Runs the same inputs again up to the moment shown and pauses, so that the run can continue in another way.",
         Make::Plain(|| Command::Run(RunAction::Branch)),
     )
     .only_if(earlier_moment),
     Info::new(
         "run.rerun",
         "Rerun from the moment shown",
-        "Makes the model anew, runs the same inputs up to the moment shown, then lets the pilot program steer.",
+        "Makes the model again, runs the same inputs up to the moment shown, then lets the pilot program steer.",
         Make::Plain(|| Command::Run(RunAction::Rerun)),
     )
     .only_if(can_rerun),

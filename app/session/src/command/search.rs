@@ -4,9 +4,9 @@
 
 use std::path::PathBuf;
 
-use super::condition::{has_stories, observation_opened, search_at_work, search_runs};
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
+use super::info::{has_stories, observation_opened, search_at_work, search_runs};
 use super::{Command, Info};
 use crate::locate;
 use crate::search::question::Length;
@@ -19,13 +19,13 @@ pub enum SearchAction {
     Open(PathBuf),
     /// Begin a new observation.
     New,
-    /// Go on with a copy of the open observation.
+    /// Open a copy of the open observation.
     Duplicate,
     /// How long to search, and with what.
     Effort(SearchEffort),
-    /// Search for the open observation, or go on.
+    /// Search for the open observation, or continue its search.
     Run,
-    /// Pause the search at work, or go on with it.
+    /// Pause the running search, or resume it.
     Pause,
     /// End the search at work.
     Cancel,
@@ -39,7 +39,6 @@ pub enum SearchAction {
 
 impl SearchAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Open(_) => "search.open",
@@ -84,7 +83,7 @@ pub static COMMANDS: &[Info] = &[
     Info::new(
         "search.new",
         "New observation",
-        "Begins an observation in a file of its own, of which nothing is told yet.",
+        "Begins an observation in a file of its own, with nothing described yet.",
         Make::Plain(|| Command::Search(SearchAction::New)),
     ),
     Info::new(
@@ -103,15 +102,15 @@ pub static COMMANDS: &[Info] = &[
     .only_if(search_runs),
     Info::new(
         "search.pause",
-        "Pause the search, or go on",
-        "Pauses the search at work after the runs under way, or goes on with it.",
+        "Pause or resume the search",
+        "Pauses the search after the runs in progress, or resumes it.",
         Make::Plain(|| Command::Search(SearchAction::Pause)),
     )
     .only_if(search_at_work),
     Info::new(
         "search.cancel",
         "Cancel the search",
-        "Ends the search at work after the runs under way. What was run stays, and a later search goes on from it.",
+        "Ends the search after the runs in progress. Completed runs stay, and a later search continues from them.",
         Make::Plain(|| Command::Search(SearchAction::Cancel)),
     )
     .only_if(search_at_work),

@@ -1,12 +1,12 @@
-//! Commands that open, run and look into studies.
+//! Commands that open, run and inspect studies.
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
 use std::path::PathBuf;
 
-use super::condition::{has_report, has_results, study_at_work, study_opened, study_runs};
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
+use super::info::{has_report, has_results, study_at_work, study_opened, study_runs};
 use super::{Command, Info};
 use crate::edit::Documents;
 use crate::edit::library_table::id_of;
@@ -18,15 +18,15 @@ use crate::workbench::Workbench;
 pub enum StudyAction {
     /// Open a study and the results it already has.
     Open(PathBuf),
-    /// Go on with a copy of the open study.
+    /// Open a copy of the open study.
     Duplicate,
     /// Make the unsaved edits of scenario and gear an option of the open study.
     OptionFromEdits,
     /// Add an option of the open study with another assembly, by its id.
     OptionWithAssembly(String),
-    /// Run the open study, or go on with it.
+    /// Run the open study, or continue it.
     Run,
-    /// Pause the study at work, or go on with it.
+    /// Pause the running study, or resume it.
     Pause,
     /// Take the study at work out of the queue.
     Cancel,
@@ -40,11 +40,11 @@ pub enum StudyAction {
     FullSpeed(bool),
     /// Show the results in a folder.
     ShowResults(PathBuf),
-    /// Write what reproduces the results shown, and their report, into a folder.
+    /// Write the files that reproduce the results shown, and their report, into a folder.
     SaveBundle(PathBuf),
     /// Run an encounter of the results shown again.
     Replay {
-        /// Place of the option.
+        /// Index of the option.
         option: usize,
         /// Index of the encounter.
         encounter: u32,
@@ -53,7 +53,6 @@ pub enum StudyAction {
 
 impl StudyAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Open(_) => "study.open",
@@ -135,8 +134,8 @@ pub static COMMANDS: &[Info] = &[
     .only_if(study_runs),
     Info::new(
         "study.pause",
-        "Pause the study, or go on",
-        "Pauses the study at work after the encounters under way, or goes on with it.",
+        "Pause or resume the study",
+        "Pauses the study after the encounters in progress, or resumes it.",
         Make::Plain(|| Command::Study(StudyAction::Pause)),
     )
     .only_if(study_at_work),

@@ -2,8 +2,8 @@
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
-use super::condition::{can_replay, earlier_moment, has_moments};
 use super::info::{Make, Shortcut, When};
+use super::info::{can_replay, earlier_moment, has_moments};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 
@@ -26,7 +26,6 @@ pub enum TimeAction {
 
 impl TimeAction {
     /// The identity it is declared by.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::First => "time.first",
@@ -63,7 +62,7 @@ pub static COMMANDS: &[Info] = &[
         "Shows the kept moment before the one shown.",
         Make::Plain(|| Command::Time(TimeAction::Back)),
     )
-    .with_keys(&[Shortcut::new("Left", When::Looking)])
+    .with_keys(&[Shortcut::new("Left", When::NotFlying)])
     .only_if(has_moments),
     Info::new(
         "time.forward",
@@ -71,7 +70,7 @@ pub static COMMANDS: &[Info] = &[
         "Shows the kept moment after the one shown.",
         Make::Plain(|| Command::Time(TimeAction::Forward)),
     )
-    .with_keys(&[Shortcut::new("Right", When::Looking)])
+    .with_keys(&[Shortcut::new("Right", When::NotFlying)])
     .only_if(earlier_moment),
     Info::new(
         "time.seek",

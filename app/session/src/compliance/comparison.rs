@@ -1,6 +1,6 @@
 //! Several gears beside each other on one page: the data of `assets/report/comparison.html`.
 //!
-//! Each column has the contents of a gear's own sheet, in the same words.
+//! Each column repeats the text of a gear's own sheet.
 
 use askama::Template;
 
@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::page::STYLE;
 use crate::page::{Cell, Line, Table};
 use crate::rules::{RuleResult, Verdict};
+use crate::settled::PartStrength;
 use crate::settled::{LineShape, SettledShape};
-use crate::strength::PartStrength;
 use crate::units::N_PER_LBF;
 
 use super::page::{bodies, command, force, probability, threat, unknown, where_and_when};
@@ -42,12 +42,9 @@ struct Gear<'a> {
 }
 
 /// The page that compares gears, in their order.
-///
-/// # Errors
-/// Fewer than two sheets; a page that cannot be written.
 pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
     let [first, _, ..] = sheets else {
-        return Err(Error::Replay("a comparison needs two gears or more".to_owned()));
+        return Err(Error::Message("a comparison needs two gears or more".to_owned()));
     };
     let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
     Page {
@@ -61,7 +58,7 @@ pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
         version: crate::VERSION,
     }
     .render()
-    .map_err(|error| Error::Replay(format!("the comparison: {error}")))
+    .map_err(|error| Error::Message(format!("the comparison: {error}")))
 }
 
 fn gear(sheet: &ComplianceSheet) -> Gear<'_> {
@@ -74,12 +71,12 @@ fn gear(sheet: &ComplianceSheet) -> Gear<'_> {
     }
 }
 
-/// The cell of a row for a gear.
-type Tell = fn(&ComplianceSheet) -> Cell;
+/// The answer of a row for a gear.
+type Answer = fn(&ComplianceSheet) -> Cell;
 
 /// A row for each question, a column for each gear.
 fn table(sheets: &[ComplianceSheet]) -> Table {
-    let questions: [(&str, Tell); 7] = [
+    let questions: [(&str, Answer); 7] = [
         ("Made of", |sheet| bodies(sheet).into()),
         ("Rope more than 1 m above the seabed", rope_above_the_seabed),
         ("Binding rules", binding_rules),
@@ -88,8 +85,8 @@ fn table(sheets: &[ComplianceSheet]) -> Table {
         ("Probability that a haul parts something", parts),
         ("Encounters that end with the whale held fast", held_fast),
     ];
-    let row = |(question, tell): (&str, Tell)| {
-        std::iter::once(question.into()).chain(sheets.iter().map(tell)).collect()
+    let row = |(question, answer): (&str, Answer)| {
+        std::iter::once(question.into()).chain(sheets.iter().map(answer)).collect()
     };
     let headings: Vec<&str> =
         std::iter::once("").chain(sheets.iter().map(|sheet| sheet.name.as_str())).collect();
@@ -195,7 +192,7 @@ fn sources(sheets: &[ComplianceSheet]) -> Vec<String> {
     lines
 }
 
-/// Limits of the page, each once.
+/// Limits of the page, each listed once.
 fn not_known(sheets: &[ComplianceSheet]) -> Vec<String> {
     let mut lines = Vec::new();
     for line in sheets.iter().flat_map(unknown) {

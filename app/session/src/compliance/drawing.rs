@@ -62,7 +62,7 @@ fn axes([least, most]: [f64; 2], depth_m: f64) -> [Axis; 2] {
     ]
 }
 
-/// A place of the world in the picture; the sea's surface is at height 0.
+/// A point of the world in the picture; the sea's surface is at height 0.
 fn seen([along, _, height]: [f64; 3], [x, y]: [Axis; 2]) -> [f64; 2] {
     let depth_m = y.values[1] / 1.12;
     let slope = (x.places[1] - x.places[0]) / (x.values[1] - x.values[0]);

@@ -1,34 +1,38 @@
 //! The compliance sheet: one page on a gear for a hearing, readable in black and white.
 //!
-//! It shows the gear at slack and at running tide (`drawing.rs`), its parts with their delivered strengths, the verdict on every
-//! rule, the loads of hauling, the threat of its endline from a simulated table (`threat.rs`), and what is not known. Its hash is that of
-//! all sources of the model at running tide, so that the same command makes the same page. The page is HTML (`page.rs`); an
-//! installed browser prints it as PDF (`pdf.rs`). A page of its own compares several gears (`comparison.rs`).
+//! It shows the gear at slack and at running tide (`drawing.rs`), its make-up, the strength of each part, the verdict on every
+//! rule, its haul, the threat of its endline from a simulated table, and the limits of knowledge. Its hash is that of everything the
+//! model at running tide is made from, so that the same command makes the same page. The page is HTML (`page.rs`); an
+//! installed browser prints it as PDF. Several gears stand beside each other on a page of their own (`comparison.rs`).
 
 mod comparison;
 mod drawing;
 mod page;
-pub mod pdf;
-mod threat;
+#[cfg(test)]
+mod tests;
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 use endline_gear::{Library, Sources};
 use endline_sim::settle;
+use serde::Deserialize;
 
 use crate::error::Error;
 use crate::haul::{HaulRequest, HaulSheet, haul_of};
 use crate::plugins::PluginHost;
 use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
-use crate::source::assembly::library_of;
+use crate::source::library_of;
 use crate::source::{Overrides, Prepared, Source};
-use crate::statics::preview::{TrialGear, TrialSea, alone};
+use crate::statics::{TrialGear, TrialSea, alone};
+use crate::study::threat::at_line;
+use crate::units::{METRES_PER_INCH, N_PER_LBF};
 
 pub use comparison::comparison;
-use threat::ThreatOfGear;
 
-/// The sea of a preview; depth and current are the request's.
+/// The sea of a preview; site, depth and current are the request's.
 const SEA: &str = "format = 1\nkind = \"scenario\"\nname = \"compliance sheet\"\nduration = \"1 s\"\nstrength_scatter = false\n\
     [current]\nspeed = \"0 m/s\"\ntoward = \"90 deg\"\n";
 
@@ -62,7 +66,7 @@ pub struct ComplianceSheet {
     rules: RuleSheet,
     /// At slack and at running tide.
     rest: [AtRest; 2],
-    /// Loads of hauling, or why it cannot be hauled.
+    /// Its haul, or why it cannot be hauled.
     haul: Result<HaulSheet, Error>,
     threat: Option<ThreatOfGear>,
 }
@@ -75,9 +79,6 @@ struct AtRest {
 
 impl ComplianceSheet {
     /// The sheet of a gear.
-    ///
-    /// # Errors
-    /// Every located error of assembly, library, packs and threat table; gear that finds no rest.
     pub fn of(request: &Request<'_>, packs: &Packs, host: &PluginHost) -> Result<Self, Error> {
         let Request { assembly: id, sources, fishing, tide_m_s, threat } = request;
         let library = library_of(id, sources)?;
@@ -117,21 +118,16 @@ impl ComplianceSheet {
     }
 
     /// Id of the assembly.
-    #[must_use]
     pub fn id(&self) -> &str {
         &self.id
     }
 
     /// The page.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
     pub fn html(&self) -> Result<String, Error> {
-        page::html(self).map_err(|error| Error::Replay(format!("the sheet: {error}")))
+        page::html(self).map_err(|error| Error::Message(format!("the sheet: {error}")))
     }
 
     /// BLAKE3 of everything the model at running tide is made from, hexadecimal.
-    #[must_use]
     pub fn hash(&self) -> String {
         self.rest[1].prepared.source.hash()
     }
@@ -164,5 +160,155 @@ fn threat_of(file: Option<&Path>, gear: &RuleGear) -> Result<Option<ThreatOfGear
     ThreatOfGear::find(&file.display().to_string(), &text, gear).map(Some)
 }
 
-#[cfg(test)]
-mod tests;
+/// Names under which browsers are installed, in the order of search.
+const BROWSERS: [&str; 6] = [
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+    "microsoft-edge",
+];
+
+/// Names the browser to use, by its program.
+const CHOICE: &str = "ENDLINE_BROWSER";
+
+/// Prints an HTML file.
+pub fn print_pdf(html: &Path, pdf: &Path) -> Result<(), Error> {
+    let browser = browser().ok_or_else(|| {
+        Error::at(
+            pdf,
+            format!(
+                "cannot be made: no browser was found; install one of {}, name its program in {CHOICE}, or print {} from any browser",
+                BROWSERS.join(", "),
+                html.display()
+            ),
+        )
+    })?;
+    let failed =
+        |why: String| Error::at(pdf, format!("cannot be made: {}: {why}", browser.display()));
+    let whole = |path: &Path| std::path::absolute(path).map_err(|error| failed(error.to_string()));
+    let (from, to) = (whole(html)?, whole(pdf)?);
+    // A file from before must not pass for the new one.
+    if to.exists() {
+        std::fs::remove_file(&to).map_err(|error| failed(error.to_string()))?;
+    }
+    let mut option = OsString::from("--print-to-pdf=");
+    option.push(&to);
+    let mut command = Command::new(&browser);
+    command.args(["--headless", "--disable-gpu", "--no-pdf-header-footer"]);
+    if runs_as_root() {
+        // Chromium's sandbox refuses root, as in a container; the page holds no script.
+        command.arg("--no-sandbox");
+    }
+    command.arg(option).arg(from).stdout(Stdio::null()).stderr(Stdio::piped());
+    let output = command.output().map_err(|error| failed(error.to_string()))?;
+    if to.is_file() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    Err(failed(format!("{}: {}", output.status, said.lines().last().unwrap_or("it said nothing"))))
+}
+
+/// The browser chosen, or the first that is installed.
+fn browser() -> Option<PathBuf> {
+    if let Some(chosen) = std::env::var_os(CHOICE) {
+        return Some(chosen.into());
+    }
+    let path = std::env::var_os("PATH")?;
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    BROWSERS.iter().find_map(|name| {
+        folders.iter().map(|folder| folder.join(name)).find(|program| program.is_file())
+    })
+}
+
+#[cfg(unix)]
+fn runs_as_root() -> bool {
+    rustix::process::geteuid().is_root()
+}
+
+#[cfg(not(unix))]
+fn runs_as_root() -> bool {
+    false
+}
+
+/// Device in an endline with weak links between its ends, and without, as the table names them.
+const DEVICES: [&str; 2] = ["SSS_Regular", "NA"];
+
+/// The name of rope of at most 1,700 lbf in the table, and that strength [N].
+const WEAK: (&str, f64) = ("1,700", 1700.0 * N_PER_LBF);
+
+/// Tolerance of rounding for a strength [N].
+const ROUNDING_N: f64 = 1e-6;
+
+/// A row of a threat table with bands.
+#[derive(Clone, Debug, Deserialize)]
+struct Row {
+    #[serde(rename = "Rope")]
+    pub rope: String,
+    #[serde(rename = "RopeDiam")]
+    diameter_in: f64,
+    #[serde(rename = "TrawlLen")]
+    pub traps: u64,
+    #[serde(rename = "BuoylineDevice")]
+    pub device: String,
+    #[serde(rename = "Risk")]
+    pub risk: f64,
+    #[serde(rename = "Risk_lo")]
+    pub low: f64,
+    #[serde(rename = "Risk_hi")]
+    pub high: f64,
+    #[serde(rename = "Risk_priors_lo")]
+    pub priors_low: f64,
+    #[serde(rename = "Risk_priors_hi")]
+    pub priors_high: f64,
+    #[serde(rename = "Risk_n")]
+    pub runs: u64,
+    pub how: String,
+}
+
+/// The threat of a gear from a table.
+struct ThreatOfGear {
+    /// The table's file.
+    pub file: String,
+    /// The row taken for the gear.
+    pub row: Row,
+    /// The greatest risk of the table, for comparison.
+    pub greatest: f64,
+}
+
+impl ThreatOfGear {
+    /// The row for a gear.
+    pub fn find(file: &str, text: &str, gear: &RuleGear) -> Result<Self, Error> {
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+        let rows: Result<Vec<Row>, csv::Error> = reader.deserialize().collect();
+        let help = "give the file with bands that `endline study threat STUDY --to FILE.csv` writes: FILE-bands.csv";
+        let rows =
+            rows.map_err(|error| Error::from(Box::new(at_line(file, text, &error, help))))?;
+        let failed = |message: String| Error::Message(format!("{file}: {message}"));
+        let endline = gear.endline().ok_or_else(|| {
+            failed(format!("{} has no endline to find in the table", gear.assembly))
+        })?;
+        let device = DEVICES[usize::from(!endline.has_sleeves)];
+        let is_weak = endline.rated_n <= WEAK.1 + ROUNDING_N && !endline.has_sleeves;
+        let diameter_in = endline.diameter_m / METRES_PER_INCH;
+        let apart = |row: &Row| {
+            let rope = if (row.rope == WEAK.0) == is_weak { 0.0 } else { 1.0 };
+            let traps = (row.traps as f64 - gear.traps() as f64).abs();
+            [rope, (row.diameter_in - diameter_in).abs(), traps]
+        };
+        let greatest = rows.iter().map(|row| row.risk).fold(0.0, f64::max);
+        let row = rows
+            .into_iter()
+            .filter(|row| row.device == device)
+            .min_by(|one, other| {
+                let pairs = apart(one).into_iter().zip(apart(other));
+                pairs
+                    .map(|(a, b)| a.total_cmp(&b))
+                    .find(|order| order.is_ne())
+                    .unwrap_or(std::cmp::Ordering::Equal)
+            })
+            .ok_or_else(|| failed(format!("has no row of device {device}")))?;
+        Ok(Self { file: file.to_owned(), row, greatest })
+    }
+}

@@ -1,4 +1,4 @@
-//! The sheet as HTML: the data of `assets/report/compliance.html`.
+//! The sheet as HTML: the data of `assets/report/compliance.html`, with numbered citations.
 
 use askama::Template;
 use endline_sim::model::BodyRole;
@@ -7,11 +7,10 @@ use crate::page::STYLE;
 use crate::page::{Cell, Line, Table};
 use crate::rules::{RuleResult, Verdict};
 use crate::settled::LineShape;
-use crate::strength::PartStrength;
+use crate::settled::PartStrength;
 use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 
-use super::threat::ThreatOfGear;
-use super::{ComplianceSheet, drawing};
+use super::{ComplianceSheet, ThreatOfGear, drawing};
 use crate::page::Citations;
 
 /// Greatest number of parts in a list; a sentence names the others.
@@ -48,7 +47,7 @@ struct Page<'a> {
     hash: String,
 }
 
-/// The row of a threat table, in words.
+/// A threat in words.
 pub(super) struct Threat {
     says: String,
     pub(super) source: String,
@@ -98,7 +97,7 @@ pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {
     )
 }
 
-/// The verdict in a sentence.
+/// The verdict of the sheet.
 fn verdict(sheet: &ComplianceSheet) -> String {
     let binds = |rule: &&RuleResult| rule.binding;
     let ids = |verdict: Verdict| -> Vec<&str> {
@@ -155,7 +154,7 @@ fn slack_lines(sheet: &ComplianceSheet) -> String {
     }
 }
 
-/// The bodies on the lines, in one sentence.
+/// The bodies of the gear, in one sentence.
 pub(super) fn bodies(sheet: &ComplianceSheet) -> String {
     let bodies = &sheet.rest[0].prepared.model.spec.bodies;
     let mut counted: Vec<(&str, BodyRole, usize)> = Vec::new();
@@ -189,34 +188,34 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
             .collect::<Vec<_>>()
             .join(": ")
     });
-    let mend = (rule.verdict == Verdict::Fail).then(|| format!("Mend: {}", rule.mend));
+    let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.mend));
     let name = [rule.rule.clone(), standing].into_iter().filter(|line| !line.is_empty());
     vec![
         Cell::lines(name),
         rule.asks.clone().into(),
         rule.verdict.words().to_uppercase().into(),
-        Cell::lines(said.take(4).chain(mend)),
+        Cell::lines(said.take(4).chain(fix)),
         citations.cell(&rule.cite, rule.confidence),
     ]
 }
 
 /// Rules that apply and cannot be checked, with the reason.
 fn not_checked(sheet: &ComplianceSheet, citations: &mut Citations) -> Vec<(String, String)> {
-    let told = |rule: &RuleResult| {
+    let row = |rule: &RuleResult| {
         let asks = rule.asks.trim_end_matches('.');
         (rule.rule.clone(), format!("{asks} {}", citations.mark(&rule.cite)))
     };
-    sheet.rules.with(Verdict::CannotBeChecked).map(told).collect()
+    sheet.rules.with(Verdict::CannotBeChecked).map(row).collect()
 }
 
 fn not_applicable(sheet: &ComplianceSheet) -> String {
     let count = sheet.rules.with(Verdict::NotApplicable).count();
     format!(
-        "{count} more rules do not apply here, on that day, or to this gear; endline rules check tells why."
+        "{count} more rules do not apply here, on that day, or to this gear; endline rules check says why."
     )
 }
 
-/// One entry for each kind of part.
+/// Parts alike are listed once.
 fn distinct(strengths: &[PartStrength]) -> Vec<(&PartStrength, usize)> {
     let mut found: Vec<(&PartStrength, usize)> = Vec::new();
     for part in strengths {
@@ -267,7 +266,7 @@ fn left_out(strengths: &[PartStrength]) -> String {
     }
 }
 
-/// Loads of hauling, and the margin to parting.
+/// Loads of the haul, and the margin to parting.
 fn haul(sheet: &ComplianceSheet) -> String {
     let haul = match &sheet.haul {
         Ok(haul) => haul,

@@ -29,7 +29,7 @@ fn sheet(assembly: &str, threat: Option<PathBuf>) -> Result<ComplianceSheet, Err
 fn a_sheet_has_rules_strengths_and_the_command_that_reproduces_it() {
     let sheet = sheet("massachusetts-single", None).unwrap();
     let page = sheet.html().unwrap();
-    for told in [
+    for text in [
         "It meets every binding rule that could be checked.",
         "ma.strength",
         "57 ft",
@@ -37,7 +37,7 @@ fn a_sheet_has_rules_strengths_and_the_command_that_reproduces_it() {
         &sheet.hash(),
         "no threat table was given",
     ] {
-        assert!(page.contains(told), "{told}");
+        assert!(page.contains(text), "{text}");
     }
     // Both seas are drawn: the second line dashed.
     assert!(
@@ -52,9 +52,9 @@ fn a_comparison_says_of_each_gear_what_its_own_sheet_says() {
     let page = comparison(&sheets).unwrap();
     for sheet in &sheets {
         let own = sheet.html().unwrap();
-        for told in [sheet.hash(), page::command(sheet), page::bodies(sheet)] {
-            let told = told.replace('"', "&#34;");
-            assert!(page.contains(&told) && own.contains(&told), "{told}");
+        for text in [sheet.hash(), page::command(sheet), page::bodies(sheet)] {
+            let text = text.replace('"', "&#34;");
+            assert!(page.contains(&text) && own.contains(&text), "{text}");
         }
     }
     // The sleeves deliver less than the rope between them, and the bare endline fails the rule that they meet.

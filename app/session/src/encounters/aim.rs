@@ -10,9 +10,6 @@ use endline_sim::{Model, State};
 use crate::error::Error;
 
 /// The lines of a model that a study aims at, in its order; a line made of pieces is all its pieces. All lines if it names none.
-///
-/// # Errors
-/// A line that the model lacks, at its place in the study.
 pub(crate) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
     let ids = || model.spec.lines.iter().map(|line| line.id.as_str());
     if wanted.is_empty() {

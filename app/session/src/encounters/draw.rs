@@ -25,7 +25,6 @@ pub struct Drawn {
 
 impl Drawn {
     /// The value as a file holds it.
-    #[must_use]
     pub fn setting(&self) -> Setting {
         if self.plain { Setting::plain(&self.text) } else { Setting::text(&self.text) }
     }
@@ -41,7 +40,6 @@ pub struct Draw {
 }
 
 /// Draws encounter `index` of a study.
-#[must_use]
 pub fn draw(study: &Study, index: u32) -> Draw {
     let priors = &study.priors;
     let mut point = Point::of(study.seed, index);
@@ -64,13 +62,11 @@ pub fn draw(study: &Study, index: u32) -> Draw {
 }
 
 /// Priors that vary, by their place among all: the dimensions of the unit cube of encounters.
-#[must_use]
 pub fn dimensions(study: &Study) -> Vec<usize> {
     (0..study.priors.len()).filter(|prior| !is_fixed(&study.priors[*prior])).collect()
 }
 
 /// Every prior's value at a point of the unit cube: below it lies the share `point[k]` of the law of dimension `k`.
-#[must_use]
 pub fn at_point(study: &Study, point: &[f64]) -> Vec<Drawn> {
     let mut shares = point.iter().copied();
     let mut share = |prior: &Prior| {
@@ -80,13 +76,11 @@ pub fn at_point(study: &Study, point: &[f64]) -> Vec<Drawn> {
 }
 
 /// The value of a prior below which a share of its law lies.
-#[must_use]
 pub fn at_share(prior: &Prior, share: f64) -> Drawn {
     value(&prior.name.value, &prior.law, share)
 }
 
 /// Point `index` of the scrambled Sobol sequence in the unit cube of encounters.
-#[must_use]
 pub fn sobol_point(seed: u64, index: u32, dimensions: usize) -> Vec<f64> {
     let mut point = Point::of(seed, index);
     (0..dimensions).map(|_| point.share()).collect()
@@ -140,7 +134,6 @@ fn value(name: &str, law: &Law, share: f64) -> Drawn {
 }
 
 /// A number [SI] as a drawn value.
-#[must_use]
 pub fn number(name: String, value: f64, quantity: units::Quantity) -> Drawn {
     let plain = quantity == units::Quantity::Ratio;
     let text = if plain { format!("{value:?}") } else { format!("{value} {}", quantity.si_unit()) };
@@ -187,7 +180,6 @@ const YEAR_S: f64 = 31_557_600.0;
 const LONG_S: f64 = 86_400.0;
 
 /// A drawn value in common units: three figures, angles in degrees, long times in years. Words are unchanged.
-#[must_use]
 pub fn in_words(text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     let Ok(value) = number.parse::<f64>() else { return text.to_owned() };

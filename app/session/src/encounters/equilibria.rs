@@ -33,9 +33,6 @@ const MOST_STORED: usize = 64;
 
 impl Equilibria {
     /// The gear of a source in equilibrium, settled unless it is stored.
-    ///
-    /// # Errors
-    /// Faults of the source.
     pub(crate) fn of(&self, source: Source, host: &PluginHost) -> Result<Arc<Equilibrium>, Error> {
         let key = source.hash();
         let stored = lock(&self.0).get(&key).cloned();

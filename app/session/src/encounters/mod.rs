@@ -33,20 +33,17 @@ pub struct Encounter {
 
 impl Encounter {
     /// Draws encounter `index` of a study.
-    #[must_use]
     pub fn of(study: &Study, index: u32) -> Self {
         let Draw { values: drawn, weight } = draw::draw(study, index);
         Self { index, drawn, weight }
     }
 
     /// The encounter at a point of the unit cube ([`draw::dimensions`]); it has index 0, whatever the point.
-    #[must_use]
     pub fn at_point(study: &Study, point: &[f64]) -> Self {
         Self { index: 0, drawn: draw::at_point(study, point), weight: 1.0 }
     }
 
     /// A drawn number, by name [SI].
-    #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         self.drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number)
     }

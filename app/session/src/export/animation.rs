@@ -7,7 +7,7 @@
 //! | a body, by its id | place and turn |
 //! | a knot or link | place |
 //!
-//! Nodes of a line come and go as its resolution follows the whale; a mesh keeps its vertices. So a line is told at places of
+//! Nodes of a line come and go as its resolution follows the whale; a mesh keeps its vertices. So a line is sampled at places of
 //! its own, and a line that parts is one mesh a piece from the start.
 
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
 use super::model::{self, turned};
-use super::tube::{Piece, pieces};
+use super::model::{Piece, pieces};
 use crate::scene::mesh::{Colour, Mesh};
 use crate::scene::{bodies, obstacles, whale};
 
@@ -29,9 +29,6 @@ const MOST_BYTES: usize = 4_000_000_000;
 const ROPE: Colour = [0.85, 0.72, 0.25, 1.0];
 
 /// The animation of frames, which are of one run and at even steps of `step_s`.
-///
-/// # Errors
-/// Without frames, or where the file would be larger than glTF can be.
 pub fn glb(model: &Model, frames: &[Arc<Frame>], step_s: f64) -> Result<Vec<u8>, String> {
     let first = frames.first().ok_or("there is no frame to write")?;
     let vertices = vertices_of(model);

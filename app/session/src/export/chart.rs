@@ -1,4 +1,4 @@
-//! What is plotted of a run, as plain data: drawn in the window, written as CSV, SVG or PNG.
+//! Charts of a run, as plain data: drawn in the window, written as CSV, SVG or PNG.
 
 use endline_sdk::BodyPart;
 
@@ -34,7 +34,6 @@ impl Kind {
         [Self::Tension, Self::Along, Self::Force, Self::Wraps, Self::Depth, Self::Speed];
 
     /// Its title.
-    #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Self::Tension => "Tension of each line",
@@ -47,7 +46,6 @@ impl Kind {
     }
 
     /// Its short name, for files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Tension => "tension",
@@ -60,7 +58,6 @@ impl Kind {
     }
 
     /// Whether it runs over time.
-    #[must_use]
     pub fn over_time(self) -> bool {
         self != Self::Along
     }
@@ -93,7 +90,6 @@ pub struct Curve {
 
 impl Curve {
     /// Its colour.
-    #[must_use]
     pub fn rgb(&self) -> [u8; 3] {
         SERIES[self.colour % SERIES.len()]
     }
@@ -102,7 +98,7 @@ impl Curve {
 /// A level across the chart: a strength or rating.
 #[derive(Clone, Debug)]
 pub struct Level {
-    /// What it is.
+    /// Its name.
     pub name: String,
     /// Least and greatest value; equal for a single value.
     pub band: [f64; 2],
@@ -127,7 +123,6 @@ pub struct Chart {
 
 impl Chart {
     /// A kind of plot of a run.
-    #[must_use]
     pub fn of(kind: Kind, view: &LiveView, units: Units) -> Self {
         let duration_s = view.model.spec.settings.duration_s.max(view.newest_s);
         let time = "Time [s]".to_owned();
@@ -201,7 +196,6 @@ impl Chart {
 
     /// The name by which a curve is hidden: its own, or that of the line whose least or greatest
     /// value it is.
-    #[must_use]
     pub fn line_of<'a>(&'a self, curve: &'a Curve) -> &'a str {
         let line = self
             .curves
@@ -211,7 +205,6 @@ impl Chart {
     }
 
     /// Greatest value of any curve.
-    #[must_use]
     pub fn top(&self) -> f64 {
         self.curves
             .iter()
@@ -221,8 +214,7 @@ impl Chart {
     }
 }
 
-/// Charts as one table of CSV, a row for each point: figure, curve, x and what it is, y and what it is, and the origin.
-#[must_use]
+/// Charts as one table of CSV, a row for each point: figure, curve, x and its label, y and its label, and the origin.
 pub fn csv(charts: &[Chart], origin: &str) -> String {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let head = ["figure", "curve", "x", "x_is", "y", "y_is", "origin"].map(str::to_owned);
@@ -319,7 +311,7 @@ fn levels(view: &LiveView, units: Units) -> Vec<Level> {
         .collect()
 }
 
-/// Tension over the rope's length at the moment shown, and least and greatest so far; lines that go on from one another are
+/// Tension over the rope's length at the moment shown, and least and greatest so far; lines that continue one another are
 /// drawn in a row.
 fn along(view: &LiveView, units: Units) -> Chart {
     let (spec, frame, force) = (&view.model.spec, &view.frame, units.force());
@@ -432,7 +424,7 @@ mod tests {
         };
         let both = chart(vec![curve("top", 0), curve("bottom", 1)], 5.0)
             .beside(chart(vec![curve("bottom", 0), curve("other", 1)], 9.0));
-        let told: Vec<_> = both
+        let found: Vec<_> = both
             .curves
             .iter()
             .map(|curve| (curve.name.as_str(), curve.style, curve.colour))
@@ -443,7 +435,7 @@ mod tests {
             ("bottom (B)", Style::Dashed, 1),
             ("other (B)", Style::Dashed, 2),
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
         assert!((both.end_x - 9.0).abs() < 1e-12);
     }
 }

@@ -1,24 +1,20 @@
 //! Results and gear written to files for other programs.
 //!
-//! | module | what | endings |
+//! | module | content | endings |
 //! |---|---|---|
-//! | [`chart`] | what is plotted of a run, as data; as a table of points | `csv` |
-//! | [`picture`] | charts drawn | `svg`, `png` |
+//! | [`chart`] | charts of a run, as data; as a table of points | `csv` |
+//! | [`picture`] | charts drawn, with the font of all of them | `svg`, `png` |
 //! | [`animation`] | a run in motion | `glb` |
 //! | [`model`] | gear and whale as 3-D models | `stl`, `glb` |
 //! | [`tables`] | the moments of a run as tables | `parquet`, `arrow`, `csv` |
-//! | [`font`] | the font of all of them | |
 //!
 //! Tables of the library are read and written by [`edit::library_table`](crate::edit::library_table).
 
 pub mod animation;
-mod arrow;
 pub mod chart;
-pub mod font;
 pub mod model;
 pub mod picture;
 pub mod tables;
-mod tube;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -36,10 +32,7 @@ pub const CHART_ENDINGS: [&str; 3] = ["svg", "png", "csv"];
 /// Endings of files that 3-D models are written to.
 pub const MODEL_ENDINGS: [&str; 2] = ["stl", "glb"];
 
-/// Writes charts to a file in the format of its ending, one of [`CHART_ENDINGS`]; `origin` says of which run, by which program.
-///
-/// # Errors
-/// An ending that is not known, charts that cannot be drawn, or a file that cannot be written.
+/// Writes charts to a file in the format of its ending, one of [`CHART_ENDINGS`]; `origin` names the run and the program.
 pub fn charts(path: &Path, charts: &[Chart], origin: &str) -> Result<(), String> {
     let bytes = match ending(path, &CHART_ENDINGS)? {
         "csv" => chart::csv(charts, origin).into_bytes(),
@@ -51,9 +44,6 @@ pub fn charts(path: &Path, charts: &[Chart], origin: &str) -> Result<(), String>
 
 /// Writes the solid parts of a scene to a file in the format of its ending, one of
 /// [`MODEL_ENDINGS`].
-///
-/// # Errors
-/// An ending that is not known, or a file that cannot be written.
 pub fn model(path: &Path, scene: &Scene) -> Result<(), String> {
     let bytes = match ending(path, &MODEL_ENDINGS)? {
         "stl" => model::stl(scene),
@@ -63,9 +53,6 @@ pub fn model(path: &Path, scene: &Scene) -> Result<(), String> {
 }
 
 /// Writes frames of a run, `step_s` apart, as an animated 3-D model to a file that ends in `.glb`.
-///
-/// # Errors
-/// Without frames, where they are more than glTF can hold, or where the file cannot be written.
 pub fn animation(
     path: &Path,
     model: &Model,

@@ -1,12 +1,14 @@
 //! Charts drawn one below the other, as SVG or as PNG.
 
+use std::sync::LazyLock;
+
 use plotters::backend::DrawingBackend;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
 
 use super::chart::{Chart, Curve, Style};
-use super::font;
 
 /// Width and height of one chart [px].
 const SIZE: (u32, u32) = (800, 280);
@@ -17,13 +19,10 @@ const FOOT: u32 = 22;
 /// Pixels of a PNG for each pixel of an SVG, so that text stays sharp in print.
 const SCALE: u32 = 2;
 
-/// What drawing can fail with.
+/// Errors of drawing.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// The charts as one SVG, with its origin below.
-///
-/// # Errors
-/// Where there is no chart, or drawing fails.
 pub fn svg(charts: &[Chart], origin: &str) -> Result<String, String> {
     let size = size(charts, 1)?;
     let mut text = String::new();
@@ -33,9 +32,6 @@ pub fn svg(charts: &[Chart], origin: &str) -> Result<String, String> {
 }
 
 /// The charts as one PNG of 8-bit RGB, with its origin below and in its description.
-///
-/// # Errors
-/// Where there is no chart, or drawing fails.
 pub fn png(charts: &[Chart], origin: &str) -> Result<Vec<u8>, String> {
     let (width, height) = size(charts, SCALE)?;
     let mut pixels = vec![0; 3 * width as usize * height as usize];
@@ -58,7 +54,7 @@ fn size(charts: &[Chart], scale: u32) -> Result<(u32, u32), String> {
     if charts.is_empty() {
         return Err("no plot is shown".into());
     }
-    font::register()?;
+    register()?;
     let count = u32::try_from(charts.len()).unwrap_or(1);
     Ok((scale * SIZE.0, scale * (SIZE.1 * count + FOOT)))
 }
@@ -165,6 +161,19 @@ where
 fn colour(curve: &Curve) -> RGBColor {
     let [red, green, blue] = curve.rgb();
     RGBColor(red, green, blue)
+}
+
+/// Ubuntu Light, from `assets/fonts`.
+static FONT: &[u8] = include_bytes!("../../../../assets/fonts/Ubuntu-Light.ttf");
+
+/// Makes the font known as `sans-serif` to the drawing library.
+pub fn register() -> Result<(), String> {
+    static REGISTERED: LazyLock<bool> = LazyLock::new(|| {
+        [FontStyle::Normal, FontStyle::Bold, FontStyle::Italic, FontStyle::Oblique]
+            .into_iter()
+            .all(|style| register_font("sans-serif", style, FONT).is_ok())
+    });
+    if *REGISTERED { Ok(()) } else { Err("the font of pictures cannot be read".into()) }
 }
 
 #[cfg(test)]

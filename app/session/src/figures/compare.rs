@@ -8,21 +8,21 @@ use super::{
 use crate::live::LiveView;
 use crate::units::Units;
 
-/// What stands in place of the difference where both runs have the same.
+/// Text in place of the difference where both runs have the same value.
 pub const SAME: &str = "same";
 
 /// One figure of both runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What it is.
+    /// Its name.
     pub name: String,
-    /// What it means, in a sentence.
+    /// Its meaning, in a sentence.
     pub help: &'static str,
     /// Of the run shown.
     pub a: String,
     /// Of the run it is compared with.
     pub b: String,
-    /// A less B: what has changed since the run that was held; empty where one of them has no value.
+    /// A less B, the change since the run that was held; empty where one of them has no value.
     pub difference: String,
 }
 
@@ -30,7 +30,6 @@ pub struct Row {
 pub type Group = (&'static str, Vec<Row>);
 
 /// Every figure that is compared of two runs, so far as each was run, in groups.
-#[must_use]
 pub fn groups(a: &LiveView, b: &LiveView, units: Units) -> Vec<Group> {
     let whales = [a, b].map(|view| view.summary.as_ref()?.whale.as_ref());
     let whale = shown(WHALE, Compare).map(|figure| row(figure, whales, units, ""));

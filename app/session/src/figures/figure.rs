@@ -1,6 +1,10 @@
-//! What is declared of a figure.
+//! The declaration of a figure; figures of the moment shown.
 
+use endline_sim::frame::WhaleFrame;
+
+use super::View::Compare;
 use super::{Quantity, Value};
+use crate::live::LiveView;
 
 /// A view that shows some of the figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,9 +35,9 @@ pub struct Figure<S> {
     pub key: &'static str,
     /// Label on screen and in printed tables, in lower case.
     pub label: &'static str,
-    /// What it is, in a sentence.
+    /// Its meaning, in a sentence.
     pub help: &'static str,
-    /// What kind of quantity it is, which decides unit and format.
+    /// The kind of quantity, which decides unit and format.
     pub quantity: Quantity,
     /// Whether the JSON summary has it.
     pub in_json: bool,
@@ -104,20 +108,17 @@ impl<S> Figure<S> {
     }
 
     /// Whether a view shows it.
-    #[must_use]
     pub fn is_in(&self, view: View) -> bool {
         self.views.contains(&view)
     }
 
     /// Whether its value asks for attention.
-    #[must_use]
     pub fn alarms(&self, source: &S) -> bool {
         self.alarm && self.says_something(source)
     }
 
     /// Whether a panel has something to say by it.
-    #[must_use]
-    pub fn is_told(&self, source: &S) -> bool {
+    pub fn is_shown(&self, source: &S) -> bool {
         !self.if_any || self.says_something(source)
     }
 
@@ -137,14 +138,56 @@ pub fn shown<S>(figures: &[Figure<S>], view: View) -> impl Iterator<Item = &Figu
 }
 
 /// The figures of a source that stand in JSON, by key.
-#[must_use]
 pub fn object<S>(figures: &[Figure<S>], source: &S) -> Value {
     let own = figures.iter().filter(|figure| figure.in_json);
     Value::Group(own.map(|figure| (figure.key, (figure.read)(source))).collect())
 }
 
 /// The figures of several sources that stand in JSON.
-#[must_use]
 pub fn list<S>(figures: &[Figure<S>], sources: &[S]) -> Value {
     Value::List(sources.iter().map(|source| object(figures, source)).collect())
 }
+
+fn whale(view: &LiveView, read: fn(&WhaleFrame) -> f64) -> Option<f64> {
+    view.frame.whale.as_ref().map(read)
+}
+
+/// Figures of the moment shown.
+pub static MOMENT: &[Figure<LiveView>] = &[
+    Figure::new(
+        "time_s",
+        "time",
+        "Time of the moment shown.",
+        Quantity::Moment,
+        |view: &LiveView| view.frame.time_s.into(),
+    )
+    .not_in_json()
+    .shown(&[Compare]),
+    Figure::new(
+        "greatest_tension_N",
+        "greatest tension",
+        "Greatest tension of any segment at the moment shown.",
+        Quantity::Force,
+        |view: &LiveView| view.frame.tension_n.iter().copied().reduce(f64::max).into(),
+    )
+    .not_in_json()
+    .shown(&[Compare]),
+    Figure::new(
+        "whale_depth_m",
+        "depth of the whale",
+        "Depth of the whale at the moment shown.",
+        Quantity::Depth,
+        |view: &LiveView| whale(view, |whale| -whale.position.z).into(),
+    )
+    .not_in_json()
+    .shown(&[Compare]),
+    Figure::new(
+        "whale_speed_m_s",
+        "speed of the whale",
+        "Speed of the whale at the moment shown.",
+        Quantity::Speed,
+        |view: &LiveView| whale(view, |whale| whale.speed_m_s).into(),
+    )
+    .not_in_json()
+    .shown(&[Compare]),
+];

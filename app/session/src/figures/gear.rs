@@ -1,22 +1,22 @@
-//! Figures of lines, weak links, bodies and probes.
+//! Figures of lines, weak links, bodies and probes, and of the plugins of a model.
 
 use endline_sdk::BodyPart;
 use endline_sim::metrics::{BodySummary, LineSummary, LinkSummary, ProbeSummary, Summary};
 
 use super::View::{Compare, Summary as InSummary, Table};
 use super::{Figure, Quantity, Value};
+use crate::plugins::PluginUsed;
 
 /// A line of a run.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What was measured.
+    /// The measurements.
     pub summary: LineSummary,
     /// Greatest tension of any segment in the settled state [N]; `None` where it is not at hand.
     pub settled_tension_n: Option<f64>,
 }
 
 /// The lines of a summary, with their settled tensions so far as they are given [N].
-#[must_use]
 pub fn lines(summary: &Summary, settled_tension_n: &[f64]) -> Vec<Line> {
     let line = |(index, summary): (usize, &LineSummary)| Line {
         summary: summary.clone(),
@@ -291,4 +291,25 @@ pub static PROBE: &[Figure<ProbeSummary>] = &[
         |probe: &ProbeSummary| measured(probe, probe.mean),
     )
     .shown(&[Table]),
+];
+
+/// Figures of a plugin of the model.
+pub static PLUGIN: &[Figure<PluginUsed>] = &[
+    Figure::new("id", "plugin", "Id of the plugin.", Quantity::Id, |plugin: &PluginUsed| {
+        (&plugin.id).into()
+    }),
+    Figure::new(
+        "version",
+        "version",
+        "Version of the plugin.",
+        Quantity::Id,
+        |plugin: &PluginUsed| (&plugin.version).into(),
+    ),
+    Figure::new(
+        "file_hash",
+        "file hash",
+        "BLAKE3 of the file it was loaded from; empty if it is linked.",
+        Quantity::Id,
+        |plugin: &PluginUsed| (&plugin.file_hash).into(),
+    ),
 ];

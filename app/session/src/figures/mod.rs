@@ -23,19 +23,11 @@
 //!
 //! To add a figure: a field of the summary in `app/sim/src/metrics`, and one entry here.
 
-mod attempt;
 mod audit;
 mod balance;
 pub mod compare;
-mod cost;
-mod events;
 mod figure;
 mod gear;
-mod json;
-mod moment;
-mod phases;
-mod plugin;
-mod quantity;
 mod run;
 pub(crate) mod schema;
 mod skin;
@@ -44,18 +36,11 @@ pub(crate) mod tests;
 mod value;
 mod whale;
 
-pub use attempt::{ATTEMPT, Attempt};
-pub use audit::AUDIT;
+pub use audit::{AUDIT, COST, shares};
 pub use balance::BALANCE;
-pub use cost::{COST, shares};
-pub use events::EVENT;
-pub use figure::{Column, Figure, View, list, object, shown};
-pub use gear::{BODY, LINE, LINK, Line, PROBE, lines};
-pub use moment::MOMENT;
-pub use phases::{PHASE, SETTLED};
-pub use plugin::PLUGIN;
-pub use quantity::Quantity;
-pub use run::RUN;
+pub use figure::{Column, Figure, MOMENT, View, list, object, shown};
+pub use gear::{BODY, LINE, LINK, Line, PLUGIN, PROBE, lines};
+pub use run::{ATTEMPT, Attempt, EVENT, PHASE, RUN, SETTLED};
 pub use skin::{PART, PATCH, Part, parts};
-pub use value::Value;
+pub use value::{Quantity, Value};
 pub use whale::{BEAT, KINETIC, WHALE};

@@ -1,11 +1,14 @@
-//! Figures of a whole run.
+//! Figures of a whole run, of its phases and events, and of the attempt that a study makes.
+
+use endline_sim::metrics::Event;
 
 use super::View::Table;
 use super::{
-    AUDIT, BODY, COST, EVENT, Figure, LINE, LINK, PHASE, PLUGIN, PROBE, Quantity, SETTLED, WHALE,
-    lines, list, object,
+    AUDIT, BODY, COST, Figure, LINE, LINK, PLUGIN, PROBE, Quantity, Value, WHALE, lines, list,
+    object,
 };
 use crate::report::{Report, SCHEMA};
+use crate::timing::Phase;
 
 /// Figures of a run.
 pub static RUN: &[Figure<Report>] = &[
@@ -248,4 +251,155 @@ pub static RUN: &[Figure<Report>] = &[
     )
     .not_in_json()
     .column(305),
+];
+
+/// A run that a study asked for, whether or not there is one.
+#[derive(Clone, Debug)]
+pub struct Attempt {
+    /// Index of the encounter.
+    pub encounter: u32,
+    /// Id of the option.
+    pub option: String,
+    /// The weight of the encounter.
+    pub weight: f64,
+    /// Key by which `endline study replay` finds it.
+    pub replay_key: String,
+    /// Reason for a missing or invalid run; empty if it is valid.
+    pub fault: String,
+}
+
+/// Figures of a run that a study asked for.
+pub static ATTEMPT: &[Figure<Attempt>] = &[
+    Figure::new(
+        "encounter",
+        "encounter",
+        "Index of the encounter.",
+        Quantity::Count,
+        |attempt: &Attempt| attempt.encounter.into(),
+    )
+    .not_in_json()
+    .column(0),
+    Figure::new("option", "option", "Id of the option.", Quantity::Id, |attempt: &Attempt| {
+        (&attempt.option).into()
+    })
+    .not_in_json()
+    .column(1),
+    Figure::new(
+        "weight",
+        "weight",
+        "Weight of the encounter, if encounters are drawn from proposals; else 1.",
+        Quantity::Number,
+        |attempt: &Attempt| attempt.weight.into(),
+    )
+    .not_in_json()
+    .column(3),
+    Figure::new(
+        "replay_key",
+        "replay key",
+        "Study hash, encounter and option, which define the run.",
+        Quantity::Id,
+        |attempt: &Attempt| (&attempt.replay_key).into(),
+    )
+    .not_in_json()
+    .column(2),
+    Figure::new(
+        "fault",
+        "fault",
+        "Reason for a missing or invalid run; empty if it is valid.",
+        Quantity::Id,
+        |attempt: &Attempt| (&attempt.fault).into(),
+    )
+    .not_in_json()
+    .column(11),
+];
+
+/// Figures of a phase of a run.
+pub static PHASE: &[Figure<Phase>] = &[
+    Figure::new(
+        "simulated_s",
+        "simulated time",
+        "Simulated time.",
+        Quantity::Duration,
+        |phase: &Phase| phase.simulated_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new("wall_s", "real time", "Real time.", Quantity::Duration, |phase: &Phase| {
+        phase.wall_s.into()
+    })
+    .shown(&[Table]),
+    Figure::new(
+        "times_real_time",
+        "times real time",
+        "Simulated time divided by real time; 0 if the phase is empty.",
+        Quantity::Number,
+        |phase: &Phase| phase.times_real_time().into(),
+    )
+    .shown(&[Table]),
+];
+
+/// Figures of the statics before a run.
+pub static SETTLED: &[Figure<Report>] = &[
+    Figure::new(
+        "settled",
+        "started from rest",
+        "Whether the run began from rest.",
+        Quantity::Flag,
+        |run: &Report| run.settled.converged.into(),
+    ),
+    Figure::new(
+        "outcome",
+        "statics",
+        "Result of statics, in words.",
+        Quantity::Id,
+        |run: &Report| (&run.settled.outcome).into(),
+    ),
+    Figure::new(
+        "residual_N",
+        "greatest force out of balance",
+        "Greatest force out of balance.",
+        Quantity::Force,
+        |run: &Report| run.settled.residual_n.into(),
+    ),
+    Figure::new(
+        "wall_s",
+        "real time of the statics",
+        "Real time of the statics.",
+        Quantity::Duration,
+        |run: &Report| run.timing.settle_wall_s.into(),
+    ),
+];
+
+/// Figures of an event of a run.
+pub static EVENT: &[Figure<Event>] = &[
+    Figure::new(
+        "time_s",
+        "time",
+        "Time of the event: the end of its step.",
+        Quantity::Moment,
+        |event: &Event| event.time_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "kind",
+        "event",
+        "Kind of the event, such as `link_parted`.",
+        Quantity::Name,
+        |event: &Event| event.kind.name().into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "subject",
+        "of",
+        "Id of the object of the event.",
+        Quantity::Name,
+        |event: &Event| (&event.subject).into(),
+    )
+    .shown(&[Table]),
+    Figure::new("value", "value", "Value of the event.", Quantity::Measured, |event: &Event| {
+        Value::Measured { value: event.value, unit: event.kind.unit() }
+    })
+    .shown(&[Table]),
+    Figure::new("unit", "unit", "Unit of the value.", Quantity::Id, |event: &Event| {
+        event.kind.unit().into()
+    }),
 ];

@@ -1,8 +1,9 @@
-//! The JSON schema of figures, from their declarations: type, unit and meaning of every key.
+//! Figures as JSON, and the JSON schema of their declarations: type, unit and meaning of every key.
 
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 use super::{
@@ -54,19 +55,19 @@ fn run() -> Map<String, Value> {
     run
 }
 
-/// Schema of an object of figures; what stands under its groups is given by key.
+/// Schema of an object of figures; the schemas of its groups are given by key.
 fn object<S>(figures: &[Figure<S>], groups: &[(&str, Value)]) -> Map<String, Value> {
-    let told = || figures.iter().filter(|figure| figure.in_json);
+    let in_json = || figures.iter().filter(|figure| figure.in_json);
     let group = |key| groups.iter().find(|(own, _)| *own == key).map(|(_, schema)| schema.clone());
     let property = |figure: &Figure<S>| {
         let mut schema = group(figure.key).unwrap_or_else(|| single(figure.quantity));
         schema["description"] = figure.help.into();
         (figure.key.to_owned(), schema)
     };
-    let keys: Vec<&str> = told().map(|figure| figure.key).collect();
+    let keys: Vec<&str> = in_json().map(|figure| figure.key).collect();
     let mut schema = Map::new();
     schema.insert("type".into(), "object".into());
-    schema.insert("properties".into(), told().map(property).collect::<Map<_, _>>().into());
+    schema.insert("properties".into(), in_json().map(property).collect::<Map<_, _>>().into());
     schema.insert("required".into(), keys.into());
     schema
 }
@@ -100,6 +101,20 @@ fn single(quantity: Quantity) -> Value {
     };
     schema["unit"] = quantity.unit().into();
     schema
+}
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        super::object(RUN, self).serialize(serializer)
+    }
+}
+
+impl Report {
+    /// One line of JSON.
+    pub fn json(&self) -> String {
+        // Numbers and texts always serialise; the empty string would fail every reader at once.
+        serde_json::to_string(self).unwrap_or_default()
+    }
 }
 
 #[cfg(test)]

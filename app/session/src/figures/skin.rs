@@ -10,7 +10,7 @@ use super::{Figure, Quantity};
 /// A part of the whale's body.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// What was measured.
+    /// The measurements.
     pub summary: RegionSummary,
     /// Sum of the normal forces at the moment shown [N].
     pub normal_now_n: f64,
@@ -18,14 +18,12 @@ pub struct Part {
 
 impl Part {
     /// Whether rope never touched it.
-    #[must_use]
     pub fn is_untouched(&self) -> bool {
         self.summary.peak_contact_length_m <= 0.0
     }
 }
 
 /// The parts of a whale, with the contacts of the moment shown; of a finished run none are needed.
-#[must_use]
 pub fn parts(whale: &WhaleSummary, contacts: &[ContactPoint]) -> Vec<Part> {
     let normal_now_n = |part: BodyPart| {
         let own = contacts.iter().filter(|contact| contact.region.part() == part);

@@ -1,4 +1,4 @@
-//! Figures of the whale, of its fluke beat and of what a kinetic whale did.
+//! Figures of the whale, of its fluke beat and of a kinetic whale.
 
 use endline_sim::metrics::{BeatSummary, KineticSummary, WhaleSummary};
 

@@ -1,17 +1,22 @@
-//! Loads of a haul as it goes on: the greatest tension of every part, by stage and in all, and samples along the endline.
+//! Loads during a haul: the greatest tension of every part, by stage and in all, samples along the endline, and the probability of parting.
+//!
+//! A piece of rope or a link holds `S Z`, with `S` the mean it delivers where it is loaded (wear, and a knot or splice in the
+//! segment at it) and `Z` normal with mean 1 and the coefficient of variation `c` of its item. With `u = max T/S` over its segments and the
+//! haul, it parts with the probability `Φ((u - 1)/c)`. Pieces vary independently, so that one or more part with `1 - Π (1 - pᵢ)`.
+//! `T` is one record of one sea: the probability is that over pieces of rope, not over seas.
 
 use endline_sdk::LineEnd;
 use endline_sim::haul::{Haul, HaulEvent, LIFTED_M};
 use endline_sim::model::{BodyRole, JointKind, Link};
 use endline_sim::parting::link_segment;
+use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::gear::Made;
-use super::risk;
+use super::Made;
 
 /// Time between samples along the endline [s].
 const SAMPLE_S: f64 = 1.0;
 
-/// A piece of rope or a link, and the greatest share used of what it delivers.
+/// A piece of rope or a link, and the greatest share used of its delivered strength.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     /// Its id.
@@ -24,10 +29,10 @@ pub(super) struct Part {
     pub variation: f64,
 }
 
-/// What was greatest of a part over a time.
+/// Greatest load of a part over a time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Most {
-    /// Share used of what the place delivers in the mean.
+    /// Share used of the mean strength that the place delivers.
     pub used: f64,
     /// Tension there [N].
     pub tension_n: f64,
@@ -58,10 +63,10 @@ pub(super) struct Greatest {
     pub parts: Vec<Most>,
 }
 
-/// A stage: up to something that came up.
+/// A stage: up to where something leaves the seabed or comes aboard.
 #[derive(Clone, Debug)]
 pub(super) struct StageLoads {
-    /// What ended it.
+    /// The event that ended it.
     pub until: String,
     /// When [s].
     pub time_s: f64,
@@ -90,7 +95,7 @@ pub(super) struct Sample {
 pub(super) struct Loads {
     /// Pieces and links that are loaded.
     pub parts: Vec<Part>,
-    /// Segments of the endline from the buoy, with the place of their middle [m].
+    /// Segments of the endline from the buoy, with the distance of their middle [m].
     pub along: Vec<(usize, f64)>,
     /// Stages that ended.
     pub stages: Vec<StageLoads>,
@@ -109,7 +114,7 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Nothing yet, for gear hauled from a line's end.
+    /// No loads yet, for gear hauled from a line's end.
     pub fn new(made: &Made, from: (usize, usize, LineEnd)) -> Self {
         let parts = parts(made, from);
         let greatest =
@@ -129,7 +134,7 @@ impl Loads {
     }
 
     /// Takes in a step.
-    pub fn take(&mut self, haul: &Haul, made: &Made) {
+    pub fn record(&mut self, haul: &Haul, made: &Made) {
         self.tension_n.fill(0.0);
         haul.tensions().for_each(|(segment, tension)| self.tension_n[segment] = tension);
         let is_gear = |body: usize| made.model.spec.bodies[body].role != BodyRole::Buoy;
@@ -137,12 +142,12 @@ impl Loads {
         let hanging = haul.risen().filter(hangs).count();
         self.is_empty = !haul.risen().any(|(body, _)| is_gear(body));
         for greatest in [&mut self.greatest, &mut self.stage] {
-            greatest.take(haul, hanging, &self.parts, &self.tension_n);
+            greatest.update(haul, hanging, &self.parts, &self.tension_n);
         }
         self.work_j += haul.last_step().work_j;
         self.sample(haul);
-        let came = haul.last_step().events.clone();
-        came.into_iter().for_each(|came| self.came(came, haul, made));
+        let event = haul.last_step().events.clone();
+        event.into_iter().for_each(|event| self.record_event(event, haul, made));
     }
 
     /// Whether as many traps are aboard as asked, or all traps and anchors.
@@ -152,9 +157,9 @@ impl Loads {
 
     /// Ends the last stage.
     pub fn finish(&mut self, haul: &Haul, made: &Made) {
-        for came in haul.last_step().events.clone() {
-            if matches!(came, HaulEvent::Aboard(_)) && haul.model().spec.lines.is_empty() {
-                self.came(came, haul, made);
+        for event in haul.last_step().events.clone() {
+            if matches!(event, HaulEvent::Aboard(_)) && haul.model().spec.lines.is_empty() {
+                self.record_event(event, haul, made);
             }
         }
         if self.stage.load_n > 0.0 {
@@ -162,9 +167,9 @@ impl Loads {
         }
     }
 
-    fn came(&mut self, came: HaulEvent, haul: &Haul, made: &Made) {
+    fn record_event(&mut self, event: HaulEvent, haul: &Haul, made: &Made) {
         let body = |body: usize| &made.model.spec.bodies[body];
-        match came {
+        match event {
             HaulEvent::OffSeabed(index) if self.stages.is_empty() => {
                 self.end_stage(format!("{} off the seabed", body(index).id), haul);
             }
@@ -200,7 +205,7 @@ impl Loads {
 }
 
 impl Greatest {
-    fn take(&mut self, haul: &Haul, hanging: usize, parts: &[Part], tension_n: &[f64]) {
+    fn update(&mut self, haul: &Haul, hanging: usize, parts: &[Part], tension_n: &[f64]) {
         let (time_s, hauled_m, felt) = (haul.state().time_s, haul.hauled_m(), haul.last_step());
         if felt.load_n > self.load_n {
             (self.load_n, self.time_s, self.hauled_m) = (felt.load_n, time_s, hauled_m);
@@ -225,7 +230,7 @@ impl Greatest {
         }
     }
 
-    /// The part that came nearest to what it delivers.
+    /// The part with the greatest share of its delivered strength.
     pub fn nearest(&self) -> Option<(usize, &Most)> {
         let taut = self.parts.iter().enumerate().filter(|(_, most)| most.used > 0.0);
         taut.max_by(|one, other| one.1.used.total_cmp(&other.1.used))
@@ -233,8 +238,8 @@ impl Greatest {
 
     /// Probability that any part parts.
     pub fn parts(&self, parts: &[Part]) -> f64 {
-        risk::any(
-            self.parts.iter().zip(parts).map(|(most, part)| risk::parts(most.used, part.variation)),
+        probability_of_any(
+            self.parts.iter().zip(parts).map(|(most, part)| probability(most.used, part.variation)),
         )
     }
 }
@@ -263,7 +268,7 @@ fn parts(made: &Made, from: (usize, usize, LineEnd)) -> Vec<Part> {
     lines.chain(links).collect()
 }
 
-/// Segments of the endline from the buoy down to a body or a branch, with the place of their middle [m].
+/// Segments of the endline from the buoy down to a body or a branch, with the distance of their middle [m].
 fn along(made: &Made, (_, mut line, mut at): (usize, usize, LineEnd)) -> Vec<(usize, f64)> {
     let (model, mut along, mut from_buoy_m) = (&made.model, Vec::new(), 0.0);
     loop {
@@ -287,5 +292,38 @@ fn along(made: &Made, (_, mut line, mut at): (usize, usize, LineEnd)) -> Vec<(us
             (JointKind::Free, [only]) if along.len() < model.segment_count => (line, at) = *only,
             _ => return along,
         }
+    }
+}
+
+/// Probability that a part parts under a load that is this share of its mean strength, by the strength's coefficient of variation.
+pub fn probability(used: f64, variation: f64) -> f64 {
+    match Normal::new(1.0, variation) {
+        Ok(law) if variation > 0.0 => law.cdf(used),
+        _ => f64::from(u8::from(used >= 1.0)),
+    }
+}
+
+/// Probability that at least one of parts parts.
+pub fn probability_of_any(probabilities: impl IntoIterator<Item = f64>) -> f64 {
+    // 1 - Π(1 - p), which keeps small ones: ln(1 - p) summed.
+    -probabilities.into_iter().map(|p| (-p).ln_1p()).sum::<f64>().exp_m1()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_at_its_mean_parts_in_one_haul_of_two_and_at_two_deviations_below_in_one_of_44() {
+        assert!((probability(1.0, 0.12) - 0.5).abs() < 1e-12);
+        assert!((probability(0.76, 0.12) - 0.022_750).abs() < 1e-6);
+        assert!((probability(0.99, 0.0), probability(1.0, 0.0)) == (0.0, 1.0));
+    }
+
+    #[test]
+    fn any_of_several_is_one_less_none_and_keeps_what_is_small() {
+        assert!((probability_of_any([0.1, 0.2, 0.3]) - (1.0 - 0.9 * 0.8 * 0.7)).abs() < 1e-12);
+        assert!((probability_of_any([1e-18, 2e-18]) / 3e-18 - 1.0).abs() < 1e-9);
+        assert!((probability_of_any([0.2, 1.0]) - 1.0).abs() < 1e-12);
     }
 }

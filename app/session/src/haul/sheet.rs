@@ -1,15 +1,18 @@
-//! What is reported of a haul: schema `endline.haul/1`.
+//! The report of a haul: schema `endline.haul/1`; and a table over depth, traps and tide.
+
+use std::path::Path;
 
 use endline_sim::Settled;
 use endline_sim::haul::Haul;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::strength::PartStrength;
-
-use super::gear::Made;
 use super::loads::{Greatest, Loads, Most};
-use super::{HaulRequest, risk};
+use super::{HaulRequest, Made, haul_of, loads};
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::settled::PartStrength;
+use crate::source::AssemblyFile;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "endline.haul/1";
@@ -43,7 +46,7 @@ pub struct HaulSheet {
     pub block_m: f64,
     /// Break-out over that of the traps' entries.
     pub break_out: f64,
-    /// What statics found before the haul: `at rest`, or why not.
+    /// Statics before the haul: `at rest`, or why not.
     pub before: String,
     /// Rope taken in [m].
     pub hauled_m: f64,
@@ -57,7 +60,7 @@ pub struct HaulSheet {
     pub peak_hauled_m: f64,
     /// Most traps and anchors that hung off the seabed at once.
     pub hanging: usize,
-    /// The place that came nearest to what it delivers.
+    /// The place with the greatest share of its delivered strength.
     pub nearest: Option<Place>,
     /// Probability that any part parts.
     pub parts: f64,
@@ -67,19 +70,19 @@ pub struct HaulSheet {
     pub unconverged: u64,
     /// Stage by stage.
     pub stages: Vec<Stage>,
-    /// Every piece of rope and link, by the share used of what it delivers.
+    /// Every piece of rope and link, by the share used of its delivered strength.
     pub places: Vec<Place>,
-    /// What each piece of rope and link delivers, and why.
+    /// The delivered strength of each piece of rope and link, with its factors.
     pub strengths: Vec<PartStrength>,
     /// Tension along the endline through the haul.
     pub along: Along,
 }
 
-/// A part of the haul, up to something that came up.
+/// A stage of the haul: up to where something leaves the seabed or comes aboard.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Stage {
-    /// What ended it.
+    /// The event that ended it.
     pub until: String,
     /// When [s].
     pub time_s: f64,
@@ -91,13 +94,13 @@ pub struct Stage {
     pub hanging: usize,
     /// Greatest angle of the line at the block from the vertical [deg].
     pub lead_deg: f64,
-    /// The place that came nearest to what it delivers.
+    /// The place with the greatest share of its delivered strength.
     pub nearest: Option<Place>,
     /// Probability that any part parts.
     pub parts: f64,
 }
 
-/// Where a part came nearest to what it delivers.
+/// Where a part had the greatest share of its delivered strength.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct Place {
@@ -139,7 +142,6 @@ pub struct Along {
 
 impl HaulSheet {
     /// The sheet as one JSON object.
-    #[must_use]
     pub fn json(&self) -> String {
         // Strings and finite numbers always become JSON.
         serde_json::to_string_pretty(self).unwrap_or_default()
@@ -192,7 +194,7 @@ impl HaulSheet {
     }
 }
 
-fn stage(loads: &Loads, stage: &super::loads::StageLoads) -> Stage {
+fn stage(loads: &Loads, stage: &loads::StageLoads) -> Stage {
     let greatest = &stage.greatest;
     Stage {
         until: stage.until.clone(),
@@ -217,7 +219,7 @@ fn place(loads: &Loads, part: usize, most: &Most) -> Place {
         used: most.used,
         time_s: most.time_s,
         hauled_m: most.hauled_m,
-        parts: risk::parts(most.used, part.variation),
+        parts: loads::probability(most.used, part.variation),
     }
 }
 
@@ -230,5 +232,108 @@ fn along(loads: &Loads) -> Along {
         load_N: samples.iter().map(|sample| sample.load_n).collect(),
         lead_deg: samples.iter().map(|sample| sample.lead_rad.to_degrees()).collect(),
         tension_N: samples.iter().map(|sample| sample.tension_n.clone()).collect(),
+    }
+}
+
+/// Depths, numbers of traps and tides to haul at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sweep {
+    /// Depths; empty for that of the request [m].
+    pub depths_m: Vec<f64>,
+    /// Traps; empty for that of the request.
+    pub traps: Vec<u16>,
+    /// Tides; empty for that of the request [m/s].
+    pub tides_m_s: Vec<f64>,
+}
+
+/// One haul of a table.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct SweepRow {
+    /// Depth [m].
+    pub depth_m: f64,
+    /// Traps.
+    pub traps: usize,
+    /// Tide [m/s].
+    pub tide_m_s: f64,
+    /// Most traps and anchors that hung at once.
+    pub hanging: usize,
+    /// Greatest pull at the hauler [N].
+    pub peak_N: f64,
+    /// Part with the greatest share of its delivered strength.
+    pub nearest: String,
+    /// Tension there over mean delivered strength.
+    pub used: f64,
+    /// Probability that any part parts.
+    pub parts: f64,
+    /// Statics before the haul.
+    pub before: String,
+}
+
+/// Hauls at each depth, number of traps and tide; `each` receives the number of hauls done and of all after each haul.
+pub fn sweep(
+    named: &str,
+    request: &HaulRequest,
+    sweep: &Sweep,
+    (library, host): (Option<&Path>, &PluginHost),
+    mut each: impl FnMut(usize, usize),
+) -> Result<Vec<SweepRow>, Error> {
+    let file = AssemblyFile::open(named, library)?;
+    let library = file.library()?;
+    let requests = requests(request, sweep);
+    let mut rows = Vec::with_capacity(requests.len());
+    for request in &requests {
+        let sheet = haul_of(&file.id, request, &library, host)?;
+        rows.push(SweepRow {
+            depth_m: sheet.depth_m,
+            traps: sheet.traps,
+            tide_m_s: sheet.tide_m_s,
+            hanging: sheet.hanging,
+            peak_N: sheet.peak_N,
+            used: sheet.nearest.as_ref().map_or(0.0, |place| place.used),
+            nearest: sheet.nearest.map(|place| place.part).unwrap_or_default(),
+            parts: sheet.parts,
+            before: sheet.before,
+        });
+        each(rows.len(), requests.len());
+    }
+    Ok(rows)
+}
+
+/// Every combination, tides within traps within depths.
+fn requests(request: &HaulRequest, sweep: &Sweep) -> Vec<HaulRequest> {
+    let depths = or_one(&sweep.depths_m, request.depth_m);
+    let (traps, tides) =
+        (or_one(&sweep.traps, request.traps), or_one(&sweep.tides_m_s, request.tide_m_s));
+    let mut requests = Vec::new();
+    for depth_m in depths {
+        for traps in &traps {
+            for tide_m_s in &tides {
+                let (traps, tide_m_s) = (*traps, *tide_m_s);
+                requests.push(HaulRequest { depth_m, traps, tide_m_s, ..request.clone() });
+            }
+        }
+    }
+    requests
+}
+
+fn or_one<T: Copy>(all: &[T], one: Option<T>) -> Vec<Option<T>> {
+    if all.is_empty() { vec![one] } else { all.iter().copied().map(Some).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_combination_is_hauled_once() {
+        let sweep = Sweep { depths_m: vec![25.0, 60.0], traps: vec![], tides_m_s: vec![0.1, 0.3] };
+        let request = HaulRequest { traps: Some(5), ..HaulRequest::default() };
+        let all: Vec<_> = requests(&request, &sweep)
+            .iter()
+            .map(|request| (request.depth_m, request.traps, request.tide_m_s))
+            .collect();
+        let of = |depth, tide| (Some(depth), Some(5), Some(tide));
+        assert_eq!(all, [of(25.0, 0.1), of(25.0, 0.3), of(60.0, 0.1), of(60.0, 0.3)]);
     }
 }

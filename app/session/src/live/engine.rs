@@ -1,4 +1,4 @@
-//! A run behind whatever shows it: commands go in, views come out, and neither waits for the solver.
+//! A run behind a user interface: commands go in, views come out, and neither waits for the solver.
 
 use std::sync::Arc;
 
@@ -32,7 +32,6 @@ impl Engine for Live {
 pub type Launch = Box<dyn Fn(Prepared, Arc<PluginHost>, Waker) -> Result<Box<dyn Engine>, String>>;
 
 /// Starts each run on a thread of its own.
-#[must_use]
 pub fn live() -> Launch {
     Box::new(|prepared, host, waker| {
         let options = RunOptions::default();

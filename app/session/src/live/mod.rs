@@ -3,37 +3,31 @@
 //! The workbench sends [`RunCommand`]s and reads the [`latest`](Live::latest) [`LiveView`]; neither
 //! ever waits for the solver.
 
-mod command;
 pub mod engine;
-mod envelope;
-mod frame_history;
 mod history;
-mod maker;
-mod pace;
-mod series;
 #[cfg(test)]
 mod tests;
 mod worker;
 
-use std::sync::mpsc::{SyncSender, sync_channel};
+use std::path::PathBuf;
+use std::sync::mpsc::{Sender, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Cost, Frame, Model};
 
-pub use command::RunCommand;
-pub use engine::{Engine, Launch};
-pub use envelope::{Envelope, LineEnvelope};
-pub use history::Channel;
-pub use maker::Maker;
-pub use series::{Series, Span};
-
+use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::recording::program::Program;
 use crate::run::RunOptions;
-use crate::source::Prepared;
+use crate::source::{Prepared, Source};
+use crate::task::{Fault, Task, Waker};
+
+pub use engine::{Engine, Launch};
+pub use history::{Channel, Envelope, LineEnvelope, Series, Span};
 
 /// Commands that may wait for the thread; more are refused.
 const QUEUE: usize = 256;
@@ -52,13 +46,13 @@ pub enum Status {
     Running,
     /// The scenario's time is over.
     Finished,
-    /// The solver or a plugin could not go on: why.
+    /// The solver or a plugin failed: why.
     Stopped(String),
     /// It never started: why.
     Failed(String),
 }
 
-/// What the workbench shows: all of one moment.
+/// The state of a run at one moment, for the workbench.
 #[derive(Clone)]
 pub struct LiveView {
     /// The model that runs.
@@ -69,7 +63,7 @@ pub struct LiveView {
     pub newest_s: f64,
     /// Whether the moment shown is an earlier one.
     pub sought: bool,
-    /// What was measured up to the newest moment; `None` before the start.
+    /// Metrics up to the newest moment; `None` before the start.
     pub summary: Option<Summary>,
     /// Greatest tension of each line over time [N].
     pub tension: Series,
@@ -87,7 +81,7 @@ pub struct LiveView {
     pub speed: f64,
     /// Simulated seconds the solver makes in a real one when it does not wait.
     pub times_real_time: f64,
-    /// What the computing time of the run so far went to.
+    /// The computing time of the run so far, by purpose.
     pub cost: Cost,
     /// Whether a pilot steers and not the scenario's program.
     pub piloted: bool,
@@ -102,8 +96,7 @@ pub struct LiveView {
 }
 
 impl LiveView {
-    /// What is to see before anything is settled: the gear as first guessed.
-    #[must_use]
+    /// The view before statics: the gear as first guessed.
     pub fn before(prepared: &Prepared) -> Self {
         worker::first_view(prepared)
     }
@@ -119,9 +112,6 @@ pub struct Live {
 impl Live {
     /// Settles the model on a new thread and stands ready. `on_view` is called there whenever
     /// there is something new to see; it must not wait.
-    ///
-    /// # Errors
-    /// Where the system gives no thread.
     pub fn open(
         prepared: Prepared,
         host: Arc<PluginHost>,
@@ -137,13 +127,12 @@ impl Live {
         Ok(Self { commands: Some(sender), view, thread: Some(thread) })
     }
 
-    /// Sends a command; false where the thread is gone or its queue is full.
+    /// Sends a command; false where the thread has ended or its queue is full.
     pub fn send(&self, command: RunCommand) -> bool {
         self.commands.as_ref().is_some_and(|commands| commands.try_send(command).is_ok())
     }
 
     /// The newest view.
-    #[must_use]
     pub fn latest(&self) -> Arc<LiveView> {
         Arc::clone(&self.view.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -153,8 +142,118 @@ impl Drop for Live {
     fn drop(&mut self) {
         drop(self.commands.take());
         if let Some(thread) = self.thread.take() {
-            // The thread reports its own failures in the view; there is nothing left to tell.
+            // The thread reports its own failures in the view.
             let _ = thread.join();
         }
+    }
+}
+
+/// All that can be asked of a run.
+#[derive(Clone)]
+pub enum RunCommand {
+    /// Run on, from the newest moment.
+    Start,
+    /// Stand still.
+    Pause,
+    /// Take one step, then stand still.
+    Step,
+    /// Back to the settled gear; the run so far is dropped.
+    Reset,
+    /// Simulated seconds wanted for each real one; infinite for as fast as the solver runs.
+    Speed(f64),
+    /// The pilot steers: these controls hold until the next.
+    Controls(Controls),
+    /// The scenario's pilot program steers.
+    Autopilot,
+    /// Another model, back at the start.
+    Load(Box<Prepared>),
+    /// Show the moment nearest to a time [s], and stand still; from the newest moment on, that.
+    Seek(f64),
+    /// Show the moment this many stored frames later, or earlier, and pause.
+    Shift(i64),
+    /// Back to the settled gear, then these inputs as fast as possible, then pause.
+    Inputs(Vec<Controls>),
+    /// Run the inputs up to the moment shown again, then pause: the run can continue from there in another way.
+    Branch,
+    /// Another model, in which the inputs of the run up to the moment shown are run again; then its own pilot program steers.
+    Rerun(Box<Prepared>),
+    /// Make the run so far a scenario whose pilot program flies it again; controls may be off by this much [1].
+    Program(f64),
+    /// Save the run so far as a recording.
+    SaveRecording(PathBuf),
+    /// Hand over the moments that are kept, in order.
+    KeptFrames(Sender<Vec<Arc<Frame>>>),
+}
+
+/// Makes models from texts on a thread of its own, one at a time.
+#[derive(Default)]
+pub struct Maker {
+    task: Task<Result<Prepared, Error>>,
+}
+
+impl Maker {
+    /// Starts making a model from its source; a model still being made is dropped.
+    pub fn start(
+        &mut self,
+        source: Source,
+        host: Arc<PluginHost>,
+        waker: Waker,
+    ) -> Result<(), String> {
+        self.start_with(move || source.prepare(&host), waker)
+    }
+
+    /// Starts making a model by a function; a model still being made is dropped.
+    pub fn start_with(
+        &mut self,
+        make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static,
+        waker: Waker,
+    ) -> Result<(), String> {
+        self.task.start("endline-assemble", make, waker).map_err(|error| error.to_string())
+    }
+
+    /// Whether a model is being made.
+    pub fn busy(&self) -> bool {
+        self.task.busy()
+    }
+
+    /// The model, once, when it is made.
+    pub fn poll(&mut self) -> Option<Result<Prepared, Error>> {
+        Some(self.task.poll()?.unwrap_or_else(|Fault| {
+            Err(Error::Message("making the model ended by a fault inside the program".into()))
+        }))
+    }
+}
+
+/// Falling further behind than this is forgotten, so that a slow stretch is not made up in a rush.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// Which simulated time is due when.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    speed: f64,
+    wall: Instant,
+    simulated_s: f64,
+}
+
+impl Pace {
+    /// From this moment on at this speed.
+    fn new(speed: f64, wall: Instant, simulated_s: f64) -> Self {
+        Self { speed, wall, simulated_s }
+    }
+
+    /// Simulated seconds wanted for each real one.
+    fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Time until a simulated time is due; `None` where it is due already.
+    fn wait(&mut self, now: Instant, simulated_s: f64) -> Duration {
+        let due = Duration::try_from_secs_f64((simulated_s - self.simulated_s) / self.speed)
+            .unwrap_or_default();
+        let gone = now.saturating_duration_since(self.wall);
+        if gone > due + PATIENCE {
+            *self = Self::new(self.speed, now, simulated_s);
+        }
+        due.saturating_sub(gone)
     }
 }

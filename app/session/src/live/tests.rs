@@ -14,7 +14,11 @@ fn until(live: &Live, what: &str, wanted: impl Fn(&LiveView) -> bool) -> Arc<Liv
         }
         std::thread::sleep(Duration::from_millis(2));
     }
-    panic!("never came: {what}; last {:?} at {} s", live.latest().status, live.latest().newest_s);
+    panic!(
+        "did not happen: {what}; last {:?} at {} s",
+        live.latest().status,
+        live.latest().newest_s
+    );
 }
 
 fn open(duration_s: f64) -> Live {
@@ -76,7 +80,7 @@ fn the_envelope_along_a_line_reaches_its_peak_and_no_further() {
 }
 
 #[test]
-fn a_run_goes_on_from_the_moment_shown_in_another_model_to_the_same_bits() {
+fn a_run_continues_from_the_moment_shown_in_another_model_to_the_same_bits() {
     let live = open(2.0);
     until(&live, "settled", |view| view.status == Status::Paused);
     assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
@@ -135,4 +139,15 @@ fn dropping_a_run_ends_its_thread() {
     let start = Instant::now();
     drop(live);
     assert!(start.elapsed() < Duration::from_secs(5));
+}
+
+#[test]
+fn half_speed_waits_twice_as_long_and_lateness_is_forgotten() {
+    let start = Instant::now();
+    let mut pace = Pace::new(0.5, start, 10.0);
+    assert_eq!(pace.wait(start, 10.5), Duration::from_secs(1));
+    let late = start + Duration::from_secs(5);
+    assert_eq!(pace.wait(late, 10.5), Duration::ZERO);
+    assert_eq!(pace.wait(late, 11.0), Duration::from_secs(1));
+    assert_eq!(Pace::new(f64::INFINITY, start, 0.0).wait(start, 100.0), Duration::ZERO);
 }

@@ -1,8 +1,8 @@
-//! What the user has decided about plugins: which libraries may be opened, each by the hash of its file, and which plugins are off.
+//! The user's decisions about plugins: which libraries may be opened, each by the hash of its file, and which plugins are off.
 //!
-//! A library runs with the user's rights, so one that did not come with the program is opened only once its user has said so, and
-//! is asked about again when its bytes change. One that is allowed runs in a process of its own; one that is trusted besides runs in
-//! the program's. The decisions stand in one text file of the user's data folder, a line each: `allow HASH FILE`,
+//! A library runs with the user's rights, so one that does not ship with the program is opened only after its user has allowed it, and
+//! needs a new permission when its bytes change. An allowed library runs in a process of its own; a trusted one runs in
+//! the program's. The decisions are in one text file of the user's data folder, a line each: `allow HASH FILE`,
 //! `trust HASH FILE` and `off ID`.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,16 +22,16 @@ pub enum Change {
     Changed,
 }
 
-/// What is asked about a library.
+/// A question about a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ask {
-    /// BLAKE3 of the file, hexadecimal: what is allowed.
+    /// BLAKE3 of the file, hexadecimal, to which the permission belongs.
     pub hash: String,
     /// Why it is asked.
     pub change: Change,
 }
 
-/// What a user has said of a library.
+/// A user's decision about a library.
 #[derive(Clone, Debug)]
 struct Allowed {
     hash: String,
@@ -50,14 +50,12 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Every library may be opened, no plugin is off, and nothing is kept: for programs that bring their own.
-    #[must_use]
+    /// Every library may be opened, no plugin is off, and no decision is stored: for programs that bring their own plugins.
     pub fn everything() -> Self {
         Self { everything: true, ..Self::default() }
     }
 
-    /// The decisions kept in a file, which need not be there yet. Libraries in the folders `own` need none: they came with the program.
-    #[must_use]
+    /// The decisions of a file, which may not exist yet. Libraries in the folders `own` need none: they ship with the program.
     pub fn kept_in(list: Option<PathBuf>, own: &[PathBuf]) -> Self {
         let text = list.as_ref().and_then(|list| read::text(list).ok()).unwrap_or_default();
         let own = own.iter().map(|folder| whole(folder)).collect();
@@ -80,9 +78,6 @@ impl Choices {
     }
 
     /// Whether decisions outlive this program.
-    ///
-    /// # Errors
-    /// Where there is no folder to keep them in.
     pub fn keeps(&self) -> Result<(), String> {
         if self.list.is_some() {
             return Ok(());
@@ -90,8 +85,7 @@ impl Choices {
         Err("nothing is changed: there is no folder to keep this choice in; set HOME or XDG_DATA_HOME".to_owned())
     }
 
-    /// What must be asked before a file of this hash is opened.
-    #[must_use]
+    /// The question before a file of this hash is opened.
     pub fn ask(&self, file: &Path, hash: &str) -> Option<Ask> {
         let file = whole(file);
         if self.needs_no_leave(&file) {
@@ -105,30 +99,23 @@ impl Choices {
         Some(Ask { hash: hash.to_owned(), change })
     }
 
-    /// Whether a file runs in the program's own process: it came with the program, or its user trusts it.
-    #[must_use]
+    /// Whether a file runs in the program's own process: it ships with the program, or its user trusts it.
     pub fn is_trusted(&self, file: &Path) -> bool {
         let file = whole(file);
         self.needs_no_leave(&file) || self.allowed.get(&file).is_some_and(|known| known.is_trusted)
     }
 
-    /// Whether nobody asks about a file, whose path is whole.
+    /// Whether a file, by its whole path, needs no permission.
     fn needs_no_leave(&self, file: &Path) -> bool {
         self.everything || self.own.iter().any(|folder| file.starts_with(folder))
     }
 
     /// Allows a file with these bytes, in a process of its own.
-    ///
-    /// # Errors
-    /// Where the decision cannot be kept, or the path does not fit on a line.
     pub fn allow(&mut self, file: &Path, hash: &str) -> Result<(), String> {
         self.decide(file, hash, false)
     }
 
     /// Allows a file with these bytes, in the program's own process.
-    ///
-    /// # Errors
-    /// As [`allow`](Self::allow).
     pub fn trust(&mut self, file: &Path, hash: &str) -> Result<(), String> {
         self.decide(file, hash, true)
     }
@@ -142,38 +129,31 @@ impl Choices {
             ));
         }
         self.allowed.insert(file, Allowed { hash: hash.to_owned(), is_trusted });
-        self.keep()
+        self.save()
     }
 
     /// Takes back that a file was allowed; false where it was not.
-    ///
-    /// # Errors
-    /// Where the decision cannot be kept.
     pub fn forget(&mut self, file: &Path) -> Result<bool, String> {
         let known = self.allowed.remove(&whole(file)).is_some();
-        self.keep().map(|()| known)
+        self.save().map(|()| known)
     }
 
     /// Whether the user has switched a plugin off.
-    #[must_use]
     pub fn is_off(&self, id: &str) -> bool {
         self.off.contains(id)
     }
 
     /// Switches a plugin off, or on again.
-    ///
-    /// # Errors
-    /// Where the decision cannot be kept.
     pub fn switch(&mut self, id: &str, on: bool) -> Result<(), String> {
         if on {
             self.off.remove(id);
         } else {
             self.off.insert(id.to_owned());
         }
-        self.keep()
+        self.save()
     }
 
-    fn keep(&self) -> Result<(), String> {
+    fn save(&self) -> Result<(), String> {
         let Some(list) = &self.list else { return Ok(()) };
         let allowed = self.allowed.iter().map(|(file, Allowed { hash, is_trusted })| {
             let word = if *is_trusted { "trust" } else { "allow" };

@@ -9,8 +9,8 @@ use endline_sdk::{Descriptor, FrictionModel, GearType, WhaleMotion};
 
 use super::choices::Choices;
 use super::info::{Hook, Origin, PluginInfo, PluginKind, PluginProblem, Refusal};
-use super::library::Opened;
-use super::{declared, guard};
+use super::library::LoadedLibrary;
+use super::{guard, info};
 
 /// All usable plugins; each is guarded, so that bad output ends a run with the plugin's id.
 #[derive(Clone, Default)]
@@ -23,33 +23,26 @@ pub struct PluginHost {
 
 impl PluginHost {
     /// A host with no plugins.
-    #[must_use]
     pub fn empty() -> Self {
         Self::default()
     }
 
     /// Adds a plugin that is linked into the program.
-    ///
-    /// # Errors
-    /// When its declaration makes no sense or its id is taken.
     pub fn add(&mut self, hook: Hook) -> Result<(), PluginProblem> {
         self.insert(hook, None, &Choices::everything()).map_err(|refusal| refusal.at("(linked)"))
     }
 
     /// Every plugin, in the order found.
-    #[must_use]
     pub fn list(&self) -> &[PluginInfo] {
         &self.infos
     }
 
     /// Plugins that the user has switched off, in the order found.
-    #[must_use]
     pub fn switched_off(&self) -> &[PluginInfo] {
         &self.off
     }
 
     /// The whale motion with this id.
-    #[must_use]
     pub fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>> {
         if let Some(Hook::Motion(motion)) = self.hooks.get(id) {
             Some(Arc::clone(motion))
@@ -59,7 +52,6 @@ impl PluginHost {
     }
 
     /// The friction model with this id.
-    #[must_use]
     pub fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
         if let Some(Hook::Friction(friction)) = self.hooks.get(id) {
             Some(Arc::clone(friction))
@@ -69,13 +61,11 @@ impl PluginHost {
     }
 
     /// The gear type with this id.
-    #[must_use]
     pub fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
         if let Some(Hook::Gear(gear)) = self.hooks.get(id) { Some(Arc::clone(gear)) } else { None }
     }
 
     /// Files of a gear library with the acts of plugins; where two files of acts have the same name, the library's own counts.
-    #[must_use]
     pub fn with_clips(&self, library: Sources) -> Sources {
         let paths = self
             .clips
@@ -90,7 +80,6 @@ impl PluginHost {
     }
 
     /// Ids of all plugins that are called, sorted.
-    #[must_use]
     pub fn ids(&self) -> Vec<String> {
         self.hooks.keys().cloned().collect()
     }
@@ -104,7 +93,7 @@ impl PluginHost {
         &mut self,
         file: &Path,
         hash: &str,
-        opened: Opened,
+        opened: LoadedLibrary,
         choices: &Choices,
         problems: &mut Vec<PluginProblem>,
     ) {
@@ -171,7 +160,7 @@ impl PluginHost {
         let (id, version, name, help) =
             (text(&plugin.id), text(&plugin.version), text(&plugin.name), text(&plugin.help));
         let acts = plugin.acts.clone();
-        declared::check(&Descriptor {
+        info::check(&Descriptor {
             id,
             version,
             name,
@@ -207,7 +196,7 @@ impl PluginHost {
         from: Option<Origin>,
         choices: &Choices,
     ) -> Result<(), Refusal> {
-        declared::check(hook.descriptor())?;
+        info::check(hook.descriptor())?;
         let id = hook.descriptor().id.to_string();
         if self.admit(PluginInfo::of(&hook, from), choices)? {
             self.hooks.insert(id, guard::guarded(hook));

@@ -1,15 +1,19 @@
-//! What is known of a plugin, and what is wrong with a file that is none.
+//! Descriptions of plugins, of those used by a model, and problems of files that are none.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_gear::TextPlugin;
-use endline_sdk::{Act, Attribute, Descriptor, FrictionModel, GearType, WhaleMotion};
+use endline_sdk::{
+    Act, Attribute, AttributeKind, Controls, Descriptor, FrictionModel, GearType, WhaleMotion,
+};
+use serde::{Deserialize, Serialize};
 
 use super::choices::Ask;
 
-/// Lets a plugin file with bytes of this hash pass, or says why not.
+/// Accepts a plugin file with bytes of this hash, or returns the reason against it.
 pub type Checker<'a> = dyn Fn(&Path, &str) -> Result<(), String> + 'a;
 
 /// Which hook a plugin serves.
@@ -27,7 +31,6 @@ pub enum PluginKind {
 
 impl PluginKind {
     /// Its name in lists, such as `friction model`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Motion => "whale motion",
@@ -56,8 +59,7 @@ pub enum Hook {
 }
 
 impl Hook {
-    /// Who it is and what it takes.
-    #[must_use]
+    /// Its id, name and attributes.
     pub fn descriptor(&self) -> &Descriptor {
         match self {
             Self::Motion(motion) => motion.descriptor(),
@@ -67,7 +69,6 @@ impl Hook {
     }
 
     /// Which hook it serves.
-    #[must_use]
     pub fn kind(&self) -> PluginKind {
         match self {
             Self::Motion(_) => PluginKind::Motion,
@@ -98,7 +99,7 @@ pub struct PluginInfo {
     pub file: Option<PathBuf>,
     /// BLAKE3 hash of that file, in hexadecimal.
     pub hash: Option<String>,
-    /// What its library says of itself: who made it, where its laws and figures come from; may be empty.
+    /// The description of its library: its author, the sources of its laws and figures; may be empty.
     pub about: String,
     /// Whether it runs in a process of its own.
     pub out_of_process: bool,
@@ -152,7 +153,7 @@ impl PluginInfo {
     }
 }
 
-/// What is to become of a file that is not used.
+/// The standing of a file that is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// It cannot be used.
@@ -163,18 +164,18 @@ pub enum Standing {
     Waiting(Box<Ask>),
 }
 
-/// Why a file, or one plugin in it, is not used; the program goes on without it.
+/// Why a file, or one plugin in it, is not used; the program continues without it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PluginProblem {
     /// The file or folder.
     pub file: PathBuf,
     /// Id of the plugin, where the trouble is one plugin's.
     pub id: Option<String>,
-    /// What is wrong.
+    /// The problem.
     pub reason: String,
-    /// What can be done.
+    /// The remedy.
     pub help: String,
-    /// What is to become of the file.
+    /// The standing of the file.
     pub standing: Standing,
 }
 
@@ -215,4 +216,96 @@ impl Refusal {
             standing: self.standing,
         }
     }
+}
+
+/// Most attributes, and floats of state, that a plugin may declare; more is taken for a lie.
+pub(super) const MOST_ATTRIBUTES: usize = 1000;
+pub(super) const MOST_STATE: usize = 1_000_000;
+
+/// Most acts that a motion may declare.
+pub(super) const MOST_ACTS: usize = Controls::MOST_ACTS;
+
+const TELL_AUTHOR: &str = "tell the plugin's author";
+
+/// Checks id, attributes, defaults, state length and acts.
+pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
+    let id = descriptor.id.as_ref();
+    if !id_is_sound(id) {
+        let reason =
+            format!("its id `{id}` is not a reverse-domain name such as org.example.friction.wet");
+        return Err(Refusal::new(reason, TELL_AUTHOR));
+    }
+    let wrong = |reason: String| Err(Refusal::of(id, reason, TELL_AUTHOR));
+    if descriptor.state_len > MOST_STATE {
+        return wrong(format!(
+            "it asks for {} floats of state, more than {MOST_STATE}",
+            descriptor.state_len
+        ));
+    }
+    let mut keys = BTreeSet::new();
+    for attribute in &descriptor.attributes {
+        let key = attribute.key.as_ref();
+        if key.is_empty() || !keys.insert(key) {
+            return wrong(format!("its attribute key `{key}` is empty or used twice"));
+        }
+        if let Some(reason) = fault(&attribute.kind) {
+            return wrong(format!("its attribute `{key}`: {reason}"));
+        }
+    }
+    match act_fault(descriptor) {
+        Some(reason) => wrong(reason),
+        None => Ok(()),
+    }
+}
+
+/// Acts are named in scenarios by their id, each once.
+fn act_fault(descriptor: &Descriptor) -> Option<String> {
+    let is_sound = |id: &str| {
+        !id.is_empty()
+            && id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+    };
+    let mut ids = BTreeSet::new();
+    let wrong =
+        descriptor.acts.iter().find(|act| !is_sound(&act.id) || !ids.insert(act.id.as_ref()))?;
+    Some(format!(
+        "its act `{}` is named twice or not in small letters, digits and hyphens, such as roll-away",
+        wrong.id
+    ))
+}
+
+fn id_is_sound(id: &str) -> bool {
+    let part = |part: &str| {
+        !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+    };
+    id.contains('.') && id.split('.').all(part)
+}
+
+fn fault(kind: &AttributeKind) -> Option<String> {
+    match kind {
+        AttributeKind::Number { min, max, default } => {
+            let sound = [min, max, default].iter().all(|number| number.is_finite())
+                && min <= default
+                && default <= max;
+            (!sound).then(|| format!("its default {default} and range {min} to {max} must be finite, the default within the range"))
+        }
+        AttributeKind::Count { min, max, default } => (!(min..=max).contains(&default))
+            .then(|| format!("its default {default} is not within its range {min} to {max}")),
+        AttributeKind::Choice { words, default } => {
+            let sound = words.iter().all(|word| !word.is_empty() && !word.contains('|'))
+                && words.contains(default);
+            (!sound).then(|| format!("its words must not be empty or hold a `|`, and its default `{default}` must be one of them"))
+        }
+        AttributeKind::Item { .. } => None,
+    }
+}
+
+/// A plugin a model runs on.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct PluginUsed {
+    /// Id, such as `org.endline.friction.coulomb`.
+    pub id: String,
+    /// Version.
+    pub version: String,
+    /// BLAKE3 of the file it was loaded from, hexadecimal; empty where it is linked in.
+    pub file_hash: String,
 }

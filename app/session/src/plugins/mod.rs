@@ -6,14 +6,10 @@
 //! ```
 //!
 //! First-party plugins take the same road as anyone's. A file that cannot be used becomes a
-//! [`PluginProblem`] and the program goes on without it.
+//! [`PluginProblem`] and the program continues without it.
 
 pub mod check;
 mod choices;
-mod copy;
-mod cut_short;
-mod declared;
-mod folders;
 mod guard;
 mod host;
 mod info;
@@ -22,17 +18,16 @@ mod loader;
 mod new;
 #[cfg(unix)]
 mod process;
-mod used;
 
 pub use check::trial::Finding;
 pub use check::{Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
 pub use choices::{Ask, Change, Choices};
-pub(crate) use folders::data_folder;
-pub use folders::{chosen_file, default_folders, known_file, program, program_folder, stands_for};
 pub use host::PluginHost;
+pub use info::PluginUsed;
 pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, Standing};
+pub(crate) use loader::data_folder;
 pub use loader::{Loader, file_hash};
+pub use loader::{chosen_file, default_folders, known_file, program, program_folder, stands_for};
 pub use new::{Language, Project, write_project};
 #[cfg(unix)]
 pub use process::serve_here;
-pub use used::PluginUsed;

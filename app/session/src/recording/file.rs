@@ -25,15 +25,12 @@ const SECTIONS: [([u8; 4], &str); 5] = [
 ];
 const INPUTS: usize = 2;
 
-/// The payload of a section, in pieces; told twice, as its hash stands before it.
+/// The payload of a section, in pieces; read twice, because its hash precedes it.
 pub(crate) trait Rows {
     /// Its length.
     fn bytes(&self) -> u64;
 
-    /// Tells it piece by piece.
-    ///
-    /// # Errors
-    /// Where it cannot be read, or a piece not taken.
+    /// Passes it on piece by piece.
     fn each(&self, take: &mut dyn FnMut(&[u8]) -> io::Result<()>) -> io::Result<()>;
 }
 
@@ -72,12 +69,12 @@ pub(super) fn write(
     Ok(())
 }
 
-/// Words as they stand in a file.
+/// Words in the byte order of a file.
 pub(crate) fn bytes<const N: usize>(rows: impl Iterator<Item = [u64; N]>) -> Vec<u8> {
     rows.flatten().flat_map(u64::to_le_bytes).collect()
 }
 
-/// A recording from its bytes; the message of an error says what was expected.
+/// Reads a recording from its bytes; an error names the expected content.
 pub(super) fn read(bytes: &[u8]) -> Result<Recording, String> {
     let mut reader = Reader { rest: bytes };
     check_start(&mut reader)?;
@@ -170,7 +167,7 @@ fn numbers<'a, const N: usize>(
     Ok(rows.iter().map(|row| row.map(u64::from_le_bytes)))
 }
 
-/// What is left to read.
+/// The rest of the bytes.
 struct Reader<'a> {
     rest: &'a [u8],
 }

@@ -1,6 +1,6 @@
-//! What is known of a kept recording without running it again: how it ended, and what its user says of it.
+//! Data about a stored recording that need no replay: its outcome, and its user's note.
 //!
-//! It stands beside the recording, `NAME.kept.json` for `NAME.endline`, with a picture of its end, `NAME.kept.png`; a recording
+//! The file lies beside the recording, `NAME.kept.json` for `NAME.endline`, with a picture of its end, `NAME.kept.png`; a recording
 //! without them is as good.
 
 use std::fs;
@@ -21,7 +21,7 @@ const DELETED: &str = "deleted";
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Kept {
-    /// What it is of: a scenario, or another recording, an encounter of a study, a story.
+    /// Its origin: a scenario, or another recording, an encounter of a study, a story.
     pub of: String,
     /// Simulated time [s].
     pub simulated_s: f64,
@@ -29,13 +29,12 @@ pub struct Kept {
     pub outcome: Option<String>,
     /// Greatest tension of any line [N].
     pub greatest_tension_n: f64,
-    /// What its user says of it.
+    /// Its user's note.
     pub note: String,
 }
 
 impl Kept {
     /// Of a run up to its newest moment.
-    #[must_use]
     pub fn of_run(of: String, simulated_s: f64, summary: Option<&Summary>) -> Self {
         let lines = summary.map_or(&[][..], |summary| &summary.lines);
         let whale = summary.and_then(|summary| summary.whale.as_ref());
@@ -48,16 +47,12 @@ impl Kept {
         }
     }
 
-    /// What stands beside a recording; none where nothing does, or nothing that can be read.
-    #[must_use]
+    /// Reads the data beside a recording; none where there are none, or they cannot be read.
     pub fn beside(recording: &Path) -> Option<Self> {
         serde_json::from_str(&read::text(&place(recording)).ok()?).ok()
     }
 
     /// Writes it beside a recording.
-    ///
-    /// # Errors
-    /// Where the folder cannot be written.
     pub fn save(&self, recording: &Path) -> Result<(), Error> {
         let place = place(recording);
         let text = serde_json::to_string_pretty(self)
@@ -67,10 +62,7 @@ impl Kept {
     }
 }
 
-/// Gives a recording another name, and what stands beside it; returns its new place.
-///
-/// # Errors
-/// A name that is no file name or is taken, or a file that cannot be moved.
+/// Renames a recording and the files beside it; returns its new path.
 pub fn rename(recording: &Path, name: &str) -> Result<PathBuf, Error> {
     let name = name.trim();
     let plain = !name.is_empty()
@@ -86,10 +78,7 @@ pub fn rename(recording: &Path, name: &str) -> Result<PathBuf, Error> {
     Ok(renamed)
 }
 
-/// Moves a recording, and what stands beside it, to the folder of deleted ones; returns its place there.
-///
-/// # Errors
-/// Where it cannot be moved.
+/// Moves a recording and the files beside it to the folder of deleted ones; returns its path there.
 pub fn delete(recording: &Path) -> Result<PathBuf, Error> {
     let folder = recording.with_file_name(DELETED);
     fs::create_dir_all(&folder)
@@ -119,8 +108,7 @@ fn relocate(from: &Path, to: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Where the picture of a recording's end stands.
-#[must_use]
+/// The path of the picture of a recording's end.
 pub fn picture(recording: &Path) -> PathBuf {
     recording.with_extension("kept.png")
 }

@@ -1,4 +1,4 @@
-//! A recording: all that went into a run, and the hash of every state that came out.
+//! A recording: all inputs of a run, and the hash of every state.
 //!
 //! It holds no states but their hashes; a moment is seen again by running again, which gives the
 //! same bits ([`replay`]). The file format is described in `docs/recording.md`.
@@ -7,7 +7,6 @@ mod file;
 pub mod kept;
 pub mod program;
 pub mod replay;
-pub mod take_over;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -28,7 +27,7 @@ pub const EXTENSION: &str = "endline";
 /// A recorded run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// Who recorded what.
+    /// Program, plugins and settings.
     pub header: Header,
     /// The files and options the model was made from.
     pub source: Source,
@@ -36,12 +35,12 @@ pub struct Recording {
     pub inputs: Vec<Controls>,
     /// Hash of the settled state, then of the state after each step.
     pub hashes: Vec<StateHash>,
-    /// What was found changed since the file was saved; only the inputs may be, as the hash of
+    /// Parts found changed since the file was saved; only the inputs may be, as the hash of
     /// each step guards them.
     pub damage: Option<String>,
 }
 
-/// Who recorded what, and with which plugins.
+/// Program, plugins and settings of a recording.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Version of Endline.
@@ -62,21 +61,16 @@ pub struct Header {
 
 impl Recording {
     /// Steps taken.
-    #[must_use]
     pub fn steps(&self) -> usize {
         self.hashes.len().saturating_sub(1)
     }
 
     /// Simulated time it covers [s].
-    #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.steps() as f64 * self.header.dt_s
     }
 
     /// Saves it, so that a crash leaves the old file whole.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         save(path, |out| self.write(out))
     }
@@ -89,9 +83,6 @@ impl Recording {
 
     /// Loads a recording. Changed inputs do not hinder it: they are reported in `damage`, and
     /// [`replay::verify`] names the first step they change.
-    ///
-    /// # Errors
-    /// Where it cannot be read, is no recording, is of another format, is cut short or damaged.
     pub fn load(path: &Path) -> Result<Self, Error> {
         let bytes = endline_gear::read::bytes(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
@@ -100,9 +91,6 @@ impl Recording {
 }
 
 /// Saves a recording as it is written, so that a long run is never in memory as a whole.
-///
-/// # Errors
-/// Where it cannot be written, or its rows not be read.
 pub(crate) fn save_rows(
     path: &Path,
     header: &Header,

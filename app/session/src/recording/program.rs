@@ -1,6 +1,6 @@
 //! A recorded run as a scenario whose pilot program flies it again, to be edited as text.
 //!
-//! The program has an entry wherever a recorded control changes, with exactly the recorded numbers:
+//! The program has an entry at each change of a recorded control, with exactly the recorded numbers:
 //! with the same gear library, the run has the same bits. A thinned program changes a control only
 //! where the control would be off by more than a tolerance, or where it becomes zero.
 
@@ -19,21 +19,18 @@ pub struct Program {
     pub scenario: String,
     /// Entries of its pilot program.
     pub entries: usize,
-    /// What `endline run` must be given besides the scenario for the same bits, such as `--seed 3`; may be empty.
+    /// Options of `endline run` for the same bits, such as `--seed 3`; may be empty.
     pub options: String,
 }
 
 /// The recorded scenario with the recorded inputs as its pilot program; controls may be off by `thin` [1], acts never.
-///
-/// # Errors
-/// A recording whose inputs were changed, whose model cannot be made here, or that has no whale.
 pub fn program(recording: &Recording, host: &PluginHost, thin: f64) -> Result<Program, Error> {
     if let Some(damage) = &recording.damage {
-        return Err(Error::Replay(damage.clone()));
+        return Err(Error::Message(damage.clone()));
     }
     let prepared = recording.source.clone().prepare(host)?;
     let Some(whale) = &prepared.model.spec.whale else {
-        return Err(Error::Replay(
+        return Err(Error::Message(
             "the recorded scenario has no whale, so nothing was flown".into(),
         ));
     };
@@ -54,7 +51,7 @@ struct Change {
     to: Vec<(usize, f64)>,
 }
 
-/// Where controls change by more than `thin`, or come to rest; all are 0 before the first step.
+/// Where controls change by more than `thin`, or settle; all are 0 before the first step.
 fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
     let mut held = [0.0_f64; Controls::COUNT];
     let mut changes = Vec::new();
@@ -75,11 +72,11 @@ fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
 }
 
 fn not_edited(error: EditError) -> Error {
-    Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
+    Error::Message(format!("the recorded scenario cannot be edited: {error}"))
 }
 
 /// The recorded scenario, as long as the recording, without its own pilot program. A comment at its
-/// head says what was flown and how to run it.
+/// head names the recording and the command that runs it.
 fn without_pilot(recording: &Recording, options: &str) -> Result<Document, EditError> {
     let (steps, dt_s) = (recording.inputs.len(), recording.header.dt_s);
     let head = format!("# Flown: {steps} steps of {dt_s} s; run with: endline run FILE{options}");

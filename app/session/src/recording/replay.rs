@@ -1,4 +1,7 @@
-//! Running a recording again: the same bits, or the first step and part that differ.
+//! Running a recording again: the same bits, or the first step and part that differ; a run that continues a recording.
+//!
+//! To continue a recording under another pilot, its inputs are stepped through again up to a moment and every step is compared,
+//! so that the states before are the recorded ones, to the bit; then the scenario's own pilot program steers.
 
 use std::sync::Arc;
 
@@ -14,13 +17,13 @@ use crate::source::Prepared;
 /// How a recording is run again.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReplayOptions {
-    /// Go on with plugins of another version or another file than recorded.
+    /// Accept plugins of another version or another file than recorded.
     pub other_plugins: bool,
     /// Frames kept for each simulated second; 0 keeps none.
     pub frames_hz: f64,
 }
 
-/// What comparing a replay with its recording found.
+/// The result of comparing a replay with its recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// Every step gave the recorded bits.
@@ -40,10 +43,6 @@ pub enum Verdict {
 }
 
 /// Prepares the recorded model again and settles it.
-///
-/// # Errors
-/// A plugin that is missing or another than recorded; files this program no longer reads;
-/// statics that do not converge and did when recorded.
 pub fn start(
     recording: &Recording,
     host: &PluginHost,
@@ -60,7 +59,7 @@ pub fn start(
     )
 }
 
-/// What stands at the head of a recording must be what its own files say.
+/// The head of a recording must agree with its own files.
 fn check_header(recording: &Recording, prepared: &Prepared) -> Result<(), Error> {
     let (header, settings) = (&recording.header, &prepared.model.spec.settings);
     let differ = [
@@ -72,23 +71,19 @@ fn check_header(recording: &Recording, prepared: &Prepared) -> Result<(), Error>
     if wrong.is_empty() {
         return Ok(());
     }
-    Err(Error::Replay(format!(
+    Err(Error::Message(format!(
         "the recording contradicts itself: its {} is not that of the scenario and library in it; it was altered",
         wrong.join(", its ")
     )))
 }
 
 /// Whether a run that was taken through a recording ends in the recorded state.
-#[must_use]
 pub fn ends_as_recorded(recording: &Recording, run: &Run) -> bool {
     let at = usize::try_from(run.state().step).unwrap_or(usize::MAX);
     recording.hashes.get(at) == Some(&run.state_hash())
 }
 
-/// Runs a recording again to its end, telling the steps taken and in all; `progress` says whether to go on.
-///
-/// # Errors
-/// As [`start`]; and inputs changed since they were saved.
+/// Runs a recording again to its end; `progress` receives the steps taken and in all, and returns whether to continue.
 pub fn replay(
     recording: &Recording,
     host: &PluginHost,
@@ -107,10 +102,7 @@ pub fn replay(
 }
 
 /// Runs a recording again and compares every step, up to the first that differs; `progress` hears the steps taken and in all
-/// and says whether to go on.
-///
-/// # Errors
-/// As [`start`].
+/// and returns whether to continue.
 pub fn verify(
     recording: &Recording,
     host: &PluginHost,
@@ -122,7 +114,7 @@ pub fn verify(
     Ok((run, verdict))
 }
 
-/// Takes a run that stands at its start through the first `steps` of a recording, up to the first that differs.
+/// Takes a run from its start through the first `steps` of a recording, up to the first that differs.
 pub(super) fn compare(
     recording: &Recording,
     run: &mut Run,
@@ -152,9 +144,6 @@ pub(super) fn compare(
 }
 
 /// The moment nearest before a time, by running again up to it.
-///
-/// # Errors
-/// As [`replay`]; and a time outside the recording.
 pub fn frame_at(
     recording: &Recording,
     host: &PluginHost,
@@ -196,7 +185,7 @@ pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error
     let last_s = recording.duration_s();
     // Half a step of grace, so that the last moment may be named rounded.
     if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
-        return Err(Error::Replay(format!(
+        return Err(Error::Message(format!(
             "{time_s} s is outside the recording; expected 0 to {last_s} s"
         )));
     }
@@ -205,7 +194,7 @@ pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error
 
 pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
     match &recording.damage {
-        Some(damage) => Err(Error::Replay(format!(
+        Some(damage) => Err(Error::Message(format!(
             "{damage}; `endline replay --verify` names the first step that differs"
         ))),
         None => Ok(()),
@@ -213,9 +202,6 @@ pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
 }
 
 /// Every recorded plugin must be here, the same version from the same file.
-///
-/// # Errors
-/// Naming each that is missing or another.
 pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(), Error> {
     let mut problems = Vec::new();
     for plugin in recorded {
@@ -243,13 +229,43 @@ pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(),
     if problems.is_empty() {
         return Ok(());
     }
-    problems.push("put the recorded plugins back, or go on regardless with --other-plugins".into());
-    Err(Error::Replay(problems.join("\n")))
+    problems.push("restore the recorded plugins, or accept the others with --other-plugins".into());
+    Err(Error::Message(problems.join("\n")))
 }
 
-/// The start of a file's hash, enough to tell two apart; files linked in have none.
+/// The start of a file's hash, enough to distinguish two; files linked in have none.
 fn short(hash: &str) -> &str {
     hash.get(..12).unwrap_or("(linked in)")
+}
+
+/// The recorded run up to a time, in a scenario that differs from the recorded one in its pilot program at most.
+pub fn take_over(
+    recording: &Recording,
+    prepared: Prepared,
+    options: RunOptions,
+    time_s: f64,
+    mut progress: impl FnMut(u64, u64),
+) -> Result<Run, Error> {
+    refuse_damage(recording)?;
+    let steps = step_at(recording, time_s)?;
+    let (recorded_s, here_s) = (recording.header.dt_s, prepared.model.spec.settings.step_s);
+    if recorded_s.to_bits() != here_s.to_bits() {
+        return Err(Error::Message(format!(
+            "the recording has a step of {recorded_s} s, the scenario one of {here_s} s; give --dt {recorded_s}s"
+        )));
+    }
+    let mut run = Run::new(prepared, options)?;
+    let mut report = |step, steps| {
+        progress(step, steps);
+        true
+    };
+    match compare(recording, &mut run, steps, &mut report) {
+        Verdict::Same { .. } => Ok(run),
+        Verdict::Differs { step, time_s, part } => Err(Error::Message(format!(
+            "the scenario is not the one recorded: at step {step} ({time_s:.3} s) its {part} differs from the recording\n\
+             up to the moment taken over, nothing but [[whale.pilot]] may differ"
+        ))),
+    }
 }
 
 #[cfg(test)]
@@ -307,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_goes_on_where_the_recorded_one_stopped_differs() {
+    fn a_run_that_continues_where_the_recorded_one_stopped_differs() {
         let mut recording = recorded(40);
         recording.header.stopped = Some("stopped at 0.400 s: line: reason".into());
         recording.inputs.push(Controls::default());

@@ -1,16 +1,17 @@
 //! The summary of a run: the data that figures are read from.
 //!
 //! Scripts depend on its JSON, schema `endline.run/1`: keys may be added, never renamed. Which keys
-//! there are, what they mean and how they are read is declared in [`figures`](crate::figures).
+//! exist, their meanings and how they are read is declared in [`figures`](crate::figures).
 
-mod from_run;
 pub mod validity;
 
 use endline_sim::Audit;
 use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{Event, LineSummary, Summary};
 
+use crate::error::Error;
 use crate::plugins::PluginUsed;
+use crate::run::{Run, by_line};
 use crate::timing::Timing;
 
 /// Name of the schema.
@@ -43,9 +44,9 @@ pub struct Report {
     pub stopped: Option<String>,
     /// Counters of the solver.
     pub audit: Audit,
-    /// Momentum and energy of the gear by source, where the model tells them.
+    /// Momentum and energy of the gear by source, where the model computes them.
     pub balance: Option<BalanceSummary>,
-    /// What was measured.
+    /// The measurements.
     pub summary: Summary,
     /// Greatest tension of each line in the settled state [N].
     pub settled_tension_n: Vec<f64>,
@@ -64,7 +65,7 @@ pub struct Report {
 pub struct SettledReport {
     /// Whether the run began from rest.
     pub converged: bool,
-    /// What statics found, in words.
+    /// The outcome of statics, in words.
     pub outcome: String,
     /// Greatest force out of balance [N].
     pub residual_n: f64,
@@ -72,13 +73,11 @@ pub struct SettledReport {
 
 impl Report {
     /// Whether the numbers can be trusted, within the bounds of [`validity`].
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         self.invalid_because.is_empty()
     }
 
     /// The line with the greatest tension, the first of them where several have it.
-    #[must_use]
     pub fn greatest(&self) -> Option<&LineSummary> {
         self.summary.lines.iter().fold(None, |most: Option<&LineSummary>, line| match most {
             Some(most) if most.peak_tension_n >= line.peak_tension_n => Some(most),
@@ -88,7 +87,6 @@ impl Report {
 
     /// Time [s] and id of the weak link or line that parted first; a link before a line of the same
     /// time.
-    #[must_use]
     pub fn first_parted(&self) -> Option<(f64, &String)> {
         let links = self.summary.links.iter().map(|link| (link.parted_at_s, &link.id));
         let lines = self.summary.lines.iter().map(|line| (line.parted_at_s, &line.id));
@@ -97,5 +95,46 @@ impl Report {
             Some(least) if least.0 <= next.0 => Some(least),
             _ => Some(next),
         })
+    }
+}
+
+impl Report {
+    /// The summary of a run so far.
+    pub fn from_run(run: &Run) -> Self {
+        let model = run.model();
+        let settings = &model.spec.settings;
+        let (audit, prepared) = (run.audit(), run.prepared());
+        let summary = run.summary();
+        let stopped = run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string());
+        Self {
+            scenario: prepared.source.scenario_name.clone(),
+            seed: settings.seed,
+            simulated_s: run.state().time_s,
+            timing: *run.timing(),
+            dt_s: settings.step_s,
+            steps: run.state().step,
+            nodes: model.node_count,
+            triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
+            state_hash: run.state_hash().hex(),
+            invalid_because: validity::reasons(stopped.as_deref(), &audit, summary.whale.as_ref()),
+            stopped,
+            audit,
+            balance: run.balance(),
+            summary,
+            settled_tension_n: by_line(model, &run.settled().state.rope.tension),
+            settled: settled(run),
+            events: run.metrics().events().to_vec(),
+            model_hash: prepared.source.hash(),
+            plugins: prepared.plugins.clone(),
+        }
+    }
+}
+
+fn settled(run: &Run) -> SettledReport {
+    let settled = run.settled();
+    SettledReport {
+        converged: settled.converged,
+        outcome: settled.outcome.to_string(),
+        residual_n: settled.residual_n,
     }
 }

@@ -5,15 +5,14 @@ use endline_sim::metrics::WhaleSummary;
 
 /// Greatest share of the solver steps in touch that may be accepted above the wanted residual.
 pub const MOST_UNCONVERGED: f64 = 0.01;
-/// Greatest share of the solver steps that may have a tension that stands alone in time.
+/// Greatest share of the solver steps that may have an isolated tension spike.
 pub const MOST_SPIKES: f64 = 0.001;
-/// So many of either are allowed in any run, however short.
+/// Number of either that is allowed in any run, however short.
 pub const ALWAYS_ALLOWED: u64 = 3;
-/// Greatest share of the normal force on the whale, over time, that may be beyond what rope can press.
+/// Greatest share of the normal force on the whale, over time, that may exceed the force that rope can exert.
 pub const MOST_BEYOND_ROPE: f64 = 0.05;
 
-/// What makes a run invalid, one reason each, in plain words; none where it is valid.
-#[must_use]
+/// The reasons why a run is invalid; empty where it is valid.
 pub fn reasons(stopped: Option<&str>, audit: &Audit, whale: Option<&WhaleSummary>) -> Vec<String> {
     let times = |count: u64| if count == 1 { "once".to_owned() } else { format!("{count} times") };
     let stopped = stopped.map(|why| format!("it did not run to its end: {why}"));
@@ -65,7 +64,7 @@ fn unconverged(audit: &Audit) -> Option<String> {
 fn spikes(audit: &Audit) -> Option<String> {
     let share = too_many(audit.spikes, audit.solver_steps, MOST_SPIKES)?;
     Some(format!(
-        "tension stood alone in time in {} % of the solver steps; at most {} % may",
+        "tension had isolated spikes in {} % of the solver steps; at most {} % may",
         percent(share),
         percent(MOST_SPIKES)
     ))
@@ -75,7 +74,7 @@ fn pressed(whale: Option<&WhaleSummary>) -> Option<String> {
     let share = whale?.beyond_rope_share;
     (share > MOST_BEYOND_ROPE).then(|| {
         format!(
-            "{} % of the normal force on the whale is beyond what rope can press; at most {} % may be",
+            "{} % of the normal force on the whale exceeds the force that rope can exert; at most {} % may be",
             percent(share),
             percent(MOST_BEYOND_ROPE)
         )
@@ -89,5 +88,59 @@ fn percent(share: f64) -> String {
 }
 
 #[cfg(test)]
-#[path = "validity_tests.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::figures::tests::made_up;
+
+    /// A run of ten thousand solver steps, half of them in touch.
+    fn long() -> Audit {
+        Audit { solver_steps: 10_000, touching_steps: 5_000, ..Audit::default() }
+    }
+
+    #[test]
+    fn a_crossing_makes_a_run_invalid() {
+        let crossed = reasons(None, &Audit { tunnelled: 2, ..long() }, None);
+        assert_eq!(crossed, ["rope passed through skin 2 times"]);
+        let audit = Audit { non_finite: 1, tunnelled: 1, ropes_crossed: 1, ..long() };
+        assert_eq!(reasons(Some("line parted badly"), &audit, None).len(), 4);
+        assert!(reasons(None, &long(), None).is_empty());
+    }
+
+    #[test]
+    fn steps_that_did_not_converge_are_bounded_as_a_share_of_those_in_touch() {
+        let with = |unconverged| reasons(None, &Audit { unconverged, ..long() }, None);
+        assert!(with(50).is_empty(), "1 %");
+        assert_eq!(
+            with(75),
+            ["1.5 % of the solver steps in touch did not converge; at most 1.0 % may"]
+        );
+        let short = |unconverged| {
+            let audit =
+                Audit { solver_steps: 20, touching_steps: 20, unconverged, ..Audit::default() };
+            reasons(None, &audit, None)
+        };
+        assert!(short(ALWAYS_ALLOWED).is_empty() && short(ALWAYS_ALLOWED + 1).len() == 1);
+    }
+
+    #[test]
+    fn spikes_are_bounded_as_a_share_of_all_steps_and_a_parting_must_have_converged() {
+        let with = |spikes| reasons(None, &Audit { spikes, ..long() }, None);
+        assert!(with(10).is_empty(), "0.1 %");
+        assert_eq!(
+            with(40),
+            ["tension had isolated spikes in 0.4 % of the solver steps; at most 0.1 % may"]
+        );
+        let parted = reasons(None, &Audit { unconverged_parted: 1, ..long() }, None);
+        assert_eq!(parted, ["something parted once in a solver step that did not converge"]);
+    }
+
+    #[test]
+    fn normal_force_beyond_what_rope_can_press_is_bounded() {
+        let mut whale = made_up::report().summary.whale.unwrap();
+        whale.beyond_rope_share = MOST_BEYOND_ROPE;
+        assert!(reasons(None, &long(), Some(&whale)).is_empty());
+        whale.beyond_rope_share = 0.25;
+        let why = reasons(None, &long(), Some(&whale));
+        assert!(why.len() == 1 && why[0].starts_with("25 % of the normal force"), "{why:?}");
+    }
+}

@@ -1,15 +1,16 @@
-//! The packs of a library, with their areas.
+//! The packs of a library, with their areas, and as JSON.
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Area, At, Diagnostic, Rule, RuleDraft, RulePack, hint};
-
-use crate::error::Error;
-use crate::locate;
+use endline_gear::{Area, At, Date, Diagnostic, Parameter, Rule, RuleDraft, RulePack, hint};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::expression::{Expression, Names, begins_with_function};
 use super::facts::of_subject;
 use super::value::Kind;
+use crate::error::Error;
+use crate::locate;
 
 /// Folder of the packs in a library.
 const FOLDER: &str = "rules";
@@ -23,20 +24,14 @@ pub struct Packs {
 
 impl Packs {
     /// Reads the packs of a library, found as [`locate::library`] says where `library` is `None`, and others beside it.
-    ///
-    /// # Errors
-    /// A file that cannot be read, no library, or every mistake in the packs.
     pub fn open(library: Option<&Path>, others: &[PathBuf]) -> Result<Self, Error> {
-        let root = locate::library(None, library).map_err(Error::Replay)?;
+        let root = locate::library(None, library).map_err(Error::Message)?;
         let mut files = locate::toml_files(&root.join(FOLDER));
         files.extend(others.iter().cloned());
         Self::read(&files)
     }
 
     /// Reads one pack alone, beside those of the library whose areas it may name.
-    ///
-    /// # Errors
-    /// As [`Packs::open`], for this pack.
     pub fn check(file: &Path, library: Option<&Path>) -> Result<(), Error> {
         let own = read(file)?;
         let root = locate::library(Some(file), library);
@@ -46,7 +41,7 @@ impl Packs {
         all.packs.push(own);
         let name = file.display().to_string();
         let problems = all.mistakes().into_iter().filter(|problem| problem.file == name);
-        told(problems.collect())
+        refuse(problems.collect())
     }
 
     fn read(files: &[PathBuf]) -> Result<Self, Error> {
@@ -61,7 +56,7 @@ impl Packs {
         if problems.is_empty() {
             problems = all.mistakes();
         }
-        told(problems).map(|()| all)
+        refuse(problems).map(|()| all)
     }
 
     /// Every rule with its pack, in order.
@@ -75,16 +70,12 @@ impl Packs {
     }
 
     /// The name of an area, or its id where no pack declares it.
-    #[must_use]
     pub fn area_name(&self, id: &str) -> String {
         let named = self.areas().find(|area| area.id.value == id);
         named.map_or_else(|| id.to_owned(), |area| area.name.clone())
     }
 
     /// An area and those that contain it, from the inside out.
-    ///
-    /// # Errors
-    /// Where no pack declares the area, with the nearest name.
     pub fn around(&self, area: &str) -> Result<Vec<&str>, String> {
         let find = |id: &str| self.areas().find(|area| area.id.value == id);
         let mut around = Vec::new();
@@ -121,7 +112,7 @@ impl Packs {
     }
 }
 
-fn told(problems: Vec<Diagnostic>) -> Result<(), Error> {
+fn refuse(problems: Vec<Diagnostic>) -> Result<(), Error> {
     if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
 }
 
@@ -137,14 +128,11 @@ fn read(file: &Path) -> Result<RulePack, Error> {
 }
 
 /// Reads a pack's text with its expressions.
-///
-/// # Errors
-/// Every mistake that can be seen without other packs.
 pub fn read_text(name: &str, text: &str) -> Result<RulePack, Vec<Diagnostic>> {
     RulePack::read(name, text, &mistakes_of)
 }
 
-/// What is wrong with the expressions of a rule and the names of its parameters.
+/// Problems of the expressions of a rule and the names of its parameters.
 fn mistakes_of(draft: &RuleDraft) -> Vec<Diagnostic> {
     let facts: Vec<&str> = of_subject(draft.subject).map(|fact| fact.name).collect();
     let mut problems = Vec::new();
@@ -192,4 +180,169 @@ fn twice<'a>(ids: impl Iterator<Item = &'a At<String>>) -> Vec<Diagnostic> {
         seen.push(&id.value);
     }
     problems
+}
+
+/// Name and version of the JSON.
+const SCHEMA: &str = "endline.rules.list/1";
+
+/// All packs.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct Listing<'a> {
+    /// Name and version of this form.
+    #[schemars(extend("const" = SCHEMA))]
+    schema: &'static str,
+    /// The packs, in order of id.
+    packs: Vec<Pack<'a>>,
+}
+
+/// A rule pack.
+#[derive(JsonSchema, Serialize)]
+struct Pack<'a> {
+    /// Id.
+    id: &'a str,
+    /// Name.
+    name: &'a str,
+    /// Whose rules they are.
+    jurisdiction: &'a str,
+    /// Notes.
+    notes: &'a str,
+    /// Its areas.
+    areas: Vec<AreaOf<'a>>,
+    /// Its rules.
+    rules: Vec<RuleOf<'a>>,
+}
+
+/// An area of which rules speak.
+#[derive(JsonSchema, Serialize)]
+struct AreaOf<'a> {
+    /// Id.
+    area: &'a str,
+    /// Name.
+    name: &'a str,
+    /// Area that it lies in; null where none holds it.
+    within: Option<&'a str>,
+}
+
+/// A rule as its pack has it; lengths in metres.
+#[derive(JsonSchema, Serialize)]
+struct RuleOf<'a> {
+    /// Id.
+    rule: &'a str,
+    /// The requirement in words.
+    asks: &'a str,
+    /// Citation.
+    cite: &'a str,
+    /// Source.
+    source: &'a str,
+    /// Whether it binds, is voluntary or was replaced, in a word.
+    standing: &'static str,
+    /// Whether it binds.
+    binding: bool,
+    /// How sure it is.
+    confidence: &'static str,
+    /// First day in force.
+    from: Option<String>,
+    /// Last day in force; null where it still is.
+    until: Option<String>,
+    /// Areas in which it applies; empty for all.
+    areas: Vec<&'a str>,
+    /// Least and greatest distance from shore at which it applies [m].
+    distance_m: Option<[f64; 2]>,
+    /// Least and greatest depth at which it applies [m].
+    depth_m: Option<[f64; 2]>,
+    /// Fewest and most traps of the gear to which it applies.
+    traps: Option<[f64; 2]>,
+    /// First and last day of the year on which it applies.
+    season: Option<[u16; 2]>,
+    /// The part of the gear that it checks.
+    subject: &'static str,
+    /// Expression that decides to which of these it applies; null for all.
+    when: Option<&'a str>,
+    /// Expression that holds where the rule is kept.
+    check: &'a str,
+    /// Numbers of the expressions.
+    parameters: Vec<ParameterOf<'a>>,
+    /// How to make gear meet the rule, in words.
+    mend: &'a str,
+    /// Notes.
+    notes: &'a str,
+}
+
+/// A number of a rule: as its pack has it, and in SI units.
+#[derive(JsonSchema, Serialize)]
+struct ParameterOf<'a> {
+    /// Its name in the expressions.
+    parameter: &'a str,
+    /// As the pack has it.
+    text: &'a str,
+    /// In its SI unit.
+    value: f64,
+    /// SI unit; empty for a number without one.
+    unit: &'static str,
+    /// Source.
+    source: &'a str,
+    /// How sure it is.
+    confidence: &'static str,
+}
+
+impl Packs {
+    /// Every pack with its areas and rules, as one JSON object.
+    pub fn json(&self) -> String {
+        let listing = Listing { schema: SCHEMA, packs: self.packs.iter().map(pack).collect() };
+        // Strings and finite numbers always become JSON.
+        serde_json::to_string_pretty(&listing).unwrap_or_default()
+    }
+}
+
+fn pack(pack: &RulePack) -> Pack<'_> {
+    Pack {
+        id: &pack.id,
+        name: &pack.name,
+        jurisdiction: &pack.jurisdiction,
+        notes: &pack.notes,
+        areas: pack.areas.iter().map(area).collect(),
+        rules: pack.rules.iter().map(rule).collect(),
+    }
+}
+
+fn area(area: &Area) -> AreaOf<'_> {
+    let within = area.within.as_ref().map(|within| within.value.as_str());
+    AreaOf { area: &area.id.value, name: &area.name, within }
+}
+
+fn rule(rule: &Rule) -> RuleOf<'_> {
+    let day = |date: Option<Date>| date.map(|date| date.to_string());
+    RuleOf {
+        rule: &rule.id.value,
+        asks: &rule.asks,
+        cite: &rule.cite,
+        source: &rule.source,
+        standing: rule.standing.word(),
+        binding: rule.standing.binds(),
+        confidence: rule.confidence.word(),
+        from: day(rule.from),
+        until: day(rule.until),
+        areas: rule.areas.iter().map(|area| area.value.as_str()).collect(),
+        distance_m: rule.distance_m,
+        depth_m: rule.depth_m,
+        traps: rule.traps,
+        season: rule.season,
+        subject: rule.subject.word(),
+        when: rule.when.as_ref().map(|when| when.value.as_str()),
+        check: &rule.check.value,
+        parameters: rule.parameters.iter().map(parameter).collect(),
+        mend: &rule.mend,
+        notes: &rule.notes,
+    }
+}
+
+fn parameter(parameter: &Parameter) -> ParameterOf<'_> {
+    ParameterOf {
+        parameter: &parameter.key,
+        text: &parameter.text,
+        value: parameter.value,
+        unit: parameter.quantity.si_unit(),
+        source: &parameter.source,
+        confidence: parameter.confidence.word(),
+    }
 }

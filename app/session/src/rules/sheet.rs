@@ -1,21 +1,18 @@
-//! An assembly with the verdict on every rule.
+//! An assembly, where and when it is fished, with the verdict on every rule.
 
 use std::path::Path;
 
-use endline_gear::{Assembled, Library, Options, Scenario, Setting, assemble_traced};
+use endline_gear::{Assembled, Date, Library, Options, Scenario, Setting, assemble_traced};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::gear::{Gear, gear_of};
+use super::packs::Packs;
+use super::verdict::{RuleResult, Verdict, of};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::AssemblyFile;
-use crate::source::assembly::written;
-
-use super::fishing::Fishing;
-use super::gear::Gear;
-use super::packs::Packs;
-use super::verdict::{RuleResult, Verdict, of};
-use super::walk::gear_of;
+use crate::source::written;
 
 /// Depth in which gear is assembled where none is given: that of the shipped inshore gear [m].
 const USUAL_DEPTH_M: f64 = 25.0;
@@ -53,13 +50,13 @@ pub struct RuleSheet {
     pub distance_m: Option<f64>,
     /// Traps on one set: those given, else those counted.
     pub traps: usize,
-    /// How many rules came to each verdict.
+    /// Number of rules with each verdict.
     pub counts: Counts,
     /// Every rule with its verdict, by pack.
     pub rules: Vec<RuleResult>,
 }
 
-/// What an endline is made of, in short.
+/// The make-up of an endline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndlineMakeUp {
     /// Diameter of the rope at its top [m].
@@ -72,13 +69,11 @@ pub struct EndlineMakeUp {
 
 impl RuleGear {
     /// Traps of the gear.
-    #[must_use]
     pub fn traps(&self) -> usize {
         self.gear.traps
     }
 
     /// Its first endline; none of gear without one.
-    #[must_use]
     pub fn endline(&self) -> Option<EndlineMakeUp> {
         let pieces = &self.gear.endlines.first()?.pieces;
         let ropes = || pieces.iter().filter(|piece| piece.length_m > 0.0);
@@ -90,7 +85,7 @@ impl RuleGear {
     }
 }
 
-/// How many rules came to each verdict.
+/// Number of rules with each verdict.
 #[derive(Clone, Copy, Debug, Default, Eq, JsonSchema, PartialEq, Serialize)]
 pub struct Counts {
     /// Rules that the gear meets.
@@ -125,7 +120,6 @@ impl Counts {
 
 impl RuleSheet {
     /// Whether the gear fails a rule that binds; one that it is only advised to follow does not count.
-    #[must_use]
     pub fn fails_binding(&self) -> bool {
         self.counts.fail_binding > 0
     }
@@ -136,7 +130,6 @@ impl RuleSheet {
     }
 
     /// The sheet as one JSON object.
-    #[must_use]
     pub fn json(&self) -> String {
         // Strings and finite numbers always become JSON.
         serde_json::to_string_pretty(self).unwrap_or_default()
@@ -144,9 +137,6 @@ impl RuleSheet {
 }
 
 /// Assembles an assembly of the library, by its id or its file, alone in still water.
-///
-/// # Errors
-/// A file that cannot be read, no library, or every located error of assembly and library.
 pub fn assembly(
     named: &str,
     depth_m: Option<f64>,
@@ -159,9 +149,6 @@ pub fn assembly(
 }
 
 /// Assembles an assembly of a library that was read.
-///
-/// # Errors
-/// Every located error of assembly and library.
 pub fn of_library(
     id: &str,
     depth_m: Option<f64>,
@@ -186,11 +173,8 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
 }
 
 /// Checks every rule of the packs on gear.
-///
-/// # Errors
-/// An area that no pack declares, or mistakes in expressions.
 pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
-    let around = packs.around(&fishing.area).map_err(Error::Replay)?;
+    let around = packs.around(&fishing.area).map_err(Error::Message)?;
     let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
     let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?;
     Ok(RuleSheet {
@@ -205,4 +189,19 @@ pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSh
         counts: Counts::of(&rules),
         rules,
     })
+}
+
+/// Where, when and how gear is fished.
+#[derive(Clone, Debug)]
+pub struct Fishing {
+    /// Id of the area.
+    pub area: String,
+    /// The day.
+    pub on: Date,
+    /// Depth of the water, where it is given [m].
+    pub depth_m: Option<f64>,
+    /// Distance from shore, where it is given [m].
+    pub distance_m: Option<f64>,
+    /// Traps on one set, in place of those counted.
+    pub traps: Option<u16>,
 }

@@ -1,18 +1,18 @@
-//! A study of what rules buy: one assembly, mended to comply with each of several rules, in the same encounters.
+//! A study of the effect of rules: one assembly, edited to comply with each of several rules, in the same encounters.
 //!
-//! How encounters are drawn, when a run ends and the sea are those of a study that is there; its options give way to one for
-//! each rule. An option says what its edit changes in the assembly, so that the study needs no other file.
+//! How encounters are drawn, when a run ends and the sea are those of an existing study; its options are replaced by one for
+//! each rule. An option states the changes of its edit in the assembly, so that the study needs no other file.
 
 use endline_gear::{Document, EditError, Rule, Setting};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
 
-use super::fishing::Fishing;
-use super::mend::{Asked, Proposal, least_added};
 use super::packs::Packs;
+use super::remedy::{Asked, Proposal, least_added};
+use super::sheet::Fishing;
 
-/// The study whose encounters are taken where nobody names another.
+/// The study whose encounters are taken where none is named.
 pub const USUAL_LIKE: &str = "gear-types";
 
 /// The field of the scenario by which its gear is chosen.
@@ -27,16 +27,13 @@ const OF_OPTIONS: [&str; 6] =
 pub struct RuleOption {
     /// Id of the rule, which is the option's id.
     pub rule: String,
-    /// What the rule asks.
+    /// The requirement of the rule.
     pub asks: String,
-    /// The edit that brings the assembly to comply; none where it does as it stands.
+    /// The edit by which the assembly complies; none where it complies without one.
     pub edit: Option<Proposal>,
 }
 
 /// The options for rules: the least edit for each that an option of a study can say.
-///
-/// # Errors
-/// Fewer than two rules, an unknown one, one that no edit mends, or two rules that the same gear meets.
 pub fn options(
     asked: Asked<'_>,
     rules: &[String],
@@ -45,10 +42,10 @@ pub fn options(
     host: &PluginHost,
 ) -> Result<Vec<RuleOption>, Error> {
     if rules.len() < 2 {
-        return Err(Error::Replay("name two rules or more, each by --option".to_owned()));
+        return Err(Error::Message("name two rules or more, each by --option".to_owned()));
     }
     let one = |id: &String| {
-        let rule = packs.rule(id).map_err(Error::Replay)?;
+        let rule = packs.rule(id).map_err(Error::Message)?;
         let fishing = Fishing { depth_m, ..packs.where_applies(rule)? };
         let edit = least_added(asked, id, packs, &fishing, host)?;
         Ok(RuleOption { rule: id.clone(), asks: rule.asks.clone(), edit })
@@ -61,29 +58,26 @@ pub fn options(
                 "the same gear meets `{}` and `{}`: there is nothing to compare",
                 same.rule, option.rule
             );
-            return Err(Error::Replay(message));
+            return Err(Error::Message(message));
         }
     }
     Ok(options)
 }
 
 /// The text of a study of these options of an assembly, in the encounters of another study.
-///
-/// # Errors
-/// Where the other study is no TOML.
 pub fn text(
     assembly: &str,
     options: &[RuleOption],
     like: &str,
     depth_m: Option<f64>,
 ) -> Result<String, Error> {
-    let fault = |error: EditError| Error::Replay(error.message);
+    let fault = |error: EditError| Error::Message(error.message);
     let mut study = Document::parse(like).map_err(fault)?;
     for list in OF_OPTIONS.into_iter().filter(|list| study.has(list)).collect::<Vec<_>>() {
         study.remove(list).map_err(fault)?;
     }
     let rules: Vec<&str> = options.iter().map(|option| option.rule.as_str()).collect();
-    let name = format!("{assembly}, mended for {}", rules.join(" and "));
+    let name = format!("{assembly}, edited for {}", rules.join(" and "));
     let head =
         [("name", name), ("notes", notes(assembly, options)), ("baseline", rules[0].to_owned())];
     for (field, value) in head {
@@ -110,7 +104,7 @@ pub fn text(
     Ok(study.text())
 }
 
-/// What the study asks, and what each option is.
+/// The question of the study, and its options.
 fn notes(assembly: &str, options: &[RuleOption]) -> String {
     let each = options.iter().map(|option| {
         let edit = option.edit.as_ref().map_or("The gear as it stands.", |edit| edit.says.as_str());
@@ -125,9 +119,6 @@ fn notes(assembly: &str, options: &[RuleOption]) -> String {
 
 impl Packs {
     /// A rule by its id.
-    ///
-    /// # Errors
-    /// Where no pack has it, with the nearest.
     pub fn rule(&self, id: &str) -> Result<&Rule, String> {
         let found = self.rules().map(|(_, rule)| rule).find(|rule| rule.id.value == id);
         let known = || self.rules().map(|(_, rule)| rule.id.value.as_str());
@@ -136,12 +127,12 @@ impl Packs {
 
     /// Somewhere and some day where a rule applies: its first area, its first day, its least distance.
     fn where_applies(&self, rule: &Rule) -> Result<Fishing, Error> {
-        let nowhere = || Error::Replay("no pack declares an area".to_owned());
+        let nowhere = || Error::Message("no pack declares an area".to_owned());
         let first = || self.areas().next().map(|area| area.id.value.clone());
         let area = rule.areas.first().map(|area| area.value.clone()).or_else(first);
         let day = rule
             .day_in_force()
-            .ok_or_else(|| Error::Replay(format!("`{}` applies on no day", rule.id.value)))?;
+            .ok_or_else(|| Error::Message(format!("`{}` applies on no day", rule.id.value)))?;
         Ok(Fishing {
             area: area.ok_or_else(nowhere)?,
             on: day,

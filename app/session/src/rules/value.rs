@@ -1,10 +1,8 @@
-//! Values of expressions: numbers that know their unit, lines, places along a line, truth, and what is not known.
+//! Values of expressions: numbers with a unit, endlines and their weak places, truth, and unknown values.
 
 use endline_gear::units::{self, Quantity, Unit};
 
-use super::makeup::{MadeUp, Places};
-
-/// What a value is.
+/// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// True or false.
@@ -20,11 +18,11 @@ pub enum Kind {
 /// A value of an expression.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// A number [SI], with the unit in which it is told.
+    /// A number [SI], with the unit in which it is shown.
     Number {
         /// SI value.
         si: f64,
-        /// What it measures.
+        /// The quantity.
         quantity: Quantity,
         /// The unit of the rule that named it.
         unit: Option<&'static Unit>,
@@ -35,16 +33,16 @@ pub enum Value {
     Truth {
         /// Whether it holds.
         holds: bool,
-        /// What was compared.
+        /// The comparisons.
         compared: Vec<Compared>,
     },
     /// An endline.
     Line(MadeUp),
     /// Places along an endline.
     Places(Places),
-    /// A value of this kind that nobody knows, and why.
+    /// An unknown value of this kind, and why it is unknown.
     Unknown {
-        /// What it would be.
+        /// Its kind.
         kind: Kind,
         /// Why it is not known.
         why: String,
@@ -56,15 +54,15 @@ pub enum Value {
 /// Two numbers that were compared.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// Left of the sign, what was measured [SI].
+    /// Left of the sign, the measured value [SI].
     pub left: f64,
     /// The sign.
     pub sign: &'static str,
     /// Right of the sign, the limit [SI].
     pub right: f64,
-    /// What both measure.
+    /// The quantity of both.
     pub quantity: Quantity,
-    /// The unit in which both are told; SI where there is none.
+    /// The unit in which both are shown; SI where there is none.
     pub unit: Option<&'static Unit>,
     /// Id of the piece that was measured, where it is one of several.
     pub of: Option<String>,
@@ -74,7 +72,6 @@ pub struct Compared {
 
 impl Kind {
     /// In words, with an article.
-    #[must_use]
     pub fn noun(self) -> &'static str {
         match self {
             Self::Truth => "true or false",
@@ -87,31 +84,26 @@ impl Kind {
 
 impl Value {
     /// A pure number.
-    #[must_use]
     pub fn count(number: f64) -> Self {
         Self::measure(number, Quantity::Ratio)
     }
 
     /// A number of a quantity [SI].
-    #[must_use]
     pub fn measure(si: f64, quantity: Quantity) -> Self {
         Self::Number { si, quantity, unit: None, of: None }
     }
 
     /// A number [SI] measured on one piece.
-    #[must_use]
     pub fn measure_of(piece: &str, si: f64, quantity: Quantity) -> Self {
         Self::Number { si, quantity, unit: None, of: Some(piece.to_owned()) }
     }
 
     /// True or false by itself.
-    #[must_use]
     pub fn truth(holds: bool) -> Self {
         Self::Truth { holds, compared: Vec::new() }
     }
 
-    /// What it is; none where it makes no sense.
-    #[must_use]
+    /// Its kind; none where it makes no sense.
     pub fn kind(&self) -> Option<Kind> {
         match self {
             Self::Number { quantity, .. } => Some(Kind::Number(*quantity)),
@@ -146,8 +138,7 @@ impl Default for Value {
 
 impl Compared {
     /// A number of the comparison in its unit, such as `60 ft`; `none` for one that is infinite.
-    #[must_use]
-    pub fn told(&self, si: f64) -> String {
+    pub fn text(&self, si: f64) -> String {
         if !si.is_finite() {
             return "none".to_owned();
         }
@@ -168,6 +159,132 @@ impl Compared {
 
 impl std::fmt::Display for Compared {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {} {}", self.told(self.left), self.sign, self.told(self.right))
+        write!(f, "{} {} {}", self.text(self.left), self.sign, self.text(self.right))
+    }
+}
+
+/// An endline, or its upper part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MadeUp {
+    /// Pieces from the buoy down; a sleeve or link has no length.
+    pub pieces: Vec<Stretch>,
+}
+
+/// A piece of an endline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Unstretched length [m].
+    pub length_m: f64,
+    /// Strength of new material as its source states it [N].
+    pub rated_n: f64,
+}
+
+/// Places along an endline.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Places {
+    /// From and to, from the buoy down [m].
+    pub spans_m: Vec<[f64; 2]>,
+    /// Length of the endline, or of the part that was checked [m].
+    pub length_m: f64,
+}
+
+/// Relative tolerance for strengths: conversion of units changes the last digits.
+const ROUNDING: f64 = 1e-9;
+
+impl MadeUp {
+    /// Its length [m].
+    pub fn length_m(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece.length_m).sum()
+    }
+
+    /// Its upper part, from the buoy to a share of its length.
+    pub fn upper_part(&self, share: f64) -> Self {
+        let mut left_m = share.clamp(0.0, 1.0) * self.length_m();
+        let mut pieces = Vec::new();
+        for piece in &self.pieces {
+            if left_m < 0.0 || (left_m == 0.0 && piece.length_m > 0.0) {
+                break;
+            }
+            pieces.push(Stretch { length_m: piece.length_m.min(left_m), ..*piece });
+            left_m -= piece.length_m;
+        }
+        Self { pieces }
+    }
+
+    /// Where it is rated at most this strong; places that touch are one.
+    pub fn weak_places(&self, most_n: f64) -> Places {
+        let (mut spans, mut at_m) = (Vec::<[f64; 2]>::new(), 0.0);
+        for piece in &self.pieces {
+            let end_m = at_m + piece.length_m;
+            if piece.rated_n <= most_n * (1.0 + ROUNDING) {
+                match spans.last_mut() {
+                    Some(last) if last[1] >= at_m => last[1] = end_m,
+                    _ => spans.push([at_m, end_m]),
+                }
+            }
+            at_m = end_m;
+        }
+        Places { spans_m: spans, length_m: at_m }
+    }
+}
+
+impl Places {
+    /// The longest stretch without one, from the buoy, between two, or to the lower end [m].
+    pub fn longest_gap_m(&self) -> f64 {
+        let starts = self.spans_m.iter().map(|span| span[0]).chain([self.length_m]);
+        let ends = [0.0].into_iter().chain(self.spans_m.iter().map(|span| span[1]));
+        starts.zip(ends).map(|(start, end)| start - end).fold(0.0, f64::max)
+    }
+
+    /// Share of the length that they take.
+    pub fn share(&self) -> f64 {
+        let taken: f64 = self.spans_m.iter().map(|span| span[1] - span[0]).sum();
+        if self.length_m > 0.0 { taken / self.length_m } else { 0.0 }
+    }
+
+    /// From the buoy to the first; infinite where there is none [m].
+    pub fn first_m(&self) -> f64 {
+        self.spans_m.first().map_or(f64::INFINITY, |span| span[0])
+    }
+
+    /// Distance of the nearest from a share of the length, as a share; infinite where there is none.
+    pub fn from_share(&self, share: f64) -> f64 {
+        let at_m = share * self.length_m;
+        let away = |span: &[f64; 2]| (span[0] - at_m).max(at_m - span[1]).max(0.0);
+        self.spans_m.iter().map(away).fold(f64::INFINITY, f64::min) / self.length_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(pieces: &[(f64, f64)]) -> MadeUp {
+        let piece =
+            |(length_m, rated_n): &(f64, f64)| Stretch { length_m: *length_m, rated_n: *rated_n };
+        MadeUp { pieces: pieces.iter().map(piece).collect() }
+    }
+
+    #[test]
+    fn weak_places_lie_where_the_line_is_weak_and_gaps_between_them() {
+        // 10 m strong, 1 m weak, 20 m strong, a sleeve, 9 m strong, from the buoy down: 40 m.
+        let line = line(&[(10.0, 9.0), (1.0, 5.0), (20.0, 9.0), (0.0, 4.0), (9.0, 9.0)]);
+        let weak = line.weak_places(5.0);
+        assert_eq!(weak.spans_m, [[10.0, 11.0], [31.0, 31.0]]);
+        assert_eq!((weak.longest_gap_m(), weak.first_m()), (20.0, 10.0));
+        assert!((weak.share() - 1.0 / 40.0).abs() < 1e-12);
+        // A quarter of the line is at 10 m, three quarters at 30 m, 1 m above the sleeve.
+        assert!((weak.from_share(0.25), weak.from_share(0.75)) == (0.0, 1.0 / 40.0));
+        // The upper half ends at 20 m, 9 m below the insert's lower end.
+        let upper = line.upper_part(0.5).weak_places(5.0);
+        assert_eq!((upper.spans_m.len(), upper.length_m, upper.longest_gap_m()), (1, 20.0, 10.0));
+        assert!(line.weak_places(1.0).first_m().is_infinite());
+    }
+
+    #[test]
+    fn weak_pieces_that_touch_are_one_place() {
+        let weak = line(&[(2.0, 5.0), (3.0, 4.0), (5.0, 9.0)]).weak_places(5.0);
+        assert_eq!(weak.spans_m, [[0.0, 5.0]]);
+        assert_eq!((weak.share(), weak.longest_gap_m()), (0.5, 5.0));
     }
 }

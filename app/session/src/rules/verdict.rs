@@ -1,4 +1,4 @@
-//! One rule on one assembly: whether it applies, what was measured, what follows.
+//! One rule on one assembly: whether it applies, the measured values, the verdict.
 
 use endline_gear::units::{Quantity, format_si};
 use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
@@ -6,13 +6,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::facts::of_subject;
-use super::fishing::Fishing;
+use super::facts::{Part, value};
 use super::gear::Gear;
-use super::measure::{Part, value};
 use super::packs::expression;
+use super::sheet::Fishing;
 use super::value::{Compared, Value};
 
-/// What a rule says about an assembly.
+/// The verdict of a rule on an assembly.
 #[derive(Clone, Copy, Debug, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -35,9 +35,9 @@ pub struct RuleResult {
     pub jurisdiction: String,
     /// Id of the rule.
     pub rule: String,
-    /// What it asks for.
+    /// The requirement in words.
     pub asks: String,
-    /// The law, or the page, that says so.
+    /// The law, or the page, that states it.
     pub cite: String,
     /// `law`, `voluntary` or `proposed`.
     pub standing: &'static str,
@@ -47,7 +47,7 @@ pub struct RuleResult {
     pub binding: bool,
     /// Where its wording was read.
     pub source: String,
-    /// First day in force; none where nobody looked it up.
+    /// First day in force; none where it is unknown.
     pub from: Option<String>,
     /// Last day in force, where it has one.
     pub until: Option<String>,
@@ -55,9 +55,9 @@ pub struct RuleResult {
     pub verdict: Verdict,
     /// Why it does not apply or cannot be checked; empty otherwise.
     pub why: String,
-    /// What was measured, beside the limit.
+    /// The measured values, beside the limits.
     pub measured: Vec<Measured>,
-    /// How to mend gear that fails; empty otherwise.
+    /// How to make gear that fails meet it; empty otherwise.
     pub mend: String,
 }
 
@@ -71,7 +71,7 @@ pub struct Measured {
     pub line: String,
     /// The comparison in words, such as `57 ft <= 60 ft`.
     pub says: String,
-    /// The measured value in SI units; none where there is nothing to measure.
+    /// The measured value in SI units; none where there is none.
     pub value: Option<f64>,
     /// The sign between both.
     pub sign: &'static str,
@@ -83,7 +83,7 @@ pub struct Measured {
     pub holds: bool,
 }
 
-/// A verdict before it is told.
+/// A verdict on one part.
 struct Found {
     verdict: Verdict,
     why: String,
@@ -92,7 +92,6 @@ struct Found {
 
 impl Verdict {
     /// In words, for tables.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -110,9 +109,6 @@ impl Found {
 }
 
 /// The verdict of a rule on gear.
-///
-/// # Errors
-/// Mistakes in the rule's expressions, which reading its pack reports too.
 pub(super) fn of(
     (pack, rule): (&RulePack, &Rule),
     gear: &Gear,
@@ -150,7 +146,7 @@ pub(super) fn of(
     })
 }
 
-/// Why a rule does not apply, or why nobody can say whether it does; `None` where it applies.
+/// Why a rule does not apply, or why that is unknown; `None` where it applies.
 fn applies(rule: &Rule, gear: &Gear, fishing: &Fishing, around: &[&str]) -> Option<Found> {
     let not = |why: String| Some(Found::because(Verdict::NotApplicable, why));
     if let Some(from) = rule.from.filter(|from| fishing.on < *from) {
@@ -265,7 +261,9 @@ fn in_doubt(value: Value) -> Found {
         Value::Unknown { why, .. } | Value::Wrong(why) => {
             Found::because(Verdict::CannotBeChecked, why)
         }
-        other => Found::because(Verdict::CannotBeChecked, format!("came to {}", other.noun())),
+        other => {
+            Found::because(Verdict::CannotBeChecked, format!("the check gives {}", other.noun()))
+        }
     }
 }
 

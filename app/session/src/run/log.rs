@@ -1,4 +1,4 @@
-//! What a run has logged of each of its steps, in bounded memory: rows of 64-bit words.
+//! The log of a run, a row of 64-bit words for each step, in bounded memory.
 //!
 //! The newest rows are in memory. When these are [`IN_MEMORY`], they go to a file without a name in the system's folder for
 //! temporary files, which vanishes with the program. Where that cannot be written, rows stay in memory: a run does not end because
@@ -51,10 +51,7 @@ impl<const N: usize> Log<N> {
         self.last
     }
 
-    /// The first rows, all where there are not so many.
-    ///
-    /// # Errors
-    /// Where the older ones cannot be read from the file.
+    /// The first rows, all where there are fewer.
     pub fn first(&self, count: usize) -> io::Result<Vec<[u64; N]>> {
         let mut rows = Vec::with_capacity(count.min(self.len()));
         self.each_piece(&mut |bytes| {
@@ -68,9 +65,6 @@ impl<const N: usize> Log<N> {
     }
 
     /// A log that begins with the first rows of this one; of those in the file it has the same, and writes no more of its own there.
-    ///
-    /// # Errors
-    /// Where the last of them cannot be read from the file.
     pub fn begun(&self, count: usize) -> io::Result<Self> {
         let of_file = self.older.as_ref().map_or(0, |(_, rows)| *rows);
         let older = self.older.as_ref().map(|(file, _)| (Arc::clone(file), of_file.min(count)));
@@ -144,7 +138,7 @@ mod tests {
         [number, number * number, u64::MAX - number]
     }
 
-    /// A log that keeps seven rows in memory, of so many rows.
+    /// A log with seven rows in memory, of this many rows.
     fn log(rows: u64) -> Log<3> {
         let mut log = Log { in_memory: 7, ..Log::new() };
         (0..rows).for_each(|number| log.push(row(number)));

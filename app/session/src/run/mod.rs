@@ -1,9 +1,7 @@
 //! A run: a settled model stepped through time, measured and recorded on the way.
 
 mod log;
-mod moment;
 mod over;
-mod stuck;
 
 use std::io;
 use std::ops::Range;
@@ -12,7 +10,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
-use endline_sim::balance::BalanceSummary;
+use endline_sim::balance::{Balance, BalanceSummary};
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{
     Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle,
@@ -24,9 +22,7 @@ use crate::hash::{PARTS, StateHash};
 use crate::recording::{self, Header, Recording, Rows, words};
 use crate::source::Prepared;
 use crate::timing::{Timing, clock_ns};
-
 use log::Log;
-pub use moment::Moment;
 
 /// How a run is kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,16 +50,13 @@ pub struct Run {
     thinned: u32,
     settled: Arc<Settled>,
     stopped: Option<Stop>,
-    /// Since when every look has found it invalid [s].
+    /// Since when every check has found it invalid [s].
     invalid_since_s: Option<f64>,
     timing: Timing,
 }
 
 impl Run {
     /// Settles the model, where its scenario does not start it as placed, and stands ready for the first step.
-    ///
-    /// # Errors
-    /// Where statics do not converge and `options` do not say to start regardless.
     pub fn new(prepared: Prepared, options: RunOptions) -> Result<Self, Error> {
         let start = Instant::now();
         let model = &prepared.model;
@@ -75,13 +68,11 @@ impl Run {
     }
 
     /// Stands ready for the first step with gear that was settled before: [`Settled::with_whale_of`] of the model.
-    #[must_use]
     pub fn from_settled(prepared: Prepared, options: RunOptions, settled: Arc<Settled>) -> Self {
         Self::from_rest(prepared, options, settled, Duration::ZERO)
     }
 
-    /// The same run at its start again, without settling anew.
-    #[must_use]
+    /// The run at its start again, without settling again.
     pub fn restarted(&self) -> Self {
         Self::from_rest(
             self.prepared.clone(),
@@ -120,9 +111,6 @@ impl Run {
     }
 
     /// Takes one step under these controls, kept within their ranges.
-    ///
-    /// # Errors
-    /// Where the run cannot go on, or has stuck; it then stays where it was, and says so in its summary.
     pub fn step(&mut self, controls: Controls) -> Result<(), Stop> {
         self.step_raw(controls.within_range(self.acts()))?;
         match self.stuck() {
@@ -182,7 +170,6 @@ impl Run {
     }
 
     /// The pilot program's controls for the next step.
-    #[must_use]
     pub fn pilot(&self) -> Controls {
         self.model()
             .spec
@@ -197,13 +184,11 @@ impl Run {
     }
 
     /// Whether the scenario's time is over or the run is stopped.
-    #[must_use]
     pub fn finished(&self) -> bool {
         self.stopped.is_some() || self.state.step >= self.steps_in_all()
     }
 
     /// Steps of the whole scenario.
-    #[must_use]
     pub fn steps_in_all(&self) -> u64 {
         let settings = &self.model().spec.settings;
         // Rounded up, but not for the last bits of a quotient such as 60 / 0.01.
@@ -211,101 +196,83 @@ impl Run {
     }
 
     /// Length of a step [s].
-    #[must_use]
     pub fn step_s(&self) -> f64 {
         self.model().spec.settings.step_s
     }
 
     /// The model.
-    #[must_use]
     pub fn model(&self) -> &Arc<Model> {
         &self.prepared.model
     }
 
-    /// What it was made from.
-    #[must_use]
+    /// The texts that it was made from.
     pub fn prepared(&self) -> &Prepared {
         &self.prepared
     }
 
     /// The state now.
-    #[must_use]
     pub fn state(&self) -> &State {
         &self.state
     }
 
     /// Why it stopped before its end, if it did.
-    #[must_use]
     pub fn stopped(&self) -> Option<&Stop> {
         self.stopped.as_ref()
     }
 
     /// The moment now.
-    #[must_use]
     pub fn frame(&self) -> Arc<Frame> {
         let Workspace { contacts, body_contacts, .. } = &self.workspace;
         Arc::new(Frame::of(&self.state, contacts, body_contacts))
     }
 
-    /// The controls of the first steps, of all where there are not so many.
-    ///
-    /// # Errors
-    /// Where those of a long run cannot be read again.
+    /// The controls of the first steps, of all where there are fewer.
     pub fn inputs(&self, steps: usize) -> Result<Vec<Controls>, Error> {
         let rows = self.inputs.first(steps).map_err(|error| lost(&error))?;
         Ok(rows.into_iter().map(|row| Controls::from_array(row.map(f64::from_bits))).collect())
     }
 
     /// Places where rope presses on skin, at the end of the last step.
-    #[must_use]
     pub fn contacts(&self) -> &[ContactPoint] {
         &self.workspace.contacts
     }
 
     /// The frames kept so far, at the rate asked for.
-    #[must_use]
     pub fn frames(&self) -> &[Arc<Frame>] {
         &self.frames
     }
 
     /// Counters of the solver.
-    #[must_use]
     pub fn audit(&self) -> Audit {
         self.workspace.audit
     }
 
-    /// Momentum and energy of the gear by source, where the model tells them.
-    #[must_use]
+    /// Momentum and energy of the gear by source, where the model computes them.
     pub fn balance(&self) -> Option<BalanceSummary> {
         self.workspace.balance.summary(self.model(), &self.state)
     }
 
     /// How long it took, approach and contact apart.
-    #[must_use]
     pub fn timing(&self) -> &Timing {
         &self.timing
     }
 
-    /// What was measured so far.
-    #[must_use]
+    /// The metrics so far.
     pub fn summary(&self) -> Summary {
         self.metrics.summary(self.model(), &self.state)
     }
 
     /// The metrics as they stand, with their events.
-    #[must_use]
     pub fn metrics(&self) -> &Metrics {
         &self.metrics
     }
 
     /// The gear at rest, from which it started.
-    #[must_use]
     pub fn settled(&self) -> &Settled {
         &self.settled
     }
 
     /// Greatest tension of each line within the last step, or at rest before the first [N].
-    #[must_use]
     pub fn peak_tensions_n(&self) -> Vec<f64> {
         let peaks_n = by_line(self.model(), self.segment_peaks_n());
         let unconverged_n = by_line(self.model(), &self.workspace.unconverged_peak_n);
@@ -313,21 +280,16 @@ impl Run {
     }
 
     /// Greatest tension of each segment in the solver steps of the last step that converged, in the model's layout [N].
-    #[must_use]
     pub fn segment_peaks_n(&self) -> &[f64] {
         if self.state.step == 0 { &self.state.rope.tension } else { &self.workspace.peak_tension_n }
     }
 
     /// Hash of the state now.
-    #[must_use]
     pub fn state_hash(&self) -> StateHash {
         self.hashes.last().map_or_else(StateHash::default, |parts| StateHash { parts })
     }
 
     /// The run so far as a recording, all of it in memory.
-    ///
-    /// # Errors
-    /// Where the steps of a long run cannot be read again.
     pub fn recording(&self) -> Result<Recording, Error> {
         let hashes = self.hashes.first(self.hashes.len()).map_err(|error| lost(&error))?;
         Ok(Recording {
@@ -340,9 +302,6 @@ impl Run {
     }
 
     /// Saves the run so far as a recording, so that a crash leaves the old file whole.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
     pub fn save_recording(&self, path: &Path) -> Result<(), Error> {
         let rows: [&dyn Rows; 2] = [&self.inputs, &self.hashes];
         recording::save_rows(path, &self.header(), &self.prepared.source, rows)
@@ -383,7 +342,7 @@ impl Run {
 
 /// The older steps of a long run are in a file without a name.
 fn lost(error: &io::Error) -> Error {
-    Error::Replay(format!("the steps of the run cannot be read again: {error}"))
+    Error::Message(format!("the steps of the run cannot be read again: {error}"))
 }
 
 /// The parts where they are placed, taken as they are.
@@ -409,4 +368,62 @@ pub(crate) fn by_line(model: &Model, segments: &[f64]) -> Vec<f64> {
         segments.get(own.clone()).unwrap_or_default().iter().copied().fold(0.0, f64::max)
     };
     model.line_segments.iter().map(greatest).collect()
+}
+
+/// The state of a run at the end of a step.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    state: State,
+    metrics: Metrics,
+    audit: Audit,
+    balance: Balance,
+    invalid_since_s: Option<f64>,
+    /// Steps so far.
+    steps: usize,
+}
+
+impl Run {
+    /// This moment.
+    pub fn moment(&self) -> Moment {
+        Moment {
+            state: self.state.clone(),
+            metrics: self.metrics.clone(),
+            audit: self.workspace.audit,
+            balance: self.workspace.balance,
+            invalid_since_s: self.invalid_since_s,
+            steps: self.inputs.len(),
+        }
+    }
+
+    /// The run of another model that had the same states up to a moment of this one; it continues from there.
+    ///
+    /// The models may differ only where it had no effect until then, such as in strengths above every tension so far.
+    pub fn branched(&self, moment: &Moment, prepared: Prepared) -> io::Result<Self> {
+        // A workspace is scratch: a new one changes no bit.
+        let mut workspace = Workspace::new(&prepared.model);
+        workspace.audit = moment.audit;
+        workspace.balance = moment.balance;
+        workspace.lend_clock(clock_ns);
+        Ok(Self {
+            workspace,
+            metrics: moment.metrics.clone(),
+            inputs: self.inputs.begun(moment.steps)?,
+            hashes: self.hashes.begun(moment.steps + 1)?,
+            frames: self.frames_until(moment.steps),
+            thinned: self.thinned,
+            state: moment.state.clone(),
+            settled: Arc::clone(&self.settled),
+            stopped: None,
+            invalid_since_s: moment.invalid_since_s,
+            timing: self.timing,
+            options: self.options,
+            prepared,
+        })
+    }
+
+    /// The frames kept of the first steps.
+    fn frames_until(&self, steps: usize) -> Vec<Arc<Frame>> {
+        let frames = self.frames.iter().take_while(|frame| frame.step <= steps as u64);
+        frames.cloned().collect()
+    }
 }

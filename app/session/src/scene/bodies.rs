@@ -1,4 +1,4 @@
-//! Traps, buoys, anchors and weights.
+//! Traps, buoys, anchors, weights, obstacles and the whale.
 
 use endline_sim::model::{Body, BodyRole, JointKind, PlacedShape, Shape};
 use endline_sim::{DAffine3, Frame, Model};
@@ -11,7 +11,7 @@ use super::mesh::{Colour, Mesh};
 const WIRE_M: f32 = 0.15;
 /// Half edge of a fixture as drawn [m].
 const FIXTURE_M: f32 = 0.15;
-/// The same as a share of its line's length, where that is less.
+/// Half edge of a fixture as a share of the line's length, where that is less.
 const FIXTURE_SHARE: f64 = 0.02;
 
 /// Sides of a round part as drawn.
@@ -34,7 +34,7 @@ pub fn one(body: &Body) -> Mesh {
     mesh
 }
 
-/// A small block wherever a line ends at a fixture, where that end is now.
+/// A small block at each end of a line that is fixed in the world.
 fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
     let held = |joint: usize| {
         matches!(model.spec.joints[joint].kind, JointKind::Fixed | JointKind::Driven { .. })
@@ -50,7 +50,7 @@ fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
     }
 }
 
-/// Every part of a body. What is fixed to a buoy's float, its first part, is of steel.
+/// Every part of a body. All but the first part of a buoy, its float, are of steel.
 fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
     for (index, PlacedShape { shape, middle_m }) in body.parts.iter().enumerate() {
         let pose = &(*pose * DAffine3::from_translation(*middle_m));

@@ -20,7 +20,6 @@ const CIVIDIS: [[u8; 3]; 10] = [
 const LEAST: f64 = 0.6;
 
 /// The colour of a tension, as a share of the scale's top (clamped to 0..1).
-#[must_use]
 pub fn tension_colour(share: f64) -> Colour {
     let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 };
     let place = (LEAST + (1.0 - LEAST) * share) * (CIVIDIS.len() - 1) as f64;
@@ -35,13 +34,11 @@ pub fn tension_colour(share: f64) -> Colour {
 }
 
 /// An opaque colour from its eight-bit parts.
-#[must_use]
 pub const fn rgb(red: u8, green: u8, blue: u8) -> Colour {
     [red as f32 / 255.0, green as f32 / 255.0, blue as f32 / 255.0, 1.0]
 }
 
-/// The same colour with another opacity.
-#[must_use]
+/// The colour with another opacity.
 pub const fn faded(colour: Colour, opacity: f32) -> Colour {
     [colour[0], colour[1], colour[2], opacity]
 }

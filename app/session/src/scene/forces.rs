@@ -12,7 +12,7 @@ const LONGEST_M: f64 = 1.5;
 /// Forces below this share of the greatest have no arrow.
 const LEAST: f64 = 0.02;
 
-/// What presses on skin, by its index in a frame.
+/// The source of a force on skin, by its index in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presser {
     /// Among the contacts of rope.
@@ -24,7 +24,7 @@ pub enum Presser {
 /// A force on skin at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinForce {
-    /// What presses.
+    /// The source.
     pub of: Presser,
     /// Where [m].
     pub place: DVec3,
@@ -35,7 +35,6 @@ pub struct SkinForce {
 impl SkinForce {
     /// Its arrow from tail to tip, the tip at the place, where the greatest force of the frame is so great; `None` where it is too small to
     /// be drawn [m].
-    #[must_use]
     pub fn shaft(&self, greatest_n: f64) -> Option<DVec3> {
         (self.force_n.length() > LEAST * greatest_n)
             .then(|| self.force_n * (LONGEST_M / greatest_n))
@@ -43,7 +42,6 @@ impl SkinForce {
 }
 
 /// Greatest force of rope or a body on skin at one place in a frame [N].
-#[must_use]
 pub fn greatest_n(frame: &Frame) -> f64 {
     on_skin(frame).map(|force| force.force_n.length()).fold(0.0, f64::max)
 }
@@ -61,12 +59,12 @@ pub fn on_skin(frame: &Frame) -> impl Iterator<Item = SkinForce> {
     rope.chain(bodies)
 }
 
-/// The force on skin of what skin pushes so, with such friction; `None` where it does not push.
+/// The force on skin from the normal force and friction of a contact; `None` where there is no normal force.
 fn pressing(of: Presser, place: DVec3, push: DVec3, friction: DVec3) -> Option<SkinForce> {
     (push != DVec3::ZERO).then(|| SkinForce { of, place, force_n: -push - friction })
 }
 
-/// An arrow for each force of rope and bodies on skin, its tip at the contact; its length goes with the force, the greatest of the frame
+/// An arrow for each force of rope and bodies on skin, its tip at the contact; its length is proportional to the force, the greatest of the frame
 /// being 1.5 m. Shafts, and heads.
 pub fn forces(frame: &Frame) -> [Mesh; 2] {
     let [mut shafts, mut heads] = <[Mesh; 2]>::default();

@@ -1,6 +1,6 @@
 //! Ropes as tubes coloured by tension, with their knots.
 //!
-//! Between nodes the tube follows a cubic through them (Hermite, with tangents by finite differences), in as many pieces as it bends.
+//! Between nodes the tube follows a cubic through them (Hermite, with tangents by finite differences), in more pieces where it bends more.
 //! Every node stays where it is.
 
 use endline_sim::{DVec3, Frame, Model};
@@ -38,7 +38,7 @@ pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
     mesh
 }
 
-/// Knots, splices and links as balls on the rope, coloured as it is.
+/// Knots, splices and links as balls on the rope, in its colour.
 fn knots(model: &Model, frame: &Frame, scale_n: f64, mesh: &mut Mesh) {
     for knot in &model.knots {
         let line = model.segment_line[knot.segment];

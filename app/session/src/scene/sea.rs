@@ -3,7 +3,7 @@
 use endline_sim::Model;
 use glam::{DVec3, Vec3};
 
-use super::bounds::Bounds;
+use super::Bounds;
 use super::colour::{CURRENT, SEABED, SURFACE, faded};
 use super::mesh::{Colour, Mesh, single};
 
@@ -36,7 +36,7 @@ pub fn seabed(model: &Model, bounds: &Bounds) -> Mesh {
     })
 }
 
-/// A wide sheet under or over the gear, in patches so that nothing is lost far off.
+/// A wide sheet under or over the gear, in patches, so that far triangles keep their precision.
 fn sheet(bounds: &Bounds, colour: Colour, place: impl Fn(f64, f64) -> DVec3) -> Mesh {
     const PATCHES: i32 = 12;
     let centre = bounds.centre();

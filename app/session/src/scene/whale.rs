@@ -11,7 +11,7 @@ use super::mesh::{Colour, Mesh, single};
 const EYE_RADIUS: f32 = 0.0035;
 const LID_RADIUS: f32 = 0.0055;
 
-/// The skin in its pose, smooth-shaded and tinted as it is marked; and the eyes, which are drawn and touch nothing.
+/// The skin in its pose, smooth-shaded and tinted as it is marked; and the eyes, which have no contact.
 pub fn skin_and_eyes(model: &Model, frame: &Frame) -> [Mesh; 2] {
     let (Some(whale), Some(at)) = (&model.spec.whale, &frame.whale) else {
         return [Mesh::default(), Mesh::default()];
@@ -65,7 +65,7 @@ fn smooth_normals(place: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     normal.into_iter().map(Vec3::normalize_or_zero).collect()
 }
 
-/// A tint for each vertex from what the skin looks like there; its opacity stands for smoothness (see `part.frag`).
+/// A tint for each vertex from the skin's colour there; its opacity is the smoothness (see `part.frag`).
 fn tints(skin: &Skin) -> Vec<Colour> {
     let marked = skin.marks.iter().copied().chain(std::iter::repeat(Mark::Skin));
     marked.take(skin.vertices.len()).map(tint).collect()

@@ -48,10 +48,10 @@ impl Question {
         library: Option<&Path>,
         host: &PluginHost,
     ) -> Result<Self, Error> {
-        let path = locate::named(named, "observations", library).map_err(Error::Replay)?;
+        let path = locate::named(named, "observations", library).map_err(Error::Message)?;
         let text = endline_gear::read::text(&path)
             .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
-        let root = locate::library(Some(&path), library).map_err(Error::Replay)?;
+        let root = locate::library(Some(&path), library).map_err(Error::Message)?;
         Self::of_text(&path, &text, encounters, &root, host)
     }
 
@@ -128,7 +128,7 @@ impl Question {
     /// # Errors
     /// Where its scenario cannot be assembled.
     pub fn scenario(&self, story: &Story) -> Result<(String, Vec<String>), Error> {
-        let failed = |error: EditError| Error::Replay(error.message);
+        let failed = |error: EditError| Error::Message(error.message);
         let prepared = self.encounter(story)?;
         let mut scenario = Document::parse(&prepared.source.scenario).map_err(failed)?;
         let acts = story.acts_in_words();
@@ -168,7 +168,7 @@ fn hash_of(context: &str, texts: &[&str]) -> String {
 fn study_of(observation: &Observation, given: Option<&str>, root: &Path) -> Result<PathBuf, Error> {
     let find = |name: &str| locate::named(name, "studies", Some(root));
     match (given, &observation.encounters) {
-        (Some(given), _) => find(given).map_err(Error::Replay),
+        (Some(given), _) => find(given).map_err(Error::Message),
         (None, Some(named)) => find(&named.value)
             .map_err(|message| Error::Diagnostics(vec![named.place.error(message, "")])),
         (None, None) => {

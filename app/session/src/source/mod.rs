@@ -1,6 +1,5 @@
 //! From files to a model: the scenario, the gear library and the options of a run.
 
-pub(crate) mod assembly;
 #[cfg(test)]
 pub(crate) mod sample;
 
@@ -10,7 +9,8 @@ use std::sync::Arc;
 use endline_gear::limits::{Beyond, STEP, amount};
 use endline_gear::units::Quantity;
 use endline_gear::{
-    Assembled, Diagnostic, Library, Options, Scenario, Sources, StrengthBudget, assemble_traced,
+    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, StrengthBudget,
+    assemble_traced,
 };
 use endline_sdk::Descriptor;
 use endline_sim::Model;
@@ -21,9 +21,7 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::{PluginHost, PluginUsed};
 
-pub use assembly::AssemblyFile;
-
-/// What a user may set for a run over what the scenario says.
+/// Values that a user sets over those of a scenario.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overrides {
     /// Seed.
@@ -39,7 +37,7 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// These, and another's where nothing is set.
+    /// These values, and another's where none is set.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -52,7 +50,7 @@ impl Overrides {
     }
 }
 
-/// Everything a model is made from, as text: what a recording keeps.
+/// All texts that a model is made from, as a recording stores them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     /// The scenario's file as the user named it.
@@ -61,11 +59,11 @@ pub struct Source {
     pub scenario: String,
     /// Text of the files of the gear library; once prepared, of those the model is made from.
     pub library: Sources,
-    /// What was set over the scenario.
+    /// Values set over the scenario's.
     pub overrides: Overrides,
 }
 
-/// A model ready to run, with what it was made from.
+/// A model ready to run, with its sources.
 #[derive(Clone)]
 pub struct Prepared {
     /// The files and options.
@@ -74,15 +72,12 @@ pub struct Prepared {
     pub model: Arc<Model>,
     /// The plugins it runs on.
     pub plugins: Vec<PluginUsed>,
-    /// What its lines and weak links hold, and why.
+    /// The strengths of its lines and weak links, with their factors.
     pub strengths: Arc<[StrengthBudget]>,
 }
 
 /// Reads a scenario, by its file or by its id in the library, and its gear library (found as [`locate::library`] says where `library` is
 /// `None`) and assembles the model.
-///
-/// # Errors
-/// A file that cannot be read, no library, or every located error of the files.
 pub fn prepare(
     scenario: &Path,
     library: Option<&Path>,
@@ -92,10 +87,7 @@ pub fn prepare(
     with_clips(Source::read(scenario, library, overrides)?, host)
 }
 
-/// The same of a scenario that is a text and no file, such as standard input, with the name by which errors and summary call it.
-///
-/// # Errors
-/// No library, or every located error of the texts.
+/// Prepares a scenario that is a text and no file, such as standard input; `name` is its name in errors and in the summary.
 pub fn prepare_text(
     (name, text): (&str, String),
     library: Option<&Path>,
@@ -113,15 +105,12 @@ fn with_clips(mut source: Source, host: &PluginHost) -> Result<Prepared, Error> 
 }
 
 fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, Error> {
-    let root: PathBuf = locate::library(scenario, given).map_err(Error::Replay)?;
+    let root: PathBuf = locate::library(scenario, given).map_err(Error::Message)?;
     Sources::from_folder(&root).map_err(Error::Diagnostics)
 }
 
 impl Source {
     /// Reads the files.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or no library.
     pub fn read(
         scenario: &Path,
         library: Option<&Path>,
@@ -131,7 +120,7 @@ impl Source {
             true => None,
             false => {
                 let id = scenario.to_string_lossy();
-                Some(locate::named(&id, "scenarios", library).map_err(Error::Replay)?)
+                Some(locate::named(&id, "scenarios", library).map_err(Error::Message)?)
             }
         };
         let scenario = by_id.as_deref().unwrap_or(scenario);
@@ -147,17 +136,11 @@ impl Source {
     }
 
     /// Reads the texts and assembles the model.
-    ///
-    /// # Errors
-    /// Every located error of the scenario and of the library items it uses.
     pub fn prepare(self, host: &PluginHost) -> Result<Prepared, Error> {
         self.prepare_with(host, true)
     }
 
-    /// The same for one of many runs, which keeps no balance of momentum and energy unless the scenario asks for it.
-    ///
-    /// # Errors
-    /// As above.
+    /// Prepares one of many runs, without a balance of momentum and energy unless the scenario asks for it.
     pub fn prepare_for_study(self, host: &PluginHost) -> Result<Prepared, Error> {
         self.prepare_with(host, false)
     }
@@ -175,7 +158,6 @@ impl Source {
     }
 
     /// BLAKE3 of everything the model is made from, hexadecimal.
-    #[must_use]
     pub fn hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         let mut text = |text: &str| {
@@ -197,7 +179,7 @@ impl Source {
 }
 
 impl Source {
-    /// The model, the library files it was made from, and what its lines and weak links hold.
+    /// The model, the library files it was made from, and the strengths of its lines and weak links.
     fn model(
         &self,
         host: &PluginHost,
@@ -209,7 +191,7 @@ impl Source {
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
         if let Some(step_s) = step_s {
             let beyond =
-                |beyond: Beyond| Error::Replay(format!("{}; {}", beyond.message, beyond.help));
+                |beyond: Beyond| Error::Message(format!("{}; {}", beyond.message, beyond.help));
             STEP.check("the step asked for", step_s).map_err(beyond)?;
         }
         let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };
@@ -264,4 +246,56 @@ fn file_hash(host: &PluginHost, id: &str) -> String {
         .find(|plugin| plugin.id == id)
         .and_then(|plugin| plugin.hash.clone())
         .unwrap_or_default()
+}
+
+/// The file of an assembly, with the library around it.
+pub struct AssemblyFile {
+    /// Id of the assembly.
+    pub id: String,
+    /// Text of its file.
+    pub text: String,
+    /// The library, this text in it.
+    pub sources: Sources,
+    /// The library's folder.
+    pub root: PathBuf,
+}
+
+impl AssemblyFile {
+    /// Opens an assembly by its id in the library, or by its file.
+    pub fn open(named: &str, library: Option<&Path>) -> Result<Self, Error> {
+        let path = locate::named(named, "assemblies", library).map_err(Error::Message)?;
+        let root = locate::library(Some(&path), library).map_err(Error::Message)?;
+        let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let text = endline_gear::read::text(&path)
+            .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+        let id =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        sources.set(format!("assemblies/{id}.toml"), text.clone());
+        Ok(Self { id, text, sources, root })
+    }
+
+    /// The library read.
+    pub fn library(&self) -> Result<Library, Error> {
+        library_of(&self.id, &self.sources)
+    }
+}
+
+/// A library read whose assembly of this id is without error.
+pub(crate) fn library_of(id: &str, sources: &Sources) -> Result<Library, Error> {
+    let file = format!("assemblies/{id}.toml");
+    let (library, problems) = Library::read(sources);
+    let own: Vec<Diagnostic> =
+        problems.into_iter().filter(|problem| problem.is_error() && problem.file == file).collect();
+    if own.is_empty() { Ok(library) } else { Err(Error::Diagnostics(own)) }
+}
+
+/// The text of a scenario: a head, with settings put into it by field.
+pub(crate) fn written(head: &str, settings: &[(&str, Setting)]) -> Result<String, Error> {
+    let failed =
+        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
+    let mut document = Document::parse(head).map_err(|error| failed(error.to_string()))?;
+    for (field, value) in settings {
+        document.put(field, value).map_err(|error| failed(error.to_string()))?;
+    }
+    Ok(document.text())
 }

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::task::Waker;
 
-use super::preview::{RigAtRest, TrialGear, TrialSea, alone, settled};
+use super::{RigAtRest, TrialGear, TrialSea, alone, settled};
 
 /// One rig in one sea.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub type Answer = Result<Arc<RigAtRest>, String>;
 struct Answered {
     /// Number of the request.
     number: u64,
-    /// Place of the trial in it.
+    /// Index of the trial in it.
     index: usize,
     answer: Answer,
 }
@@ -48,7 +48,7 @@ struct Request {
     trials: Vec<Trial>,
 }
 
-/// Settles rigs in the background. A new request replaces the one under way.
+/// Settles rigs in the background. A new request replaces the one in progress.
 #[derive(Default)]
 pub struct StaticsWorker {
     channels: Option<Channels>,
@@ -60,7 +60,7 @@ pub struct StaticsWorker {
 }
 
 impl StaticsWorker {
-    /// Requests trials in the sea of a scenario's text; those under way are dropped.
+    /// Requests trials in the sea of a scenario's text; those in progress are dropped.
     pub fn ask(
         &mut self,
         scenario: &str,
@@ -96,7 +96,7 @@ impl StaticsWorker {
         }
     }
 
-    /// Drops the request under way; answers that are there stay.
+    /// Drops the request in progress; existing answers stay.
     pub fn cancel(&mut self) {
         self.number += 1;
         if let Some(channels) = &self.channels {
@@ -121,21 +121,18 @@ impl StaticsWorker {
         }
     }
 
-    /// Rest of a trial: of the newest request, or the last one of the same gear while that is under way or comes to no rest.
-    #[must_use]
+    /// Rest of a trial: of the newest request, or the last one of the same gear while that is in progress or finds no rest.
     pub fn rest(&self, index: usize) -> Option<&Arc<RigAtRest>> {
         let now = self.newest(index).and_then(|answer| answer.as_ref().ok());
         now.or_else(|| self.last.get(index).and_then(Option::as_ref))
     }
 
     /// Answer of a trial of the newest request alone.
-    #[must_use]
     pub fn newest(&self, index: usize) -> Option<&Answer> {
         self.answers.get(index).and_then(Option::as_ref)
     }
 
     /// How many trials are answered, and how many were requested.
-    #[must_use]
     pub fn progress(&self) -> (usize, usize) {
         (self.answers.iter().flatten().count(), self.answers.len())
     }
@@ -149,7 +146,7 @@ fn open(host: Arc<PluginHost>, waker: Waker) -> Option<Channels> {
     Some(Channels { requests: sender, answers })
 }
 
-/// Settles what is requested until the worker is dropped.
+/// Settles the requests until the worker is dropped.
 fn work(
     requests: &Receiver<Request>,
     answers: &Sender<Answered>,

@@ -48,7 +48,7 @@ impl OptionPlan {
         let (mut scenario, mut sources) = (self.scenario.clone(), self.sources.clone());
         put_drawn(&mut scenario, &mut sources, drawn, &self.own)?;
         let fault =
-            |error: EditError| Error::Replay(format!("option `{}`: {}", self.id, error.message));
+            |error: EditError| Error::Message(format!("option `{}`: {}", self.id, error.message));
         for field in self.removes.iter().filter(|field| is_wanted(field)) {
             scenario.remove(field).map_err(fault)?;
         }
@@ -82,7 +82,7 @@ impl Base<'_> {
     /// The plan of an option, checked by assembling it.
     pub fn option(&self, option: &StudyOption) -> Result<OptionPlan, Error> {
         let scenario = Document::parse(&self.text)
-            .map_err(|error| Error::Replay(format!("{}: {}", self.name, error.message)))?;
+            .map_err(|error| Error::Message(format!("{}: {}", self.name, error.message)))?;
         let mut sources = self.sources.clone();
         let mut edited = scenario.clone();
         self.put(option, &mut edited, &mut sources)?;

@@ -53,7 +53,7 @@ impl PreparedStudy {
     }
 
     fn of_encounter(&self, plan: &OptionPlan, encounter: &Encounter, error: Error) -> Error {
-        Error::Replay(format!(
+        Error::Message(format!(
             "{}: encounter {}, option `{}`: {error}",
             self.study.place.source.path, encounter.index, plan.id
         ))
@@ -66,7 +66,7 @@ impl PreparedStudy {
         encounter: &Encounter,
         scenario: &mut Document,
     ) -> Result<(), Error> {
-        let fault = |error: EditError| Error::Replay(error.message);
+        let fault = |error: EditError| Error::Message(error.message);
         scenario
             .put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))
             .map_err(fault)?;
@@ -150,7 +150,7 @@ impl PreparedStudy {
             found => found?,
         };
         rope_at(&gear.model, &gear.settled.state, &lines, depth_m).ok_or_else(|| {
-            Error::Replay(
+            Error::Message(
                 "the gear has no rope to aim at; name lines in `aim` of [encounter]".into(),
             )
         })
@@ -162,7 +162,7 @@ impl PreparedStudy {
 /// # Errors
 /// Where the scenario cannot be assembled.
 pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Result<Prepared, Error> {
-    let failed = |error: EditError| Error::Replay(error.message);
+    let failed = |error: EditError| Error::Message(error.message);
     let mut source = (*prepared.source).clone();
     let mut scenario = Document::parse(&source.scenario).map_err(failed)?;
     scenario.put("duration", &Setting::text(&format!("{end_s} s"))).map_err(failed)?;
@@ -185,7 +185,7 @@ impl PreparedStudy {
 
 /// The scenario with twice the nodes, half the lengths and half the steps.
 fn finer(prepared: &Prepared) -> Result<String, Error> {
-    let fault = |error: EditError| Error::Replay(error.message);
+    let fault = |error: EditError| Error::Message(error.message);
     let mut scenario = Document::parse(&prepared.source.scenario).map_err(fault)?;
     for (field, quantity) in HALVED {
         if let Some(now) = value(&scenario, field, quantity) {

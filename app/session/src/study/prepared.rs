@@ -70,7 +70,7 @@ impl PreparedStudy {
         library: Option<&Path>,
         host: &PluginHost,
     ) -> Result<Self, Error> {
-        let root = locate::library(Some(path), library).map_err(Error::Replay)?;
+        let root = locate::library(Some(path), library).map_err(Error::Message)?;
         let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
         Self::of_sources(text, path, Files { root, sources, scenario: None }, host)
     }
@@ -144,7 +144,7 @@ impl PreparedStudy {
         let known = || self.options.iter().map(|option| option.id.as_str());
         let found = known().position(|known| known == id);
         found.ok_or_else(|| {
-            Error::Replay(format!(
+            Error::Message(format!(
                 "{}: there is no option `{id}`; {}",
                 self.study.place.source.path,
                 hint(id, known())

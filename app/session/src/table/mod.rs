@@ -113,7 +113,6 @@ impl Column {
     }
 
     /// Number of values.
-    #[must_use]
     pub fn len(&self) -> usize {
         match self {
             Self::Whole(values) => values.len(),
@@ -124,7 +123,6 @@ impl Column {
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -136,7 +134,6 @@ impl Column {
     }
 
     /// A value as written in a CSV file: nothing where there is none.
-    #[must_use]
     pub fn written(&self, row: usize) -> String {
         match self {
             Self::Whole(values) => values[row].to_string(),
@@ -158,9 +155,6 @@ fn quoted(text: &str) -> String {
 
 impl Table {
     /// Rows as columns.
-    ///
-    /// # Errors
-    /// A row whose names or kinds are not those of the first.
     pub fn of(rows: Vec<Row>) -> Result<Self, WrongCell> {
         let mut table = Self::default();
         for row in rows {
@@ -171,21 +165,16 @@ impl Table {
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |(_, column)| column.len())
     }
 
     /// A column by name.
-    #[must_use]
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
     }
 
     /// Adds the rows of another table.
-    ///
-    /// # Errors
-    /// A table whose columns have other names or kinds.
     pub fn append(&mut self, other: Self) -> Result<(), WrongCell> {
         if self.columns.is_empty() {
             *self = other;
@@ -210,7 +199,6 @@ impl Table {
     }
 
     /// The table as comma-separated values with a line of names.
-    #[must_use]
     pub fn csv(&self) -> String {
         let names: Vec<String> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         let mut text = names.join(",") + "\n";

@@ -45,9 +45,6 @@ pub(crate) fn seal(bytes: &mut [u8]) {
 }
 
 /// Whether bytes are those that were sealed.
-///
-/// # Errors
-/// Why they are not.
 pub(crate) fn checked(bytes: &[u8]) -> Result<(), Broken> {
     let digits = digits_of(bytes).ok_or(Broken::None)?;
     let is_own = hash_of(bytes, digits.clone()).as_bytes() == &bytes[digits];

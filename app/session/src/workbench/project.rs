@@ -12,7 +12,7 @@ use crate::edit::bundled::OwnCopy;
 use crate::edit::recovery::{Autosave, UnsavedEdits};
 use crate::edit::saving::Keep;
 use crate::edit::{Documents, library_table, pilot_program};
-use crate::rules::mend::{Asked, usual_inserts, usual_inserts_of_own};
+use crate::rules::remedy::{Asked, usual_inserts, usual_inserts_of_own};
 use crate::statics::TrialGear;
 use crate::study::Files;
 

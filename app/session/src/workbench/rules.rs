@@ -14,7 +14,7 @@ use super::notice::Notice;
 use crate::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S};
 use crate::edit::Documents;
 use crate::plugins::PluginHost;
-use crate::rules::mend::{self, Asked, Mends, Proposal};
+use crate::rules::remedy::{self, Asked, Proposal, Remedies};
 use crate::rules::study::{self, USUAL_LIKE};
 use crate::rules::{Fishing, Packs, RuleSheet};
 use crate::save;
@@ -68,7 +68,7 @@ pub struct RuleAnswer {
     /// Verdicts on every rule.
     pub sheet: RuleSheet,
     /// Edits by which the assembly would comply; none while they are tried.
-    pub mends: Option<Mends>,
+    pub remedies: Option<Remedies>,
     given: Given,
 }
 
@@ -108,7 +108,7 @@ pub struct RuleChecks {
     /// The scenario that was open when it was asked last.
     scenario: Option<PathBuf>,
     checking: Task<Checked>,
-    mending: Task<Result<Mends, String>>,
+    finding_remedies: Task<Result<Remedies, String>>,
     comparing: Task<Result<String, String>>,
     sheet: Option<WrittenSheet>,
     writing: Task<Result<WrittenSheet, String>>,
@@ -118,7 +118,7 @@ impl RuleChecks {
     /// Whether verdicts or edits are being found.
     #[must_use]
     pub fn busy(&self) -> bool {
-        self.checking.busy() || self.mending.busy()
+        self.checking.busy() || self.finding_remedies.busy()
     }
 
     /// Whether a study is being made.
@@ -141,10 +141,10 @@ impl RuleChecks {
 
     /// A proposal by its place among all, or all edits together.
     fn proposal(&self, number: Option<usize>) -> Option<&Proposal> {
-        let mends = self.answer.as_ref()?.mends.as_ref()?;
+        let remedies = self.answer.as_ref()?.remedies.as_ref()?;
         match number {
-            Some(number) => mends.numbered().nth(number).map(|(_, edit)| edit),
-            None => mends.all.as_ref(),
+            Some(number) => remedies.numbered().nth(number).map(|(_, edit)| edit),
+            None => remedies.all.as_ref(),
         }
     }
 }
@@ -192,9 +192,9 @@ impl Workbench {
             let question = with_area(question, &packs);
             let fishing = fishing(&question)?;
             let given = Given { text, sources, fishing };
-            let sheet = mend::checked(given.asked(&question), &packs, &given.fishing, &host);
+            let sheet = remedy::checked(given.asked(&question), &packs, &given.fishing, &host);
             let sheet = sheet.map_err(|error| error.to_string())?;
-            Ok((packs, RuleAnswer { question, version, sheet, mends: None, given }))
+            Ok((packs, RuleAnswer { question, version, sheet, remedies: None, given }))
         };
         let started = self.rules.checking.start("endline-rules", work, waker);
         started.map_err(|error| error.to_string())
@@ -205,13 +205,13 @@ impl Workbench {
         if let Some(checked) = self.rules.checking.poll() {
             self.take_verdicts(checked.unwrap_or_else(|Fault| Err(fault("the check"))));
         }
-        if let Some(mends) = self.rules.mending.poll() {
-            match mends.unwrap_or_else(|Fault| Err(fault("looking for edits"))) {
-                Ok(mends) => {
+        if let Some(remedies) = self.rules.finding_remedies.poll() {
+            match remedies.unwrap_or_else(|Fault| Err(fault("looking for edits"))) {
+                Ok(remedies) => {
                     self.rules
                         .answer
                         .iter_mut()
-                        .for_each(|answer| answer.mends = Some(mends.clone()));
+                        .for_each(|answer| answer.remedies = Some(remedies.clone()));
                 }
                 Err(why) => self.rules.why = why,
             }
@@ -281,10 +281,10 @@ impl Workbench {
         let (given, question) = (answer.given.clone(), answer.question.clone());
         checks.answer = Some(answer);
         let work = move || {
-            let mends = mend::mends(given.asked(&question), &packs, &given.fishing, &host);
-            mends.map_err(|error| error.to_string())
+            let remedies = remedy::remedies(given.asked(&question), &packs, &given.fishing, &host);
+            remedies.map_err(|error| error.to_string())
         };
-        if let Err(error) = checks.mending.start("endline-mends", work, waker) {
+        if let Err(error) = checks.finding_remedies.start("endline-remedies", work, waker) {
             checks.why = error.to_string();
         }
     }
@@ -305,7 +305,7 @@ impl Workbench {
         Ok(())
     }
 
-    /// Makes a study of the assembly mended for each of several rules. The study is written to a new file; nothing else is saved.
+    /// Makes a study of the assembly edited for each of several rules. The study is written to a new file; nothing else is saved.
     pub(crate) fn compare_rules(&mut self, rules: Vec<String>) -> Result<(), String> {
         let answer = self.rules.answer.as_ref().ok_or("no assembly was checked")?;
         let (question, given) = (answer.question.clone(), answer.given.clone());

@@ -8,7 +8,7 @@ use endline_session::plugins::{Language, PluginKind};
 
 use super::haul::HaulArgs;
 use super::mill::MillArgs;
-use super::output::Told;
+use super::output::Verbosity;
 use super::quantity::{body_length, force, step, time};
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
@@ -34,21 +34,21 @@ pub struct Args {
     /// Allow all plugin libraries that are new or have changed; `plugins allow` does so one by one.
     #[arg(long, global = true)]
     pub(super) allow_plugins: bool,
-    /// Tell nothing on standard error but what went wrong.
+    /// Print errors alone on standard error.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Tell also which gear library and which plugins are used.
+    /// Print also which gear library and which plugins are used.
     #[arg(long, short, global = true)]
     verbose: bool,
 }
 
 impl Args {
-    /// How much is told on standard error.
-    pub(super) fn told(&self) -> Told {
+    /// What is printed on standard error.
+    pub(super) fn verbosity(&self) -> Verbosity {
         match (self.quiet, self.verbose) {
-            (true, _) => Told::Errors,
-            (_, true) => Told::Details,
-            _ => Told::Notes,
+            (true, _) => Verbosity::Errors,
+            (_, true) => Verbosity::Details,
+            _ => Verbosity::Notes,
         }
     }
 }
@@ -74,7 +74,7 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: StudyCommand,
     },
-    /// Search for encounters that end like what was seen on a real whale.
+    /// Search for encounters that end like an observation of a real whale.
     Search(SearchArgs),
     /// Check files or folders of gear and report every problem.
     Check(CheckArgs),
@@ -83,11 +83,11 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: RulesCommand,
     },
-    /// Haul an assembly from a boat: loads, what comes nearest to parting, and the probability that it parts.
+    /// Haul an assembly from a boat: loads, the part nearest to parting, and the probability that it parts.
     Haul(HaulArgs),
     /// Write one page on a gear for a hearing: its shape, rules, strength and threat.
     Sheet(SheetArgs),
-    /// Tell the law of strength behind a mill's breaks, and the probability that the product is approved.
+    /// Estimate the strength law of a product from a mill's breaks, and the probability that the product is approved.
     Mill(MillArgs),
     /// Write a whale's mesh to a file for other programs, such as Blender.
     Whale {
@@ -104,7 +104,7 @@ pub(super) enum Command {
         /// Document, such as physics.
         document: Option<String>,
     },
-    /// Print the script by which a shell completes the arguments of this program.
+    /// Print the script for a shell that completes the arguments of this program.
     Completions {
         /// Shell that it is for.
         shell: clap_complete::Shell,
@@ -132,7 +132,7 @@ pub(super) struct RunArgs {
     /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
-    /// End the run once nothing more can happen that counts: no touch within 30 s, gear shed, or 30 s of entanglement.
+    /// End the run once its outcome is decided: no touch within 30 s, gear shed, or 30 s of entanglement.
     #[arg(long)]
     pub(super) until_over: bool,
     /// Start the run even if statics finds no rest position of the gear.

@@ -24,7 +24,7 @@ pub(super) fn check(args: &CheckArgs, library: Option<&Path>) -> Result<ExitCode
         problems.extend(checked.problems);
     }
     let errors = problems.iter().filter(|problem| problem.is_error()).count();
-    output::print(&told(&paths, files, &problems, errors))?;
+    output::print(&words(&paths, files, &problems, errors))?;
     if errors == 0 {
         Ok(ExitCode::SUCCESS)
     } else {
@@ -32,7 +32,7 @@ pub(super) fn check(args: &CheckArgs, library: Option<&Path>) -> Result<ExitCode
     }
 }
 
-fn told(paths: &[PathBuf], files: usize, problems: &[Diagnostic], errors: usize) -> String {
+fn words(paths: &[PathBuf], files: usize, problems: &[Diagnostic], errors: usize) -> String {
     let mut text: String = problems.iter().map(|problem| format!("{problem}\n\n")).collect();
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
     text += &format!(

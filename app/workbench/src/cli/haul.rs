@@ -1,12 +1,12 @@
-//! `endline haul`: whether gear can be hauled, and what it takes.
+//! `endline haul`: whether gear can be hauled, and the loads.
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use endline_session::haul::sheet::Place;
-use endline_session::haul::sweep::sweep;
+use endline_session::haul::sheet::sweep;
 use endline_session::haul::{HaulRequest, HaulSheet, Stage, Sweep, SweepRow, haul};
-use endline_session::units::N_PER_LBF;
+use endline_session::units::newtons_and_lbf;
 use endline_sim::DVec3;
 use endline_sim::haul::Hauling;
 
@@ -64,7 +64,7 @@ pub(super) struct HaulArgs {
     /// Buoy at which to begin [default: the first].
     #[arg(long, value_name = "ID")]
     buoy: Option<String>,
-    /// Stop once so many traps are aboard; 0 for all.
+    /// Number of traps aboard at which the haul ends; 0 for all.
     #[arg(long, value_name = "N", default_value_t = 10)]
     aboard: usize,
     /// Longest segment of rope [default: a fortieth of the depth, from 0.5 m to 2 m].
@@ -251,7 +251,7 @@ fn table(rows: &[SweepRow]) -> String {
 }
 
 fn force(newtons: f64) -> String {
-    format!("{newtons:.0} N ({:.0} lbf)", newtons / N_PER_LBF)
+    newtons_and_lbf(newtons, 0)
 }
 
 fn probability(share: f64) -> String {

@@ -9,7 +9,7 @@ use endline_session::{PluginHost, load_with};
 use super::output;
 use crate::embedded;
 
-/// Whether the command line allows what is new or has changed.
+/// Whether the command line allows new and changed plugins.
 static ALLOW: OnceLock<bool> = OnceLock::new();
 
 /// Says once, before anything is loaded, whether libraries that are new or have changed are allowed.
@@ -18,12 +18,12 @@ pub(super) fn allow(allowed: bool) {
     let _ = ALLOW.set(allowed);
 }
 
-/// Loads the plugins; those that fail or were not allowed are told on standard error and left out.
+/// Loads the plugins; those that fail or were not allowed are reported on standard error and left out.
 pub(super) fn load() -> PluginHost {
     load_told().0
 }
 
-/// The same, with what was told.
+/// Loads the plugins, and returns the problems too.
 pub(super) fn load_told() -> (PluginHost, Vec<PluginProblem>) {
     let mut loader = loader();
     let (mut host, mut problems) = load_with(&mut loader);

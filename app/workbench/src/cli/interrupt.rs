@@ -13,7 +13,7 @@ use signal_hook::flag;
 
 use super::output;
 
-/// What a user, a terminal or a batch system sends to end a program.
+/// Signals by which a user, a terminal or a batch system ends a program.
 #[cfg(unix)]
 const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
@@ -22,7 +22,7 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 /// The number of SIGHUP on every Unix: `nohup` has a program ignore it, and it then stays ignored.
 const HANGUP: i32 = 1;
 
-/// How often a command that waits on other threads looks [ms].
+/// Interval at which a command that waits for other threads polls [ms].
 const LOOK_MS: u64 = 50;
 
 /// A watch for interrupts.
@@ -95,7 +95,7 @@ fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
-/// The command line of this program, as a shell takes it, with other values of some options.
+/// The command line of this program, quoted for a shell, with other values of some options.
 pub(super) fn command_line(options: &[(&str, &str)]) -> String {
     with_options(std::env::args(), options)
 }
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_goes_on_from_another_recording_and_is_otherwise_the_same() {
+    fn the_command_continues_from_another_recording_and_is_otherwise_the_same() {
         let line = |words: &[&str], options: &[(&str, &str)]| {
             with_options(words.iter().map(|word| (*word).to_owned()), options)
         };

@@ -1,4 +1,4 @@
-//! `endline mill`: what ten breaks say of a weak rope or link.
+//! `endline mill`: the strength law of a weak rope or link from a mill's breaks.
 
 use std::fs;
 use std::path::PathBuf;

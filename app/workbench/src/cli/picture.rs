@@ -1,19 +1,23 @@
-//! Pictures of frames; a build without the feature `scene` says that it draws none.
+//! Pictures of frames and films; a build without the feature `scene` refuses them.
 
 use std::path::Path;
+use std::process::ExitCode;
 use std::sync::Arc;
 
 #[cfg(feature = "scene")]
 use endline_session::scene::{Scene, Show};
 #[cfg(feature = "scene")]
 use endline_session::units::Units;
-use endline_session::{Report, Run};
+use endline_session::{Report, Run, export};
 use endline_sim::{DVec3, Frame, Model};
 
+use super::args::RenderArgs;
+use super::interrupt::Interrupt;
+use super::output::Progress;
+use super::player::Player;
+use super::{Failure, output};
 #[cfg(feature = "scene")]
 use crate::scene;
-
-use super::output;
 
 /// Refuses a view that does not exist, before anything is run.
 #[cfg(feature = "scene")]
@@ -29,7 +33,7 @@ pub(super) fn check_view(view: &str, film: bool) -> Result<(), String> {
     }
 }
 
-/// A build that draws nothing refuses every view.
+/// A build without drawing refuses every view.
 #[cfg(not(feature = "scene"))]
 pub(super) fn check_view(_view: &str, _film: bool) -> Result<(), String> {
     Err(NO_SCENE.into())
@@ -73,7 +77,7 @@ pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), 
     })
 }
 
-/// A build that draws nothing says so.
+/// A build without drawing refuses.
 #[cfg(not(feature = "scene"))]
 pub(super) fn draw(_model: &Model, _frame: &Frame, _shot: &Shot<'_>) -> Result<(), String> {
     Err(NO_SCENE.into())
@@ -85,7 +89,7 @@ pub(super) fn is_film(out: &Path) -> bool {
     scene::film::Film::is_named(out)
 }
 
-/// A build that draws nothing makes no films; the picture that is tried instead says so.
+/// A build without drawing makes no films; the picture that is tried instead is refused.
 #[cfg(not(feature = "scene"))]
 pub(super) fn is_film(_out: &Path) -> bool {
     false
@@ -94,17 +98,17 @@ pub(super) fn is_film(_out: &Path) -> bool {
 /// A film file that is begun.
 #[cfg(feature = "scene")]
 pub(super) type Begun = scene::film::Film;
-/// None is ever begun in a build that draws nothing.
+/// A build without drawing begins none.
 #[cfg(not(feature = "scene"))]
 pub(super) type Begun = std::convert::Infallible;
 
-/// Begins a film file, before anything is run: what is wrong with it is told at once.
+/// Begins a film file before the run, so that a bad path is reported at once.
 #[cfg(feature = "scene")]
 pub(super) fn begin_film(out: &Path, size: [u32; 2], fps: u32) -> Result<Begun, String> {
     scene::film::Film::begin(out, size, fps)
 }
 
-/// A build that draws nothing says so.
+/// A build without drawing refuses.
 #[cfg(not(feature = "scene"))]
 pub(super) fn begin_film(_out: &Path, _size: [u32; 2], _fps: u32) -> Result<Begun, String> {
     Err(NO_SCENE.into())
@@ -124,12 +128,12 @@ pub(super) struct Reel<'a> {
     pub caption: &'a str,
 }
 
-/// Draws a film; `go_on` hears of each picture and ends the film there where it answers `false`. Answers how many there are.
+/// Draws a film; `each` receives the number of each picture and ends the film by returning `false`. Returns the number of pictures.
 #[cfg(feature = "scene")]
 pub(super) fn film(
     film: Begun,
     reel: &Reel<'_>,
-    go_on: impl Fn(usize) -> bool,
+    each: impl Fn(usize) -> bool,
 ) -> Result<usize, String> {
     let path = scene::CameraPath::read(reel.view)?;
     // A view of everything holds all that is to come, so that nothing jumps that did not move.
@@ -152,20 +156,20 @@ pub(super) fn film(
         caption: reel.caption,
         units: Units::Mixed,
     };
-    drawing.draw(film, go_on)
+    drawing.draw(film, each)
 }
 
-/// A build that draws nothing says so.
+/// A build without drawing refuses.
 #[cfg(not(feature = "scene"))]
 pub(super) fn film(
     film: Begun,
     _reel: &Reel<'_>,
-    _go_on: impl Fn(usize) -> bool,
+    _each: impl Fn(usize) -> bool,
 ) -> Result<usize, String> {
     match film {}
 }
 
-/// What a picture says besides its time: the scenario's name without its folder.
+/// Caption of a picture beside its time: the scenario's name without its folder.
 pub(super) fn caption(scenario: &str) -> String {
     Path::new(scenario)
         .file_stem()
@@ -186,4 +190,61 @@ pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
     if let Err(reason) = draw(run.model(), frame, &shot) {
         output::warn(&format!("no picture: {reason}"));
     }
+}
+
+/// Pictures of a film at most: they are kept until the greatest tension is known, by which rope is coloured.
+const MOST: usize = 4000;
+
+/// Runs a stretch, and writes it as an animated 3-D model.
+pub(super) fn animate(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let interrupt = Interrupt::watch();
+    let mut player = Player::open(&args.file, args.other_plugins, library)?;
+    let times = times(args, &player)?;
+    let frames = player.frames(&times, &interrupt)?;
+    let step_s = 1.0 / f64::from(args.fps);
+    export::animation(&args.out, player.run.model(), &frames, step_s).map_err(Failure::failed)?;
+    Ok(interrupt.exit_code().unwrap_or(ExitCode::SUCCESS))
+}
+
+/// Runs the stretch of a film, then draws it.
+pub(super) fn render_film(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let interrupt = Interrupt::watch();
+    let mut player = Player::open(&args.file, args.other_plugins, library)?;
+    let times = times(args, &player)?;
+    let begun = begin_film(&args.out, args.size, args.fps).map_err(Failure::failed)?;
+    let frames = player.frames(&times, &interrupt)?;
+    let caption = caption(&player.scenario);
+    let reel = Reel {
+        model: player.run.model(),
+        frames: &frames,
+        view: &args.view,
+        size: args.size,
+        caption: &caption,
+    };
+    let progress = Progress::new("drawing");
+    let drawn = film(begun, &reel, |done| {
+        progress.at(done as u64, frames.len() as u64);
+        !interrupt.is_asked()
+    });
+    let drawn = drawn.map_err(Failure::failed)?;
+    if drawn < times.len() {
+        output::note(&format!(
+            "{}: {drawn} of {} pictures; the film ends there",
+            args.out.display(),
+            times.len()
+        ));
+    }
+    Ok(interrupt.exit_code().unwrap_or(ExitCode::SUCCESS))
+}
+
+/// The moments that are drawn [s].
+fn times(args: &RenderArgs, player: &Player) -> Result<Vec<f64>, Failure> {
+    let times = player.times(args.from, args.to, args.fps)?;
+    if times.len() > MOST {
+        return Err(Failure::usage(format!(
+            "{} pictures are more than the {MOST} that a film may have; ask for fewer with --fps, --from or --to",
+            times.len()
+        )));
+    }
+    Ok(times)
 }

@@ -1,18 +1,20 @@
-//! A recording, or a scenario, run again to look at its moments.
+//! A scenario opened, or a recording or scenario run again for its moments.
 
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
 use endline_sdk::Controls;
-use endline_session::locate;
 use endline_session::recording::replay::{self, ReplayOptions};
-use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
+use endline_session::{
+    Overrides, PluginHost, Prepared, Recording, Run, RunOptions, locate, prepare, prepare_text,
+};
 use endline_sim::Frame;
 
 use super::interrupt::Interrupt;
-use super::progress::Progress;
+use super::output::{Progress, Verbosity};
 use super::replay::tell_version;
-use super::{Failure, host};
+use super::{Failure, host, output};
 
 /// A run that is played again.
 pub(super) struct Player {
@@ -26,9 +28,6 @@ pub(super) struct Player {
 
 impl Player {
     /// Opens a recording or a scenario.
-    ///
-    /// # Errors
-    /// A file that cannot be read or run; plugins that differ from those recorded, unless others are accepted.
     pub(super) fn open(
         file: &Path,
         other_plugins: bool,
@@ -50,10 +49,7 @@ impl Player {
         Ok(Self { run, inputs: Some(recording.inputs), scenario, end_s })
     }
 
-    /// Moments of a stretch of the run, so many a second [s].
-    ///
-    /// # Errors
-    /// A stretch that is none of this run.
+    /// Moments of a stretch of the run, `each_s` a second [s].
     pub(super) fn times(
         &self,
         from: Option<f64>,
@@ -100,4 +96,26 @@ impl Player {
         };
         controls.is_some_and(|controls| self.run.step(controls).is_ok())
     }
+}
+
+/// Prepares the scenario that the command line names.
+pub(super) fn prepared(
+    named: &Path,
+    library: Option<&Path>,
+    host: &PluginHost,
+    over: Overrides,
+) -> Result<Prepared, Failure> {
+    let is_stream = named == Path::new("-");
+    if output::is_shown(Verbosity::Details) {
+        let file = named.is_file().then_some(named);
+        if let Ok(folder) = locate::library(file, library) {
+            output::detail(&format!("gear library: {}", folder.display()));
+        }
+    }
+    if !is_stream {
+        return Ok(prepare(named, library, host, over)?);
+    }
+    let text = endline_gear::read::stream(io::stdin().lock())
+        .map_err(|error| Failure::failed(format!("standard input cannot be read: {error}")))?;
+    Ok(prepare_text(("standard input", text), library, host, over)?)
 }

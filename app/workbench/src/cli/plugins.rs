@@ -1,4 +1,4 @@
-//! `endline plugins`: what is loaded, a check of one file, what is allowed and switched on, a new project.
+//! `endline plugins`: list, check, permissions, switches, a new project.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -39,14 +39,14 @@ pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
     }
 }
 
-/// Every plugin found, and what was left out; why is told on standard error as it is found.
+/// Every plugin found, and those left out; the reasons are printed on standard error.
 fn list() -> Result<ExitCode, Failure> {
     let (host, problems) = host::load_told();
     let folders: Vec<String> =
         host::folders().iter().map(|folder| folder.display().to_string()).collect();
-    let mut text: String = host.list().iter().map(told).collect();
+    let mut text: String = host.list().iter().map(words).collect();
     if text.is_empty() {
-        text = format!("no plugins found; looked in {}\n", folders.join(", "));
+        text = format!("no plugins found; searched in {}\n", folders.join(", "));
     }
     text.extend(
         host.switched_off()
@@ -116,7 +116,7 @@ fn switch(id: &str, on: bool) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Has a file tried in a child process, and tells what it found.
+/// Checks a file in a child process, and prints its findings.
 fn check(file: &Path) -> Result<ExitCode, Failure> {
     let program = std::env::current_exe()
         .map_err(|error| Failure::failed(format!("cannot find this program: {error}")))?;
@@ -150,7 +150,7 @@ fn serve() -> Result<ExitCode, Failure> {
     Err(Failure::failed("on this system plugins run in the program's own process".to_owned()))
 }
 
-/// Writes a project and says how to go on.
+/// Writes a project and prints the next steps.
 fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
     let (kind, language) = (args.kind.into(), args.lang.into());
     let usual = || PathBuf::from(format!("my-{}", args.kind.word()));
@@ -174,7 +174,7 @@ fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn told(info: &PluginInfo) -> String {
+fn words(info: &PluginInfo) -> String {
     let place = info
         .file
         .as_ref()

@@ -4,23 +4,22 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use endline_session::locate;
 use endline_session::recording::replay::{self, ReplayOptions};
-use endline_session::{Overrides, Recording, Run, RunOptions, prepare};
+use endline_session::{Overrides, Recording, Run, RunOptions, locate, prepare};
 use endline_sim::{Frame, Model};
 
 use super::args::RenderArgs;
 use super::replay::tell_version;
-use super::{Failure, film, host, output, picture};
+use super::{Failure, host, output, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     picture::check_view(&args.view, picture::is_film(&args.out)).map_err(Failure::usage)?;
     output::not_its_own_input(&args.file, &args.out)?;
     if picture::is_film(&args.out) {
-        return film::film(args, library);
+        return picture::render_film(args, library);
     }
     if args.out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) {
-        return film::animate(args, library);
+        return picture::animate(args, library);
     }
     if args.from.is_some() || args.to.is_some() {
         return Err(Failure::usage(format!(
@@ -37,7 +36,7 @@ pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCo
     Ok(ExitCode::SUCCESS)
 }
 
-/// What is drawn.
+/// The content of a picture.
 struct Moment {
     model: Arc<Model>,
     frame: Arc<Frame>,

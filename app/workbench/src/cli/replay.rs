@@ -1,20 +1,21 @@
-//! `endline replay`: run a recording again; with `--verify` compare every step.
+//! `endline replay`: run a recording again; with `--verify` compare every step. `endline pilot`: a recording as a pilot program.
 
 use std::process::ExitCode;
 
+use endline_session::recording::program::program;
 use endline_session::recording::replay::{self, ReplayOptions, Verdict};
 use endline_session::{Recording, Report, Run};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::args::ReplayArgs;
-use super::progress::Progress;
+use super::args::{PilotArgs, ReplayArgs};
+use super::output::Progress;
 use super::{Failure, host, output, table};
 
 /// Name and version of the JSON form.
 pub(super) const SCHEMA: &str = "endline.replay/1";
 
-/// What `--json` prints.
+/// The JSON of the command.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct ReplayReport {
     /// Name and version of this form.
@@ -30,7 +31,7 @@ pub(super) struct ReplayReport {
     verified: Option<bool>,
     /// The first difference; null where there is none.
     differs: Option<Difference>,
-    /// What is damaged in the file; null where nothing is.
+    /// The damaged part of the file; null where none is.
     damage: Option<String>,
     /// Summary of the run.
     run: Report,
@@ -43,7 +44,7 @@ struct Difference {
     step: u64,
     /// Its moment [s].
     time_s: f64,
-    /// What of the state differs.
+    /// The part of the state that differs.
     part: &'static str,
 }
 
@@ -71,7 +72,7 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<ExitCode, Failure> {
             )))
         }
         None => Ok(ExitCode::SUCCESS),
-        Some(difference) => Err(Failure::failed(told(args, &recording, difference))),
+        Some(difference) => Err(Failure::failed(difference_words(args, &recording, difference))),
     }
 }
 
@@ -79,15 +80,15 @@ fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdic
     let host = host::load();
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let progress = Progress::new(if args.verify { "verifying" } else { "replaying" });
-    let tell = |step, steps| {
+    let report = |step, steps| {
         progress.at(step, steps);
         true
     };
     if args.verify {
-        let (run, verdict) = replay::verify(recording, &host, options, tell)?;
+        let (run, verdict) = replay::verify(recording, &host, options, report)?;
         return Ok((run, Some(verdict)));
     }
-    Ok((replay::replay(recording, &host, options, tell)?, None))
+    Ok((replay::replay(recording, &host, options, report)?, None))
 }
 
 /// Whether the bits are promised: by this version, with the recorded plugins.
@@ -95,7 +96,7 @@ fn is_bound(args: &ReplayArgs, recording: &Recording) -> bool {
     recording.header.program == endline_session::VERSION && !args.other_plugins
 }
 
-/// Bits are promised for one program only; another version may differ, and says so beforehand.
+/// Bits are promised for one program only; a warning names another version.
 pub(super) fn tell_version(recording: &Recording) {
     let (recorded, here) = (&recording.header.program, endline_session::VERSION);
     if recorded != here {
@@ -105,7 +106,7 @@ pub(super) fn tell_version(recording: &Recording) {
     }
 }
 
-fn told(args: &ReplayArgs, recording: &Recording, difference: Difference) -> String {
+fn difference_words(args: &ReplayArgs, recording: &Recording, difference: Difference) -> String {
     let Difference { step, time_s, part } = difference;
     let damage =
         recording.damage.as_ref().map(|damage| format!("\n  {damage}")).unwrap_or_default();
@@ -145,4 +146,19 @@ fn json(
     };
     // Structs of numbers and strings always serialise.
     serde_json::to_string(&report).unwrap_or_default() + "\n"
+}
+
+pub(super) fn pilot(args: &PilotArgs) -> Result<ExitCode, Failure> {
+    output::not_its_own_input(&args.recording, &args.out)?;
+    let recording = Recording::load(&args.recording)?;
+    let program = program(&recording, &host::load(), args.thin)?;
+    let out = args.out.display();
+    endline_session::save::atomically(&args.out, program.scenario.as_bytes())
+        .map_err(|error| Failure::failed(format!("{out}: cannot be written: {error}")))?;
+    let (entries, steps) = (program.entries, recording.inputs.len());
+    output::print(&format!(
+        "{out}: {entries} entries of a pilot for {steps} steps\nrun with: endline run {out}{}\n",
+        program.options
+    ))?;
+    Ok(ExitCode::SUCCESS)
 }

@@ -1,16 +1,19 @@
-//! `endline run`: settle, step to the end, report, record.
+//! `endline run` and `endline settle`: settle, step to the end, report, record.
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use endline_gear::RunRule;
-use endline_session::recording::take_over::take_over;
+use endline_session::recording::replay::take_over;
+use endline_session::settled::SettledShape;
 use endline_session::{Prepared, Recording, Report, Run, RunOptions};
+use endline_sim::settle as find_rest;
 
-use super::args::RunArgs;
+use super::args::{RunArgs, SettleArgs};
 use super::interrupt::{self, Interrupt};
-use super::progress::Progress;
-use super::{Failure, host, output, picture, scenario, table};
+use super::output::Progress;
+use super::{Failure, host, output, picture, player, table};
 
 /// The recording's name in the folder of results.
 const RECORDING: &str = "recording.endline";
@@ -28,7 +31,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         .as_ref()
         .map(|recording| recording.source.overrides.clone())
         .unwrap_or_default());
-    let prepared = scenario::prepared(&args.scenario, library, &host, over)?;
+    let prepared = player::prepared(&args.scenario, library, &host, over)?;
     let mut run = started(args, recording.as_ref(), prepared)?;
     let interrupt = Interrupt::watch();
     to_end(args, &mut run, &interrupt);
@@ -39,7 +42,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     output::print(&if args.json { report.json() + "\n" } else { table::summary(&report) })?;
     kept?;
     if let Some(code) = interrupt.exit_code() {
-        output::warn(&how_to_go_on(args, &run));
+        output::warn(&how_to_continue(args, &run));
         return Ok(code);
     }
     if let Some(stopped) = &report.stopped {
@@ -62,8 +65,8 @@ fn to_end(args: &RunArgs, run: &mut Run, interrupt: &Interrupt) {
     });
 }
 
-/// What an interrupted user can do.
-fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
+/// The command that continues an interrupted run.
+fn how_to_continue(args: &RunArgs, run: &Run) -> String {
     let time_s = run.state().time_s;
     match &args.out {
         Some(folder) => {
@@ -73,10 +76,10 @@ fn how_to_go_on(args: &RunArgs, run: &Run) -> String {
                 ("--at", &format!("{time_s:.6}s")),
                 ("--out", &format!("{}-2", folder.display())),
             ]);
-            format!("interrupted at {time_s:.2} s; to go on from there: {again}")
+            format!("interrupted at {time_s:.2} s; to continue from there: {again}")
         }
         None => format!(
-            "interrupted at {time_s:.2} s, and no recording is kept; with --out DIR the run could go on from there"
+            "interrupted at {time_s:.2} s, and no recording is kept; with --out DIR the run could continue from there"
         ),
     }
 }
@@ -94,8 +97,8 @@ fn started(
     };
     let unsettled = args.unsettled || recording.header.unsettled;
     let progress = Progress::new("replaying");
-    let tell = |step, steps| progress.at(step, steps);
-    Ok(take_over(recording, prepared, RunOptions { unsettled, ..options }, at, tell)?)
+    let report = |step, steps| progress.at(step, steps);
+    Ok(take_over(recording, prepared, RunOptions { unsettled, ..options }, at, report)?)
 }
 
 /// Writes `summary.json`, `recording.endline` and, where this build draws, `picture.png`.
@@ -110,4 +113,21 @@ fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
     run.save_recording(&folder.join(RECORDING))?;
     picture::of_peak(run, report, &folder.join("picture.png"));
     Ok(())
+}
+
+pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let over = args.over.overrides();
+    let prepared = player::prepared(&args.scenario, library, &host::load(), over)?;
+    let start = Instant::now();
+    let settled = find_rest(&prepared.model);
+    let shape = SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64());
+    output::print(&if args.json { shape.json() + "\n" } else { table::settled(&shape) })?;
+    if settled.converged {
+        return Ok(ExitCode::SUCCESS);
+    }
+    Err(Failure::failed(format!(
+        "found no rest in {} passes: {}",
+        settled.trace_n.len(),
+        settled.why()
+    )))
 }

@@ -1,11 +1,17 @@
-//! `endline schema`: the JSON forms that commands print, and the schema of each.
+//! `endline schema`, `docs`, `completions` and `man`: JSON forms and their schemas, documents, shell completion, manual pages.
 
+use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
+use clap::CommandFactory;
+use clap_complete::Shell;
 use endline_session::forms::{FORMS, Form, schema_of};
 
+use super::args::Args;
 use super::table::columns;
 use super::{Failure, output, replay, study, validate};
+use crate::documents::{self, Document};
 
 /// The forms that only the command line writes.
 static OWN: &[Form] = &[
@@ -55,6 +61,44 @@ fn listed() -> String {
     columns(&rows)
 }
 
+/// Prints a document as Markdown, or the documents there are.
+pub(super) fn docs(named: Option<&str>) -> Result<ExitCode, Failure> {
+    let Some(named) = named else {
+        output::print(&documents_listed())?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let document = documents::find(named).ok_or_else(|| {
+        let names: Vec<&str> = documents::all().map(|document| document.name).collect();
+        Failure::usage(format!("no document `{named}`; there are {}", names.join(", ")))
+    })?;
+    output::print(document.text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn documents_listed() -> String {
+    let row = |document: Document| [document.name, document.title].map(str::to_owned).to_vec();
+    let mut rows = vec![["document", "about"].map(str::to_owned).to_vec()];
+    rows.extend(documents::all().map(row));
+    columns(&rows)
+}
+
+/// Prints the script by which a shell completes this program's arguments.
+pub(super) fn completions(shell: Shell) -> ExitCode {
+    clap_complete::generate(shell, &mut Args::command(), "endline", &mut io::stdout());
+    ExitCode::SUCCESS
+}
+
+/// Writes a manual page for the program and each of its commands into a folder.
+pub(super) fn man(folder: &Path) -> Result<ExitCode, Failure> {
+    let failed = |error: io::Error| {
+        Failure::failed(format!("{}: the pages cannot be written: {error}", folder.display()))
+    };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    clap_mangen::generate_to(Args::command(), folder).map_err(failed)?;
+    output::note(&format!("read them with `man -l {}/endline.1`", folder.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
@@ -77,25 +121,25 @@ mod tests {
     fn every_command_that_prints_json_has_a_form() {
         let mut asked = BTreeSet::new();
         with_json(&Args::command(), "", &mut asked);
-        let told = forms()
+        let declared = forms()
             .flat_map(|form| form.commands)
             .map(|command| command.split(" --").next().unwrap_or_default().to_owned());
-        assert_eq!(asked, told.collect());
+        assert_eq!(asked, declared.collect());
     }
 
-    /// What a reader of a schema gets to know: every key has a meaning, in words and not in links of the source.
+    /// Every key of a schema has a meaning in words, without links of the source.
     #[test]
     fn every_key_of_every_form_is_described() {
-        fn look(schema: &serde_json::Value, at: &str) {
+        fn check(schema: &serde_json::Value, at: &str) {
             for (key, own) in schema["properties"].as_object().into_iter().flatten() {
                 let text = own["description"].as_str().unwrap_or_default();
                 assert!(!text.is_empty() && !text.contains("[`"), "{at}, {key}: {text:?}");
             }
             match schema {
                 serde_json::Value::Object(map) => {
-                    map.iter().for_each(|(key, own)| look(own, &format!("{at} {key}")));
+                    map.iter().for_each(|(key, own)| check(own, &format!("{at} {key}")));
                 }
-                serde_json::Value::Array(list) => list.iter().for_each(|own| look(own, at)),
+                serde_json::Value::Array(list) => list.iter().for_each(|own| check(own, at)),
                 _ => {}
             }
         }
@@ -110,7 +154,7 @@ mod tests {
                 "{}",
                 form.name
             );
-            look(schema, form.name);
+            check(schema, form.name);
         }
     }
 }

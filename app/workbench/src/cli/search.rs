@@ -1,4 +1,4 @@
-//! `endline search`: which encounters end like what was seen on a real whale.
+//! `endline search`: encounters that end like an observation of a real whale.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,7 +14,7 @@ use endline_session::study::REPLAY_HZ;
 
 use super::interrupt::Interrupt;
 use super::study::args::shard;
-use super::study::{all_cores, keep, lower_priority};
+use super::study::{all_cores, lower_priority, save_run};
 use super::{Failure, host, output};
 
 /// Time between two notes of progress.
@@ -31,7 +31,7 @@ pub(super) struct SearchArgs {
     /// Folder of the search [default: results/search- followed by the observation's id].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Runs at most; give more to go on with a search that is finished.
+    /// Runs at most; a greater number continues a finished search.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     trials: usize,
     /// Neighbours to run of every story that ends alike; 0 runs none.
@@ -60,7 +60,7 @@ pub(super) struct SearchArgs {
     json: bool,
 }
 
-/// Searches, tells what was found, and keeps the best stories as runs.
+/// Searches, prints the results, and stores the best stories as runs.
 pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let host = host::load();
     let question = Question::open(&args.observation, args.encounters.as_deref(), library, &host)?;
@@ -80,10 +80,10 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
     let control = Arc::new(Control::default());
     let (interrupt, watched) = (Interrupt::watch(), Arc::clone(&control));
     interrupt.on_asked(move || watched.cancel());
-    let stories = found(&question, &folder, &effort, &control, told())?;
+    let stories = found(&question, &folder, &effort, &control, progress())?;
     if let Some(code) = interrupt.exit_code() {
         output::warn(&format!(
-            "interrupted: runs are kept in {}; the same command goes on from them",
+            "interrupted: runs are kept in {}; the same command continues from them",
             folder.path.display()
         ));
         return Ok(code);
@@ -91,7 +91,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
     for (number, story) in stories.stories.iter().take(args.keep).enumerate() {
         let encounter = Encounter::at_point(&question.opened.study, &story.point);
         let played = question.opened.play(0, &encounter, REPLAY_HZ)?;
-        keep(&folder.path.join(format!("story-{}", number + 1)), &played)?;
+        save_run(&folder.path.join(format!("story-{}", number + 1)), &played)?;
     }
     let report = page::write(&question, &folder, &stories)?;
     output::note(&format!("the report is {}", report.display()));
@@ -100,7 +100,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
 }
 
 /// Notes progress now and then.
-fn told() -> impl FnMut(Progress) {
+fn progress() -> impl FnMut(Progress) {
     let mut last = Instant::now();
     move |progress: Progress| {
         if last.elapsed() < BETWEEN && progress.trials < progress.of {
@@ -130,9 +130,9 @@ fn words(stories: &Stories) -> String {
         "{} of {} draws from the priors end like it (distance at most {LIKE})\n",
         stories.net_like, stories.net
     );
-    let told: String =
+    let listed: String =
         stories.stories.iter().enumerate().map(|(n, story)| one(n + 1, story, stories)).collect();
-    format!("{head}{share}\n{found}{told}")
+    format!("{head}{share}\n{found}{listed}")
 }
 
 fn one(number: usize, story: &Story, stories: &Stories) -> String {

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use endline_session::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, comparison, pdf};
+use endline_session::compliance::{
+    ComplianceSheet, Request, USUAL_TIDE_M_S, comparison, print_pdf,
+};
 use endline_session::plugins::PluginHost;
 use endline_session::source::AssemblyFile;
 use endline_session::{Error, save};
@@ -49,7 +51,7 @@ pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode
         .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
     output::note(&format!("the {name} is {}", page.display()));
     if let Some(file) = &args.pdf {
-        pdf::print(&page, file)?;
+        print_pdf(&page, file)?;
         output::note(&format!("printed as {}", file.display()));
     }
     Ok(ExitCode::SUCCESS)

@@ -9,9 +9,9 @@ use endline_session::figures::{
     AUDIT, BALANCE, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE,
     PROBE, Quantity, RUN, Value, View, WHALE, lines, parts, shown,
 };
+use endline_session::settled::PartStrength;
 use endline_session::settled::SettledShape;
-use endline_session::strength::PartStrength;
-use endline_session::units::{N_PER_LBF, Units};
+use endline_session::units::{Units, newtons_and_lbf};
 use endline_sim::metrics::WhaleSummary;
 
 /// The summary of a run.
@@ -52,7 +52,7 @@ pub(super) fn settled(shape: &SettledShape) -> String {
     text + &columns(&rows) + &grid(PROBE, &shape.probes)
 }
 
-/// Delivered strength of each part: what its source states, what is taken off, what is left.
+/// Delivered strength of each part: stated, factors, delivered.
 fn strengths(parts: &[PartStrength]) -> String {
     let heads =
         ["strength of", "item", "stated", "factors", "delivered", "nine of ten", "confidence"];
@@ -122,7 +122,7 @@ fn pairs<S>(figures: &[Figure<S>], source: &S) -> Vec<Vec<String>> {
     shown(figures, View::Table).map(pair).collect()
 }
 
-/// A table with a row for each source and a column for each figure; nothing without sources.
+/// A table with a row for each source and a column for each figure; empty without sources.
 fn grid<S>(figures: &[Figure<S>], sources: &[S]) -> String {
     let head = shown(figures, View::Table).map(|figure| figure.label.to_owned()).collect();
     let rows = sources.iter().map(|source| cells(figures, source));
@@ -149,13 +149,8 @@ fn text(quantity: Quantity, value: &Value) -> String {
     }
 }
 
-/// A force in newtons and pounds-force.
 fn force(newtons: f64) -> String {
-    if newtons.is_finite() {
-        format!("{newtons:.1} N ({:.1} lbf)", newtons / N_PER_LBF)
-    } else {
-        "none".into()
-    }
+    newtons_and_lbf(newtons, 1)
 }
 
 fn place(id: &str, position_m: [f64; 3]) -> Vec<String> {
@@ -168,7 +163,7 @@ fn row(cells: &[&str]) -> Vec<String> {
     cells.iter().map(ToString::to_string).collect()
 }
 
-/// Rows in aligned columns and an empty line; nothing where there is only a heading of several columns.
+/// Rows in aligned columns and an empty line; empty where there is only a heading of several columns.
 pub(super) fn columns(rows: &[Vec<String>]) -> String {
     if rows.len() == 1 && rows[0].len() > 2 {
         return String::new();
@@ -246,11 +241,5 @@ mod tests {
         let rows = [row(&["line", "peak", "at"]), row(&["endline-top", "2 N", "1 s"])];
         assert_eq!(columns(&rows), "line         peak  at\nendline-top  2 N   1 s\n\n");
         assert_eq!(columns(&rows[..1]), "");
-    }
-
-    #[test]
-    fn forces_come_in_both_units() {
-        assert_eq!(force(7_561.976_745_942_85), "7562.0 N (1700.0 lbf)");
-        assert_eq!(force(f64::INFINITY), "none");
     }
 }

@@ -27,7 +27,7 @@ fn build(args: &WhaleBuildArgs, library: Option<&Path>) -> Result<ExitCode, Fail
     let root = locate::library(None, library).map_err(Failure::failed)?;
     let (library, problems) = Sources::from_folder(&root)
         .map(|sources| Library::read(&sources))
-        .map_err(|problems| told(&problems))?;
+        .map_err(|problems| failure(&problems))?;
     let Some(whale) = library.whales.iter().find(|whale| whale.entry.id == args.whale) else {
         let own = format!("whales/{}.", args.whale);
         let faults: Vec<Diagnostic> = problems
@@ -42,7 +42,7 @@ fn build(args: &WhaleBuildArgs, library: Option<&Path>) -> Result<ExitCode, Fail
                 known.join(", ")
             ))
         };
-        return Err(if faults.is_empty() { unknown() } else { told(&faults) });
+        return Err(if faults.is_empty() { unknown() } else { failure(&faults) });
     };
     let length_m = args.length.unwrap_or(whale.form.length_m);
     let skin = whale.skin_at(length_m);
@@ -73,6 +73,6 @@ fn build(args: &WhaleBuildArgs, library: Option<&Path>) -> Result<ExitCode, Fail
     Ok(ExitCode::SUCCESS)
 }
 
-fn told(problems: &[Diagnostic]) -> Failure {
+fn failure(problems: &[Diagnostic]) -> Failure {
     Failure::failed(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
 }

@@ -29,7 +29,7 @@ fn count_figures<S>(harness: &Window, figures: &[Figure<S>], sources: &[S], view
     };
     let mut count = 0;
     for figure in shown(figures, view) {
-        let present: Vec<&S> = sources.iter().filter(|source| figure.is_told(source)).collect();
+        let present: Vec<&S> = sources.iter().filter(|source| figure.is_shown(source)).collect();
         present.iter().for_each(|source| check(figure, source));
         count += present.len();
         let label = capital(figure.label);

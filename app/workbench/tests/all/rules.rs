@@ -46,7 +46,7 @@ fn wait_for_edits(harness: &mut Window) {
         let (rules, documents) =
             (&app.shared.workbench.rules(), &app.shared.workbench.project().documents);
         let so = |one: &RuleAnswer| {
-            one.mends.is_some()
+            one.remedies.is_some()
                 && one.question == rules.question
                 && one.version == documents.version()
         };
@@ -77,8 +77,8 @@ fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
 
     harness.state_mut().panels.rules.chosen = Some(TWO.to_owned());
     harness.run_steps(3);
-    let mends = answer(&harness).unwrap().mends.clone().unwrap();
-    let edits = &mends.rules.iter().find(|one| one.rule == TWO).unwrap().proposals;
+    let remedies = answer(&harness).unwrap().remedies.clone().unwrap();
+    let edits = &remedies.rules.iter().find(|one| one.rule == TWO).unwrap().proposals;
     let says = &edits[0].says;
     assert!(harness.query_all_by_label_contains(says).next().is_some(), "{says}");
     let before = on_disk(&folder, ASSEMBLY);

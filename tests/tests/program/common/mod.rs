@@ -50,7 +50,7 @@ impl Called {
         assert!(!self.stderr.contains("panicked"), "{self}");
         for word in words {
             let found = self.stderr.contains(word) || self.stdout.contains(word);
-            assert!(found, "`{word}` is not told; {self}");
+            assert!(found, "`{word}` is not printed; {self}");
         }
     }
 
@@ -150,7 +150,7 @@ impl Place {
         called(&mut self.command_alone(arguments))
     }
 
-    /// The same, not called yet.
+    /// A call of the program's file alone, not started yet.
     pub fn command_alone(&self, arguments: &[&str]) -> Command {
         let program = self.path(&format!("bin/endline{}", std::env::consts::EXE_SUFFIX));
         if !program.exists() {
@@ -179,7 +179,7 @@ impl Place {
 
 impl Drop for Place {
     fn drop(&mut self) {
-        // A leftover in the folder for temporary files harms nobody.
+        // A leftover in the folder for temporary files is harmless.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

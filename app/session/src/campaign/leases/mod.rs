@@ -82,9 +82,6 @@ pub struct Worker {
 
 impl Leases {
     /// Joins those who work on a folder of results.
-    ///
-    /// # Errors
-    /// A folder that cannot be written.
     pub(crate) fn join(results: &Path) -> Result<Self, Error> {
         let mut leases = Self::join_from(results, Place::here())?;
         leases.heartbeat = Heartbeat::start(Arc::clone(&leases.process));
@@ -100,9 +97,6 @@ impl Leases {
     }
 
     /// Leases one of the wanted blocks: one without a lease, else one whose process has ended.
-    ///
-    /// # Errors
-    /// A folder that cannot be read or written.
     pub(crate) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
         self.take(wanted)
             .map_err(|error| Error::at(&self.folder, format!("cannot be used: {error}")))
@@ -214,9 +208,6 @@ impl Drop for Lease<'_> {
 }
 
 /// The processes at work on a folder of results, by machine.
-///
-/// # Errors
-/// A folder that cannot be read.
 pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
     let folder = folder_of(results);
     let read = || -> io::Result<Vec<Worker>> {

@@ -61,9 +61,6 @@ pub(super) struct Process {
 
 impl Process {
     /// Makes the file of a process in a folder.
-    ///
-    /// # Errors
-    /// A folder that cannot be written.
     pub(super) fn begin(folder: &Path, place: Place) -> io::Result<Self> {
         let id = format!("{:016x}", RandomState::new().build_hasher().finish());
         let path = path_of(folder, &id);
@@ -76,9 +73,6 @@ impl Process {
     }
 
     /// Shows that it works. The last byte is written again, so that the time is that of the file's own machine.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub(super) fn beat(&self) -> io::Result<()> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::End(-1))?;
@@ -120,9 +114,6 @@ pub(super) struct ProcessFile {
 
 impl ProcessFile {
     /// Reads the file of a process.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         let file = read::open(path)?;
         let modified = file.metadata()?.modified()?;
@@ -134,9 +125,6 @@ impl ProcessFile {
     }
 
     /// All of a folder, by the ids of their processes.
-    ///
-    /// # Errors
-    /// A folder that cannot be read.
     pub(super) fn all(folder: &Path) -> io::Result<Vec<(String, Self)>> {
         let mut all = Vec::new();
         for entry in fs::read_dir(folder)? {

@@ -126,16 +126,17 @@ fn is_by_source(key: &&str) -> bool {
 #[test]
 fn figures_of_the_balance_are_those_of_their_source() {
     let report = made_up::report();
-    let told = report.balance.as_ref().unwrap();
+    let balance = report.balance.as_ref().unwrap();
     for source in Source::ALL {
-        let (impulse, work) = (told.impulse_ns[source as usize], told.work_j[source as usize]);
+        let (impulse, work) =
+            (balance.impulse_ns[source as usize], balance.work_j[source as usize]);
         let key = |of: &str| format!("{}_{of}", source.name());
-        assert_eq!(value(BALANCE, &key("impulse_Ns"), told), impulse.into());
-        assert_eq!(value(BALANCE, &key("work_J"), told), work.into());
+        assert_eq!(value(BALANCE, &key("impulse_Ns"), balance), impulse.into());
+        assert_eq!(value(BALANCE, &key("work_J"), balance), work.into());
     }
-    assert_eq!(value(BALANCE, "residual_share", told), told.residual_share().into());
-    let damping = told.numerical_damping_j();
-    assert_eq!(value(BALANCE, "numerical_damping_J", told), damping.into());
+    assert_eq!(value(BALANCE, "residual_share", balance), balance.residual_share().into());
+    let damping = balance.numerical_damping_j();
+    assert_eq!(value(BALANCE, "numerical_damping_J", balance), damping.into());
 }
 
 #[test]
@@ -191,8 +192,8 @@ fn the_summary_nests_the_lists() {
     let whale = report.summary.whale.as_ref().unwrap();
     let json: serde_json::Value = serde_json::from_str(&report.json()).unwrap();
     assert_eq!(json["audit"]["passes"], report.audit.passes);
-    let told = report.balance.as_ref().unwrap();
-    assert_eq!(json["audit"]["balance"]["residual_Ns"], told.residual_ns);
+    let balance = report.balance.as_ref().unwrap();
+    assert_eq!(json["audit"]["balance"]["residual_Ns"], balance.residual_ns);
     assert_eq!(json["lines"][1]["drag_N"][2], report.summary.lines[1].drag_n.z);
     assert_eq!(json["links"][0]["rating_N"], report.summary.links[0].rating_n);
     assert_eq!(json["bodies"][1]["position_m"][0], report.summary.bodies[1].position_m.x);
@@ -218,7 +219,7 @@ fn the_summary_nests_the_lists() {
 
 #[test]
 fn keys_are_unique_and_labels_are_lower_case() {
-    fn look<S>(figures: &[Figure<S>]) {
+    fn check<S>(figures: &[Figure<S>]) {
         for (index, figure) in figures.iter().enumerate() {
             let same =
                 |other: &&Figure<S>| other.key == figure.key && other.in_json == figure.in_json;
@@ -234,23 +235,23 @@ fn keys_are_unique_and_labels_are_lower_case() {
             assert!(figure.help.ends_with('.'), "{}", figure.help);
         }
     }
-    look(ATTEMPT);
-    look(RUN);
-    look(AUDIT);
-    look(BALANCE);
-    look(SETTLED);
-    look(PHASE);
-    look(COST);
-    look(EVENT);
-    look(PLUGIN);
-    look(LINE);
-    look(LINK);
-    look(BODY);
-    look(PROBE);
-    look(WHALE);
-    look(BEAT);
-    look(KINETIC);
-    look(PART);
-    look(PATCH);
-    look(MOMENT);
+    check(ATTEMPT);
+    check(RUN);
+    check(AUDIT);
+    check(BALANCE);
+    check(SETTLED);
+    check(PHASE);
+    check(COST);
+    check(EVENT);
+    check(PLUGIN);
+    check(LINE);
+    check(LINK);
+    check(BODY);
+    check(PROBE);
+    check(WHALE);
+    check(BEAT);
+    check(KINETIC);
+    check(PART);
+    check(PATCH);
+    check(MOMENT);
 }

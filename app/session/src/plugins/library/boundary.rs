@@ -18,11 +18,11 @@ use endline_sdk::{
 use libloading::Library;
 
 use super::super::info::{Hook, Refusal};
-use super::arguments::{raw_contacts, raw_gear_step, raw_motion_input, raw_values};
 use super::float_state::guarded;
-use super::handed_over::HandedOver;
-use super::rig::{self, ReadText};
-use super::{REBUILD, TELL_AUTHOR};
+use super::{
+    REBUILD, ReadText, SizedStruct, TELL_AUTHOR, raw_contacts, raw_gear_step, raw_motion_input,
+    raw_values, rig_body, rig_joint, rig_line, rig_line_end, rig_link,
+};
 
 /// Most plugins that one library may hold; more is taken for a lie.
 const MOST_PLUGINS: u32 = 1000;
@@ -36,16 +36,16 @@ const MESSAGE_ROOM: usize = 1024;
 /// Most places along one line; more is taken for a lie.
 const MOST_PLACES: usize = 1_000_000;
 
-/// What is wrong with a library that sets the rounding mode or the treatment of subnormal numbers.
+/// The problem of a library that sets the rounding mode or the treatment of subnormal numbers.
 const CHANGED_FLOATS: &str =
     "it changed the processor's floating-point state, which decides how this program rounds";
 
 const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 
-/// What a library says of itself, and the descriptor of each of its plugins.
+/// The description of a library, and the descriptor of each of its plugins.
 type Contents = (String, Vec<Result<AbiPlugin, Refusal>>);
 
-/// Opens a library, which stays mapped from then on; `named` is the file that it is given as its own place.
+/// Opens a library, which stays mapped from then on; `named` is the path that it receives as its own.
 pub(super) fn open(file: &Path, named: &Path) -> Result<Contents, Refusal> {
     let entry = read_entry(find_entry(file)?)?;
     initialise(&entry, named)?;
@@ -75,7 +75,7 @@ fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
     })
 }
 
-/// The entry: major version and size stand at the same place in every version of the ABI.
+/// The entry: major version and size have the same offsets in every version of the ABI.
 fn read_entry(entry: *const AbiEntry) -> Result<AbiEntry, Refusal> {
     // SAFETY: every version of the entry begins with these three numbers.
     let [major, minor, size] = unsafe { entry.cast::<[u32; 3]>().read_unaligned() };
@@ -89,11 +89,11 @@ fn read_entry(entry: *const AbiEntry) -> Result<AbiEntry, Refusal> {
     unsafe { known_part(entry, size, "entry") }
 }
 
-/// What this program knows of a struct of a library: zero, and for a function none, where an older one lacks it.
+/// The known part of a struct of a library: zero, and for a function none, where an older one lacks it.
 ///
 /// # Safety
 /// `given` leads to `size` bytes, and `T` is made of numbers, pointers and functions that may be null.
-unsafe fn known_part<T: HandedOver>(given: *const T, size: u32, what: &str) -> Result<T, Refusal> {
+unsafe fn known_part<T: SizedStruct>(given: *const T, size: u32, what: &str) -> Result<T, Refusal> {
     let size = size as usize;
     if size < T::LEAST {
         return Err(Refusal::new(
@@ -113,11 +113,11 @@ unsafe fn known_part<T: HandedOver>(given: *const T, size: u32, what: &str) -> R
     }
 }
 
-/// The same of a struct that begins with its size; null is refused.
+/// The known part of a struct that begins with its size; null is refused.
 ///
 /// # Safety
 /// `given` is null or leads to as many bytes as it begins with, and `T` is as in [`known_part`].
-unsafe fn known<T: HandedOver>(given: *const T, what: &str) -> Result<T, Refusal> {
+unsafe fn known<T: SizedStruct>(given: *const T, what: &str) -> Result<T, Refusal> {
     // SAFETY: the caller's promise.
     unsafe {
         let size = given.cast::<u32>().as_ref().ok_or_else(|| missing(what))?;
@@ -184,7 +184,7 @@ pub(super) fn hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, R
     })
 }
 
-fn read_table<T: HandedOver>(plugin: &AbiPlugin) -> Result<T, Refusal> {
+fn read_table<T: SizedStruct>(plugin: &AbiPlugin) -> Result<T, Refusal> {
     // SAFETY: a table begins with its size, is of the kind the descriptor says, and lives as long as the library.
     unsafe { known(plugin.table.cast::<T>(), "table of functions") }
 }
@@ -378,39 +378,39 @@ impl GearType for Loaded<Gear> {
     }
 }
 
-/// Adds a part that a plugin hands over to the rig behind `host`.
+/// Adds a part of a plugin to the rig behind `host`.
 ///
 /// # Safety
 /// `host` is the `Rig` of [`Loaded::build`], `part` null or a live struct.
 unsafe fn add<T>(
     host: *mut c_void,
     part: *const T,
-    put: fn(&mut Rig, &T, ReadText) -> Option<()>,
+    add_part: fn(&mut Rig, &T, ReadText) -> Option<()>,
 ) -> i32 {
     // SAFETY: the caller's promise.
     let taken = unsafe { host.cast::<Rig>().as_mut().zip(part.as_ref()) }
-        .and_then(|(rig, part)| put(rig, part, owned));
+        .and_then(|(rig, part)| add_part(rig, part, owned));
     if taken.is_some() { STATUS_OK } else { STATUS_ERROR }
 }
 
 unsafe extern "C" fn add_body(host: *mut c_void, body: *const AbiBody) -> i32 {
     // SAFETY: `host` is what the table's user was handed.
-    unsafe { add(host, body, rig::body) }
+    unsafe { add(host, body, rig_body) }
 }
 
 unsafe extern "C" fn add_joint(host: *mut c_void, joint: *const AbiJoint) -> i32 {
     // SAFETY: as in `add_body`.
-    unsafe { add(host, joint, rig::joint) }
+    unsafe { add(host, joint, rig_joint) }
 }
 
 unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
     // SAFETY: as in `add_body`.
-    unsafe { add(host, line, rig::line) }
+    unsafe { add(host, line, rig_line) }
 }
 
 unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {
     // SAFETY: as in `add_body`.
-    unsafe { add(host, link, rig::link) }
+    unsafe { add(host, link, rig_link) }
 }
 
 /// # Safety
@@ -439,7 +439,7 @@ unsafe extern "C" fn lay_line(
 /// # Safety
 /// `host` is the list of actions of [`Loaded::step`].
 unsafe extern "C" fn cut_line(host: *mut c_void, line: u32, end: u32) -> i32 {
-    let action = rig::line_end(end).map(|end| GearAction::CutLine { line, end });
+    let action = rig_line_end(end).map(|end| GearAction::CutLine { line, end });
     // SAFETY: the caller's promise.
     unsafe { push_action(host, action) }
 }

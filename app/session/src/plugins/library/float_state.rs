@@ -1,13 +1,13 @@
-//! The processor's floating-point state: how it rounds, and what it does with the smallest numbers.
+//! The processor's floating-point state: its rounding, and its treatment of subnormal numbers.
 //!
 //! A library that changes it, as it is opened or in a call, changes every number that is computed afterwards, of this program too.
-//! It is therefore read before and after everything that runs a library's code, put back, and told.
+//! It is therefore read before and after every call into a library, restored, and reported.
 #![expect(
     unsafe_code,
     reason = "one of the two sides of the plugin boundary: the processor's control register has no safe way in"
 )]
 
-/// What [`guarded`] puts back: rounding, masks of exceptions, treatment of subnormal numbers.
+/// The state that [`guarded`] restores: rounding, masks of exceptions, treatment of subnormal numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct FloatState(u64);
 
@@ -24,7 +24,7 @@ pub(super) fn guarded<T>(run: impl FnOnce() -> T) -> (T, bool) {
 
 #[cfg(target_arch = "x86_64")]
 impl FloatState {
-    /// The six lowest bits tell which exceptions arose, and are no setting.
+    /// The six lowest bits record which exceptions arose, and are no setting.
     const SETTINGS: u32 = !0x3f;
 
     fn now() -> Self {

@@ -37,10 +37,7 @@ struct Written {
     text: String,
 }
 
-/// Writes a project into a folder that is not there yet; the folder's name becomes the plugin's. `sdk` is the folder of `endline-sdk`.
-///
-/// # Errors
-/// Where the folder is there, its name is no name for a plugin, or it cannot be written.
+/// Writes a project into a new folder; the folder's name becomes the plugin's. `sdk` is the folder of `endline-sdk`.
 pub fn write_project(
     folder: &Path,
     kind: PluginKind,
@@ -113,7 +110,7 @@ fn name_of(folder: &Path) -> Result<String, String> {
     ))
 }
 
-/// Folder of the crate `endline-sdk`: as given, or that of Endline's source around the program or the working folder.
+/// Folder of the crate `endline-sdk`: the one named, or that of Endline's source around the program or the working folder.
 fn find_sdk(given: Option<&Path>) -> Result<PathBuf, String> {
     let is_sdk = |folder: &Path| {
         folder.join("Cargo.toml").is_file() && folder.join("include/endline_plugin.h").is_file()

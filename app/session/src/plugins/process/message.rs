@@ -1,32 +1,36 @@
-//! What the program and a plugin's process say to each other.
+//! Messages between the program and a plugin's process, and their frames.
 //!
-//! | who | says |
+//! | sender | message |
 //! |---|---|
 //! | program | [`Orders`]: which bytes to open |
-//! | process | [`Opening`]: what they hold |
+//! | process | [`Opening`]: the content of the library |
 //! | program | [`Question`]: a call of one of the plugins |
-//! | process | [`Answer`]: what the call gave |
+//! | process | [`Answer`]: the result of the call |
 //!
 //! Questions and answers alternate until the program closes the pipe. Each is a frame (`frame.rs`).
+
+use std::io::{self, Read, Write};
 
 use endline_sdk::{
     AttributeValue, BodyPart, Contacts, Controls, Descriptor, FrictionResponse, GearAction,
     GearStep, MotionInput, MotionOutput, Rig, Site,
 };
 
-/// What a process is to open.
+use super::wire::Wire;
+
+/// The library that a process opens.
 pub(super) struct Orders {
-    /// Version of the program: another one says other things.
+    /// Version of the program: another one sends other messages.
     pub version: String,
-    /// The file, as the library is told its own place.
+    /// The file's path, as the library receives it.
     pub file: String,
     /// The bytes of the library, which were hashed and allowed.
     pub bytes: Vec<u8>,
 }
 
-/// What came of it.
+/// The result.
 pub(super) enum Opening {
-    /// What the library says of itself, and its plugins.
+    /// The description of the library, and its plugins.
     Opened {
         /// Author and sources.
         about: String,
@@ -39,11 +43,11 @@ pub(super) enum Opening {
 
 /// One plugin of a library.
 pub(super) enum Declared {
-    /// Of a kind, with what it takes.
+    /// A whale motion.
     Motion(Descriptor),
-    /// The same.
+    /// A friction model.
     Friction(Descriptor),
-    /// The same.
+    /// A gear type.
     Gear(Descriptor),
     /// One that cannot be used.
     Refused(Refused),
@@ -78,7 +82,7 @@ pub(super) enum Call {
     Step { attributes: Vec<AttributeValue>, input: GearNow, state: Vec<f64> },
 }
 
-/// What a call gave.
+/// The result of a call.
 pub(super) enum Answer {
     Moved {
         output: Box<MotionOutput>,
@@ -212,4 +216,41 @@ impl GearNow {
     pub fn lent(&self) -> GearStep<'_> {
         GearStep { time_s: self.time_s, dt_s: self.dt_s, end_tension_n: &self.end_tension_n }
     }
+}
+
+/// Longest frame that is read [bytes]: room for a library, the longest message.
+const LONGEST: u64 = 600 << 20;
+
+/// Writes a frame and sends it off. `room` is used for its bytes.
+pub(super) fn send<T: Wire>(
+    value: &T,
+    pipe: &mut impl Write,
+    room: &mut Vec<u8>,
+) -> io::Result<()> {
+    room.clear();
+    0_u64.encode(room);
+    value.encode(room);
+    let length = (room.len() - size_of::<u64>()) as u64;
+    room[..size_of::<u64>()].copy_from_slice(&length.to_le_bytes());
+    pipe.write_all(room)?;
+    pipe.flush()
+}
+
+/// Reads a frame. `room` is used for its bytes.
+pub(super) fn receive<T: Wire>(pipe: &mut impl Read, room: &mut Vec<u8>) -> io::Result<T> {
+    let mut length = [0; size_of::<u64>()];
+    pipe.read_exact(&mut length)?;
+    let length = u64::from_le_bytes(length);
+    if length > LONGEST {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
+    room.clear();
+    // Memory is taken as bytes come, not as the length says.
+    pipe.take(length).read_to_end(room)?;
+    if room.len() as u64 != length {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
+    let mut rest = room.as_slice();
+    let value = T::decode(&mut rest).filter(|_| rest.is_empty());
+    value.ok_or_else(|| io::ErrorKind::InvalidData.into())
 }

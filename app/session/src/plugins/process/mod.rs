@@ -3,18 +3,14 @@
 //! Plugins keep nothing between calls, so that any process of a library can answer any call. As many are started as calls are made
 //! at once; each serves one call at a time over a pipe. One that fails is not used again, and the next call has a new one.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `serve` | the side of the process |
-//! | `sandbox` | what it gives up before it answers |
-//! | `hooks` | its plugins as motion, friction model and gear type |
-//! | `worker` | one process, as the program sees it |
-//! | `message`, `encoding`, `wire` | what the two say, and its bytes |
-//! | `frame`, `pipe` | how these go from one to the other |
+//! | `sandbox` | the rights it gives up before it answers |
+//! | `worker` | the program's side of one process, and its plugins as motion, friction model and gear type |
+//! | `message`, `wire` | the messages between the two, and their bytes |
+//! | `pipe` | the pipe that carries them |
 
-mod encoding;
-mod frame;
-mod hooks;
 mod message;
 mod pipe;
 mod sandbox;
@@ -28,17 +24,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use endline_sdk::{Descriptor, HookError};
 
 use super::info::{Hook, Refusal};
-use super::library::Opened;
+use super::library::LoadedLibrary;
 use message::{Answer, Call, Declared, Opening, Question, Refused};
 use worker::{Served, Worker};
 
 pub use serve::serve_here;
 
 /// Opens a library in a process of its own, which `program plugins serve` is, and gives its plugins.
-///
-/// # Errors
-/// Where the process cannot be started, ends as it opens the library, or says why the library cannot be used.
-pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened, Refusal> {
+pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<LoadedLibrary, Refusal> {
     let served = Served { program: program.to_path_buf(), file: file.to_path_buf(), bytes };
     let (worker, opening) = Worker::start(&served)
         .map_err(|reason| Refusal::new(reason, "tell the plugin's author"))?;
@@ -47,7 +40,7 @@ pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Opened
         Opening::Refused(why) => Err(refusal(why)),
         Opening::Opened { about, plugins } => {
             let hooks = (0..).zip(plugins).map(|(place, plugin)| hook(plugin, place, &processes));
-            Ok(Opened { about, out_of_process: true, hooks: hooks.collect() })
+            Ok(LoadedLibrary { about, out_of_process: true, hooks: hooks.collect() })
         }
     }
 }

@@ -1,7 +1,7 @@
 //! An end of a pipe between the program and a plugin's process.
 //!
 //! The other side answers within microseconds as a rule, and a sleep costs more than that: an end asks again for a moment, giving
-//! way to whoever wants the processor, before it sleeps.
+//! way to other threads, before it sleeps.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Write};
@@ -14,19 +14,19 @@ use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 /// How long an end asks again before it sleeps.
 const BRIEF: Duration = Duration::from_micros(50);
 /// Longest sleep at once of an end that gives up at last.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL: Duration = Duration::from_millis(50);
 
 /// An end of a pipe.
 pub(super) struct Pipe {
     file: File,
     /// How long an exchange may wait for the other side; `None` for ever.
     patience: Option<Duration>,
-    /// How long the exchange under way has waited. Of a time in which this process stands still, one look counts.
+    /// How long the exchange in progress has waited. While this process is suspended, one interval counts.
     waited: Duration,
 }
 
 impl Pipe {
-    /// An end that waits so long.
+    /// An end that waits for at most `limit`.
     pub fn new(end: impl Into<OwnedFd>, patience: Option<Duration>) -> io::Result<Self> {
         let file = File::from(end.into());
         fcntl_setfl(&file, fcntl_getfl(&file)? | OFlags::NONBLOCK)?;
@@ -62,12 +62,12 @@ impl Pipe {
         }
     }
 
-    /// Sleeps for a look, or until the other side is ready.
+    /// Sleeps for one interval, or until the other side is ready.
     fn sleep(&mut self, flags: PollFlags) -> io::Result<()> {
         let begun = Instant::now();
-        let longest = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
+        let longest = Timespec { tv_sec: 0, tv_nsec: i64::from(POLL.subsec_nanos()) };
         let woken = poll(&mut [PollFd::from_borrowed_fd(self.file.as_fd(), flags)], Some(&longest));
-        self.waited += begun.elapsed().min(LOOK);
+        self.waited += begun.elapsed().min(POLL);
         match woken {
             Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
             Err(error) => Err(error.into()),

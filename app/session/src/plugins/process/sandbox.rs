@@ -1,7 +1,7 @@
-//! What a process of a plugin gives up before it answers: files, sockets, threads, processes and other programs.
+//! The rights that a process of a plugin gives up before it answers: files, sockets, threads, processes and other programs.
 //!
-//! Two layers. Limits of resources hold on every Unix system. On Linux (x86-64 and ARM64) a filter of system calls, seccomp, stands
-//! before them: what is not on its list is refused as not permitted, so that a library cannot end, stop or read the program that
+//! Two layers. Limits of resources hold on every Unix system. On Linux (x86-64 and ARM64) a filter of system calls, seccomp, acts
+//! before them: calls that are not on its list are refused as not permitted, so that a library cannot end, stop or read the program that
 //! has started it, even where both run as root.
 
 use rustix::process::{Resource, Rlimit, setrlimit};
@@ -32,7 +32,7 @@ mod filter {
         SeccompRule,
     };
 
-    /// Pipes that are open already, memory, time, locks, the start of a thread that there is, the process's own signals, its end.
+    /// Pipes that are open already, memory, time, locks, the start of an existing thread, the process's own signals, its end.
     const ALLOWED: [c_long; 37] = [
         libc::SYS_read,
         libc::SYS_write,

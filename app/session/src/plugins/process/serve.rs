@@ -1,4 +1,4 @@
-//! The side of the process: it opens the library whose bytes it is given, and answers calls of its plugins until the pipe closes.
+//! The side of the process: it opens the library whose bytes it receives, and answers calls of its plugins until the pipe closes.
 //!
 //! Before it answers, it gives up what a law of friction, a motion or a gear type has no use for: more than 2 GB of memory, and what
 //! `sandbox` names. The library's initialisers have run by then; the check has seen them too.
@@ -14,20 +14,17 @@ use rustix::process::getppid;
 use super::super::check::limit_memory;
 use super::super::guard::{BLANK, UNWRITTEN};
 use super::super::info::{Hook, Refusal};
-use super::super::library::Opened;
+use super::super::library::LoadedLibrary;
 use super::super::loader::open_copy;
-use super::frame::{receive, send};
 use super::message::{Answer, Call, Declared, Opening, Orders, Question, Refused};
+use super::message::{receive, send};
 use super::pipe::Pipe;
 use super::sandbox;
 
-/// How often a process looks whether its program still lives.
-const LOOK: Duration = Duration::from_secs(1);
+/// Interval at which a process checks that its program still runs.
+const POLL: Duration = Duration::from_secs(1);
 
 /// Serves a library to the program that has started this process, until that program closes the pipe.
-///
-/// # Errors
-/// Where this process was not started by the program, or the pipe breaks.
 pub fn serve_here() -> Result<(), String> {
     if io::stdin().is_terminal() {
         return Err("this is for the program to call, over a pipe".to_owned());
@@ -57,7 +54,7 @@ pub fn serve_here() -> Result<(), String> {
     }
 }
 
-/// Standard input and output for this process alone; what the library prints goes nowhere.
+/// Standard input and output for this process alone; the library's own output is discarded.
 fn own_pipes() -> io::Result<(BufReader<Pipe>, Pipe)> {
     let (input, output) = (io::stdin(), io::stdout());
     let (own_input, own_output) = (rustix::io::dup(&input)?, rustix::io::dup(&output)?);
@@ -68,18 +65,18 @@ fn own_pipes() -> io::Result<(BufReader<Pipe>, Pipe)> {
     Ok((input, Pipe::new(own_output, None)?))
 }
 
-/// A library that hangs keeps this process from hearing that its program is gone.
+/// Ends this process when its program has ended, even while a library hangs.
 fn end_with_parent() {
     let parent = getppid();
     std::thread::spawn(move || {
         while getppid() == parent {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL);
         }
         std::process::exit(1);
     });
 }
 
-fn open(orders: &Orders) -> Result<Opened, Refusal> {
+fn open(orders: &Orders) -> Result<LoadedLibrary, Refusal> {
     if orders.version != crate::VERSION {
         return Err(Refusal::new(
             format!("its process is Endline {}, the program {}", crate::VERSION, orders.version),
@@ -89,9 +86,9 @@ fn open(orders: &Orders) -> Result<Opened, Refusal> {
     open_copy(Path::new(&orders.file), &orders.bytes)
 }
 
-fn opening(opened: Result<Opened, Refusal>) -> Opening {
+fn opening(opened: Result<LoadedLibrary, Refusal>) -> Opening {
     match opened {
-        Ok(Opened { about, hooks, .. }) => {
+        Ok(LoadedLibrary { about, hooks, .. }) => {
             Opening::Opened { about, plugins: hooks.into_iter().map(declared).collect() }
         }
         Err(refusal) => Opening::Refused(refused(refusal)),
@@ -116,7 +113,7 @@ fn answer(hooks: &[Option<Hook>], Question { plugin, call }: Question) -> Answer
     called(hook, call).unwrap_or_else(|error| Answer::Fault(error.message))
 }
 
-/// Calls a plugin. What it is to write holds a mark before, by which the program sees what was left unwritten.
+/// Calls a plugin. Its output holds a mark before the call, by which the program detects values left unwritten.
 fn called(hook: Option<&Hook>, call: Call) -> Result<Answer, HookError> {
     match (hook, call) {
         (Some(Hook::Motion(motion)), Call::Move { attributes, input, mut state }) => {

@@ -1,26 +1,36 @@
-//! Values as bytes: numbers little-endian, lists and texts behind their length, variants behind their number.
+//! Values of the sdk as bytes: numbers little-endian, lists and texts behind their length, variants behind their number.
 
 use std::borrow::Cow;
 
-/// A value that goes over a pipe.
+use endline_sdk::{
+    Act, Attribute, AttributeKind, AttributeValue, BodyKind, Controls, Descriptor,
+    FrictionResponse, GearAction, LineEnd, MotionOutput, Posture, Rig, RigBody, RigEnd, RigJoint,
+    RigLine, RigLink, Site,
+};
+
+use super::message::{
+    Answer, Call, ContactArrays, Declared, GearNow, MotionNow, Opening, Orders, Question, Refused,
+};
+
+/// A value that is sent through a pipe.
 pub(super) trait Wire: Sized {
     /// Appends the value's bytes.
-    fn put(&self, out: &mut Vec<u8>);
+    fn encode(&self, out: &mut Vec<u8>);
 
     /// Takes a value off the front; `None` where the bytes are none of this kind.
-    fn take(from: &mut &[u8]) -> Option<Self>;
+    fn decode(from: &mut &[u8]) -> Option<Self>;
 
     /// Appends the bytes of values in a row.
-    fn put_all(values: &[Self], out: &mut Vec<u8>) {
-        values.iter().for_each(|value| value.put(out));
+    fn encode_all(values: &[Self], out: &mut Vec<u8>) {
+        values.iter().for_each(|value| value.encode(out));
     }
 
-    /// Takes so many values off the front.
-    fn take_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
+    /// Takes `count` values off the front.
+    fn decode_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
         // A list is no longer than the bytes that are there, whatever it says.
         let mut list = Vec::with_capacity(count.min(from.len()));
         for _ in 0..count {
-            list.push(Self::take(from)?);
+            list.push(Self::decode(from)?);
         }
         Some(list)
     }
@@ -29,25 +39,25 @@ pub(super) trait Wire: Sized {
 macro_rules! numbers {
     ($($number:ty),*) => {$(
         impl Wire for $number {
-            fn put(&self, out: &mut Vec<u8>) {
+            fn encode(&self, out: &mut Vec<u8>) {
                 out.extend_from_slice(&self.to_le_bytes());
             }
 
-            fn take(from: &mut &[u8]) -> Option<Self> {
+            fn decode(from: &mut &[u8]) -> Option<Self> {
                 let (first, rest) = from.split_first_chunk()?;
                 *from = rest;
                 Some(Self::from_le_bytes(*first))
             }
 
             // All at once: most of what is said is numbers in a row.
-            fn put_all(values: &[Self], out: &mut Vec<u8>) {
+            fn encode_all(values: &[Self], out: &mut Vec<u8>) {
                 let begin = out.len();
                 out.resize(begin + size_of_val(values), 0);
                 let (room, _) = out[begin..].as_chunks_mut();
                 room.iter_mut().zip(values).for_each(|(room, value)| *room = value.to_le_bytes());
             }
 
-            fn take_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
+            fn decode_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
                 let (first, rest) = from.split_at_checked(count.checked_mul(size_of::<Self>())?)?;
                 *from = rest;
                 let (values, _) = first.as_chunks();
@@ -61,12 +71,12 @@ macro_rules! numbers {
 macro_rules! fields {
     ($($name:ty { $($field:ident),* $(,)? })*) => {$(
         impl Wire for $name {
-            fn put(&self, out: &mut Vec<u8>) {
-                $(self.$field.put(out);)*
+            fn encode(&self, out: &mut Vec<u8>) {
+                $(self.$field.encode(out);)*
             }
 
-            fn take(from: &mut &[u8]) -> Option<Self> {
-                Some(Self { $($field: Wire::take(from)?),* })
+            fn decode(from: &mut &[u8]) -> Option<Self> {
+                Some(Self { $($field: Wire::decode(from)?),* })
             }
         }
     )*};
@@ -76,18 +86,18 @@ macro_rules! fields {
 macro_rules! variants {
     ($($name:ident { $($tag:literal => $variant:ident { $($field:tt: $bound:ident),* }),* $(,)? })*) => {$(
         impl Wire for $name {
-            fn put(&self, out: &mut Vec<u8>) {
+            fn encode(&self, out: &mut Vec<u8>) {
                 match self {
                     $(Self::$variant { $($field: $bound),* } => {
                         out.push($tag);
-                        $($bound.put(out);)*
+                        $($bound.encode(out);)*
                     })*
                 }
             }
 
-            fn take(from: &mut &[u8]) -> Option<Self> {
-                Some(match u8::take(from)? {
-                    $($tag => Self::$variant { $($field: Wire::take(from)?),* },)*
+            fn decode(from: &mut &[u8]) -> Option<Self> {
+                Some(match u8::decode(from)? {
+                    $($tag => Self::$variant { $($field: Wire::decode(from)?),* },)*
                     _ => return None,
                 })
             }
@@ -95,95 +105,93 @@ macro_rules! variants {
     )*};
 }
 
-pub(super) use {fields, variants};
-
 numbers!(u8, u32, u64, f64);
 
 impl Wire for bool {
-    fn put(&self, out: &mut Vec<u8>) {
+    fn encode(&self, out: &mut Vec<u8>) {
         out.push(u8::from(*self));
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        [false, true].get(usize::from(u8::take(from)?)).copied()
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        [false, true].get(usize::from(u8::decode(from)?)).copied()
     }
 }
 
 impl Wire for usize {
-    fn put(&self, out: &mut Vec<u8>) {
-        (*self as u64).put(out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        (*self as u64).encode(out);
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        Self::try_from(u64::take(from)?).ok()
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        Self::try_from(u64::decode(from)?).ok()
     }
 }
 
 impl<T: Wire> Wire for Vec<T> {
-    fn put(&self, out: &mut Vec<u8>) {
-        self.len().put(out);
-        T::put_all(self, out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        self.len().encode(out);
+        T::encode_all(self, out);
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        let length = usize::take(from)?;
-        T::take_all(length, from)
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let length = usize::decode(from)?;
+        T::decode_all(length, from)
     }
 }
 
 impl<T: Wire + Copy + Default, const N: usize> Wire for [T; N] {
-    fn put(&self, out: &mut Vec<u8>) {
-        T::put_all(self, out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        T::encode_all(self, out);
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
+    fn decode(from: &mut &[u8]) -> Option<Self> {
         let mut array = [T::default(); N];
         for value in &mut array {
-            *value = T::take(from)?;
+            *value = T::decode(from)?;
         }
         Some(array)
     }
 
-    fn put_all(values: &[Self], out: &mut Vec<u8>) {
-        T::put_all(values.as_flattened(), out);
+    fn encode_all(values: &[Self], out: &mut Vec<u8>) {
+        T::encode_all(values.as_flattened(), out);
     }
 
-    fn take_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
-        let flat = T::take_all(count.checked_mul(N)?, from)?;
+    fn decode_all(count: usize, from: &mut &[u8]) -> Option<Vec<Self>> {
+        let flat = T::decode_all(count.checked_mul(N)?, from)?;
         let (arrays, _) = flat.as_chunks();
         Some(arrays.to_vec())
     }
 }
 
 impl<T: Wire> Wire for Option<T> {
-    fn put(&self, out: &mut Vec<u8>) {
-        self.is_some().put(out);
-        self.iter().for_each(|value| value.put(out));
+    fn encode(&self, out: &mut Vec<u8>) {
+        self.is_some().encode(out);
+        self.iter().for_each(|value| value.encode(out));
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        Some(if bool::take(from)? { Some(T::take(from)?) } else { None })
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        Some(if bool::decode(from)? { Some(T::decode(from)?) } else { None })
     }
 }
 
 impl<T: Wire> Wire for Box<T> {
-    fn put(&self, out: &mut Vec<u8>) {
-        T::put(self, out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        T::encode(self, out);
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        T::take(from).map(Self::new)
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        T::decode(from).map(Self::new)
     }
 }
 
 impl Wire for String {
-    fn put(&self, out: &mut Vec<u8>) {
-        self.len().put(out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        self.len().encode(out);
         out.extend_from_slice(self.as_bytes());
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        let length = usize::take(from)?;
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        let length = usize::decode(from)?;
         let (text, rest) = from.split_at_checked(length)?;
         *from = rest;
         Self::from_utf8(text.to_vec()).ok()
@@ -191,13 +199,90 @@ impl Wire for String {
 }
 
 impl Wire for Cow<'static, str> {
-    fn put(&self, out: &mut Vec<u8>) {
-        self.len().put(out);
+    fn encode(&self, out: &mut Vec<u8>) {
+        self.len().encode(out);
         out.extend_from_slice(self.as_bytes());
     }
 
-    fn take(from: &mut &[u8]) -> Option<Self> {
-        String::take(from).map(Cow::Owned)
+    fn decode(from: &mut &[u8]) -> Option<Self> {
+        String::decode(from).map(Cow::Owned)
+    }
+}
+
+fields! {
+    Orders { version, file, bytes }
+    Refused { id, reason, help }
+    Question { plugin, call }
+    MotionNow {
+        time_s, dt_s, length_m, speed_m_s, position_m, orientation, controls, contact_force_n, contact_port_m,
+    }
+    ContactArrays {
+        dt_s, normal_force_n, normal, grain, along, slip_m, length_m, coefficient, region, rope, state,
+    }
+    GearNow { time_s, dt_s, end_tension_n }
+    Descriptor { id, version, name, help, attributes, state_len, acts }
+    Attribute { key, unit, help, kind }
+    Act { id, name, help }
+    Controls {
+        speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep, act,
+    }
+    MotionOutput { speed_m_s, turn_rate_rad_s, posture }
+    Posture {
+        spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, flipper_sweep, flipper_raise,
+        flipper_twist, flipper_flex, jaw, lips,
+    }
+    FrictionResponse { force_n, by_slip, by_normal_force }
+    Site { depth_m, current_m_s }
+    Rig { bodies, joints, lines, links }
+    RigBody { id, kind, item, position_m }
+    RigJoint { id, position_m }
+    RigLine { id, rope, from, to, length_m, laid_m }
+    RigLink { id, item, line, end }
+}
+
+variants! {
+    Opening {
+        0 => Opened { about: about, plugins: plugins },
+        1 => Refused { 0: why },
+    }
+    Declared {
+        0 => Motion { 0: descriptor },
+        1 => Friction { 0: descriptor },
+        2 => Gear { 0: descriptor },
+        3 => Refused { 0: why },
+    }
+    Call {
+        0 => Move { attributes: attributes, input: input, state: state },
+        1 => Respond { attributes: attributes, contacts: contacts },
+        2 => Advance { attributes: attributes, contacts: contacts },
+        3 => Build { attributes: attributes, site: site },
+        4 => Step { attributes: attributes, input: input, state: state },
+    }
+    Answer {
+        0 => Moved { output: output, state: state },
+        1 => Responses { 0: list },
+        2 => Floats { 0: list },
+        3 => Built { 0: rig },
+        4 => Acted { actions: actions, state: state },
+        5 => Fault { 0: message },
+    }
+    AttributeKind {
+        0 => Number { min: min, max: max, default: default },
+        1 => Count { min: min, max: max, default: default },
+        2 => Choice { words: words, default: default },
+        3 => Item { library: library, default: default },
+    }
+    AttributeValue {
+        0 => Number { 0: number },
+        1 => Choice { 0: word },
+        2 => Item { 0: id },
+    }
+    BodyKind { 0 => Trap {}, 1 => Buoy {}, 2 => Anchor {} }
+    RigEnd { 0 => Body { 0: id }, 1 => Joint { 0: id } }
+    LineEnd { 0 => A {}, 1 => B {} }
+    GearAction {
+        0 => CutLine { line: line, end: end },
+        1 => ReleaseLink { link: link },
     }
 }
 
@@ -210,12 +295,12 @@ mod tests {
 
     fn bytes_of(value: &impl Wire) -> Vec<u8> {
         let mut bytes = Vec::new();
-        value.put(&mut bytes);
+        value.encode(&mut bytes);
         bytes
     }
 
     fn back<T: Wire>(mut bytes: &[u8]) -> Option<T> {
-        T::take(&mut bytes).filter(|_| bytes.is_empty())
+        T::decode(&mut bytes).filter(|_| bytes.is_empty())
     }
 
     fn contacts(count: usize) -> ContactArrays {

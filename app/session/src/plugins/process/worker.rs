@@ -1,4 +1,4 @@
-//! One process that serves a library, as the program sees it: started, asked, and ended where it hangs.
+//! One process that serves a library: started, called, and ended where it hangs; its plugins as motion, friction model and gear type.
 
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
@@ -6,10 +6,14 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use endline_sdk::{
+    AttributeValue, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
+    GearType, HookError, MotionInput, MotionOutput, Rig, Site, WhaleMotion,
+};
 use rustix::process::{Pid, Signal, kill_process_group};
 
-use super::frame::{receive, send};
-use super::message::{Answer, Opening, Orders, Question};
+use super::Proxy;
+use super::message::{Answer, Call, Opening, Orders, Question, receive, send};
 use super::pipe::Pipe;
 use super::wire::Wire;
 
@@ -22,7 +26,7 @@ const GRACE: Duration = Duration::from_millis(500);
 pub(super) struct Served {
     /// The program `endline`.
     pub program: PathBuf,
-    /// The library's file, as it is told its own place.
+    /// The library's path, as the library receives it.
     pub file: PathBuf,
     /// Its bytes, which were hashed and allowed.
     pub bytes: Vec<u8>,
@@ -38,9 +42,6 @@ pub(super) struct Worker {
 
 impl Worker {
     /// Starts a process and has it open the library.
-    ///
-    /// # Errors
-    /// Where it cannot be started, or ends or hangs as it opens the library.
     pub fn start(served: &Served) -> Result<(Self, Opening), String> {
         let mut child = command(&served.program)
             .spawn()
@@ -62,9 +63,6 @@ impl Worker {
     }
 
     /// Calls a plugin.
-    ///
-    /// # Errors
-    /// Where the process ended, hangs or says what cannot be understood: it is of no more use.
     pub fn ask(&mut self, question: &Question) -> Result<Answer, String> {
         self.exchange(question)
     }
@@ -103,7 +101,7 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        // The group has the number of its first process, which the system does not give anew at once.
+        // The group has the number of its first process, which the system does not reuse at once.
         if let Some(group) = i32::try_from(self.child.id()).ok().and_then(Pid::from_raw) {
             // One that has ended of itself is not there any more.
             let _ = kill_process_group(group, Signal::KILL);
@@ -113,10 +111,10 @@ impl Drop for Worker {
     }
 }
 
-/// What a process needs of the environment: where libraries lie, and where they are copied to if no memory takes them.
+/// Environment variables of a process: the paths of libraries, and the folder for copies where no memory file is available.
 const ENVIRONMENT: [&str; 4] = ["PATH", "LD_LIBRARY_PATH", "HOME", "XDG_CACHE_HOME"];
 
-/// The command of a process: hardly an environment, a process group of its own, nothing on the terminal.
+/// The command of a process: a minimal environment, a process group of its own, no output on the terminal.
 fn command(program: &Path) -> Command {
     let mut command = Command::new(program);
     command
@@ -128,4 +126,97 @@ fn command(program: &Path) -> Command {
         .envs(ENVIRONMENT.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command
+}
+
+impl WhaleMotion for Proxy {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
+        let attributes = attributes.to_vec();
+        let call = Call::Move { attributes, input: Box::new(input.into()), state: state.to_vec() };
+        let Answer::Moved { output, state: floats } = self.ask(call)? else { return unasked() };
+        fill(state, &floats)?;
+        Ok(*output)
+    }
+}
+
+impl FrictionModel for Proxy {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
+        let (attributes, contacts) = (attributes.to_vec(), Box::new(contacts.into()));
+        let Answer::Responses(list) = self.ask(Call::Respond { attributes, contacts })? else {
+            return unasked();
+        };
+        fill(out, &list)
+    }
+
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
+        let (attributes, contacts) = (attributes.to_vec(), Box::new(contacts.into()));
+        let Answer::Floats(list) = self.ask(Call::Advance { attributes, contacts })? else {
+            return unasked();
+        };
+        fill(out, &list)
+    }
+}
+
+impl GearType for Proxy {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
+        let call = Call::Build { attributes: attributes.to_vec(), site: *site };
+        let Answer::Built(rig) = self.ask(call)? else { return unasked() };
+        Ok(rig)
+    }
+
+    fn step(
+        &self,
+        attributes: &[AttributeValue],
+        input: &GearStep<'_>,
+        state: &mut [f64],
+        actions: &mut Vec<GearAction>,
+    ) -> Result<(), HookError> {
+        let attributes = attributes.to_vec();
+        let call = Call::Step { attributes, input: input.into(), state: state.to_vec() };
+        let Answer::Acted { actions: taken, state: floats } = self.ask(call)? else {
+            return unasked();
+        };
+        fill(state, &floats)?;
+        actions.extend(taken);
+        Ok(())
+    }
+}
+
+/// Copies the output of a process to the program's slice.
+fn fill<T: Copy>(out: &mut [T], given: &[T]) -> Result<(), HookError> {
+    if out.len() != given.len() {
+        return unasked();
+    }
+    out.copy_from_slice(given);
+    Ok(())
+}
+
+fn unasked<T>() -> Result<T, HookError> {
+    Err(HookError::new("its process answered what was not asked"))
 }

@@ -142,7 +142,7 @@ pub const TRAPS: [(&str, &str, u16); 9] = [
     ("legacy.traps.12plus", "me-g, 2020-06-01, 20 nmi", 15),
 ];
 
-/// Rules that no assembly can pass or fail, because it does not say what they ask about.
+/// Rules that no assembly can pass or fail, because it does not describe their facts.
 pub const UNSAID: [(&str, &str); 9] = [
     ("us.insert.join", "lma-1, 2024-06-01"),
     ("us.insert.colour", "lma-1, 2024-06-01"),

@@ -1,4 +1,4 @@
-//! Mistakes in packs are told all at once, each at its line.
+//! Mistakes in packs are reported all at once, each at its line.
 
 use super::super::packs::read_text;
 
@@ -24,7 +24,7 @@ season = [300, 60]
 subject = "every endline"
 when = "traps >= 1"
 check = "least_rated <= strength && longest_gap(weak_places(line, strength)) <= spacing"
-mend = "Mend it."
+mend = "Change it."
 [rule.parameters]
 strength = "1,700 lbf"
 spacing = { value = "60 ft", source = "another page", confidence = "estimate" }
@@ -46,7 +46,7 @@ fn a_pack_is_read() {
 
 #[test]
 fn each_mistake_stands_at_its_line() {
-    for (from, to, told, line) in [
+    for (from, to, message, line) in [
         ("standing = \"law\"", "standing = \"lax\"", "`lax` is not a value of `standing`", 14),
         ("from = \"2022-05-01\"", "from = \"2022-02-30\"", "`2022-02-30` is not a date", 15),
         ("until = \"2023-05-01\"", "until = \"2021-05-01\"", "before `from`", 16),
@@ -72,8 +72,8 @@ fn each_mistake_stands_at_its_line() {
     ] {
         let text = PACK.replacen(from, to, 1);
         let problems = read_text("x.toml", &text).unwrap_err();
-        let found = problems.iter().find(|problem| problem.message.contains(told));
-        let found = found.unwrap_or_else(|| panic!("{told}: {problems:?}"));
+        let found = problems.iter().find(|problem| problem.message.contains(message));
+        let found = found.unwrap_or_else(|| panic!("{message}: {problems:?}"));
         assert_eq!(found.line, line, "{found:?}");
     }
 }
@@ -93,7 +93,7 @@ fn mistakes_are_told_all_at_once_and_words_of_an_expression_at_their_column() {
     assert!(problems.iter().any(|one| one.help.contains("did you mean `traps`?")), "{problems:?}");
 }
 
-/// Whatever stands in an expression, it is read or refused; nothing panics.
+/// Any expression is read or refused; none panics.
 #[test]
 fn no_expression_panics() {
     for wrong in [

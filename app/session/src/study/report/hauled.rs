@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::error::Error;
-use crate::haul::risk;
+use crate::haul::loads;
 use crate::haul::sheet::SCHEMA;
 
 /// Coefficient of variation where the haul's file gives none: that of rope by its entries.
@@ -95,7 +95,7 @@ impl HauledLoad {
     /// Probability that a line that delivers a strength parts in the haul.
     #[must_use]
     pub fn parts(&self, strength_n: f64) -> f64 {
-        risk::parts(self.tension_n / strength_n, self.variation)
+        loads::probability(self.tension_n / strength_n, self.variation)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::cases::{Outcome, words};
+use crate::cases::{Outcome, outcome};
 use crate::study::prepared::PreparedStudy;
 use crate::study::stats::{Agreement, Findings, ObservationFinding};
 
@@ -39,9 +39,9 @@ fn of_cases(cases: &[(String, Outcome)]) -> String {
                 outcome.name.clone(),
                 outcome.source.clone(),
                 verdict.name.clone(),
-                words::value(verdict.expected, verdict.unit),
-                words::value(verdict.got, verdict.unit),
-                words::limit(verdict),
+                outcome::value(verdict.expected, verdict.unit),
+                outcome::value(verdict.got, verdict.unit),
+                outcome::limit(verdict),
                 if verdict.passed { "agrees" } else { "misses" }.to_owned(),
             ];
             text += &line(&cells);

@@ -2,7 +2,7 @@
 
 use endline_gear::{Prior, StudyOption};
 
-use crate::strength::PartStrength;
+use crate::settled::PartStrength;
 use crate::study::prepared::PreparedStudy;
 use crate::study::stats::{
     ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,

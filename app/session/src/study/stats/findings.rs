@@ -6,7 +6,7 @@ use endline_gear::StudyEvent;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::strength::PartStrength;
+use crate::settled::PartStrength;
 use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::{RunRow, Runs};

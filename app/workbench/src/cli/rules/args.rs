@@ -13,15 +13,15 @@ use crate::cli::quantity::length;
 pub(in crate::cli) enum RulesCommand {
     /// Check an assembly against every rule that applies where and when it is fished.
     Check(CheckArgs),
-    /// Say what edits of an assembly would bring it to comply, each tried on a copy; write one as a new assembly.
-    Mend(MendArgs),
-    /// Write a study of an assembly mended for each of several rules, in the same encounters.
+    /// Propose edits by which an assembly would comply, each tried on a copy; write one as a new assembly.
+    Fix(FixArgs),
+    /// Write a study of an assembly edited for each of several rules, in the same encounters.
     Study(StudyArgs),
     /// List rules with their citations, dates and standing, and the areas.
     List(ListArgs),
 }
 
-/// What is fished, where, when and how.
+/// The gear, where, when and how it is fished.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FishedArgs {
     /// Assembly file, or the id of an assembly in the gear library.
@@ -60,10 +60,10 @@ pub(in crate::cli) struct CheckArgs {
 }
 
 #[derive(Debug, clap::Args)]
-pub(in crate::cli) struct MendArgs {
+pub(in crate::cli) struct FixArgs {
     #[command(flatten)]
     pub fished: FishedArgs,
-    /// Number of the proposal that is written [default: all edits together that mend the rules that bind].
+    /// Number of the proposal that is written [default: all edits together by which the rules that bind are met].
     #[arg(long, value_name = "N", requires = "write")]
     pub take: Option<usize>,
     /// New assembly to write with the edit: a file, or an id that the library does not have.
@@ -79,7 +79,7 @@ pub(in crate::cli) struct StudyArgs {
     /// Id of an assembly in the gear library.
     #[arg(value_name = "ASSEMBLY")]
     pub assembly: String,
-    /// Rule for which the assembly is mended, whose id the option gets; give two or more, the baseline first.
+    /// Rule for which the assembly is edited, whose id the option gets; give two or more, the baseline first.
     #[arg(long, value_name = "RULE", required = true)]
     pub option: Vec<String>,
     /// New study to write: a file, or an id that the library does not have.
@@ -88,7 +88,7 @@ pub(in crate::cli) struct StudyArgs {
     /// Study whose scenario, encounters and rule of ending are taken: a file, or an id of the library.
     #[arg(long, value_name = "STUDY", default_value = USUAL_LIKE)]
     pub like: String,
-    /// Depth for which the gear is mended and in which it is met [default: 25 m for mending, and that of the scenario].
+    /// Depth for which the gear is edited and in which whales meet it [default: 25 m for edits, and that of the scenario].
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub depth: Option<f64>,
     /// Rule pack besides those of the library; may be given several times.

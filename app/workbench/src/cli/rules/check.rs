@@ -21,7 +21,7 @@ pub(super) fn check_rules(args: &CheckArgs, library: Option<&Path>) -> Result<Ex
     Ok(if sheet.fails_binding() { ExitCode::from(1) } else { ExitCode::SUCCESS })
 }
 
-/// What was checked, where and when.
+/// The assembly, the area and the day.
 pub(super) fn head(sheet: &RuleSheet) -> String {
     let usual = if sheet.depth_is_usual { ", taken because --depth is not given" } else { "" };
     format!(
@@ -67,12 +67,12 @@ fn one(rule: &RuleResult) -> String {
         text += &format!("{indent}and {} more\n", rule.measured.len() - MOST_SHOWN);
     }
     if rule.verdict == Verdict::Fail {
-        text += &format!("{indent}mend: {}\n{indent}{}\n", rule.mend, rule.cite);
+        text += &format!("{indent}fix: {}\n{indent}{}\n", rule.mend, rule.cite);
     }
     text
 }
 
-/// What a reader must know besides: that a rule does not bind, or that nobody verified it.
+/// Caveats: that a rule does not bind, or that it was not verified.
 fn standing(standing: &str, confidence: &str) -> String {
     match (standing, confidence) {
         ("law", "estimate") => " (not verified)".to_owned(),

@@ -11,7 +11,7 @@ pub(in crate::cli) enum StudyCommand {
     Plan(PlanArgs),
     /// Run the blocks of a study that are missing; after an interruption, run the same command again. Processes that run at the same time share the blocks.
     Run(RunArgs),
-    /// Tell how far a study is and which processes work on it, on this machine or others.
+    /// Print the progress of a study and the processes that work on it, on this machine or others.
     Status(StatusArgs),
     /// Write the jobs that run a study on a cluster, and hand them to its queue.
     Submit(SubmitArgs),
@@ -92,10 +92,10 @@ pub(in crate::cli) struct StatusArgs {
 pub(in crate::cli) struct SubmitArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Hand it to Slurm; docs/clusters.md tells how other queues take the same commands.
+    /// Hand it to Slurm; docs/clusters.md describes how other queues take the same commands.
     #[arg(long, required = true)]
     pub(super) slurm: bool,
-    /// Tasks of the job array that runs the encounters; each takes those that nobody runs yet.
+    /// Tasks of the job array that runs the encounters; each takes those that no other task runs.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) array: u32,
     /// Threads of each task.
@@ -113,7 +113,7 @@ pub(in crate::cli) struct SubmitArgs {
     /// Partition of the cluster [default: the cluster's].
     #[arg(long, value_name = "NAME", value_parser = word)]
     pub(super) partition: Option<String>,
-    /// Print the scripts and hand over nothing.
+    /// Print the scripts without queueing them.
     #[arg(long)]
     pub(super) dry_run: bool,
 }
@@ -122,7 +122,7 @@ pub(in crate::cli) struct SubmitArgs {
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Draw what parts in a haul beside what parts on whales: a file that `endline haul ASSEMBLY --json` printed; may be given several
+    /// Draw the loads of a haul beside those on whales: a file that `endline haul ASSEMBLY --json` printed; may be given several
     /// times.
     #[arg(long, value_name = "FILE.json")]
     pub(super) haul: Vec<PathBuf>,
@@ -176,7 +176,7 @@ pub(in crate::cli) fn shard(text: &str) -> Result<Shard, String> {
         .ok_or_else(|| "expected a part such as 2/7: the second of seven".into())
 }
 
-/// A word of a directive: one that a line of a script takes as it is.
+/// A word of a directive, which needs no quotation.
 fn word(text: &str) -> Result<String, String> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || "-_.:,+@".contains(letter);
     if !text.is_empty() && text.chars().all(fits) {

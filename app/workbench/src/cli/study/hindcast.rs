@@ -1,4 +1,4 @@
-//! `endline study hindcast`: a merged study beside what was seen, or everything that can be: studies run, cases run, one page.
+//! `endline study hindcast`: a merged study beside observations, or all studies and cases with observations on one page.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -13,7 +13,7 @@ use endline_session::study::{PreparedStudy, batch, merge};
 use endline_session::{Error, locate};
 
 use super::args::{HindcastArgs, StudyArgs};
-use super::progress::Bar;
+use super::status::Bar;
 use super::{all_cores, folder_of, lower_priority, open};
 use crate::cli::{Failure, host, output};
 
@@ -41,7 +41,7 @@ fn of_one(study: &str, args: &HindcastArgs, library: Option<&Path>) -> Result<()
     output::print(&page::markdown(&opened, &findings))
 }
 
-/// Every study of the library with observations, run as far as it was not, and every case that belongs to the hindcast.
+/// Every study of the library with observations, its missing blocks run, and every case that belongs to the hindcast.
 fn of_all(args: &HindcastArgs, library: Option<&Path>) -> Result<(), Failure> {
     if !args.eager {
         lower_priority();
@@ -74,7 +74,7 @@ fn with_observations(library: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Runs what is missing of a study and merges it.
+/// Runs the missing blocks of a study and merges it.
 fn run(
     file: &Path,
     out: &Path,
@@ -97,7 +97,7 @@ fn run(
     Ok((opened, findings))
 }
 
-/// The cases that answer a row: the row and what came of the case.
+/// The cases that answer a row: the row and the outcome of the case.
 fn cases(library: Option<&Path>) -> Result<Vec<(String, Outcome)>, Failure> {
     let (cases, host) = (Cases::open(library)?, host::load());
     let mut found = Vec::new();

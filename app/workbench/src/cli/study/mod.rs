@@ -2,7 +2,6 @@
 
 pub(super) mod args;
 mod hindcast;
-mod progress;
 pub(super) mod status;
 mod submit;
 mod threat;
@@ -21,11 +20,11 @@ use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, merge, report};
 use endline_session::{locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
-use self::progress::Bar;
+use self::status::Bar;
 use super::interrupt::Interrupt;
 use super::{Failure, host, output, picture, table};
 
-/// Does what a study command says.
+/// Runs a study command.
 pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<ExitCode, Failure> {
     match command {
         StudyCommand::Plan(args) => plan(args, library),
@@ -67,7 +66,7 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     if let Some(code) = interrupt.exit_code() {
         let Count { done, total, .. } = progress.blocks;
         output::warn(&format!(
-            "interrupted: {done} of {total} encounters are kept in {}; the same command goes on from them",
+            "interrupted: {done} of {total} encounters are kept in {}; the same command continues from them",
             folder.path.display()
         ));
         return Ok(code);
@@ -120,7 +119,7 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     let frames_hz = if args.to.is_some() { REPLAY_HZ } else { 0.0 };
     let played = opened.play(option, &Encounter::of(&opened.study, args.row), frames_hz)?;
     if let Some(to) = &args.to {
-        keep(to, &played)?;
+        save_run(to, &played)?;
     }
     output::print(&if args.json {
         played.report.json() + "\n"
@@ -130,7 +129,7 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     compare(args, &opened, option, &played.report.state_hash)
 }
 
-pub(super) fn keep(to: &Path, played: &endline_session::study::Played) -> Result<(), Failure> {
+pub(super) fn save_run(to: &Path, played: &endline_session::study::Played) -> Result<(), Failure> {
     std::fs::create_dir_all(to)
         .map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", to.display())))?;
     let texts = [
@@ -184,7 +183,7 @@ pub(super) fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Lets everything else on the machine go first.
+/// Lowers the priority of this process.
 pub(super) fn lower_priority() {
     if let Err(error) = threads::try_lower_priority() {
         output::note(&format!("runs at ordinary priority: {error}"));

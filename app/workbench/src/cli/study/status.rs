@@ -1,10 +1,14 @@
-//! `endline study status`: how far a study is, and which processes work on it.
+//! `endline study status`: the progress of a study and the processes that work on it; the progress bar of `study run`.
 
+use std::io::IsTerminal;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
-use endline_session::campaign::{Worker, workers};
+use endline_session::campaign::{Count, Progress, Worker, workers};
 use endline_session::study::folder::Folder;
+use indicatif::{ProgressBar, ProgressStyle};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -64,7 +68,7 @@ impl From<Worker> for Process {
 pub(super) fn status(args: &StatusArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     let path = folder_of(&args.at, &opened);
-    // To look must not begin a study.
+    // Printing the status must not begin a study.
     let (done, processes) = if path.join("study.json").is_file() {
         let folder = Folder::open(&path, &opened)?;
         (folder.written()?.range(..folder.blocks()).count(), workers(&path)?)
@@ -107,4 +111,81 @@ fn words(status: &Status) -> String {
     }));
     text += &columns(&rows);
     text
+}
+
+/// Time between two lines where there is no terminal.
+const BETWEEN: Duration = Duration::from_secs(30);
+
+/// Shows blocks done and the time left.
+pub(super) struct Bar {
+    bar: Option<ProgressBar>,
+    start: Instant,
+    noted: Mutex<Instant>,
+}
+
+impl Bar {
+    pub(super) fn new() -> Self {
+        let shows = std::io::stderr().is_terminal() && output::is_shown(output::Verbosity::Notes);
+        let bar = shows.then(|| {
+            let bar = ProgressBar::new(0).with_message("encounters");
+            if let Ok(style) =
+                ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise} left")
+            {
+                bar.set_style(style);
+            }
+            bar
+        });
+        let now = Instant::now();
+        Self { bar, start: now, noted: Mutex::new(now) }
+    }
+
+    pub(super) fn at(&self, progress: &Progress) {
+        let Count { done, found, total } = progress.blocks;
+        if let Some(bar) = &self.bar {
+            let others = progress.elsewhere;
+            let message = match others {
+                0 => "encounters".to_owned(),
+                _ => format!("encounters, {others} of them run by other processes"),
+            };
+            bar.set_message(message);
+            bar.set_length(u64::from(total));
+            bar.set_position(u64::from(done));
+            return;
+        }
+        let mut noted = self.noted.lock().unwrap_or_else(PoisonError::into_inner);
+        if noted.elapsed() < BETWEEN && done < total {
+            return;
+        }
+        *noted = Instant::now();
+        let fresh = done - found;
+        let left = if fresh == 0 {
+            String::new()
+        } else {
+            format!(", {} left", duration(self.start.elapsed() / fresh * (total - done)))
+        };
+        let waits = match progress.elsewhere {
+            0 => String::new(),
+            others => {
+                format!("; {others} are run by other processes, and none is left for this one")
+            }
+        };
+        output::note(&format!("{done} of {total} blocks of encounters{left}{waits}"));
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn duration(left: Duration) -> String {
+    let minutes = left.as_secs() / 60;
+    match minutes {
+        0 => format!("{} s", left.as_secs()),
+        1..60 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
+    }
 }

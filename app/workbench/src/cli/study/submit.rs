@@ -1,7 +1,7 @@
 //! `endline study submit`: the jobs that run a study on a cluster under Slurm, and merge and report it then.
 //!
 //! Every task of the array runs `endline study run` on the same folder; leases share the encounters among them. A task that is
-//! preempted, fails or comes to its time limit costs the encounters under way, and the others, or the next submission, run them.
+//! preempted, fails or reaches its time limit costs the encounters in progress, and the others, or the next submission, run them.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -16,12 +16,12 @@ use crate::cli::{Failure, output};
 /// How long before its time limit a task is asked to end [s].
 const WARNING_S: u32 = 60;
 
-/// What the jobs are made of.
+/// The parts of the jobs.
 struct Jobs<'a> {
     args: &'a SubmitArgs,
     /// Id of the study.
     id: &'a str,
-    /// This program, as a shell takes it.
+    /// This program, quoted for a shell.
     program: String,
     /// Study, library and folder of results, as arguments of a command.
     at: String,
@@ -33,7 +33,7 @@ pub(super) fn submit(args: &SubmitArgs, library: Option<&Path>) -> Result<ExitCo
     let opened = open(&args.at, library)?;
     let folder = absolute(&folder_of(&args.at, &opened))?;
     let program = std::env::current_exe()
-        .map_err(|error| Failure::failed(format!("cannot tell where this program is: {error}")))?;
+        .map_err(|error| Failure::failed(format!("cannot find this program's file: {error}")))?;
     let jobs = Jobs {
         args,
         id: &opened.study.id,
@@ -54,7 +54,7 @@ pub(super) fn submit(args: &SubmitArgs, library: Option<&Path>) -> Result<ExitCo
     output::print(&format!(
         "job {run}: {} tasks run {} encounters; job {report} then merges and reports them\n\
          next: endline study status {}\n\
-         where all tasks were ended too soon, job {report} tells what is missing, and the same command queues it\n",
+         where all tasks were ended too soon, job {report} lists what is missing, and the same command queues it\n",
         args.array, opened.study.encounters, jobs.at
     ))?;
     Ok(ExitCode::SUCCESS)
@@ -85,7 +85,7 @@ impl Jobs<'_> {
         lines.join("\n") + "\n"
     }
 
-    /// What both scripts begin with.
+    /// The head of both scripts.
     fn head(&self, what: &str, log: &str) -> Vec<String> {
         let SubmitArgs { account, partition, .. } = self.args;
         // Slurm takes a percent sign in this path for the beginning of a number of the job.
@@ -138,6 +138,6 @@ fn queue(script: &Path, options: &[&str]) -> Result<String, Failure> {
         return Err(Failure::failed(format!("`{line}` failed: {}", why.trim())));
     }
     // Of several clusters, the number is followed by the name of one.
-    let told = String::from_utf8_lossy(&output.stdout);
-    Ok(told.trim().split(';').next().unwrap_or_default().to_owned())
+    let printed = String::from_utf8_lossy(&output.stdout);
+    Ok(printed.trim().split(';').next().unwrap_or_default().to_owned())
 }

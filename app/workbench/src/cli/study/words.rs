@@ -1,4 +1,4 @@
-//! What the study commands print.
+//! Texts that the study commands print.
 
 use endline_gear::StudyEvent;
 use endline_session::campaign::Count;
@@ -6,7 +6,7 @@ use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
-use endline_session::units::N_PER_LBF;
+use endline_session::units::newtons_and_lbf;
 
 use super::super::table::columns;
 
@@ -59,7 +59,7 @@ pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> Str
     let next = if whole {
         format!("next: endline study merge {} --out {at}\n", opened.study.place.source.path)
     } else {
-        "the other parts are still to be run; endline study merge tells which\n".to_owned()
+        "the other parts are still to be run; endline study merge lists them\n".to_owned()
     };
     format!(
         "{} of {} blocks in {at}, {} of them new\n{next}",
@@ -249,7 +249,7 @@ fn tensions(findings: &Findings) -> String {
     columns(&rows)
 }
 
-/// Times since first contact at which the share still held is told [s].
+/// Times since first contact at which the share still held is printed [s].
 const HELD_S: [f64; 5] = [10.0, 30.0, 60.0, 300.0, 600.0];
 
 /// How long rope holds whales that it touched.
@@ -269,7 +269,7 @@ fn held(findings: &Findings) -> String {
     columns(&rows)
 }
 
-/// What the lines and weak links of each option deliver.
+/// The delivered strength of the lines and weak links of each option.
 fn strengths(findings: &Findings) -> String {
     let heads = ["delivered strength", "part", "stated", "delivered", "nine of ten", "confidence"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
@@ -336,5 +336,5 @@ fn with(value: f64, interval: Interval, factor: f64) -> String {
 }
 
 fn force(newtons: f64) -> String {
-    format!("{newtons:.0} N ({:.0} lbf)", newtons / N_PER_LBF)
+    newtons_and_lbf(newtons, 0)
 }

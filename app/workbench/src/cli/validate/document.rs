@@ -1,12 +1,12 @@
-//! The document of all cases: tables by group, convergence, plots. Nothing of it is written by hand.
+//! The document of all cases: tables by group, convergence, plots; all generated.
 
 use std::fmt::Write;
 use std::path::Path;
 
-use endline_session::cases::{Convergence, Outcome, Verdict, words};
+use endline_session::cases::{Convergence, Outcome, Verdict, outcome};
 use endline_session::save;
 
-use super::{plot, text};
+use super::plot;
 
 /// Where the plots lie, from the document.
 const PICTURES: &str = "pictures/validation";
@@ -81,10 +81,10 @@ fn verdicts(outcomes: &[&Outcome]) -> String {
     for outcome in outcomes {
         for verdict in &outcome.verdicts {
             let passed = if verdict.passed { "ok" } else { "**missed**" };
-            let expected = words::value(verdict.expected, verdict.unit);
+            let expected = outcome::value(verdict.expected, verdict.unit);
             let (got, error) =
-                (words::value(verdict.got, verdict.unit), words::error(verdict, verdict.error));
-            let limit = words::limit(verdict);
+                (outcome::value(verdict.got, verdict.unit), outcome::error(verdict, verdict.error));
+            let limit = outcome::limit(verdict);
             let _ = writeln!(
                 table,
                 "| {} | {} | {expected} | {got} | {error} | {limit} | {passed} |",
@@ -103,7 +103,7 @@ fn verdicts(outcomes: &[&Outcome]) -> String {
     table
 }
 
-/// What halving comes to, where any case of the group does it.
+/// What halving changes, where any case of the group does it.
 fn convergence(outcomes: &[&Outcome]) -> String {
     let mut rows = String::new();
     for outcome in outcomes {
@@ -114,7 +114,7 @@ fn convergence(outcomes: &[&Outcome]) -> String {
         {
             let (half_step, order_step) = halved(verdict, verdict.step);
             let (half_segment, order_segment) = halved(verdict, verdict.segment);
-            let whole = words::error(verdict, verdict.error);
+            let whole = outcome::error(verdict, verdict.error);
             let name = &verdict.name;
             let _ = writeln!(
                 rows,
@@ -132,7 +132,7 @@ fn convergence(outcomes: &[&Outcome]) -> String {
 
 fn halved(verdict: &Verdict, finer: Option<Convergence>) -> (String, String) {
     finer.map_or_else(Default::default, |finer| {
-        (words::error(verdict, finer.error_at_half), text::order(finer))
+        (outcome::error(verdict, finer.error_at_half), super::order(finer))
     })
 }
 

@@ -1,7 +1,7 @@
-//! Plots of a case as SVG: readings over time beside what is expected, or simulated over measured.
+//! Plots of a case as SVG: readings over time beside the expected ones, or simulated over measured.
 
 use endline_session::cases::{Curve, Outcome, Point};
-use endline_session::export::font;
+use endline_session::export::picture;
 use endline_session::scales::SERIES_ON_WHITE;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -15,14 +15,14 @@ fn colours() -> impl Iterator<Item = RGBColor> {
 
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// The picture of a case; `None` where there is nothing to draw.
+/// The plot of a case; `None` where it has no curve and no pairs.
 pub(super) fn picture(outcome: &Outcome) -> Result<Option<String>, String> {
     let units = units(&outcome.curves);
     let panels = units.len() + usize::from(!outcome.points.is_empty());
     if panels == 0 {
         return Ok(None);
     }
-    font::register()?;
+    picture::register()?;
     let mut text = String::new();
     {
         let height = PANEL.1 * u32::try_from(panels).unwrap_or(1);

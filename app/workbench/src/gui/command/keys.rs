@@ -36,7 +36,7 @@ pub fn commands(context: &Context, shared: &Shared) -> Vec<WindowCommand> {
     let holds = |bound: &Bound| match bound.when {
         When::Always => true,
         When::Idle => !typing || (untouched && bound.key.modifiers.command),
-        When::Looking => !typing && !shared.flying,
+        When::NotFlying => !typing && !shared.flying,
         When::Flying => !typing && shared.flying,
     };
     let mut wanted: Vec<Bound> = bound().filter(holds).collect();
@@ -119,7 +119,7 @@ mod tests {
             }
             for steer in STEERING.iter().flat_map(|steer| [Some(steer.more), steer.less]).flatten()
             {
-                let plain = one.key.modifiers.is_none() && one.when != When::Looking;
+                let plain = one.key.modifiers.is_none() && one.when != When::NotFlying;
                 let steers = plain && one.key.logical_key == steer;
                 assert!(!steers, "the key of {} steers", one.command.id());
             }

@@ -18,7 +18,7 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Brings the gear and the whale into sight.",
         Make::Plain(|| ViewAction::Frame.into()),
     )
-    .with_keys(&[Shortcut::new("F", When::Looking)])
+    .with_keys(&[Shortcut::new("F", When::NotFlying)])
     .only_if(shown),
     WindowInfo::new(
         "view.side",
@@ -26,28 +26,28 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Looks from the side.",
         Make::Plain(|| ViewAction::Look(View::Side).into()),
     )
-    .with_keys(&[Shortcut::new("1", When::Looking)]),
+    .with_keys(&[Shortcut::new("1", When::NotFlying)]),
     WindowInfo::new(
         "view.top",
         "View top",
         "Looks from above.",
         Make::Plain(|| ViewAction::Look(View::Top).into()),
     )
-    .with_keys(&[Shortcut::new("7", When::Looking)]),
+    .with_keys(&[Shortcut::new("7", When::NotFlying)]),
     WindowInfo::new(
         "view.front",
         "View front",
         "Looks from the front.",
         Make::Plain(|| ViewAction::Look(View::Front).into()),
     )
-    .with_keys(&[Shortcut::new("3", When::Looking)]),
+    .with_keys(&[Shortcut::new("3", When::NotFlying)]),
     WindowInfo::new(
         "view.orbit",
         "View orbit",
         "Looks from where the view was turned to.",
         Make::Plain(|| ViewAction::Look(View::Orbit).into()),
     )
-    .with_keys(&[Shortcut::new("5", When::Looking)]),
+    .with_keys(&[Shortcut::new("5", When::NotFlying)]),
     WindowInfo::new(
         "view.look",
         "View",
@@ -110,7 +110,7 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Notes what the chosen view shows at this moment: a film goes from key to key.",
         Make::Plain(|| ViewAction::SetKey.into()),
     )
-    .with_keys(&[Shortcut::new("I", When::Looking)])
+    .with_keys(&[Shortcut::new("I", When::NotFlying)])
     .only_if(shown),
     WindowInfo::new(
         "view.clear-keys",
@@ -134,7 +134,7 @@ pub static COMMANDS: &[WindowInfo] = &[
         "Lets two clicks measure between two places, straight and along the rope; or lets a click inspect again.",
         Make::Plain(|| ViewAction::Ruler.into()),
     )
-    .with_keys(&[Shortcut::new("R", When::Looking)]),
+    .with_keys(&[Shortcut::new("R", When::NotFlying)]),
     WindowInfo::new(
         "view.inspect",
         "Read",

@@ -66,7 +66,7 @@ pub fn keys(when: When) -> Vec<Row> {
             pad: shortcut.pad,
         }));
     }
-    if when == When::Looking {
+    if when == When::NotFlying {
         rows.extend(MOUSE.map(|(what, how)| Row {
             what: what.to_owned(),
             keys: how.to_owned(),

@@ -28,7 +28,7 @@ pub fn list<S>(ui: &mut Ui, figures: &[Figure<S>], source: &S, style: Style) -> 
     let mut wanted = None;
     let grid = Grid::new(id("list", figures, style)).num_columns(2);
     grid.spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        for figure in shown(figures, style.view).filter(|figure| figure.is_told(source)) {
+        for figure in shown(figures, style.view).filter(|figure| figure.is_shown(source)) {
             ui.label(RichText::new(capital(figure.label)).color(faint)).on_hover_text(figure.help);
             wanted = wanted.or(cell(ui, figure, source, style, false));
             ui.end_row();

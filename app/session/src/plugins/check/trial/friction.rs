@@ -2,8 +2,8 @@
 
 use endline_sdk::{Contacts, FrictionModel, FrictionResponse, HookError, Region};
 
-use super::random::{Random, across, dot};
 use super::{Bits, Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
+use super::{Random, across, dot};
 
 /// Sets of attributes, steps with each, and contacts in a call.
 const SETS: u64 = 40;
@@ -99,7 +99,7 @@ fn play(
     Ok(Play { answers, half_way })
 }
 
-/// Answers and floats at the end of a step, with more room behind them than the plugin is told of: what lies there must stay.
+/// Answers and floats at the end of a step, with more room behind them than the plugin may use: the plugin must not change it.
 fn ask_watched(
     friction: &dyn FrictionModel,
     attributes: &[f64],

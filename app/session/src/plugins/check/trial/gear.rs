@@ -2,7 +2,7 @@
 
 use endline_sdk::{AttributeValue, GearAction, GearStep, GearType, HookError, LineEnd, Rig, Site};
 
-use super::random::Random;
+use super::Random;
 use super::{Play, Trial, bits, defaults, drawn, on_threads, plays_again};
 
 /// Water depths at which a gear type may build itself [m]; one that it takes is enough.
@@ -16,7 +16,7 @@ pub(super) fn run(gear: &dyn GearType, trial: &mut Trial<'_>) {
     let mut built = None;
     trial.check("defaults", || {
         let (rig, site) = build_somewhere(gear, &values).map_err(|error| error.message)?;
-        let told = format!(
+        let range = format!(
             "{} bodies, {} lines, {} links in {} m of water",
             rig.bodies.len(),
             rig.lines.len(),
@@ -25,7 +25,7 @@ pub(super) fn run(gear: &dyn GearType, trial: &mut Trial<'_>) {
         );
         act(gear, &values, rig.lines.len(), None).map_err(|error| error.message)?;
         built = Some((rig, site));
-        Ok(told)
+        Ok(range)
     });
     let Some((rig, site)) = built else { return };
     trial.check("ranges", || ranges(gear));
@@ -59,7 +59,7 @@ fn build_somewhere(
         .fold(at(DEPTHS_M[0]), |built, depth| built.or_else(|first| at(*depth).map_err(|_| first)))
 }
 
-/// At attributes drawn at random it builds a rig that fits together, or says why not; the guard looks at the rig.
+/// At attributes drawn at random it builds a rig that fits together, or returns an error; the guard checks the rig.
 fn ranges(gear: &dyn GearType) -> Result<String, String> {
     let (mut built, mut refused) = (0, 0);
     for set in 0..SETS {
@@ -80,7 +80,7 @@ fn ranges(gear: &dyn GearType) -> Result<String, String> {
     ))
 }
 
-/// Whether an error says what to change, and is no fault of the plugin's own.
+/// Whether an error names a change, and is no fault of the plugin's own.
 fn refuses(error: &HookError) -> bool {
     let faults = [
         "failed inside",
@@ -94,7 +94,7 @@ fn refuses(error: &HookError) -> bool {
     !faults.iter().any(|fault| error.message.contains(fault))
 }
 
-/// A run of its steps with tensions that come and go; from floats saved half way where some are given.
+/// A run of its steps with tensions that rise and vanish; from floats saved half way where some are given.
 fn act(
     gear: &dyn GearType,
     values: &[AttributeValue],

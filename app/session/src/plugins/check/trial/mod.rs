@@ -1,35 +1,33 @@
-//! What is tried of a plugin before it is let in: that it answers, again and again, with the same bits and no hidden memory.
+//! Checks of a plugin before it is accepted: it answers repeatedly with the same bits and has no hidden memory.
 //!
-//! | check | what is tried |
+//! | check | content |
 //! |---|---|
 //! | defaults | one call of each function with its own defaults |
 //! | ranges | calls at attributes and inputs drawn at random within their ranges: finite, of the right length, within bounds |
 //! | same rig | gear: built again from the same attributes |
 //! | same bits | the same calls from the start again |
-//! | restore | a run taken up again from floats saved on the way |
+//! | restore | a run continued from floats saved on the way |
 //! | pure | friction: more calls of `respond` within a step change nothing |
-//! | energy | friction: over random paths no more comes out than went in |
+//! | energy | friction: over random paths the plugin returns no more energy than it receives |
 //! | threads | the same calls on four threads at once |
 //! | time | how long a call takes |
+
+mod friction;
+mod gear;
+mod motion;
 
 use std::time::Instant;
 
 use endline_sdk::{Attribute, AttributeKind, AttributeValue, HookError};
 
 use super::super::info::Hook;
-use random::Random;
 
-mod friction;
-mod gear;
-mod motion;
-mod random;
-
-/// What one check found.
+/// The finding of one check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// Name of the check.
     pub check: &'static str,
-    /// What was seen, or what is wrong.
+    /// The result, or the failure.
     pub outcome: Result<String, String>,
 }
 
@@ -40,7 +38,7 @@ const TIMED_PLAYS: usize = 5;
 /// Threads that call at once.
 const THREADS: usize = 4;
 
-/// Tries a plugin; `begin` is told of each check before it begins. Where its own defaults fail, nothing more is tried.
+/// Checks a plugin; `begin` receives the name of each check before it begins. Where its own defaults fail, no other check is made.
 pub(super) fn run(hook: &Hook, begin: &dyn Fn(&'static str)) -> Vec<Finding> {
     let mut trial = Trial { begin, findings: Vec::new() };
     match hook {
@@ -58,7 +56,7 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Makes a check and notes what it found; whether all is well.
+    /// Makes a check and records its finding; returns whether it passed.
     fn check(
         &mut self,
         check: &'static str,
@@ -71,7 +69,7 @@ impl Trial<'_> {
         sound
     }
 
-    /// Notes how long a call takes: the fastest of a few plays of so many calls each, so that a busy machine makes no fault.
+    /// Records the time of a call: the fastest of a few series of `calls` calls, so that a busy machine causes no failure.
     fn time(&mut self, each: &str, calls: usize, play: impl Fn() -> Result<(), HookError>) {
         self.check("time", || {
             let mut fastest = f64::INFINITY;
@@ -80,11 +78,11 @@ impl Trial<'_> {
                 play().map_err(|error| error.message)?;
                 fastest = fastest.min(start.elapsed().as_secs_f64() / calls as f64);
             }
-            let told = format!("{:.2} µs {each}", 1e6 * fastest);
+            let taken = format!("{:.2} µs {each}", 1e6 * fastest);
             if fastest <= LONGEST_CALL_S {
-                Ok(told)
+                Ok(taken)
             } else {
-                Err(format!("takes {told}, more than {:.0} ms", 1e3 * LONGEST_CALL_S))
+                Err(format!("takes {taken}, more than {:.0} ms", 1e3 * LONGEST_CALL_S))
             }
         });
     }
@@ -97,7 +95,7 @@ fn bits(values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
     values.into_iter().map(f64::to_bits)
 }
 
-/// Plays the same calls again, and from floats saved half way: first what is not the same.
+/// Repeats the same calls, and continues from floats saved half way; returns the first difference.
 fn plays_again(
     trial: &mut Trial<'_>,
     first: &Play,
@@ -134,7 +132,7 @@ fn first_difference(one: &[Bits], other: &[Bits]) -> Option<usize> {
     one.iter().zip(other).position(|(one, other)| one != other).map(|place| place + 1)
 }
 
-/// The same play on several threads at once.
+/// Repeats the calls on several threads at once.
 fn on_threads(
     first: &Play,
     play: impl Fn() -> Result<Play, HookError> + Sync,
@@ -176,4 +174,73 @@ fn numbers(values: &[AttributeValue]) -> Vec<f64> {
 
 fn defaults(attributes: &[Attribute]) -> Vec<AttributeValue> {
     attributes.iter().map(Attribute::default_value).collect()
+}
+
+struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// From `least` to `most`.
+    pub fn between(&mut self, least: f64, most: f64) -> f64 {
+        least + (most - least) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A whole number from `least` to `most`, both counted.
+    pub fn whole(&mut self, least: u32, most: u32) -> f64 {
+        self.between(f64::from(least), f64::from(most) + 1.0).floor().min(f64::from(most))
+    }
+
+    /// An index below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() % count.max(1) as u64) as usize
+    }
+
+    /// Between two powers of ten, evenly by order of magnitude.
+    pub fn order(&mut self, least: f64, most: f64) -> f64 {
+        libm::exp10(self.between(least, most))
+    }
+
+    pub fn vector(&mut self, size: f64) -> [f64; 3] {
+        std::array::from_fn(|_| self.between(-size, size))
+    }
+
+    /// A unit vector.
+    pub fn direction(&mut self) -> [f64; 3] {
+        loop {
+            if let Some(unit) = unit(self.vector(1.0)) {
+                return unit;
+            }
+        }
+    }
+
+    /// A unit vector across a unit normal.
+    pub fn tangent(&mut self, normal: [f64; 3]) -> [f64; 3] {
+        loop {
+            if let Some(unit) = unit(across(normal, self.direction())) {
+                return unit;
+            }
+        }
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The part of a vector across a unit normal.
+fn across(normal: [f64; 3], vector: [f64; 3]) -> [f64; 3] {
+    let along = dot(normal, vector);
+    std::array::from_fn(|i| vector[i] - along * normal[i])
+}
+
+fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(vector, vector).sqrt();
+    (length > 0.1).then(|| vector.map(|part| part / length))
 }

@@ -2,7 +2,7 @@
 
 use endline_sdk::{BodyPart, Controls, HookError, MotionInput, MotionOutput, WhaleMotion};
 
-use super::random::Random;
+use super::Random;
 use super::{Bits, Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
 
 /// Sets of attributes, and steps with each.
@@ -20,12 +20,12 @@ pub(super) fn run(motion: &dyn WhaleMotion, trial: &mut Trial<'_>) {
         trial.check("ranges", || {
             let plays: Result<Vec<Play>, HookError> =
                 (0..SETS).map(|set| play(motion, set, None)).collect();
-            let told = plays.as_ref().map(|_| {
+            let range = plays.as_ref().map(|_| {
                 format!("{} steps at attributes drawn within their ranges", SETS as usize * STEPS)
             });
-            let told = told.map_err(|error| error.message.clone());
+            let range = range.map_err(|error| error.message.clone());
             took = Some(plays);
-            told
+            range
         });
         took.unwrap_or_else(|| Ok(Vec::new()))
     };
@@ -68,7 +68,7 @@ fn play(motion: &dyn WhaleMotion, set: u64, restored: Option<&[f64]>) -> Result<
     Ok(Play { answers, half_way })
 }
 
-/// What one step's input is made of.
+/// The input of one step.
 struct Drawing {
     dt_s: f64,
     length_m: f64,

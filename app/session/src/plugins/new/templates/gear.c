@@ -13,7 +13,7 @@ static int32_t fail(endline_message_t *message, const char *words) {
     return ENDLINE_STATUS_ERROR;
 }
 
-/* Parts with a first guess of their places; the program finds where they come to rest. */
+/* Parts with a first guess of their places; the program finds their rest. */
 static int32_t build(const void *context, const endline_value_t *values, size_t value_count, const endline_site_t *site,
                      const endline_rig_host_t *rig, endline_message_t *message) {
     (void)context, (void)value_count;

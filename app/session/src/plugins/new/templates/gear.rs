@@ -25,7 +25,7 @@ impl GearType for Simple {
         &self.0
     }
 
-    /// Parts with a first guess of their places; the program finds where they come to rest.
+    /// Parts with a first guess of their places; the program finds their rest.
     fn build(&self, values: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
         let item = |i: usize| values[i].item().filter(|id| !id.is_empty()).map(str::to_owned);
         let item = |i: usize| item(i).ok_or_else(|| HookError::new(format!("`{}` names no item", self.0.attributes[i].key)));

@@ -1,8 +1,8 @@
 //! Delivered strength of a line or weak link: its mean, and on hover the budget of factors.
 
 use egui::{Color32, CornerRadius, Grid, Rect, RichText, Sense, Ui, pos2, vec2};
+use endline_session::settled::{PartStrength, Sourced};
 use endline_session::statics::RigAtRest;
-use endline_session::strength::{PartStrength, Sourced};
 use endline_session::units::Units;
 
 use crate::gui::theme::Theme;

@@ -2,7 +2,7 @@
 
 use egui::{Frame, Label, RichText, Stroke, Ui};
 use endline_session::command::RuleAction;
-use endline_session::rules::mend::{Mends, Proposal};
+use endline_session::rules::remedy::{Proposal, Remedies};
 use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
@@ -65,31 +65,31 @@ fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResul
     if !rule.mend.is_empty() {
         ui.add(Label::new(&rule.mend).wrap());
     }
-    let Some(mends) = &answer.mends else {
+    let Some(remedies) = &answer.remedies else {
         ui.horizontal(|ui| {
             ui.spinner();
             ui.label(RichText::new("trying edits …").color(palette.faint));
         });
         return;
     };
-    let Some(mend) = mends.rules.iter().find(|one| one.rule == rule.rule) else { return };
+    let Some(remedy) = remedies.rules.iter().find(|one| one.rule == rule.rule) else { return };
     if rule.verdict == Verdict::CannotBeChecked {
         let text = "The missing information cannot be supplied by an edit of the assembly.";
         ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
-    } else if !mend.why_none.is_empty() {
-        let text = format!("No edit makes the gear comply: {}.", on_screen(&mend.why_none));
+    } else if !remedy.why_none.is_empty() {
+        let text = format!("No edit makes the gear comply: {}.", on_screen(&remedy.why_none));
         ui.add(Label::new(RichText::new(text).color(palette.faint)).wrap());
     }
-    for proposal in &mend.proposals {
-        if let Some(number) = number(mends, &mend.rule, proposal) {
+    for proposal in &remedy.proposals {
+        if let Some(number) = number(remedies, &remedy.rule, proposal) {
             card(ui, shared, number, proposal);
         }
     }
 }
 
 /// Index of a proposal among all.
-fn number(mends: &Mends, rule: &str, proposal: &Proposal) -> Option<usize> {
-    mends.numbered().position(|(mend, one)| mend.rule == rule && one == proposal)
+fn number(remedies: &Remedies, rule: &str, proposal: &Proposal) -> Option<usize> {
+    remedies.numbered().position(|(remedy, one)| remedy.rule == rule && one == proposal)
 }
 
 /// Draws an edit: its changes, the rules it passes and breaks, and the button that applies it.

@@ -1,0 +1,142 @@
+//! Every rule of the shipped packs with gear that passes and gear that fails, and mistakes in packs.
+
+mod cases;
+pub mod gear;
+mod mistakes;
+
+use endline_gear::Date;
+use endline_gear::units::{Quantity, parse};
+
+use super::facts::FACTS;
+use super::facts::{Part, fits, value};
+use super::gear::Gear;
+use super::{Fishing, Packs, RuleResult, Verdict, check};
+use cases::{TRAPS, UNSAID, federal, others};
+use gear::{STOWED, TWO_INSERTS, assembled, inserts, library, line, rig};
+
+pub fn packs() -> Packs {
+    Packs::open(Some(&library()), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Fishing as `area, day, distance, traps`; an empty one is not stated.
+pub fn fishing(text: &str) -> Fishing {
+    let words: Vec<&str> = text.split(',').map(str::trim).collect();
+    let word = |at: usize| words.get(at).filter(|word| !word.is_empty());
+    Fishing {
+        area: words[0].to_owned(),
+        on: Date::parse(words[1]).unwrap(),
+        depth_m: Some(25.0),
+        distance_m: word(2).map(|length| parse(length, Quantity::Length).unwrap()),
+        traps: word(3).map(|traps| traps.parse().unwrap()),
+    }
+}
+
+fn verdict(packs: &Packs, rule: &str, gear: &str, place: &str) -> RuleResult {
+    let sheet = check(&assembled(gear), packs, &fishing(place)).unwrap();
+    sheet.rules.into_iter().find(|result| result.rule == rule).unwrap()
+}
+
+#[test]
+fn every_rule_that_ships_passes_gear_and_fails_gear_or_cannot_be_checked() {
+    let packs = packs();
+    let cases: Vec<cases::Case> = federal().into_iter().chain(others()).collect();
+    for (rule, place, passes, fails) in &cases {
+        for (gear, expected) in [(passes, Verdict::Pass), (fails, Verdict::Fail)] {
+            let result = verdict(&packs, rule, gear, place);
+            assert_eq!(result.verdict, expected, "{rule} on\n{gear}\n{result:?}");
+            assert!(!result.measured.is_empty(), "{result:?}");
+            assert_eq!(result.mend.is_empty(), expected == Verdict::Pass, "{result:?}");
+        }
+    }
+    let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS]);
+    for (rule, place, least) in TRAPS {
+        for (traps, expected) in [(least, Verdict::Pass), (least - 1, Verdict::Fail)] {
+            let result = verdict(&packs, rule, &single, &format!("{place}, {traps}"));
+            assert_eq!(result.verdict, expected, "{rule} with {traps} traps: {result:?}");
+        }
+    }
+    for (rule, place) in UNSAID {
+        let result = verdict(&packs, rule, &single, place);
+        assert_eq!(result.verdict, Verdict::CannotBeChecked, "{result:?}");
+        assert!(result.why.starts_with("an assembly does not say"), "{result:?}");
+    }
+    let tested: Vec<&str> = cases
+        .iter()
+        .map(|case| case.0)
+        .chain(TRAPS.iter().map(|case| case.0))
+        .chain(UNSAID.iter().map(|case| case.0))
+        .collect();
+    for (_, rule) in packs.rules() {
+        assert!(tested.contains(&rule.id.value.as_str()), "`{}` is not tested", rule.id.value);
+    }
+}
+
+#[test]
+fn a_rule_applies_in_its_time_its_area_and_its_distance_and_says_what_it_needs() {
+    let packs = packs();
+    let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m")]);
+    for (rule, place, expected, why) in [
+        ("us.weak", "lma-1, 2022-04-30", Verdict::NotApplicable, "in force from 2022-05-01"),
+        ("us.weak", "me-b, 2022-05-01", Verdict::Fail, ""),
+        ("legacy.buoylink", "lma-1, 2022-05-01", Verdict::NotApplicable, "until 2022-04-30"),
+        ("us.weak", "gulf-snow-crab, 2024-01-01", Verdict::NotApplicable, "applies in lma-1"),
+        ("me.singles", "me-b, 2024-01-01", Verdict::CannotBeChecked, "needs --distance"),
+        ("me.singles", "me-b, 2024-01-01, 2 nmi", Verdict::NotApplicable, "at a distance from"),
+        ("us.oneline", "me-b, 2024-01-01,, 6", Verdict::NotApplicable, "applies to 1 to 5 traps"),
+        ("us.groundline", "me-b, 2024-01-01", Verdict::NotApplicable, "has no groundline"),
+        (
+            "us.reflector",
+            "me-b, 2024-01-01",
+            Verdict::NotApplicable,
+            "applies where traps > single",
+        ),
+    ] {
+        let result = verdict(&packs, rule, &single, place);
+        assert_eq!((result.verdict, result.why.contains(why)), (expected, true), "{result:?}");
+    }
+    let stowed = rig(2, "sink-3-8", "20 m", &[]) + STOWED;
+    for (rule, place, expected, why) in [
+        ("us.weak", "lma-1, 2024-01-01", Verdict::NotApplicable, "the gear has no endline"),
+        ("us.groundline.floats", "lma-1, 2024-01-01", Verdict::NotApplicable, "!stowed"),
+        ("us.groundline", "lma-1, 2024-01-01", Verdict::Pass, ""),
+    ] {
+        let result = verdict(&packs, rule, &stowed, place);
+        assert_eq!((result.verdict, result.why.contains(why)), (expected, true), "{result:?}");
+        // The stowed floating line is no groundline.
+        assert!(result.measured.len() <= 1, "{result:?}");
+    }
+    let nowhere = check(&assembled(&single), &packs, &fishing("lma-11, 2024-01-01"));
+    assert!(nowhere.unwrap_err().to_string().contains("did you mean `lma-1`?"));
+}
+
+#[test]
+fn every_fact_has_a_value_of_its_kind() {
+    let gear =
+        assembled(&rig(2, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS])).gear;
+    let fishing = fishing("lma-1, 2024-06-01, 5 nmi");
+    let Gear { endlines, groundlines, .. } = &gear;
+    for fact in FACTS {
+        let parts = [Part::Gear, Part::Endline(&endlines[0]), Part::Groundline(&groundlines[0])];
+        let values = parts.map(|part| value(fact, &gear, part, &fishing));
+        assert!(values.iter().all(|value| fits(fact, value)), "{}: {values:?}", fact.name);
+        let known =
+            values.iter().any(|value| !matches!(value, super::value::Value::Unknown { .. }));
+        assert_eq!(known, fact.about != super::facts::About::Unsaid, "{}", fact.name);
+    }
+}
+
+#[test]
+fn the_weakest_place_of_a_line_is_told_with_its_limit() {
+    let gear = rig(
+        1,
+        "sink-3-8",
+        "20 m",
+        &[line("sink-3-8", "40 m") + &inserts("3 ft", "12 ft", "60 ft")],
+    );
+    let result = verdict(&packs(), "ma.strength", &gear, "ma-lma-1, 2024-06-01");
+    // Every 60 ft from near edge to near edge, 3 ft long: 57 ft between two.
+    assert_eq!(result.measured.len(), 1, "{result:?}");
+    assert_eq!(result.measured[0].says, "57 ft <= 60 ft");
+    assert!((result.measured[0].value.unwrap() - 57.0 * 0.3048).abs() < 1e-6);
+    assert_eq!(result.measured[0].part, "endline-1");
+}
