@@ -76,14 +76,12 @@ impl Sources {
     }
 
     /// These files with the meshes of another set.
-    #[must_use]
     pub fn with_meshes_of(mut self, other: &Self) -> Self {
         self.meshes.clone_from(&other.meshes);
         self
     }
 
     /// These files overridden by those of another set.
-    #[must_use]
     pub fn overlay(mut self, over: Self) -> Self {
         self.files.extend(over.files);
         self.meshes.extend(over.meshes);
@@ -178,7 +176,7 @@ fn read_meshes(
 fn read_files<T>(
     root: &Path,
     folder: &str,
-    (is_wanted, read): (fn(&str) -> bool, fn(&Path) -> io::Result<T>),
+    (is_wanted, read): (impl Fn(&str) -> bool, impl Fn(&Path) -> io::Result<T>),
     help: &str,
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<(String, T)> {

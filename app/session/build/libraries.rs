@@ -40,9 +40,7 @@ pub const REPORTING: &[&str] = &[
 ];
 
 /// Name and version of each library that decides a run, in order of name.
-///
-/// # Errors
-/// Where a manifest or the lock file cannot be read or lacks what it must hold.
+/// Errors: where a manifest or the lock file cannot be read or lacks what it must hold.
 pub fn deciding(root: &Path) -> Result<Vec<String>, String> {
     let workspace = read(root, "Cargo.toml")?;
     let mut wanted: Vec<String> = DECIDING.map(str::to_owned).to_vec();
@@ -55,16 +53,13 @@ pub fn deciding(root: &Path) -> Result<Vec<String>, String> {
 }
 
 /// Names under `[dependencies]` of a manifest.
-#[must_use]
 pub fn dependencies(manifest: &Table) -> Vec<String> {
     let table = manifest.get("dependencies").and_then(Value::as_table);
     table.into_iter().flat_map(Table::keys).cloned().collect()
 }
 
 /// A file of the workspace as TOML.
-///
-/// # Errors
-/// Where it cannot be read.
+/// Errors: where it cannot be read.
 pub fn read(root: &Path, file: &str) -> Result<Table, String> {
     let text = fs::read_to_string(root.join(file)).map_err(|error| format!("{file}: {error}"))?;
     text.parse().map_err(|error| format!("{file}: {error}"))

@@ -16,9 +16,7 @@ use crate::whale::tree::SkinTree;
 
 impl Model {
     /// Checks a spec and lays out nodes and segments.
-    ///
-    /// # Errors
-    /// All errors of the spec.
+    /// Errors: all errors of the spec.
     pub fn new(spec: ModelSpec) -> Result<Self, Vec<ModelError>> {
         let errors = check(&spec);
         if !errors.is_empty() {

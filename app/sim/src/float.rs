@@ -82,7 +82,6 @@ impl Wet {
 
 impl Float {
     /// A float of the form [`Form::Level`] without drag.
-    #[must_use]
     pub fn level(offset_m: DVec3, volume_m3: f64, height_m: f64) -> Self {
         Self { offset_m, volume_m3, form: Form::Level { height_m }, drag_area_m2: DVec3::ZERO }
     }

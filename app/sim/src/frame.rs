@@ -50,7 +50,6 @@ pub struct WhaleFrame {
 
 impl Frame {
     /// A snapshot of a state with the contacts of its last step.
-    #[must_use]
     pub fn of(state: &State, contacts: &[ContactPoint], body_contacts: &[BodyContact]) -> Self {
         Self {
             time_s: state.time_s,

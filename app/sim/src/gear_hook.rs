@@ -15,9 +15,7 @@ pub(crate) struct GearWorkspace {
 }
 
 /// Calls every gear type and executes its actions.
-///
-/// # Errors
-/// Reports the plugin's id if it fails, or if it refers to a line or link that it did not build.
+/// Errors: reports the plugin's id if it fails, or if it refers to a line or link that it did not build.
 pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWorkspace) -> Result<(), Stop> {
     let GearWorkspace { tensions, actions } = work;
     for (index, hook) in model.spec.gear.iter().enumerate() {

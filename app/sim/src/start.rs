@@ -12,7 +12,6 @@ use crate::whale::pilot;
 
 impl State {
     /// The initial state of a model before statics: initial guesses, at rest.
-    #[must_use]
     pub fn start(model: &Model) -> Self {
         let position = start_nodes(model);
         let nodes = position.len();

@@ -51,26 +51,20 @@ const WINDOWS: Script = Script {
 const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 
 /// Plays each user's first hour in a real window; writes the pictures to `<target>/first-hours`.
-///
-/// # Errors
-/// When a step fails.
+/// Errors: when a step fails.
 pub fn window(workspace: &Workspace) -> Outcome {
     drive(workspace, &WINDOW, workspace.program(Profile::Dev).as_path())
 }
 
 /// Runs a study on a Slurm of one node, kills one task and requeues another; writes the results to `<target>/slurm`.
-///
-/// # Errors
-/// When the table differs from that of a single process.
+/// Errors: when the table differs from that of a single process.
 pub fn slurm(workspace: &Workspace) -> Outcome {
     drive(workspace, &SLURM, workspace.program(Profile::Dev).as_path())
 }
 
 /// Builds the program and a plugin library for Windows, runs them under Wine and compares their results with those of this
 /// system; writes the results to `<target>/windows`.
-///
-/// # Errors
-/// When the build fails (`rustup target add x86_64-pc-windows-gnu` installs the standard library), or a state or table
+/// Errors: when the build fails (`rustup target add x86_64-pc-windows-gnu` installs the standard library), or a state or table
 /// differs.
 pub fn windows(workspace: &Workspace) -> Outcome {
     if !WINDOWS.is_skipped() {

@@ -4,9 +4,7 @@ use crate::Outcome;
 use crate::workspace::Workspace;
 
 /// Feeds damaged files to every reader (`tests/tests/fuzz`) for a number of hours.
-///
-/// # Errors
-/// When the build fails, or a reader panics or hangs.
+/// Errors: when the build fails, or a reader panics or hangs.
 pub fn fuzz(workspace: &Workspace, hours: f64) -> Outcome {
     let arguments =
         ["test", "--release", "--package", "endline-tests", "--test", "fuzz", "--", "--nocapture"];
@@ -14,9 +12,7 @@ pub fn fuzz(workspace: &Workspace, hours: f64) -> Outcome {
 }
 
 /// Runs random sessions of the window on faults (`app/workbench/tests/all/soak`) for a number of hours.
-///
-/// # Errors
-/// When the build fails, or a session loses or tears a file, or hangs.
+/// Errors: when the build fails, or a session loses or tears a file, or hangs.
 pub fn soak(workspace: &Workspace, hours: f64) -> Outcome {
     let random = "soak::random_sessions_with_faults_lose_and_break_nothing";
     let arguments = ["test", "--package", "endline", "--test", "all", "--", "--nocapture", random];

@@ -10,9 +10,7 @@ use crate::workspace::Workspace;
 
 /// Writes the bill to a file; if the tool is missing, prints a message and writes nothing. `stamp` is the time of the last
 /// commit.
-///
-/// # Errors
-/// When the tool fails, or a file cannot be written.
+/// Errors: when the tool fails, or a file cannot be written.
 pub fn write(workspace: &Workspace, file: &Path, stamp: &str) -> Outcome {
     if !on_path("cargo-cyclonedx") {
         eprintln!(

@@ -34,9 +34,7 @@ const FILES: [(&str, &str); 7] = [
 const RECOMMENDS: &str = "libegl1, libgl1, libgl1-mesa-dri, libx11-6, libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 
 /// Builds both in `<target>/package`.
-///
-/// # Errors
-/// When the program cannot be built, or a tool is missing.
+/// Errors: when the program cannot be built, or a tool is missing.
 pub fn package(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["build", "--release", "--package", "endline"])?;
     let out = workspace.target.join("package");

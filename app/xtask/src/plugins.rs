@@ -17,9 +17,7 @@ const ENTRY: &str = "endline_plugin_entry";
 ///
 /// This is a separate cargo call: with `entry`, each library exports the same symbol. A build of the whole workspace would
 /// link them together into tests.
-///
-/// # Errors
-/// When cargo fails, or a library cannot be copied.
+/// Errors: when cargo fails, or a library cannot be copied.
 pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
     let mut arguments = vec!["build", profile.flag(), "--lib", "--features", "entry"];
     arguments.extend(CRATES.iter().flat_map(|name| ["--package", name]));

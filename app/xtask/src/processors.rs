@@ -12,9 +12,7 @@ const KINDS: [&str; 4] = ["qemu64", "Nehalem", "Haswell", "EPYC-Rome"];
 const ARM: &str = "aarch64-unknown-linux-gnu";
 
 /// Compares the golden states on each processor that can be emulated with the table of this repository.
-///
-/// # Errors
-/// When a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` installs the standard
+/// Errors: when a test cannot be built (`rustup target add aarch64-unknown-linux-gnu` installs the standard
 /// library of ARM), or a state differs.
 pub fn emulate(workspace: &Workspace) -> Outcome {
     if are_here("other x86-64 processors", &["qemu-x86_64"], "qemu-user") {

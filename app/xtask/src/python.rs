@@ -16,9 +16,7 @@ const FOLDER: &str = "app/python";
 const CODE: [&str; 4] = ["src", "tests", "benches", "examples"];
 
 /// Builds the wheel, installs it and runs its tests.
-///
-/// # Errors
-/// When Python is missing, a package cannot be installed, or a test fails.
+/// Errors: when Python is missing, a package cannot be installed, or a test fails.
 pub fn test(workspace: &Workspace, profile: Profile) -> Outcome {
     let environment = environment(workspace)?;
     let wheel = wheel(workspace, profile, &environment)?;

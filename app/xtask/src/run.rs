@@ -9,9 +9,7 @@ use crate::{Outcome, plugins, system_packages};
 const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
 
 /// Builds everything in release, then opens the workbench; without a display, runs the bundled encounter.
-///
-/// # Errors
-/// When a package, the build or the program fails.
+/// Errors: when a package, the build or the program fails.
 pub fn run(workspace: &Workspace) -> Outcome {
     build(workspace)?;
     if has_display() {
@@ -24,9 +22,7 @@ pub fn run(workspace: &Workspace) -> Outcome {
 }
 
 /// Builds everything in release, then calls the program with the user's own arguments.
-///
-/// # Errors
-/// When a package, the build or the program fails.
+/// Errors: when a package, the build or the program fails.
 pub fn run_with(workspace: &Workspace, arguments: &[&str]) -> Outcome {
     build(workspace)?;
     succeeded(workspace.call_program(Profile::Release, arguments)?)
@@ -39,9 +35,7 @@ fn build(workspace: &Workspace) -> Outcome {
 }
 
 /// Runs the bundled encounter, which prints a summary and draws the state of greatest tension.
-///
-/// # Errors
-/// When the program fails or writes no picture.
+/// Errors: when the program fails or writes no picture.
 pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
     let folder = workspace.target.join("hello");
     let picture = folder.join("picture.png");

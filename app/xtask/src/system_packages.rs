@@ -15,17 +15,13 @@ const DRAW: [&str; 2] = ["libegl1", "libgl1-mesa-dri"];
 const WINDOW: [&str; 5] = ["libx11-6", "libxcursor1", "libxi6", "libxkbcommon-x11-0", "libudev1"];
 
 /// Ensures the packages for building, drawing and opening a window.
-///
-/// # Errors
-/// When a package needed to compile is missing and cannot be installed.
+/// Errors: when a package needed to compile is missing and cannot be installed.
 pub fn ensure_for_run() -> Outcome {
     ensure(&[DRAW.as_slice(), &WINDOW].concat())
 }
 
 /// Ensures the packages for building and testing; tests draw but open no window.
-///
-/// # Errors
-/// When a package needed to compile is missing and cannot be installed.
+/// Errors: when a package needed to compile is missing and cannot be installed.
 pub fn ensure_for_test() -> Outcome {
     ensure(&DRAW)
 }

@@ -13,9 +13,7 @@ const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
 
 /// Runs formatting, lints, every test of the workspace, the bundled encounter, the scripts of the window, and a study on Slurm
 /// if that is installed.
-///
-/// # Errors
-/// When any of them fails; the first failure ends it.
+/// Errors: when any of them fails; the first failure ends it.
 pub fn test(workspace: &Workspace) -> Outcome {
     check_sources(workspace)?;
     // Plugins are built before the tests: built after them, they would replace libraries that the tests link, and these would
@@ -32,9 +30,7 @@ pub fn test(workspace: &Workspace) -> Outcome {
 
 /// Runs the checks for everyday work: formatting, lints, the tests inside the crates, the rules of the workspace, the golden
 /// states, and calls of the program.
-///
-/// # Errors
-/// When any of them fails; the first failure ends it.
+/// Errors: when any of them fails; the first failure ends it.
 pub fn quick(workspace: &Workspace) -> Outcome {
     check_sources(workspace)?;
     plugins::build(workspace, Profile::Dev)?;
@@ -48,9 +44,7 @@ pub fn quick(workspace: &Workspace) -> Outcome {
 }
 
 /// Rewrites the table of golden states after an intended change of the physics.
-///
-/// # Errors
-/// When a scenario of the table no longer reaches the event it is meant to cover.
+/// Errors: when a scenario of the table no longer reaches the event it is meant to cover.
 pub fn write_golden(workspace: &Workspace) -> Outcome {
     let arguments = ["test", "--workspace", "--test", "golden", "--", "--nocapture"];
     workspace.cargo_with(&arguments, &[("ENDLINE_WRITE_GOLDEN", "1")])

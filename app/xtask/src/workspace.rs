@@ -43,9 +43,7 @@ pub struct Workspace {
 impl Workspace {
     /// Finds both: the root from this crate's folder, which cargo reports, and the target folder from the path of this
     /// executable (`<target>/<profile>/xtask`), which honours every setting of cargo.
-    ///
-    /// # Errors
-    /// When not started through cargo.
+    /// Errors: when not started through cargo.
     pub fn find() -> Outcome<Self> {
         let crate_folder = std::env::var_os("CARGO_MANIFEST_DIR")
             .ok_or("start this program as `cargo xtask`, which reports the workspace's folder")?;
@@ -75,9 +73,7 @@ impl Workspace {
     }
 
     /// Runs the program in the workspace root, on the user's terminal.
-    ///
-    /// # Errors
-    /// When it cannot be started.
+    /// Errors: when it cannot be started.
     pub fn call_program(&self, profile: Profile, arguments: &[&str]) -> Outcome<ExitStatus> {
         let program = self.program(profile);
         announce("endline", arguments);
@@ -89,17 +85,13 @@ impl Workspace {
     }
 
     /// Runs cargo in the workspace root.
-    ///
-    /// # Errors
-    /// When cargo fails; cargo prints the reason.
+    /// Errors: when cargo fails; cargo prints the reason.
     pub fn cargo(&self, arguments: &[&str]) -> Outcome {
         self.cargo_with(arguments, &[])
     }
 
     /// Runs cargo with additional environment variables.
-    ///
-    /// # Errors
-    /// When cargo fails; cargo prints the reason.
+    /// Errors: when cargo fails; cargo prints the reason.
     pub fn cargo_with(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
         announce("cargo", arguments);
         let status = self

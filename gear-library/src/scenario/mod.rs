@@ -102,7 +102,7 @@ pub struct Scenario {
 impl Scenario {
     /// Reads a scenario's text; `name` is its path as shown in messages.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        read_file(name, text, |node, problems| Self::from_node(node, problems))
+        read_file(name, text, Self::from_node)
     }
 
     fn from_node(node: &Node, problems: &Problems) -> Option<Self> {

@@ -145,7 +145,6 @@ const PLACES: u32 = 40;
 
 impl WhaleForm {
     /// This body with its breadth scaled to a volume [m³]; a volume that is not positive changes nothing.
-    #[must_use]
     pub fn displacing(mut self, volume_m3: f64) -> Self {
         for _ in 0..5 {
             let held = self.skin_volume_m3();

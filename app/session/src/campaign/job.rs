@@ -136,7 +136,6 @@ impl<R, F: Clone + Default + Send + 'static> Job<R, F> {
     }
 
     /// Whether it is unfinished and was not cancelled.
-    #[must_use]
     pub fn is_wanted(&self) -> bool {
         self.is_unfinished() && self.state() != State::Cancelling
     }

@@ -104,7 +104,6 @@ impl FileQuestion {
     }
 
     /// The question, beginning in a folder.
-    #[must_use]
     pub fn within(self, folder: &Path) -> Self {
         Self { folder: Some(folder.to_owned()), ..self }
     }
@@ -175,7 +174,6 @@ impl<Context, Command> CommandInfo<Context, Command> {
     }
 
     /// The command with keys.
-    #[must_use]
     pub const fn with_keys(mut self, keys: &'static [Shortcut]) -> Self {
         self.keys = keys;
         self

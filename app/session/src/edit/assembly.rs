@@ -17,7 +17,6 @@ fn message(error: EditError) -> String {
 }
 
 /// Ids of the tables of a list, such as `body`.
-#[must_use]
 pub fn ids(document: &Document, list: &str) -> Vec<String> {
     (0..).map_while(|index| document.get(&format!("{list}.{index}.id"))).collect()
 }
@@ -32,9 +31,7 @@ fn fresh_id(document: &Document, list: &str, stem: &str) -> String {
 
 /// Adds a body of a kind, such as `trap`, with an item of the library. `height` is the first guess
 /// of its height, as a share of the depth.
-///
-/// # Errors
-/// Where `body` is no list of tables.
+/// Errors: where `body` is no list of tables.
 pub fn add_body(
     document: &mut Document,
     kind: &str,
@@ -53,9 +50,7 @@ pub fn add_body(
 }
 
 /// Adds a line between two bodies.
-///
-/// # Errors
-/// Where `line` is no list of tables.
+/// Errors: where `line` is no list of tables.
 pub fn add_line(document: &mut Document, from: &str, to: &str) -> Result<(), String> {
     let id = fresh_id(document, "line", "line");
     let fields = [
@@ -70,9 +65,7 @@ pub fn add_line(document: &mut Document, from: &str, to: &str) -> Result<(), Str
 
 /// Adds a weak link at an end, `from` or `to`, of a line. `strength` is a field with its value: an
 /// `item` of the library, or a `rating` such as `600 lbf`.
-///
-/// # Errors
-/// Where `link` is no list of tables.
+/// Errors: where `link` is no list of tables.
 pub fn add_link(
     document: &mut Document,
     line: &str,
@@ -85,9 +78,7 @@ pub fn add_link(
 }
 
 /// Puts weak inserts into a line by its path, such as `line.1`.
-///
-/// # Errors
-/// Where there is no such line.
+/// Errors: where there is no such line.
 pub fn add_inserts(document: &mut Document, line: &str) -> Result<(), String> {
     let mut put = |(key, value): &(&str, &str)| {
         document.put(&format!("{line}.inserts.{key}"), &Setting::plain(value))
@@ -96,9 +87,7 @@ pub fn add_inserts(document: &mut Document, line: &str) -> Result<(), String> {
 }
 
 /// Replaces a line by two lines of half its length with a splice between them.
-///
-/// # Errors
-/// Where there is no such line, or its length cannot be read.
+/// Errors: where there is no such line, or its length cannot be read.
 pub fn split_line(document: &mut Document, index: usize) -> Result<(), String> {
     let at = format!("line.{index}");
     let field = |key: &str| document.get(&format!("{at}.{key}")).unwrap_or_default();

@@ -30,7 +30,6 @@ pub struct OwnCopy {
 
 impl Documents {
     /// Whether the file of a text is as it came with the program.
-    #[must_use]
     pub fn is_bundled(&self, key: &str) -> bool {
         let Some(saved) = self.saved_text(key) else { return false };
         let path = self.path_in_library(key);
@@ -48,9 +47,7 @@ impl Documents {
     /// Puts each edited text whose file came with the program under a name of the user's own, and names the copy wherever the
     /// design names the original: in unsaved texts, in the scenario and in the assemblies that it places. One undo reverts the
     /// texts.
-    ///
-    /// # Errors
-    /// A text that is not TOML, or a name that is not free.
+    /// Errors: a text that is not TOML, or a name that is not free.
     pub(super) fn copy_bundled(&mut self) -> Result<Vec<OwnCopy>, String> {
         let copied = self.bundled_to_copy();
         if copied.is_empty() {

@@ -46,9 +46,7 @@ impl Documents {
     pub const OBSERVATION: &'static str = "observation";
 
     /// Opens the library in a folder and a scenario.
-    ///
-    /// # Errors
-    /// With every file that cannot be read.
+    /// Errors: with every file that cannot be read.
     pub fn open(root: &Path, scenario_path: &Path) -> Result<Self, String> {
         let explain = |all: Vec<Diagnostic>| {
             all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
@@ -76,9 +74,7 @@ impl Documents {
     }
 
     /// Opens another scenario in place of the present one.
-    ///
-    /// # Errors
-    /// Where its file cannot be read; the present one then stays.
+    /// Errors: where its file cannot be read; the present one then stays.
     pub fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.scenario_path = path.to_owned();
@@ -87,9 +83,7 @@ impl Documents {
     }
 
     /// Opens a study in place of the present one.
-    ///
-    /// # Errors
-    /// Where its file cannot be read; the present one then stays.
+    /// Errors: where its file cannot be read; the present one then stays.
     pub fn open_study(&mut self, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.study_path = Some(path.to_owned());
@@ -98,9 +92,7 @@ impl Documents {
     }
 
     /// Opens an observation in place of the present one.
-    ///
-    /// # Errors
-    /// Where its file cannot be read; the present one then stays.
+    /// Errors: where its file cannot be read; the present one then stays.
     pub fn open_observation(&mut self, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.observation_path = Some(path.to_owned());
@@ -117,56 +109,47 @@ impl Documents {
     }
 
     /// The library's folder.
-    #[must_use]
     pub fn root(&self) -> &Path {
         &self.root
     }
 
     /// The scenario's file.
-    #[must_use]
     pub fn scenario_path(&self) -> &Path {
         &self.scenario_path
     }
 
     /// The study's file, where one is open.
-    #[must_use]
     pub fn study_path(&self) -> Option<&Path> {
         self.study_path.as_deref()
     }
 
     /// The observation's file, where one is open.
-    #[must_use]
     pub fn observation_path(&self) -> Option<&Path> {
         self.observation_path.as_deref()
     }
 
     /// The library as read from the present texts; items with errors are missing.
-    #[must_use]
     pub fn library(&self) -> &Arc<Library> {
         &self.library
     }
 
     /// A number that grows with every change of a text.
-    #[must_use]
     pub fn version(&self) -> u64 {
         self.version
     }
 
     /// Every problem of the present texts, by file and place; the scenario's under its file's name.
-    #[must_use]
     pub fn problems(&self) -> &[Diagnostic] {
         self.problems.all()
     }
 
     /// Whether any text of gear or scenario has an error; study and observation have no part in a single run.
-    #[must_use]
     pub fn any_error(&self) -> bool {
         self.problems
             .any_error_outside(&[Self::STUDY, Self::OBSERVATION].map(|key| self.shown_name(key)))
     }
 
     /// The worst problem at a field of a file.
-    #[must_use]
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
         if self.problems.is_empty() {
             return None;
@@ -175,13 +158,11 @@ impl Documents {
     }
 
     /// Whether a file has an error anywhere.
-    #[must_use]
     pub fn file_has_error(&self, path: &str) -> bool {
         !self.problems.is_empty() && self.problems.any_error_in(&self.shown_name(path))
     }
 
     /// The name under which problems of a text are reported.
-    #[must_use]
     pub fn shown_name(&self, path: &str) -> String {
         self.file_outside(path).map_or_else(|| path.to_owned(), |file| file.display().to_string())
     }
@@ -204,32 +185,27 @@ impl Documents {
     }
 
     /// The present text of a file.
-    #[must_use]
     pub fn text(&self, path: &str) -> Option<&str> {
         self.texts.get(path)
     }
 
     /// The text of a file as it is on disk.
-    #[must_use]
     pub fn saved_text(&self, path: &str) -> Option<&str> {
         self.texts.saved(path)
     }
 
     /// Every present text, by path; the scenario by [`SCENARIO`](Self::SCENARIO).
-    #[must_use]
     pub fn texts(&self) -> &BTreeMap<String, String> {
         self.texts.present()
     }
 
     /// The library's present texts.
-    #[must_use]
     pub fn sources(&self) -> Sources {
         let of_library = |path: &str| is_of_run(path) && path != Self::SCENARIO;
         Sources::from_map(self.copies(of_library)).with_meshes_of(&self.meshes)
     }
 
     /// The texts a single run is made from: all but the study's and the observation's.
-    #[must_use]
     pub fn texts_of_run(&self) -> BTreeMap<String, String> {
         self.copies(is_of_run)
     }
@@ -240,46 +216,38 @@ impl Documents {
     }
 
     /// Whether these are the [texts of a run](Self::texts_of_run) as they stand.
-    #[must_use]
     pub fn same_run(&self, texts: &BTreeMap<String, String>) -> bool {
         texts.iter().eq(self.texts.present().iter().filter(|(path, _)| is_of_run(path)))
     }
 
     /// A field as typed; `None` where it is missing.
-    #[must_use]
     pub fn field(&self, path: &str, field: &str) -> Option<String> {
         self.texts.parsed(path)?.get(field)
     }
 
     /// Whether a text has a field, table or list of this path.
-    #[must_use]
     pub fn has(&self, path: &str, field: &str) -> bool {
         self.texts.parsed(path).is_some_and(|document| document.has(field))
     }
 
     /// Keys of a table of a text, in the order of its file.
-    #[must_use]
     pub fn keys(&self, path: &str, table: &str) -> Vec<String> {
         self.texts.parsed(path).map_or_else(Vec::new, |document| document.keys(table))
     }
 
     /// How many tables a list of a file has, such as `whale.pilot` of the scenario.
-    #[must_use]
     pub fn count(&self, path: &str, list: &str) -> usize {
         self.texts.parsed(path).map_or(0, |document| document.count(list))
     }
 
     /// A text as a document.
-    ///
-    /// # Errors
-    /// Where the file is not open or not TOML.
+    /// Errors: where the file is not open or not TOML.
     pub fn document(&self, path: &str) -> Result<Document, String> {
         let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
         Document::parse(text).map_err(|error| format!("{path}: {error}"))
     }
 
     /// Whether the scenario or one of its assemblies names a library file by its id.
-    #[must_use]
     pub fn in_use(&self, path: &str) -> bool {
         let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
         let named = format!("\"{id}\"");
@@ -292,7 +260,6 @@ impl Documents {
     }
 
     /// A path in a folder of the library that no file has, from a stem such as `my-rope`.
-    #[must_use]
     pub fn fresh_path(&self, folder: &str, stem: &str) -> String {
         let taken = |path: &String| self.texts.present().contains_key(path);
         let first = format!("{folder}/{stem}.toml");
@@ -306,9 +273,7 @@ impl Documents {
     /// Sets a field; comments and order stay. Setting a value that is already there changes nothing. A bare number takes the unit of
     /// the value before it. A figure of a library entry
     /// loses the source of its old value. Answers what else changed, in a sentence.
-    ///
-    /// # Errors
-    /// Where the file is not TOML or has no such place.
+    /// Errors: where the file is not TOML or has no such place.
     pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<Option<String>, String> {
         let before = self.field(path, field);
         if before.as_deref() == Some(value) {
@@ -326,9 +291,7 @@ impl Documents {
     }
 
     /// Sets a field from a control that is still moving: successive values are one edit.
-    ///
-    /// # Errors
-    /// As [`set`](Self::set).
+    /// Errors: as [`set`](Self::set).
     pub fn set_held(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
         let held = format!("{path}#{field}");
         let (joins, before) = (self.history.is_held(&held), self.version);
@@ -349,9 +312,7 @@ impl Documents {
 
     /// Changes a text as a document; comments and order stay. A change that fails leaves the text
     /// as it was.
-    ///
-    /// # Errors
-    /// Where the file is not open or not TOML, or where `change` fails.
+    /// Errors: where the file is not open or not TOML, or where `change` fails.
     pub fn alter(
         &mut self,
         path: &str,
@@ -363,9 +324,7 @@ impl Documents {
     }
 
     /// A text as a change would leave it.
-    ///
-    /// # Errors
-    /// As [`alter`](Self::alter).
+    /// Errors: as [`alter`](Self::alter).
     pub fn altered(
         &self,
         path: &str,
@@ -417,9 +376,7 @@ impl Documents {
     }
 
     /// Adds a copy of a library file under a fresh id and returns its path. Its figures are marked as copied and not verified.
-    ///
-    /// # Errors
-    /// Where there is no such file or it is not TOML.
+    /// Errors: where there is no such file or it is not TOML.
     pub fn duplicate(&mut self, path: &str) -> Result<String, String> {
         let mut document = self.document(path)?;
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
@@ -434,9 +391,7 @@ impl Documents {
     }
 
     /// Writes a copy of the open study to a fresh file in the library and opens it; returns its path.
-    ///
-    /// # Errors
-    /// Where no study is open, or the copy cannot be written.
+    /// Errors: where no study is open, or the copy cannot be written.
     pub fn duplicate_study(&mut self) -> Result<PathBuf, String> {
         let path = self.study_path.as_deref().ok_or("open a study first")?;
         let fresh = self.copy_beside(Self::STUDY, path, "studies")?;
@@ -445,9 +400,7 @@ impl Documents {
     }
 
     /// Writes a copy of the open observation to a fresh file in the library and opens it; returns its path.
-    ///
-    /// # Errors
-    /// Where no observation is open, or the copy cannot be written.
+    /// Errors: where no observation is open, or the copy cannot be written.
     pub fn duplicate_observation(&mut self) -> Result<PathBuf, String> {
         let path = self.observation_path.as_deref().ok_or("open an observation first")?;
         let fresh = self.copy_beside(Self::OBSERVATION, path, "observations")?;
@@ -456,9 +409,7 @@ impl Documents {
     }
 
     /// Writes a new observation to a fresh file in the library and opens it; returns its path.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
+    /// Errors: where it cannot be written.
     pub fn new_observation(&mut self, text: &str) -> Result<PathBuf, String> {
         let fresh = self.fresh_file("observations", "observation")?;
         save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
@@ -467,9 +418,7 @@ impl Documents {
     }
 
     /// Writes a new study to a fresh file in the library; returns its path.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
+    /// Errors: where it cannot be written.
     pub fn new_study(&self, stem: &str, text: &str) -> Result<PathBuf, String> {
         let fresh = self.fresh_file("studies", stem)?;
         save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
@@ -533,19 +482,16 @@ impl Documents {
     }
 
     /// Whether there is an edit to undo, and one to redo.
-    #[must_use]
     pub fn can_undo_redo(&self) -> (bool, bool) {
         self.history.can_undo_redo()
     }
 
     /// Paths of texts that differ from their files.
-    #[must_use]
     pub fn unsaved(&self) -> &[String] {
         self.texts.unsaved()
     }
 
     /// Whether a text differs from its file.
-    #[must_use]
     pub fn is_unsaved(&self, path: &str) -> bool {
         self.texts.get(path) != self.texts.saved(path)
     }

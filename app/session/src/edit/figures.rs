@@ -10,9 +10,7 @@ use super::option::parts;
 const FOLLOWS: (&str, &str) = ("mass", "wet_weight");
 
 /// Sets a field of a text by its path. Answers what else changed, in a sentence.
-///
-/// # Errors
-/// Where the text has no such place.
+/// Errors: where the text has no such place.
 pub(super) fn set(
     document: &mut Document,
     path: &str,

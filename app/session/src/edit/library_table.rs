@@ -30,7 +30,6 @@ pub struct Taken {
 
 impl Taken {
     /// The result in a sentence.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = format!("{} changed, {} added", self.changed, self.added);
         if !self.left_out.is_empty() {
@@ -41,7 +40,6 @@ impl Taken {
 }
 
 /// Keys of a kind's columns, in the order written.
-#[must_use]
 pub fn columns(kind: Kind) -> Vec<&'static str> {
     let words = kind.words().iter().map(|word| word.key);
     let figures = kind.fields().iter().map(|field| field.key);
@@ -49,13 +47,11 @@ pub fn columns(kind: Kind) -> Vec<&'static str> {
 }
 
 /// A kind's table as CSV, one row for each of `paths`.
-#[must_use]
 pub fn to_csv(documents: &Documents, kind: Kind, paths: &[String]) -> String {
     written(documents, kind, paths, b',')
 }
 
 /// A kind's table with tabs between cells, as spreadsheets paste it from the clipboard.
-#[must_use]
 pub fn to_tabs(documents: &Documents, kind: Kind, paths: &[String]) -> String {
     written(documents, kind, paths, b'\t')
 }
@@ -79,15 +75,12 @@ fn written(documents: &Documents, kind: Kind, paths: &[String], delimiter: u8) -
 }
 
 /// Id of a library file's path.
-#[must_use]
 pub fn id_of(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml")
 }
 
 /// Cells of a text from a file or the clipboard: tabs where there are any, else commas or semicolons.
-///
-/// # Errors
-/// With the line where it is no table.
+/// Errors: with the line where it is no table.
 pub fn cells(text: &str) -> Result<Vec<Vec<String>>, String> {
     let head = text.lines().next().unwrap_or_default();
     let delimiter = [b'\t', b',', b';']
@@ -110,7 +103,6 @@ pub fn cells(text: &str) -> Result<Vec<Vec<String>>, String> {
 }
 
 /// Whether a first row names columns.
-#[must_use]
 pub fn is_head(kind: Kind, row: &[String]) -> bool {
     row.iter().filter(|cell| key_of(kind, cell).is_some()).count() * 2 > row.len()
 }
@@ -125,9 +117,7 @@ fn key_of(kind: Kind, head: &str) -> Option<&'static str> {
 
 /// Reads a table with a heading row into the library: a row of a known id (or name) changes that
 /// entry, any other row adds one.
-///
-/// # Errors
-/// Where the text is no table or its first row names no known column.
+/// Errors: where the text is no table or its first row names no known column.
 pub fn import(documents: &mut Documents, kind: Kind, text: &str) -> Result<Taken, String> {
     let rows = cells(text)?;
     let (head, body) = rows.split_first().ok_or("the table is empty")?;
@@ -240,9 +230,7 @@ fn fresh(kind: Kind, name: &str) -> String {
 
 /// Writes cells into a table from one cell on: to the right over `keys`, downwards over `paths`.
 /// Cells beyond the edges are listed as left out.
-///
-/// # Errors
-/// Where a cell cannot be set; nothing is then changed.
+/// Errors: where a cell cannot be set; nothing is then changed.
 pub fn spread(
     documents: &mut Documents,
     paths: &[String],

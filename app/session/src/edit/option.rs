@@ -19,9 +19,7 @@ struct Changes {
 impl Documents {
     /// Adds an option to the open study that makes the unsaved edits of the scenario and of library files; these go back to their files,
     /// so that the baseline stays as it was. New files stay. One undo takes all of it back. Answers the option's id.
-    ///
-    /// # Errors
-    /// Where no study of the open scenario is open, nothing is edited, or an edit is none that an option can make.
+    /// Errors: where no study of the open scenario is open, nothing is edited, or an edit is none that an option can make.
     pub fn option_from_edits(&mut self) -> Result<String, String> {
         self.is_of_the_study()?;
         let edited = self.edited_gear();
@@ -50,9 +48,7 @@ impl Documents {
     }
 
     /// Adds an option to the open study whose gear is another assembly of the library, by its id. Answers the option's id.
-    ///
-    /// # Errors
-    /// Where no study of the open scenario is open, or the scenario has no assembly.
+    /// Errors: where no study of the open scenario is open, or the scenario has no assembly.
     pub fn option_with_assembly(&mut self, assembly: &str) -> Result<String, String> {
         self.is_of_the_study()?;
         let field = "gear.0.assembly";

@@ -42,7 +42,6 @@ pub struct Entry {
 
 impl Entry {
     /// In a few words: what begins it and what it sets.
-    #[must_use]
     pub fn words(&self) -> String {
         let begins = TRIGGERS
             .iter()
@@ -56,26 +55,22 @@ impl Entry {
     }
 
     /// The number that a control is set to; `None` where it is not set, or is an act.
-    #[must_use]
     pub fn number(&self, control: usize) -> Option<f64> {
         self.controls.iter().find(|(known, _)| *known == control)?.1.parse().ok()
     }
 }
 
 /// The name of a control in plain words.
-#[must_use]
 pub fn spoken(control: &str) -> String {
     control.replace('_', " ")
 }
 
 /// The path of a key of an entry.
-#[must_use]
 pub fn path(index: usize, key: &str) -> String {
     format!("{LIST}.{index}.{key}")
 }
 
 /// Every entry, in the order of the file.
-#[must_use]
 pub fn entries(documents: &Documents) -> Vec<Entry> {
     let field = |index: usize, key: &str| documents.field(Documents::SCENARIO, &path(index, key));
     let time = |index: usize, key: &str| {
@@ -116,7 +111,6 @@ pub fn entries(documents: &Documents) -> Vec<Entry> {
 
 /// Until when an entry's value of a control holds [s]: until its hold is over, until the next entry
 /// that sets the control, or until the end.
-#[must_use]
 pub fn until_s(all: &[Entry], entry: &Entry, control: usize, end_s: f64) -> f64 {
     let Some(begin_s) = entry.begin_s else { return end_s };
     let names = |other: &&Entry| other.controls.iter().any(|(known, _)| *known == control);
@@ -130,15 +124,12 @@ pub fn until_s(all: &[Entry], entry: &Entry, control: usize, end_s: f64) -> f64 
 }
 
 /// A time as text: to the millisecond, without trailing zeros.
-#[must_use]
 pub fn seconds(time_s: f64) -> String {
     format!("{} s", (time_s.max(0.0) * 1000.0).round() / 1000.0)
 }
 
 /// Moves an entry to another time and sorts the entries by time; returns its new place.
-///
-/// # Errors
-/// Where the scenario has no such entry.
+/// Errors: where the scenario has no such entry.
 pub fn move_to(document: &mut Document, index: usize, time_s: f64) -> Result<usize, String> {
     document
         .put(&path(index, "at"), &Setting::text(&seconds(time_s)))
@@ -147,9 +138,7 @@ pub fn move_to(document: &mut Document, index: usize, time_s: f64) -> Result<usi
 }
 
 /// Sorts the entries that begin at a time; returns the new place of the entry `index`.
-///
-/// # Errors
-/// Where the scenario has no such entry.
+/// Errors: where the scenario has no such entry.
 pub fn in_order(document: &mut Document, index: usize) -> Result<usize, String> {
     let at = |document: &Document, index: usize| {
         document.get(&path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok())
@@ -177,9 +166,7 @@ pub fn in_order(document: &mut Document, index: usize) -> Result<usize, String> 
 }
 
 /// Adds an entry that begins at a time; returns its place.
-///
-/// # Errors
-/// Where the scenario has no whale to pilot.
+/// Errors: where the scenario has no whale to pilot.
 pub fn add(document: &mut Document, time_s: f64) -> Result<usize, String> {
     if !document.has("whale") {
         return Err("this scenario has no whale to pilot".to_owned());
@@ -192,9 +179,7 @@ pub fn add(document: &mut Document, time_s: f64) -> Result<usize, String> {
 }
 
 /// Changes what begins an entry.
-///
-/// # Errors
-/// Where the scenario has no such entry.
+/// Errors: where the scenario has no such entry.
 pub fn begin_by(
     document: &mut Document,
     index: usize,
@@ -215,9 +200,7 @@ pub fn begin_by(
 }
 
 /// Sets a key of an entry to the text typed; an empty text removes it.
-///
-/// # Errors
-/// Where the scenario has no such entry.
+/// Errors: where the scenario has no such entry.
 pub fn set(document: &mut Document, index: usize, key: &str, text: &str) -> Result<(), String> {
     let path = path(index, key);
     let text = text.trim();
@@ -235,7 +218,6 @@ pub fn set(document: &mut Document, index: usize, key: &str, text: &str) -> Resu
 }
 
 /// The keys of times that an entry with this trigger may have.
-#[must_use]
 pub fn times(trigger: &str) -> &'static [&'static str] {
     if trigger == "at" { &TIMES[1..] } else { &TIMES }
 }

@@ -3,7 +3,6 @@
 use endline_gear::{Diagnostic, Library, Observation, Scenario, Sources, Study};
 
 /// A problem in one or two lines: what is wrong, then how to fix it.
-#[must_use]
 pub fn message(problem: &Diagnostic) -> String {
     if problem.help.is_empty() {
         problem.message.clone()
@@ -13,7 +12,6 @@ pub fn message(problem: &Diagnostic) -> String {
 }
 
 /// Where a problem is: its file, and line and column where they are known.
-#[must_use]
 pub fn place(problem: &Diagnostic) -> String {
     if problem.line == 0 {
         problem.file.clone()

@@ -62,7 +62,6 @@ impl Kept {
 
 impl Autosave {
     /// Writes to a folder.
-    #[must_use]
     pub fn in_folder(folder: PathBuf) -> Self {
         Self { folder: Some(folder), ..Self::default() }
     }
@@ -142,7 +141,6 @@ impl Autosave {
     }
 
     /// Edits that crashed programs left, the newest first, with their files.
-    #[must_use]
     pub fn left_behind(&self) -> Vec<(PathBuf, UnsavedEdits)> {
         let Some(folder) = &self.folder else { return Vec::new() };
         let files =

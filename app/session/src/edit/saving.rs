@@ -33,7 +33,6 @@ pub struct Saved {
 
 impl Saved {
     /// What was saved and where, in a sentence or two.
-    #[must_use]
     pub fn sentence(&self) -> String {
         /// Names listed at most.
         const LISTED: usize = 4;
@@ -64,9 +63,7 @@ impl Saved {
 impl Documents {
     /// Writes every changed text to its file, each whole or not at all. A file that came with the program is never written over:
     /// its text is saved as a copy of the user's own, which the design then names.
-    ///
-    /// # Errors
-    /// With the files that could not be written, and those that were changed on disk since they were read
+    /// Errors: with the files that could not be written, and those that were changed on disk since they were read
     /// ([`newer`](Self::newer)); the others are saved.
     pub fn save(&mut self) -> Result<Saved, String> {
         let copies = self.copy_bundled()?;
@@ -95,9 +92,7 @@ impl Documents {
     }
 
     /// Decides what becomes of a file that is [`newer`](Self::newer) and of the edits of it here; says what was done.
-    ///
-    /// # Errors
-    /// A file that cannot be written, or that has changed once more.
+    /// Errors: a file that cannot be written, or that has changed once more.
     pub fn reconcile(&mut self, path: &str, keep: Keep) -> Result<String, String> {
         let Some(theirs) = self.newer.remove(path) else {
             return Err(format!("{} is not known to have changed on disk", self.shown_name(path)));
@@ -176,9 +171,7 @@ impl Documents {
 
     /// Writes the scenario to another file and continues with that file; the earlier file stays as
     /// it was saved.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
+    /// Errors: where the file cannot be written.
     pub fn save_scenario_as(&mut self, path: &Path) -> Result<(), String> {
         write(path, Some(self.texts.get(Self::SCENARIO).unwrap_or_default()))?;
         self.scenario_path = path.to_owned();

@@ -28,9 +28,7 @@ const TO_LIVE: [(&str, &str); 2] =
     [("whale.speed", "1 m/s"), ("whale.motion", "org.endline.motion.swim")];
 
 /// Sets a field of a scenario to the text typed; an empty text removes the field.
-///
-/// # Errors
-/// Where the scenario has no place for the field.
+/// Errors: where the scenario has no place for the field.
 pub fn set_field(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let text = text.trim();
     if text.is_empty() {
@@ -63,9 +61,7 @@ pub fn set_field(document: &mut Document, field: &str, text: &str) -> Result<(),
 pub const FRICTION_LAWS: &str = "friction.on";
 
 /// Adds a friction law, by its plugin's id, for one surface.
-///
-/// # Errors
-/// Where `friction.on` is no list of tables.
+/// Errors: where `friction.on` is no list of tables.
 pub fn add_friction_law(document: &mut Document, surface: &str, law: &str) -> Result<(), String> {
     let failed = |error: endline_gear::EditError| error.to_string();
     let index = document.push_table(FRICTION_LAWS, &[("model", law)]).map_err(failed)?;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 /// A name as the stem of a file: lower case, words joined by dashes.
-#[must_use]
 pub fn slug(name: &str) -> String {
     let words: String = name
         .to_lowercase()

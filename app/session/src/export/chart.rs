@@ -171,7 +171,6 @@ impl Chart {
     }
 
     /// With the curves of another run beside its own: dashed, in the colour of the curve of the same name.
-    #[must_use]
     pub fn beside(mut self, other: Self) -> Self {
         let mut fresh = self.curves.iter().map(|curve| curve.colour + 1).max().unwrap_or(0);
         let mut theirs = Vec::new();

@@ -48,13 +48,11 @@ impl Loader {
 
     /// A loader with libraries that are not trusted in processes of their own, each a call of `program plugins serve`. Where the system
     /// is not a Unix, they run in this one.
-    #[must_use]
     pub fn out_of_process(self, program: PathBuf) -> Self {
         Self { serves: cfg!(unix).then_some(program), ..self }
     }
 
     /// A loader with plugins that are linked into the program: each serves where no folder has a usable one of its id.
-    #[must_use]
     pub fn with_linked(self, linked: Vec<Hook>) -> Self {
         Self { linked, ..self }
     }

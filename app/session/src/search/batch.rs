@@ -32,9 +32,7 @@ pub(super) struct Part<'a> {
 /// Runs the numbers of all parts by `one(part, number)`: reads stored runs, runs those of this shard and waits for those of other
 /// shards. Passes each part with its place to `take`, in order. False if the control ended the search before all parts were
 /// complete; their runs are stored.
-///
-/// # Errors
-/// A folder that cannot be read or written.
+/// Errors: a folder that cannot be read or written.
 pub(super) fn run(
     parts: &[Part<'_>],
     effort: &Effort,
@@ -52,9 +50,7 @@ pub(super) fn run(
 }
 
 /// Runs the numbers of one part; `None` if the control ended the search before.
-///
-/// # Errors
-/// As [`run`].
+/// Errors: as [`run`].
 pub(super) fn run_one(
     part: Part<'_>,
     effort: &Effort,

@@ -66,7 +66,6 @@ pub struct Term {
 
 impl Distance {
     /// From an observation to an ending, or to its mirror image where that counts as well and is nearer.
-    #[must_use]
     pub fn of(observation: &Observation, ending: &Ending) -> Self {
         let straight = Self { terms: terms(observation, ending), mirrored: false };
         if !observation.mirrored {
@@ -77,7 +76,6 @@ impl Distance {
     }
 
     /// The sum of its terms.
-    #[must_use]
     pub fn sum(&self) -> f64 {
         self.terms.iter().fold(0.0, |sum, term| sum + term.cost)
     }

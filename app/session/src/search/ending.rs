@@ -61,7 +61,6 @@ pub struct Strand {
 
 impl Ending {
     /// The ending of a run; empty for a released whale.
-    #[must_use]
     pub fn of(run: &Run) -> Self {
         let summary = run.summary();
         let Some(whale) = &summary.whale else { return Self::default() };
@@ -87,7 +86,6 @@ impl Ending {
     }
 
     /// The mirror image of the ending.
-    #[must_use]
     pub fn mirrored(&self) -> Self {
         let mut mirrored = self.clone();
         mirrored.sites.iter_mut().for_each(|at| at.site = at.site.mirrored());
@@ -99,7 +97,6 @@ impl Ending {
     }
 
     /// Rope at a site, the greater of a pair; `None` if there is none.
-    #[must_use]
     pub fn at(&self, site: Site) -> Option<AtSite> {
         let singles = site.singles();
         let here = self.sites.iter().filter(|at| singles.contains(&at.site)).copied();

@@ -54,22 +54,18 @@ pub struct Folder {
 
 impl Folder {
     /// Where the folder of a search is under a root: the observation's id and the head of the search's hash.
-    #[must_use]
     pub fn path_under(root: &Path, question: &Question) -> PathBuf {
         folder::path_under(root, &question.observation.id, &question.hash)
     }
 
     /// Whether a folder has a search.
-    #[must_use]
     pub fn is_there(path: &Path) -> bool {
         path.join(LABEL).is_file()
     }
 
     /// Opens a folder for a search, and makes it unless it exists. Runs of the net are stored in it, or in `shared` under a name for
     /// their encounters.
-    ///
-    /// # Errors
-    /// A folder that belongs to another search, or cannot be written.
+    /// Errors: a folder that belongs to another search, or cannot be written.
     pub fn open(path: &Path, shared: Option<&Path>, question: &Question) -> Result<Self, Error> {
         folder::make(path)?;
         let file = path.join(LABEL);
@@ -94,9 +90,7 @@ impl Folder {
     }
 
     /// Writes `stories.json`.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
+    /// Errors: where it cannot be written.
     pub(super) fn write_stories(&self, stories: &Stories) -> Result<(), Error> {
         let file = self.path.join("stories.json");
         save::atomically(&file, (stories.json() + "\n").as_bytes())
@@ -131,18 +125,14 @@ struct Part {
 
 impl Store {
     /// Runs in a folder that belong to `hash`.
-    ///
-    /// # Errors
-    /// A folder that cannot be made.
+    /// Errors: a folder that cannot be made.
     pub(super) fn open(path: &Path, hash: String) -> Result<Self, Error> {
         folder::make(path)?;
         Ok(Self { path: path.to_path_buf(), hash })
     }
 
     /// Stored runs of a name, of all shards and parts.
-    ///
-    /// # Errors
-    /// A file of that name that is damaged or belongs to something else.
+    /// Errors: a file of that name that is damaged or belongs to something else.
     pub(super) fn read(
         &self,
         name: &str,
@@ -178,9 +168,7 @@ impl Store {
     }
 
     /// Stores runs, all or none.
-    ///
-    /// # Errors
-    /// Where the folder cannot be written.
+    /// Errors: where the folder cannot be written.
     pub(super) fn write(
         &self,
         name: &str,

@@ -35,9 +35,7 @@ impl LikeDraws {
 }
 
 /// The stories of a search, with the neighbours of those that are like the observation; stored in its folder.
-///
-/// # Errors
-/// A folder that cannot be read or written.
+/// Errors: a folder that cannot be read or written.
 pub(super) fn stories(
     question: &Question,
     folder: &Folder,

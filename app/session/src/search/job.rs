@@ -67,7 +67,6 @@ pub type SearchJob = Job<SearchRequest, SearchFound>;
 
 impl SearchJob {
     /// Begins a search on a thread of its own; the waker is called at every change.
-    #[must_use]
     pub fn search(request: SearchRequest, host: &Arc<PluginHost>, waker: &Waker) -> Self {
         let job = Self::new(request, Arc::clone(waker));
         if job.request.only_reads {
@@ -79,7 +78,6 @@ impl SearchJob {
     }
 
     /// The report, where it is written.
-    #[must_use]
     pub fn report(&self) -> Option<PathBuf> {
         let folder = self.found().folder?;
         Some(folder.join("report.html")).filter(|file| file.is_file())
@@ -130,7 +128,6 @@ fn effort(request: &SearchRequest) -> Effort {
 }
 
 /// The command line that searches as asked for, in a folder.
-#[must_use]
 pub fn command_line(request: &SearchRequest, folder: &Path) -> String {
     let SearchRequest { file, files, root, trials, neighbours, .. } = request;
     let [file, library, folder, net] =

@@ -87,9 +87,7 @@ pub struct Progress {
 
 /// Searches until the effort is spent, then runs neighbours of the stories that are like the observation. The control pauses and cancels
 /// it between two trials; `progress` is called after every round. A cancelled search returns the stories so far.
-///
-/// # Errors
-/// A folder that cannot be written, or holds a round of another search.
+/// Errors: a folder that cannot be written, or holds a round of another search.
 pub fn search(
     question: &Question,
     folder: &Folder,

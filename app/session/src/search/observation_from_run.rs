@@ -23,7 +23,6 @@ const LENGTH: f64 = 0.25;
 const PATH: usize = 4;
 
 /// The text of an observation file; `seed` determines the errors and the hidden site.
-#[must_use]
 pub fn observation_text(ending: &Ending, encounters: &str, seed: u64) -> String {
     let chances = draw::sobol_point(seed, 0, Site::SINGLE.len() + 2);
     #[expect(

@@ -52,9 +52,7 @@ struct Section {
 }
 
 /// Writes `report.html` into the folder of a search, with the pictures of stories in that folder.
-///
-/// # Errors
-/// Where it cannot be written.
+/// Errors: where it cannot be written.
 pub fn write(
     question: &Question,
     folder: &Folder,

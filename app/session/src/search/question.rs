@@ -39,9 +39,7 @@ pub struct Question {
 
 impl Question {
     /// Reads an observation by its file, or by its id in the library, and opens the study that it names, or another.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or every located error of observation, study, scenario and library.
+    /// Errors: a file that cannot be read, or every located error of observation, study, scenario and library.
     pub fn open(
         named: &str,
         encounters: Option<&str>,
@@ -56,9 +54,7 @@ impl Question {
     }
 
     /// Opens an observation from a text that may differ from its file.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open).
+    /// Errors: as [`open`](Self::open).
     pub fn of_text(
         path: &Path,
         text: &str,
@@ -72,9 +68,7 @@ impl Question {
     }
 
     /// The same with the library and the open scenario and study as they are edited.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open).
+    /// Errors: as [`open`](Self::open).
     pub fn of_sources(
         (path, text): (&Path, &str),
         encounters: Option<&str>,
@@ -107,9 +101,7 @@ impl Question {
 
 impl Question {
     /// The model of a story.
-    ///
-    /// # Errors
-    /// Where its scenario cannot be assembled.
+    /// Errors: where its scenario cannot be assembled.
     pub fn prepare(
         &self,
         story: &Story,
@@ -124,9 +116,7 @@ impl Question {
     }
 
     /// A story as the text of a scenario, with the paths of its files that differ from those of the library.
-    ///
-    /// # Errors
-    /// Where its scenario cannot be assembled.
+    /// Errors: where its scenario cannot be assembled.
     pub fn scenario(&self, story: &Story) -> Result<(String, Vec<String>), Error> {
         let failed = |error: EditError| Error::Message(error.message);
         let prepared = self.encounter(story)?;

@@ -45,9 +45,7 @@ pub(super) fn most_runs(effort: &Effort) -> usize {
 
 /// The most robust of the runs of a kind that are like the observation, in order of distance; `None` if there is none or the search
 /// was cancelled.
-///
-/// # Errors
-/// A folder that cannot be read or written.
+/// Errors: a folder that cannot be read or written.
 pub(super) fn most_robust<'a>(
     question: &Question,
     folder: &Folder,

@@ -90,19 +90,16 @@ impl Serialize for FinerRun {
 
 impl Story {
     /// The acts of the whale, in words.
-    #[must_use]
     pub fn acts_in_words(&self) -> String {
         if self.acts.is_empty() { "swims on".to_owned() } else { self.acts.join(", then ") }
     }
 
     /// Whether it is like the observation.
-    #[must_use]
     pub fn is_like(&self) -> bool {
         self.distance <= LIKE
     }
 
     /// Share of the draws like the observation that are of this kind; `None` if no draw is like it.
-    #[must_use]
     pub fn share(&self, stories: &Stories) -> Option<f64> {
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 draws")]
         let share = || self.draws_like as f64 / stories.net_like as f64;
@@ -110,7 +107,6 @@ impl Story {
     }
 
     /// Its robustness, in words: neighbours, finer resolution, share of draws; `None` if nothing is known.
-    #[must_use]
     pub fn trust(&self, stories: &Stories) -> Option<String> {
         let fragile = if self.is_fragile() { ", fragile" } else { "" };
         let alike = self
@@ -127,7 +123,6 @@ impl Story {
     }
 
     /// Its distance on a finer resolution, in words; `None` if it was not run.
-    #[must_use]
     pub fn on_finer(&self) -> Option<String> {
         self.finer.map(|finer| match finer {
             FinerRun::Invalid => "no valid end".to_owned(),
@@ -137,7 +132,6 @@ impl Story {
     }
 
     /// Whether fewer than half of its neighbours end alike.
-    #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.alike.is_some_and(|alike| alike < FRAGILE)
     }
@@ -145,7 +139,6 @@ impl Story {
 
 impl Stories {
     /// The result, in a sentence.
-    #[must_use]
     pub fn answer(&self) -> String {
         let like = self.stories.iter().filter(|story| story.is_like()).count();
         let fragile =
@@ -159,7 +152,6 @@ impl Stories {
     }
 
     /// As JSON.
-    #[must_use]
     pub fn json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }

@@ -38,7 +38,6 @@ pub struct Overrides {
 
 impl Overrides {
     /// These values, and another's where none is set.
-    #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
             seed: self.seed.or(other.seed),

@@ -14,19 +14,16 @@ const DEPTHS_FATHOM: [f64; 6] = [5.0, 10.0, 20.0, 40.0, 60.0, 100.0];
 const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// Depths of water, the rows of the table [m].
-#[must_use]
 pub fn depths_m() -> [f64; DEPTHS_FATHOM.len()] {
     DEPTHS_FATHOM.map(|fathom| fathom * METRES_PER_FATHOM)
 }
 
 /// Surface speeds of the current, the columns of the table [m/s].
-#[must_use]
 pub fn currents_m_s() -> [f64; CURRENTS_KN.len()] {
     CURRENTS_KN.map(|knots| Units::Noaa.to_m_s(knots))
 }
 
 /// Trials of a gear in all depths and currents, row by row.
-#[must_use]
 pub fn trials(gear: &TrialGear) -> Vec<Trial> {
     let in_depth = |fathom: f64| {
         currents_m_s().map(|current_m_s| Trial {
@@ -42,14 +39,12 @@ pub fn trials(gear: &TrialGear) -> Vec<Trial> {
 
 impl RigAtRest {
     /// The greatest tension in any line [N].
-    #[must_use]
     pub fn greatest_tension_n(&self) -> f64 {
         let tensions = self.shape.lines.iter().flat_map(|line| &line.tension_N);
         tensions.copied().fold(0.0, f64::max)
     }
 
     /// Whether the highest point of any buoy is below the calm surface.
-    #[must_use]
     pub fn has_buoy_under_water(&self) -> bool {
         let bodies = self.model.spec.bodies.iter().zip(&self.shape.bodies);
         let mut buoys = bodies.filter(|(body, _)| body.role == BodyRole::Buoy);
@@ -58,7 +53,6 @@ impl RigAtRest {
 }
 
 /// Height of a body's highest point above the calm surface [m].
-#[must_use]
 pub fn top_m(body: &Body, at: &BodyShape) -> f64 {
     let turn = DQuat::from_array(at.orientation);
     let heights = body.corners().map(|corner| (turn * corner).z);

@@ -20,9 +20,7 @@ use super::prepared::PreparedStudy;
 ///
 /// A cancelled study is no error: stored blocks stay, encounters of unfinished blocks are dropped, and a second call continues
 /// from the blocks.
-///
-/// # Errors
-/// Where a block cannot be written. The other blocks are finished or dropped, and a second call
+/// Errors: where a block cannot be written. The other blocks are finished or dropped, and a second call
 /// continues from those that are written.
 pub fn run(
     opened: &PreparedStudy,

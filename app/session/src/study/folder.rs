@@ -79,15 +79,12 @@ pub struct Folder {
 
 impl Folder {
     /// Where the folder of a study's results is under a root: its id and the head of its hash.
-    #[must_use]
     pub fn path_under(root: &Path, opened: &PreparedStudy) -> PathBuf {
         folder::path_under(root, &opened.study.id, &opened.hash)
     }
 
     /// Opens a folder for a study, made where it is not there.
-    ///
-    /// # Errors
-    /// A folder that belongs to another study, or cannot be written.
+    /// Errors: a folder that belongs to another study, or cannot be written.
     pub fn open(path: &Path, opened: &PreparedStudy) -> Result<Self, Error> {
         folder::make(path)?;
         let file = path.join("study.json");
@@ -105,33 +102,27 @@ impl Folder {
     }
 
     /// Number of blocks.
-    #[must_use]
     pub fn blocks(&self) -> u32 {
         self.encounters.div_ceil(BLOCK)
     }
 
     /// The encounters of a block.
-    #[must_use]
     pub fn encounters_of(&self, block: u32) -> std::ops::Range<u32> {
         block * BLOCK..((block + 1) * BLOCK).min(self.encounters)
     }
 
     /// The file of a block.
-    #[must_use]
     pub fn file_of(&self, block: u32) -> PathBuf {
         self.path.join(format!("block-{block:05}.parquet"))
     }
 
     /// Whether a block is there, whole and of this study.
-    #[must_use]
     pub fn has(&self, block: u32) -> bool {
         self.file_of(block).is_file() && self.read(block).is_ok()
     }
 
     /// Blocks whose files are there, read or not.
-    ///
-    /// # Errors
-    /// A folder that cannot be read.
+    /// Errors: a folder that cannot be read.
     pub fn written(&self) -> Result<BTreeSet<u32>, Error> {
         let number =
             |name: &str| name.strip_prefix("block-")?.strip_suffix(".parquet")?.parse::<u32>().ok();
@@ -147,9 +138,7 @@ impl Folder {
     }
 
     /// Writes the rows of a block, whole or not at all.
-    ///
-    /// # Errors
-    /// Rows of unlike columns, or a folder that cannot be written; the block is then not there.
+    /// Errors: rows of unlike columns, or a folder that cannot be written; the block is then not there.
     pub fn write(&self, block: u32, rows: Vec<Row>) -> Result<(), Error> {
         let file = self.file_of(block);
         let table = Table::of(rows)
@@ -167,9 +156,7 @@ impl Folder {
     }
 
     /// Adds the rows of a block to a table.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read), and a block whose columns are not those of the table.
+    /// Errors: as [`read`](Self::read), and a block whose columns are not those of the table.
     pub fn append(&self, block: u32, table: &mut Table) -> Result<(), Error> {
         table.append(self.read(block)?).map_err(|wrong| {
             let message = format!(
@@ -180,9 +167,7 @@ impl Folder {
     }
 
     /// The rows of a block.
-    ///
-    /// # Errors
-    /// A file that is not there, is damaged, or belongs to another study.
+    /// Errors: a file that is not there, is damaged, or belongs to another study.
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
         let bytes = read::bytes(&file)

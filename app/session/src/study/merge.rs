@@ -16,9 +16,7 @@ use crate::table::parquet;
 const TEST_EVERY: u32 = 4;
 
 /// The rows of all blocks in order, or of the first that are enough for the interval that the study asks for.
-///
-/// # Errors
-/// Blocks that are missing, with the command that runs them, damaged, or of another study.
+/// Errors: blocks that are missing, with the command that runs them, damaged, or of another study.
 pub fn merge(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let mut table = Table::default();
     for block in 0..folder.blocks() {
@@ -34,9 +32,7 @@ pub fn merge(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
 }
 
 /// Writes `table.parquet` and `table.csv`, and removes the leases of processes that have ended.
-///
-/// # Errors
-/// Where they cannot be written.
+/// Errors: where they cannot be written.
 pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), Error> {
     let table = runs.table();
     let file = folder.path.join("table.parquet");
@@ -53,9 +49,7 @@ pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), 
 }
 
 /// The merged rows.
-///
-/// # Errors
-/// Where the study was not merged, or its table belongs to another study.
+/// Errors: where the study was not merged, or its table belongs to another study.
 pub fn load(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let file = folder.path.join("table.parquet");
     let bytes = endline_gear::read::bytes(&file).map_err(|error| {
@@ -70,7 +64,6 @@ pub fn load(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
 }
 
 /// Whether the blocks before the first missing one are enough for the interval that the study asks for.
-#[must_use]
 pub fn is_enough(opened: &PreparedStudy, folder: &Folder) -> bool {
     if opened.study.enough.is_none() {
         return false;

@@ -37,9 +37,7 @@ pub struct OptionPlan {
 
 impl OptionPlan {
     /// The baseline scenario and the library with what was drawn, and with what the option sets and removes of the fields asked for.
-    ///
-    /// # Errors
-    /// A field that cannot be set or removed.
+    /// Errors: a field that cannot be set or removed.
     pub(super) fn edited<'a>(
         &self,
         drawn: impl Iterator<Item = (&'a Prior, &'a Drawn)>,

@@ -56,7 +56,6 @@ struct OptionRun {
 
 impl PreparedStudy {
     /// Rows of every option in encounter `index`, in the order of the options; `None` if `is_wanted` becomes false.
-    #[must_use]
     pub fn rows(&self, index: u32, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
         let models = EncounterModels::new(self, index);
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
@@ -120,9 +119,7 @@ impl PreparedStudy {
     }
 
     /// Plays an option in an encounter to its end.
-    ///
-    /// # Errors
-    /// Faults of the scenario so made, or gear that does not come to rest.
+    /// Errors: faults of the scenario so made, or gear that does not come to rest.
     pub fn play(
         &self,
         option: usize,
@@ -133,9 +130,7 @@ impl PreparedStudy {
     }
 
     /// Plays an option in an encounter to its end; `observe` is called twice in each simulated second.
-    ///
-    /// # Errors
-    /// As [`play`](Self::play).
+    /// Errors: as [`play`](Self::play).
     pub fn play_watched(
         &self,
         option: usize,
@@ -148,9 +143,7 @@ impl PreparedStudy {
     }
 
     /// Plays an encounter as prepared.
-    ///
-    /// # Errors
-    /// Gear that does not come to rest.
+    /// Errors: gear that does not come to rest.
     pub(super) fn play_prepared(
         &self,
         option: usize,

@@ -29,9 +29,7 @@ const HALVED: [(&str, units::Quantity); 5] = [
 
 impl PreparedStudy {
     /// An option in an encounter, ready to run.
-    ///
-    /// # Errors
-    /// Faults of the scenario so made, or gear that cannot be aimed at.
+    /// Errors: faults of the scenario so made, or gear that cannot be aimed at.
     pub fn prepare(&self, option: usize, encounter: &Encounter) -> Result<Prepared, Error> {
         let plan = &self.options[option];
         let drawn = self.study.priors.iter().zip(&encounter.drawn);
@@ -158,9 +156,7 @@ impl PreparedStudy {
 }
 
 /// A prepared run for a window, with a duration of `end_s` [s].
-///
-/// # Errors
-/// Where the scenario cannot be assembled.
+/// Errors: where the scenario cannot be assembled.
 pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Result<Prepared, Error> {
     let failed = |error: EditError| Error::Message(error.message);
     let mut source = (*prepared.source).clone();
@@ -172,9 +168,7 @@ pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Resul
 
 impl PreparedStudy {
     /// Plays an option in an encounter on a finer resolution than its scenario's.
-    ///
-    /// # Errors
-    /// As [`play`](Self::play).
+    /// Errors: as [`play`](Self::play).
     pub fn play_finer(&self, option: usize, encounter: &Encounter) -> Result<Played, Error> {
         let prepared = self.prepare(option, encounter)?;
         let source = Source { scenario: finer(&prepared)?, ..(*prepared.source).clone() };

@@ -51,9 +51,7 @@ pub struct Files {
 
 impl PreparedStudy {
     /// Reads a study, its scenario and library, and checks every option by assembling it.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or every located error of study, scenario and library.
+    /// Errors: a file that cannot be read, or every located error of study, scenario and library.
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
         let text = endline_gear::read::text(path)
             .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
@@ -61,9 +59,7 @@ impl PreparedStudy {
     }
 
     /// Reads a study from a text that may differ from its file.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open).
+    /// Errors: as [`open`](Self::open).
     pub fn of_text(
         text: String,
         path: &Path,
@@ -76,9 +72,7 @@ impl PreparedStudy {
     }
 
     /// Reads a study with the library's files as they are edited.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open).
+    /// Errors: as [`open`](Self::open).
     pub fn of_sources(
         text: String,
         path: &Path,
@@ -137,9 +131,7 @@ impl PreparedStudy {
     }
 
     /// Place of an option.
-    ///
-    /// # Errors
-    /// An id that no option has, with the nearest one.
+    /// Errors: an id that no option has, with the nearest one.
     pub fn option(&self, id: &str) -> Result<usize, Error> {
         let known = || self.options.iter().map(|option| option.id.as_str());
         let found = known().position(|known| known == id);
@@ -158,7 +150,6 @@ impl PreparedStudy {
     }
 
     /// Ids of the options by families. Options of a family differ in strengths alone, and share their runs until something parts.
-    #[must_use]
     pub fn families(&self) -> Vec<Vec<&str>> {
         let of = |family: usize| {
             (0..self.options.len()).filter(move |option| self.families[*option] == family)
@@ -255,7 +246,6 @@ pub(crate) struct Plan<'a> {
 
 impl PreparedStudy {
     /// One line of JSON.
-    #[must_use]
     pub fn plan_json(&self) -> String {
         let plan = Plan {
             schema: SCHEMA,

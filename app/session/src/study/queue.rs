@@ -59,14 +59,12 @@ impl Queue {
     }
 
     /// The study at work, else the first that is paused or waits.
-    #[must_use]
     pub fn current(&self) -> Option<&StudyJob> {
         let wanted = || self.jobs.iter().filter(|job| job.is_wanted());
         wanted().find(|job| job.at_work()).or_else(|| wanted().next())
     }
 
     /// The unfinished job of a study's file, unless it was cancelled.
-    #[must_use]
     pub fn unfinished(&self, file: &Path) -> Option<&StudyJob> {
         self.jobs.iter().find(|job| job.request.file == file && job.is_wanted())
     }
@@ -84,13 +82,11 @@ impl Queue {
 
 impl StudyJob {
     /// The study as it was opened to be run.
-    #[must_use]
     pub fn opened(&self) -> Option<Arc<PreparedStudy>> {
         self.found().0.map(|(opened, _)| opened)
     }
 
     /// The folder of its results, once it is opened.
-    #[must_use]
     pub fn folder(&self) -> Option<PathBuf> {
         self.found().0.map(|(_, folder)| folder)
     }
@@ -119,7 +115,6 @@ fn run(
 }
 
 /// The command lines that run, merge and report a study as the queue does.
-#[must_use]
 pub fn command_line(study: &Path, library: &Path, results: Option<&Path>) -> String {
     let out = results.map_or_else(String::new, |folder| format!(" --out {}", shell::path(folder)));
     let (study, library) = (shell::path(study), shell::path(library));

@@ -26,7 +26,6 @@ pub struct Registration {
 
 impl Registration {
     /// As a study's file has it now.
-    #[must_use]
     pub fn of(study: &Study) -> Self {
         let mut events = vec![study.event.name()];
         events.extend(study.registered.iter().map(|event| event.value.name()));
@@ -51,19 +50,16 @@ impl Registration {
     }
 
     /// Whether an event was named.
-    #[must_use]
     pub fn has_event(&self, name: &str) -> bool {
         self.events.iter().any(|known| known == name)
     }
 
     /// Whether a claim of another list was named here, and counted in the same way.
-    #[must_use]
     pub fn has_claim(&self, now: &Self, id: &str) -> bool {
         self.claims.contains_key(id) && self.claims.get(id) == now.claims.get(id)
     }
 
     /// Whether an observation of another list was named here, with the same expectation.
-    #[must_use]
     pub fn has_observation(&self, now: &Self, id: &str) -> bool {
         self.observations.contains_key(id) && self.observations.get(id) == now.observations.get(id)
     }

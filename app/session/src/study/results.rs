@@ -55,9 +55,7 @@ pub struct StudyResults {
 
 impl StudyResults {
     /// Reads the results; `None` where the study has none yet.
-    ///
-    /// # Errors
-    /// A study that cannot be opened, or a folder that is damaged or belongs to another study.
+    /// Errors: a study that cannot be opened, or a folder that is damaged or belongs to another study.
     pub fn read(request: ResultsRequest, host: &PluginHost) -> Result<Option<Self>, Error> {
         let at_work = request.opened.is_some();
         let opened = match (request.opened, &request.file, &request.folder) {
@@ -83,9 +81,7 @@ impl StudyResults {
     }
 
     /// The model of one run of the study, with the duration at which the run ended in the study.
-    ///
-    /// # Errors
-    /// Where the scenario cannot be assembled.
+    /// Errors: where the scenario cannot be assembled.
     pub fn prepare(
         &self,
         option: usize,
@@ -150,7 +146,6 @@ pub struct ResultsFolder {
 }
 
 /// The folders of results under a root, by path.
-#[must_use]
 pub fn list(root: &Path) -> Vec<ResultsFolder> {
     let folders = std::fs::read_dir(root).into_iter().flatten().flatten().map(|entry| entry.path());
     let read = |folder: PathBuf| {
@@ -186,19 +181,16 @@ pub struct ResultsReader {
 
 impl ResultsReader {
     /// The results shown.
-    #[must_use]
     pub fn shown(&self) -> Option<&Arc<StudyResults>> {
         self.shown.as_ref()
     }
 
     /// Whether results are being read.
-    #[must_use]
     pub fn busy(&self) -> bool {
         self.reading.busy()
     }
 
     /// The folder whose study is followed while it is at work.
-    #[must_use]
     pub fn followed(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
@@ -209,7 +201,6 @@ impl ResultsReader {
     }
 
     /// Whether it is time to read again, given the number of blocks and whether the study has ended.
-    #[must_use]
     pub fn is_due(&self, blocks: u32, over: bool) -> bool {
         let fresh = self
             .read
@@ -218,9 +209,7 @@ impl ResultsReader {
     }
 
     /// Begins to read; an earlier reading in progress is dropped.
-    ///
-    /// # Errors
-    /// Where the system gives no thread.
+    /// Errors: where the system gives no thread.
     pub fn ask(
         &mut self,
         request: ResultsRequest,

@@ -207,7 +207,6 @@ impl RunRow {
     }
 
     /// Greatest wraps about any part of the whale [turns].
-    #[must_use]
     pub fn peak_wraps(&self) -> f64 {
         let wraps = self.parts.iter().map(|part| part.peak_wraps.unwrap_or_default());
         wraps.fold(0.0, f64::max)
@@ -230,9 +229,7 @@ pub struct Runs {
 
 impl Runs {
     /// The runs of a table.
-    ///
-    /// # Errors
-    /// A column that is missing, or has a cell of another kind.
+    /// Errors: a column that is missing, or has a cell of another kind.
     pub fn read(table: Table) -> Result<Self, WrongCell> {
         if table.columns.is_empty() {
             return Ok(Self::default());
@@ -252,19 +249,16 @@ impl Runs {
     }
 
     /// The table as it is stored.
-    #[must_use]
     pub fn table(&self) -> &Table {
         &self.table
     }
 
     /// Its rows.
-    #[must_use]
     pub fn rows(&self) -> &[RunRow] {
         &self.rows
     }
 
     /// Values drawn from a prior, by row.
-    #[must_use]
     pub fn drawn(&self, prior: &str) -> Option<&Column> {
         self.table.column(&format!("drawn_{prior}"))
     }
@@ -275,14 +269,12 @@ impl Runs {
     }
 
     /// The run of an option in an encounter.
-    #[must_use]
     pub fn find(&self, option: &str, encounter: u32) -> Option<&RunRow> {
         let is_it = |run: &&RunRow| run.encounter == u64::from(encounter) && run.option == option;
         self.rows.iter().find(is_it)
     }
 
     /// Number of encounters, from the first to the last that has a run.
-    #[must_use]
     pub fn encounters(&self) -> usize {
         self.rows.iter().map(|run| run.index() + 1).max().unwrap_or(0)
     }

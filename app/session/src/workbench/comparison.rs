@@ -42,13 +42,11 @@ impl Comparison {
 
 impl Workbench {
     /// The run that the one shown is compared with.
-    #[must_use]
     pub fn comparison(&self) -> Option<&Comparison> {
         self.run.comparison.as_ref()
     }
 
     /// Its newest view.
-    #[must_use]
     pub fn compared_view(&self) -> Option<Arc<LiveView>> {
         self.comparison()?.view.clone()
     }

@@ -26,7 +26,6 @@ impl Workbench {
     }
 
     /// Plots of the run with the one it is compared with, in the units chosen.
-    #[must_use]
     pub fn charts(&self, kinds: &[chart::Kind]) -> Vec<Chart> {
         let Some(view) = self.view() else { return Vec::new() };
         let (other, units) = (self.compared_view(), self.preferences.units);

@@ -66,7 +66,6 @@ pub struct Folders {
 
 impl Folders {
     /// The folders inside the folder of a user's data.
-    #[must_use]
     pub fn within(data: &Path) -> Self {
         let [recordings, studies, searches] =
             ["recordings", "studies", "searches"].map(|name| Some(data.join(name)));
@@ -106,7 +105,6 @@ impl Workbench {
     /// A workbench with its texts; the first model is being made.
     ///
     /// `launch` starts runs; `waker` is called from any thread when there is something to take in.
-    #[must_use]
     pub fn new(documents: Documents, host: Arc<PluginHost>, launch: Launch, waker: Waker) -> Self {
         let mut workbench = Self {
             project: Project::new(documents),
@@ -128,49 +126,41 @@ impl Workbench {
     }
 
     /// The open texts.
-    #[must_use]
     pub fn project(&self) -> &Project {
         &self.project
     }
 
     /// Studies at work and their results.
-    #[must_use]
     pub fn studies(&self) -> &Studies {
         &self.studies
     }
 
     /// The search at work and the stories found.
-    #[must_use]
     pub fn searches(&self) -> &Searches {
         &self.searches
     }
 
     /// An assembly checked under rules.
-    #[must_use]
     pub fn rules(&self) -> &RuleChecks {
         &self.rules
     }
 
     /// Plugins in use, and those that are not.
-    #[must_use]
     pub fn plugins(&self) -> &Plugins {
         &self.plugins
     }
 
     /// What the user prefers.
-    #[must_use]
     pub fn preferences(&self) -> &Preferences {
         &self.preferences
     }
 
     /// Folder of the recordings of runs.
-    #[must_use]
     pub fn recordings(&self) -> Option<&Path> {
         self.recordings.as_deref()
     }
 
     /// The last notice.
-    #[must_use]
     pub fn notice(&self) -> Option<&Notice> {
         self.notice.as_ref()
     }
@@ -222,7 +212,6 @@ impl Workbench {
     }
 
     /// Unsaved edits that crashed programs left, the newest first, with their files.
-    #[must_use]
     pub fn left_behind(&self) -> Vec<(PathBuf, UnsavedEdits)> {
         self.project.autosave.left_behind()
     }
@@ -267,45 +256,38 @@ impl Workbench {
     }
 
     /// The newest view of the run.
-    #[must_use]
     pub fn view(&self) -> Option<&Arc<LiveView>> {
         self.run.view.as_ref()
     }
 
     /// How the run stands.
-    #[must_use]
     pub fn status(&self) -> Option<&Status> {
         self.view().map(|view| &view.status)
     }
 
     /// Whether the run is stepping.
-    #[must_use]
     pub fn running(&self) -> bool {
         self.status() == Some(&Status::Running)
     }
 
     /// What the whale's motion can be asked for.
-    #[must_use]
     pub fn acts(&self) -> &[Act] {
         let whale = self.view().and_then(|view| view.model.spec.whale.as_ref());
         whale.map_or(&[], |whale| &whale.motion.descriptor().acts)
     }
 
     /// What work in the background needs: the plugins, and whom to wake when something is ready.
-    #[must_use]
     pub fn helpers(&self) -> (Arc<PluginHost>, Waker) {
         (Arc::clone(&self.plugins.host), Arc::clone(&self.waker))
     }
 
     /// The gear types among the plugins.
-    #[must_use]
     pub fn gear_types(&self) -> Vec<Arc<dyn GearType>> {
         let host = &self.plugins.host;
         host.ids().iter().filter_map(|id| host.gear(id)).collect()
     }
 
     /// The scenario's name without folder and extension.
-    #[must_use]
     pub fn scenario_stem(&self) -> String {
         self.project.scenario_stem()
     }

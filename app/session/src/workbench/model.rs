@@ -78,13 +78,11 @@ impl Made {
 
 impl Workbench {
     /// Whether a model is in the making.
-    #[must_use]
     pub fn making(&self) -> bool {
         self.run.maker.busy()
     }
 
     /// Whether texts have changed since the run's model was made.
-    #[must_use]
     pub fn stale(&self) -> bool {
         let (documents, made) = (&self.project.documents, &self.run.made);
         let version = documents.version();
@@ -97,14 +95,12 @@ impl Workbench {
     }
 
     /// Whether the run shown is of something else than the texts, and these are as they were when it was loaded.
-    #[must_use]
     pub fn shows_guest(&self) -> bool {
         let version = self.project.documents.version();
         self.run.made.guest.as_ref().is_some_and(|guest| guest.version == version)
     }
 
     /// What the run shown is of, where that is not the scenario: a recording, an encounter of a study, a story.
-    #[must_use]
     pub fn guest(&self) -> Option<&str> {
         self.run.made.guest.as_ref().map(|guest| guest.name.as_str())
     }

@@ -74,7 +74,6 @@ pub struct Plugins {
 
 impl Plugins {
     /// Plugins that cannot be loaded again.
-    #[must_use]
     pub fn new(host: Arc<PluginHost>) -> Self {
         Self {
             host,
@@ -94,13 +93,11 @@ impl Plugins {
     }
 
     /// Whether plugins can be loaded again.
-    #[must_use]
     pub fn has_loader(&self) -> bool {
         self.loader.is_some()
     }
 
     /// Every plugin, those switched off too; by kind and then by name.
-    #[must_use]
     pub fn every(&self) -> Vec<Switchable> {
         let switchable = |info: &PluginInfo, on: bool| Switchable { info: info.clone(), on };
         let on = self.host.list().iter().map(|info| switchable(info, true));
@@ -111,13 +108,11 @@ impl Plugins {
     }
 
     /// Whether something is being loaded or checked.
-    #[must_use]
     pub fn busy(&self) -> bool {
         !self.pending.is_empty()
     }
 
     /// Folders searched.
-    #[must_use]
     pub fn folders(&self) -> Vec<PathBuf> {
         let folders = |loader: &Mutex<Loader>| {
             loader.lock().unwrap_or_else(PoisonError::into_inner).folders.clone()
@@ -129,9 +124,7 @@ impl Plugins {
     }
 
     /// Makes a change and loads again what has changed.
-    ///
-    /// # Errors
-    /// Where the system gives no thread.
+    /// Errors: where the system gives no thread.
     fn reload(&mut self, change: Change, waker: Waker) -> Result<(), String> {
         let Some((loader, load)) = self.loader.clone() else {
             return Err("there are no folders of plugins here".into());
@@ -149,9 +142,7 @@ impl Plugins {
     }
 
     /// Tries a file in a child process.
-    ///
-    /// # Errors
-    /// Where the system gives no thread, or the program cannot find itself.
+    /// Errors: where the system gives no thread, or the program cannot find itself.
     fn check(&mut self, file: &Path, waker: Waker) -> Result<(), String> {
         let program = std::env::current_exe()
             .map_err(|error| format!("the program cannot find itself to check it: {error}"))?;
@@ -223,7 +214,6 @@ impl Plugins {
     }
 
     /// The first that was not put off.
-    #[must_use]
     pub fn asked(&self) -> Option<(PathBuf, Ask)> {
         let mut waiting = self.waiting().filter(|(_, ask)| !self.later.contains(&ask.hash));
         waiting.next().map(|(file, ask)| (file.clone(), ask.clone()))
@@ -236,7 +226,6 @@ impl Plugins {
 }
 
 /// The table of the scenario whose plugin a kind is, and its key; none for kinds that a scenario does not name itself.
-#[must_use]
 pub fn place_of(kind: PluginKind) -> Option<(&'static str, &'static str)> {
     match kind {
         PluginKind::Motion => Some(("whale", "motion")),
@@ -302,7 +291,6 @@ impl Workbench {
     }
 
     /// Whether the scenario names a motion or a law of friction.
-    #[must_use]
     pub fn uses_plugin(&self, info: &PluginInfo) -> bool {
         let documents = &self.project.documents;
         let named = |(table, key): (&str, &str)| {
@@ -312,7 +300,6 @@ impl Workbench {
     }
 
     /// Plugins that the scenario can name and does not.
-    #[must_use]
     pub fn usable_plugins(&self) -> Vec<PluginInfo> {
         let has_whale = self.project.has_whale();
         let usable = |plugin: &Switchable| {

@@ -30,7 +30,6 @@ pub struct Project {
 
 impl Project {
     /// The project of open texts.
-    #[must_use]
     pub fn new(documents: Documents) -> Self {
         let (model_problems, model_texts) = (Vec::new(), Texts::new());
         Self { documents, autosave: Autosave::default(), model_problems, model_texts }
@@ -43,13 +42,11 @@ impl Project {
     }
 
     /// Problems found in making the model last.
-    #[must_use]
     pub fn model_problems(&self) -> &[Diagnostic] {
         &self.model_problems
     }
 
     /// The worst problem at a field of a text, or of the model made last of the texts as they stand.
-    #[must_use]
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
         let file = self.documents.shown_name(path);
         let here = |problem: &&Diagnostic| problem.file == file && problem.field == field;
@@ -61,7 +58,6 @@ impl Project {
     }
 
     /// The scenario's name without folder and extension.
-    #[must_use]
     pub fn scenario_stem(&self) -> String {
         let stem = self.documents.scenario_path().file_stem();
         stem.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
@@ -79,7 +75,6 @@ impl Project {
     }
 
     /// Whether the scenario has a whale.
-    #[must_use]
     pub fn has_whale(&self) -> bool {
         self.documents.has(Documents::SCENARIO, "whale")
     }

@@ -52,9 +52,7 @@ impl Workbench {
     }
 
     /// Asks for the moments of the run that are kept, which come without waiting for them here.
-    ///
-    /// # Errors
-    /// Where there is no run.
+    /// Errors: where there is no run.
     pub fn kept_frames(&self) -> Result<Receiver<Vec<Arc<Frame>>>, String> {
         let (sender, receiver) = channel();
         self.send(RunCommand::KeptFrames(sender))?;
@@ -62,7 +60,6 @@ impl Workbench {
     }
 
     /// Times that kept runs came, went or changed since the start: what lists them reads them again.
-    #[must_use]
     pub fn recordings_version(&self) -> u64 {
         self.run.kept_changes
     }

@@ -31,7 +31,6 @@ impl Replay {
 
 impl Workbench {
     /// Whether what was run is being played.
-    #[must_use]
     pub fn replaying(&self) -> bool {
         self.run.replay.shown_s.is_some()
     }

@@ -116,25 +116,21 @@ pub struct RuleChecks {
 
 impl RuleChecks {
     /// Whether verdicts or edits are being found.
-    #[must_use]
     pub fn busy(&self) -> bool {
         self.checking.busy() || self.finding_remedies.busy()
     }
 
     /// Whether a study is being made.
-    #[must_use]
     pub fn comparing(&self) -> bool {
         self.comparing.busy()
     }
 
     /// Whether a compliance sheet is being written.
-    #[must_use]
     pub fn writing(&self) -> bool {
         self.writing.busy()
     }
 
     /// The page of the compliance sheet written last.
-    #[must_use]
     pub fn page(&self) -> Option<&Path> {
         self.sheet.as_ref().map(|sheet| sheet.page.as_path())
     }
@@ -242,7 +238,6 @@ impl Workbench {
     }
 
     /// Whether the gear, the place or the rules have changed since the compliance sheet was written.
-    #[must_use]
     pub fn sheet_is_outdated(&self) -> bool {
         let (documents, checks) = (&self.project.documents, &self.rules);
         let Some(sheet) = &checks.sheet else { return false };

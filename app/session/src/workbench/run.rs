@@ -40,7 +40,6 @@ pub const SPEEDS: [Speed; 7] = [
 
 impl Speed {
     /// Whether a run's speed is this one.
-    #[must_use]
     pub fn is(self, factor: f64) -> bool {
         // A run gives the greatest speed as a large number or as infinite.
         let most = factor >= 999.0;
@@ -103,9 +102,7 @@ impl CurrentRun {
 
 impl Workbench {
     /// Sends a command to the run.
-    ///
-    /// # Errors
-    /// Where there is no run to take it.
+    /// Errors: where there is no run to take it.
     pub(super) fn send(&self, command: RunCommand) -> Result<(), String> {
         let sent = self.run.engine.as_ref().is_some_and(|engine| engine.send(command));
         if sent { Ok(()) } else { Err("the run does not take commands now".to_owned()) }
@@ -157,7 +154,6 @@ impl Workbench {
     }
 
     /// The next of the speeds offered; none where this is the last.
-    #[must_use]
     pub fn next_speed(&self, direction: Direction) -> Option<f64> {
         let now = self.view().map_or(1.0, |view| view.speed);
         let mut factors = SPEEDS.iter().map(|speed| speed.factor);
@@ -183,7 +179,6 @@ impl Workbench {
     }
 
     /// The command line that gives the run of the scenario's file.
-    #[must_use]
     pub fn command_line(&self) -> String {
         let documents = &self.project.documents;
         let [scenario, library] = [documents.scenario_path(), documents.root()].map(shell::path);

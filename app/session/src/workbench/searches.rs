@@ -63,7 +63,6 @@ pub struct Searches {
 
 impl Searches {
     /// The search that runs or is paused; one that only reads what is there is none.
-    #[must_use]
     pub fn at_work(&self) -> Option<&SearchJob> {
         self.job.as_ref().filter(|job| job.is_unfinished() && !job.request.only_reads)
     }
@@ -90,21 +89,18 @@ impl Workbench {
     }
 
     /// Whether neither the open observation nor the gear has an error.
-    #[must_use]
     pub fn observation_is_sound(&self) -> bool {
         let documents = &self.project.documents;
         !documents.file_has_error(Documents::OBSERVATION) && !documents.any_error()
     }
 
     /// Whether the stories shown are of another observation than the open one as it stands.
-    #[must_use]
     pub fn stories_are_of_another(&self) -> bool {
         let text = self.project.documents.text(Documents::OBSERVATION);
         self.searches.job.as_ref().is_some_and(|job| Some(job.request.text.as_str()) != text)
     }
 
     /// Skin of the animal of the open observation, at the length of its file.
-    #[must_use]
     pub fn observed_skin(&self) -> Option<Arc<Skin>> {
         let documents = &self.project.documents;
         let id = documents.field(Documents::OBSERVATION, "whale");
@@ -242,7 +238,6 @@ impl Workbench {
     }
 
     /// The command line that searches for the open observation; `None` where none is open.
-    #[must_use]
     pub fn search_command_line(&self) -> Option<String> {
         let request = self.search_request()?;
         let own = self.searches.job.as_ref().filter(|job| job.request.text == request.text);

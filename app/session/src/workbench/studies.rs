@@ -31,7 +31,6 @@ pub struct Studies {
 
 impl Studies {
     /// Folder that results are kept in.
-    #[must_use]
     pub fn root(&self) -> PathBuf {
         self.folder.clone().unwrap_or_else(|| PathBuf::from("results"))
     }
@@ -110,7 +109,6 @@ impl Workbench {
     }
 
     /// Whether neither the open study nor the gear has an error.
-    #[must_use]
     pub fn study_is_sound(&self) -> bool {
         let documents = &self.project.documents;
         !documents.file_has_error(Documents::STUDY) && !documents.any_error()
@@ -209,7 +207,6 @@ impl Workbench {
     }
 
     /// The report of the results shown, where it is written.
-    #[must_use]
     pub fn report_shown(&self) -> Option<PathBuf> {
         let page = self.studies.results.shown()?.folder.join("report.html");
         page.is_file().then_some(page)
@@ -251,7 +248,6 @@ impl Workbench {
     }
 
     /// The command lines that run the open study and report it; `None` where none is open.
-    #[must_use]
     pub fn study_command_line(&self) -> Option<String> {
         let (documents, studies) = (&self.project.documents, &self.studies);
         let path = documents.study_path()?;

@@ -22,19 +22,16 @@ pub struct StudyCheck {
 
 impl StudyCheck {
     /// Problems of options, found by assembling each.
-    #[must_use]
     pub fn problems(&self) -> &[Diagnostic] {
         &self.problems
     }
 
     /// Why the study cannot be opened for another reason.
-    #[must_use]
     pub fn fault(&self) -> Option<&str> {
         self.fault.as_deref()
     }
 
     /// Whether nothing wrong is known.
-    #[must_use]
     pub fn is_clean(&self) -> bool {
         self.problems.is_empty() && self.fault.is_none()
     }

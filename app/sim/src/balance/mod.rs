@@ -57,7 +57,6 @@ impl Source {
         [Self::Weight, Self::Water, Self::Skin, Self::Seabed, Self::Obstacles, Self::Fixtures];
 
     /// Name in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Weight => "weight",

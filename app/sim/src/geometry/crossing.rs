@@ -41,7 +41,6 @@ impl Mover {
 /// First fraction of the move at which the segment and the triangle have a point in common, if any.
 ///
 /// Both move straight from start to end. 0 where they already cross at the start.
-#[must_use]
 pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option<f64> {
     if !reach_each_other(segment, triangle) {
         return None;
@@ -64,7 +63,6 @@ pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option
 /// First fraction of the move at which two rope segments have a point in common, if any.
 ///
 /// Both move straight from start to end.
-#[must_use]
 pub fn first_crossing(one: &SweptSegment, other: &SweptSegment) -> Option<f64> {
     let [first, second] =
         [one, other].map(|swept| Bounds::around(&[swept.a0, swept.b0, swept.a1, swept.b1]));
@@ -85,7 +83,6 @@ fn reach_each_other(segment: &SweptSegment, triangle: &SweptTriangle) -> bool {
 }
 
 /// Whether a standing segment passes through a standing triangle (sign test of five volumes).
-#[must_use]
 pub fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3, x: DVec3| (v - u).cross(w - u).dot(x - u);
     if volume(a, b, c, p) * volume(a, b, c, q) > 0.0 {

@@ -29,7 +29,6 @@ const SURELY_INSIDE: f64 = 1e-9;
 ///
 /// An edge, or either of its corners, can be nearest to the segment only where the segment reaches beyond that edge;
 /// the other edges are left out.
-#[must_use]
 pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
     segment_triangle_in(Plane::of(triangle).as_ref(), segment, triangle)
 }
@@ -59,7 +58,6 @@ pub(crate) fn segment_triangle_in(
 }
 
 /// Nearest place on a triangle to a point: distance and barycentric place.
-#[must_use]
 pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
     point_triangle_in(Plane::of(triangle).as_ref(), point, triangle, f64::INFINITY)
         .unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
@@ -109,7 +107,6 @@ fn nearest_edge(point: DVec3, triangle: [DVec3; 3], wanted: [bool; 3]) -> (f64, 
 }
 
 /// Nearest places on two segments, as fractions along each.
-#[must_use]
 pub fn segment_segment(first: [DVec3; 2], second: [DVec3; 2]) -> (f64, f64) {
     let (u, v, w) = (first[1] - first[0], second[1] - second[0], first[0] - second[0]);
     let (uu, vv) = (u.length_squared(), v.length_squared());

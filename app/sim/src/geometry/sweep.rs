@@ -22,7 +22,6 @@ pub struct SweptSegment {
 
 impl SweptSegment {
     /// The segment at a fraction of the move, 0 at the start.
-    #[must_use]
     pub fn at(&self, fraction: f64) -> [DVec3; 2] {
         [self.a0.lerp(self.a1, fraction), self.b0.lerp(self.b1, fraction)]
     }
@@ -42,7 +41,6 @@ const NEEDLE: f64 = 1e-16;
 /// The largest proved fraction of the move, 1 for all of it, along which the centre line stays
 /// farther than `separation` from the triangle; a pair that starts nearer than twice that is asked
 /// for half its first distance, and a pair that starts crossed gets 0.
-#[must_use]
 pub fn safe_fraction(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64) -> f64 {
     let approach = greatest_approach(segment, triangle);
     if height(segment.at(0.0), triangle[0]) > separation + approach {
@@ -63,7 +61,6 @@ fn height(segment: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> f64 {
 }
 
 /// As [`safe_fraction`] where the first distance, or a lower bound of it, is known.
-#[must_use]
 pub fn safe_fraction_from(
     segment: &SweptSegment,
     triangle: &SweptTriangle,
@@ -111,7 +108,6 @@ pub(crate) fn walk(first: f64, keep: f64, approach: f64, distance: impl Fn(f64) 
 }
 
 /// No distance between the two can shrink by more than this over the move [m].
-#[must_use]
 pub fn greatest_approach(segment: &SweptSegment, triangle: &SweptTriangle) -> f64 {
     let rope = [segment.a1 - segment.a0, segment.b1 - segment.b0];
     let skin = [0, 1, 2].map(|corner| triangle[1][corner] - triangle[0][corner]);
@@ -123,7 +119,6 @@ pub fn greatest_approach(segment: &SweptSegment, triangle: &SweptTriangle) -> f6
 }
 
 /// The triangle at a fraction of the move.
-#[must_use]
 pub fn triangle_at(triangle: &SweptTriangle, fraction: f64) -> [DVec3; 3] {
     [0, 1, 2].map(|corner| triangle[0][corner].lerp(triangle[1][corner], fraction))
 }

@@ -107,9 +107,7 @@ pub struct Haul {
 
 impl Haul {
     /// Advances by a step; returns `false` when everything is aboard.
-    ///
-    /// # Errors
-    /// Reports why the solver cannot continue.
+    /// Errors: reports why the solver cannot continue.
     pub fn advance(&mut self) -> Result<bool, Stop> {
         if self.ends.is_empty() {
             return Ok(false);

@@ -73,9 +73,7 @@ fn beyond(
 impl Haul {
     /// Starts a haul of gear at rest from one of its [`endlines`]. Links, plugins, probes and obstacles are removed, and rope
     /// cannot break.
-    ///
-    /// # Errors
-    /// Reports a buoy whose other lines also lead to the gear.
+    /// Errors: reports a buoy whose other lines also lead to the gear.
     pub fn begin(
         model: &Model,
         state: &State,

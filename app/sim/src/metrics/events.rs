@@ -89,7 +89,6 @@ impl EventKind {
     ];
 
     /// Name in results, such as `link_parted`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Contact => "contact",
@@ -115,7 +114,6 @@ impl EventKind {
     }
 
     /// Unit of its value: `N`, `s`, `m`, `m/s` or `turns`.
-    #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
             Self::Contact | Self::Lodged | Self::LinkParted | Self::LineParted => "N",

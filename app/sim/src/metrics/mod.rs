@@ -64,7 +64,6 @@ pub struct Metrics {
 
 impl Metrics {
     /// Metrics before the start of a run.
-    #[must_use]
     pub fn new(model: &Model) -> Self {
         Self {
             time_s: 0.0,

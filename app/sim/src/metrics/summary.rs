@@ -288,7 +288,6 @@ impl Outcome {
         [Self::NoContact, Self::Shed, Self::Entangled, Self::PartedFree, Self::PartedEntangled];
 
     /// Name in results, such as `parted_free`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::NoContact => "no_contact",

@@ -168,7 +168,6 @@ impl Shape {
 
 impl PlacedShape {
     /// A part centred at the body's origin.
-    #[must_use]
     pub fn about_origin(shape: Shape) -> Self {
         Self { shape, middle_m: DVec3::ZERO }
     }

@@ -81,7 +81,6 @@ pub const BODY_ON_SKIN_FRICTION: f64 = 0.2;
 
 impl Friction {
     /// One law for every rope and region.
-    #[must_use]
     pub fn of_one(
         model: Arc<dyn FrictionModel>,
         attributes: Vec<f64>,

@@ -79,7 +79,6 @@ const FINE_GAP_SHARE: f64 = 0.02;
 
 impl Solver {
     /// Scratch for a model.
-    #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
         let system = LinearSystem::new(model, &plan);

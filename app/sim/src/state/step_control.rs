@@ -26,7 +26,6 @@ impl LimitedBy {
         [Self::Inputs, Self::Accuracy, Self::Snap, Self::Contact, Self::Parting, Self::Convergence];
 
     /// Name, a key of the summary.
-    #[must_use]
     pub fn name(self) -> &'static str {
         ["inputs", "accuracy", "snap", "contact", "parting", "convergence"][self as usize]
     }
@@ -40,7 +39,6 @@ impl LimitedBy {
     }
 
     /// Description for reports.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::Inputs => "the step between inputs only",

@@ -54,7 +54,6 @@ impl Settled {
     ///
     /// Gear, water and seabed of that model must be equal to this one's, except for the strengths of ropes and links, and no
     /// line may be attached to the whale: statics then do not depend on it.
-    #[must_use]
     pub fn with_whale_of(&self, model: &Model) -> Self {
         let mut settled = self.clone();
         let start = State::start(model);

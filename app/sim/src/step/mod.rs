@@ -24,9 +24,7 @@ pub use audit::Audit;
 pub use workspace::Workspace;
 
 /// Advances `state` by the model's step.
-///
-/// # Errors
-/// With the part and the reason, if the run cannot continue; `state` is then as it was before the step.
+/// Errors: with the part and the reason, if the run cannot continue; `state` is then as it was before the step.
 pub fn step(
     model: &Model,
     input: &Input,

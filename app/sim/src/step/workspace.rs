@@ -59,7 +59,6 @@ pub struct Workspace {
 
 impl Workspace {
     /// Scratch for a model.
-    #[must_use]
     pub fn new(model: &Model) -> Self {
         Self {
             contacts: Vec::new(),
@@ -98,7 +97,6 @@ impl Workspace {
     }
 
     /// Computing time of the last step by part; zero without a clock.
-    #[must_use]
     pub fn cost(&self) -> &Cost {
         &self.solver.cost.cost
     }

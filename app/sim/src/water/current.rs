@@ -60,7 +60,6 @@ pub struct ProfileRow {
 
 impl Profile {
     /// Power law; an exponent of zero is uniform.
-    #[must_use]
     pub fn power(exponent: f64) -> Self {
         if exponent > 0.0 { Self::Power(exponent) } else { Self::Uniform }
     }
@@ -172,7 +171,6 @@ pub struct LawTable {
 
 impl LawTable {
     /// Table of a profile; `None` for one that needs no table.
-    #[must_use]
     pub fn of(profile: &Profile) -> Option<Self> {
         match *profile {
             Profile::Power(exponent) => Some(Self::power(exponent)),

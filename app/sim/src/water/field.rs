@@ -64,7 +64,6 @@ pub struct Walk {
 
 impl Field {
     /// Field of waves in water of this depth under this gravity.
-    #[must_use]
     pub fn new(waves: &Waves, depth_m: f64, gravity_m_s2: f64, seed: u64) -> Self {
         let components = waves.components(seed);
         let (mut groups, mut shortest) = (Vec::new(), 0.0_f64);

@@ -51,19 +51,16 @@ pub struct Current {
 
 impl Current {
     /// Steady and uniform over the depth.
-    #[must_use]
     pub fn uniform(velocity_m_s: DVec3) -> Self {
         Self { surface_m_s: velocity_m_s, profile: Profile::Uniform, tide: Tide::Steady }
     }
 
     /// Steady, with a power law; an exponent of zero is uniform.
-    #[must_use]
     pub fn power(surface_m_s: DVec3, exponent: f64) -> Self {
         Self { profile: Profile::power(exponent), ..Self::uniform(surface_m_s) }
     }
 
     /// Steady, with the logarithmic law; the roughness length is a positive share of the depth.
-    #[must_use]
     pub fn log(surface_m_s: DVec3, roughness: f64) -> Self {
         Self { profile: Profile::Log(roughness), ..Self::uniform(surface_m_s) }
     }
@@ -122,7 +119,6 @@ impl Sea {
     }
 
     /// Prepares a model's water over its seabed; the seed determines irregular waves.
-    #[must_use]
     pub fn new(water: &Water, seabed: Option<&Seabed>, seed: u64) -> Self {
         let normal = seabed.map_or(DVec3::Z, |seabed| seabed.normal);
         let slope = (normal.x / normal.z, normal.y / normal.z);

@@ -26,9 +26,7 @@ const GRAVITY_M_S2: f64 = 9.81;
 
 /// Computes the whale at the end of a step from `whale` to `next`. Returns whether its motion requested a posture beyond the
 /// joints' ranges. `hull_scratch` is a buffer of a kinetic whale's hull.
-///
-/// # Errors
-/// Reports the motion plugin's id if it fails or returns a number that is not finite.
+/// Errors: reports the motion plugin's id if it fails or returns a number that is not finite.
 pub(crate) fn drive(
     model: &Model,
     input: &Input,

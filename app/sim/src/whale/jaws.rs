@@ -35,7 +35,6 @@ pub struct JawStrength {
 
 impl JawStrength {
     /// Strength from the closing forces of jaw and lips at the points farthest from their hinges [N].
-    #[must_use]
     pub fn of_forces(skin: &Skin, [jaw_n, lip_n]: [f64; 2]) -> Self {
         let load = MouthLoad::new(skin);
         let moment_n_m = std::array::from_fn(|k| match load.hinges[k] {

@@ -119,7 +119,6 @@ impl Angle {
     }
 
     /// Name in files, such as `spine_yaw`, and joint or side (0 left, 1 right).
-    #[must_use]
     pub fn name(self) -> (&'static str, Option<usize>) {
         match self {
             Self::SpinePitch(joint) => ("spine_pitch", Some(joint)),
@@ -158,7 +157,6 @@ pub struct Measures {
 
 impl Measures {
     /// Measures of a closed skin of uniform density [kg/m³]; zero for a skin without volume.
-    #[must_use]
     pub fn of(skin: &Skin, density_kg_m3: f64) -> Self {
         let inside = |vertex: &u32| {
             matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen))
@@ -172,7 +170,6 @@ impl Measures {
     }
 
     /// Measures of any closed surface, such as a skin in a posture; all of it is wetted.
-    #[must_use]
     pub fn of_triangles(places: &[DVec3], triangles: &[[u32; 3]], density_kg_m3: f64) -> Self {
         let (mut volume, mut first, mut second, mut wetted) = (0.0, DVec3::ZERO, DMat3::ZERO, 0.0);
         for corners in triangles {

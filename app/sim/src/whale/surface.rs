@@ -80,7 +80,6 @@ impl Group<'_> {
 
 impl Surface {
     /// Surface of a skin. Allocates all buffers except the lists of candidates.
-    #[must_use]
     pub fn new(tree: Arc<SkinTree>) -> Self {
         let step = Step {
             number: 0,

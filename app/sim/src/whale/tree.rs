@@ -24,25 +24,21 @@ impl Bounds {
     pub const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
 
     /// Bounding box of points.
-    #[must_use]
     pub fn around(points: &[DVec3]) -> Self {
         points.iter().fold(Self::EMPTY, |bounds, &point| bounds.with(point))
     }
 
     /// Extended to contain a point.
-    #[must_use]
     pub fn with(self, point: DVec3) -> Self {
         Self { low: self.low.min(point), high: self.high.max(point) }
     }
 
     /// Extended to contain another box.
-    #[must_use]
     pub fn join(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// Extended by a margin on every side [m].
-    #[must_use]
     pub fn grown(self, margin: f64) -> Self {
         Self { low: self.low - margin, high: self.high + margin }
     }
@@ -115,7 +111,6 @@ struct Sphere {
 
 impl SkinTree {
     /// Builds the tree, deterministically.
-    #[must_use]
     pub fn new(skin: Arc<Skin>) -> Self {
         let sum = |weights: &[(u16, f64); 4]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
         debug_assert!(

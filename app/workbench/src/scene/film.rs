@@ -38,9 +38,7 @@ impl Film {
     }
 
     /// Starts a film of a size [px] with a number of pictures per second.
-    ///
-    /// # Errors
-    /// If the file cannot be written, its format does not allow the size, or ffmpeg is missing.
+    /// Errors: if the file cannot be written, its format does not allow the size, or ffmpeg is missing.
     pub fn begin(out: &Path, size: [u32; 2], fps: u32) -> Result<Self, String> {
         let to = match extension(out).as_str() {
             "gif" => Target::Gif(Box::new(begin_gif(out, size)?)),

@@ -37,9 +37,7 @@ pub mod offscreen {
 
     impl Offscreen {
         /// Always fails.
-        ///
-        /// # Errors
-        /// Always, with the reason and what to do instead.
+        /// Errors: always, with the reason and what to do instead.
         pub fn new(_size: [u32; 2]) -> Result<Self, String> {
             Err("macOS has no EGL, by which pictures are drawn without a window; open the recording in the window and save the view there".to_owned())
         }

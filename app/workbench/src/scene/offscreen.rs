@@ -29,9 +29,7 @@ pub struct Offscreen {
 
 impl Offscreen {
     /// A surface of `size` pixels on the first device that has one.
-    ///
-    /// # Errors
-    /// The reason, and the packages that are needed.
+    /// Errors: the reason, and the packages that are needed.
     pub fn new(size: [u32; 2]) -> Result<Self, String> {
         let explain = |reason: String| {
             format!(

@@ -40,9 +40,7 @@ pub struct RenderRequest<'a> {
 const LARGEST: u32 = 8192;
 
 /// Writes a PNG of a frame; needs no display.
-///
-/// # Errors
-/// For an unknown view, a size out of range, missing OpenGL, or a file that cannot be written.
+/// Errors: for an unknown view, a size out of range, missing OpenGL, or a file that cannot be written.
 pub fn render_png(request: &RenderRequest<'_>) -> Result<(), String> {
     let pixels = render(request)?;
     write_png(request.out, request.size, &pixels)

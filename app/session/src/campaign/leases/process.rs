@@ -81,9 +81,7 @@ impl Process {
     }
 
     /// Whether another process has ended: its file is removed, its lock is free, or it has been silent for too long.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
+    /// Errors: a file that cannot be read.
     pub(super) fn has_ended(&self, other: &str) -> io::Result<bool> {
         let path = path_of(self.path.parent().unwrap_or(Path::new(".")), other);
         let file = match ProcessFile::of(&path) {

@@ -46,14 +46,12 @@ pub enum Told {
 
 impl Told {
     /// Whether rope was seen there rather than not.
-    #[must_use]
     pub fn has_rope(self) -> bool {
         matches!(self, Self::Seen(present) if present > 0.5)
     }
 }
 
 /// The site under which a single one is told: itself, or the pair that it belongs to.
-#[must_use]
 pub fn site_of(documents: &Documents, single: Site) -> Site {
     let pair = pair_of(single).filter(|pair| {
         told(documents, single) == Told::Nothing && told(documents, *pair) != Told::Nothing
@@ -62,13 +60,11 @@ pub fn site_of(documents: &Documents, single: Site) -> Site {
 }
 
 /// The pair of a fin: both of it.
-#[must_use]
 pub fn pair_of(site: Site) -> Option<Site> {
     [Site::Flipper, Site::Fluke].into_iter().find(|pair| pair.singles().contains(&site))
 }
 
 /// What is told of a site by its own name.
-#[must_use]
 pub fn told(documents: &Documents, site: Site) -> Told {
     if list(documents, HIDDEN).iter().any(|name| name == site.name()) {
         return Told::Hidden;
@@ -83,13 +79,11 @@ pub fn told(documents: &Documents, site: Site) -> Told {
 }
 
 /// A field of a site as typed, such as `tight`; `None` where it is missing.
-#[must_use]
 pub fn field(documents: &Documents, site: Site, key: &str) -> Option<String> {
     documents.field(Documents::OBSERVATION, &path(documents, site, key)?)
 }
 
 /// Dotted path of a field of a site, for its problems; `None` where the site is not told.
-#[must_use]
 pub fn path(documents: &Documents, site: Site, key: &str) -> Option<String> {
     index_of(documents, site).map(|index| format!("{SITES}.{index}.{key}"))
 }
@@ -110,9 +104,7 @@ fn part_field(index: usize) -> String {
 }
 
 /// Tells of a site that rope was there or not, that it was hidden, or nothing.
-///
-/// # Errors
-/// Where `site` or `hidden` are something else in the text.
+/// Errors: where `site` or `hidden` are something else in the text.
 pub fn tell(document: &mut Document, site: Site, told: Told) -> Result<(), String> {
     let mut hidden = list_in(document, HIDDEN);
     hidden.retain(|name| name != site.name());
@@ -135,9 +127,7 @@ pub fn tell(document: &mut Document, site: Site, told: Told) -> Result<(), Strin
 }
 
 /// Sets a field of a site, such as `tight`; `None` takes it away. A site that was not told is from now on.
-///
-/// # Errors
-/// Where `site` is something else in the text.
+/// Errors: where `site` is something else in the text.
 pub fn set(
     document: &mut Document,
     site: Site,
@@ -152,9 +142,7 @@ pub fn set(
 }
 
 /// Tells of a pair what was told of one of it, or of one what was told of the pair.
-///
-/// # Errors
-/// Where `site` or `hidden` are something else in the text.
+/// Errors: where `site` or `hidden` are something else in the text.
 pub fn rename(document: &mut Document, from: Site, to: Site) -> Result<(), String> {
     let was_hidden = list_in(document, HIDDEN).iter().any(|name| name == from.name());
     let covered: Vec<Site> =
@@ -172,9 +160,7 @@ pub fn rename(document: &mut Document, from: Site, to: Site) -> Result<(), Strin
 
 /// Sets a field of the observation itself as typed, such as `source`; without a text it goes. A length takes the place of an age, and
 /// the reverse.
-///
-/// # Errors
-/// Where the text has no place for the field.
+/// Errors: where the text has no place for the field.
 pub fn set_field(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let text = text.trim();
     let other = match field {

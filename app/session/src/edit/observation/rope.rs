@@ -24,7 +24,6 @@ pub enum Range {
 
 impl Range {
     /// Its dotted path, for its problems; `None` where its site is not told.
-    #[must_use]
     pub fn path(self, documents: &Documents) -> Option<String> {
         match self {
             Self::Wraps(site) => path(documents, site, "wraps"),
@@ -35,16 +34,13 @@ impl Range {
 }
 
 /// Least and most of a range as typed; empty where it is not told.
-#[must_use]
 pub fn range(documents: &Documents, range: Range) -> [String; 2] {
     let ends = range.path(documents).map(|path| list(documents, &path)).unwrap_or_default();
     [0, 1].map(|end| ends.get(end).cloned().unwrap_or_default())
 }
 
 /// Sets least (0) or most (1) of a range to the text typed. The other end begins with the same; without a text the range goes.
-///
-/// # Errors
-/// Where the text has something else in its place.
+/// Errors: where the text has something else in its place.
 pub fn set_range(
     document: &mut Document,
     range: Range,
@@ -72,15 +68,12 @@ pub fn set_range(
 }
 
 /// The places that a rope passes, as typed.
-#[must_use]
 pub fn places(documents: &Documents) -> Vec<String> {
     list(documents, ORDER)
 }
 
 /// Adds a place at the end of the path.
-///
-/// # Errors
-/// Where the path is something else in the text.
+/// Errors: where the path is something else in the text.
 pub fn add_place(document: &mut Document, place: PathPlace) -> Result<(), String> {
     let mut places = list_in(document, ORDER);
     places.push(place.to_string());
@@ -88,9 +81,7 @@ pub fn add_place(document: &mut Document, place: PathPlace) -> Result<(), String
 }
 
 /// Takes a place out of the path.
-///
-/// # Errors
-/// Where the path is something else in the text.
+/// Errors: where the path is something else in the text.
 pub fn remove_place(document: &mut Document, index: usize) -> Result<(), String> {
     let mut places = list_in(document, ORDER);
     if index < places.len() {
@@ -100,9 +91,7 @@ pub fn remove_place(document: &mut Document, index: usize) -> Result<(), String>
 }
 
 /// Moves a place of the path one place towards the beginning.
-///
-/// # Errors
-/// Where the path is something else in the text.
+/// Errors: where the path is something else in the text.
 pub fn move_place(document: &mut Document, index: usize) -> Result<(), String> {
     let mut places = list_in(document, ORDER);
     if index > 0 && index < places.len() {
@@ -112,15 +101,12 @@ pub fn move_place(document: &mut Document, index: usize) -> Result<(), String> {
 }
 
 /// What was at the ends of the rope, as typed.
-#[must_use]
 pub fn ends(documents: &Documents) -> Vec<String> {
     list(documents, ENDS)
 }
 
 /// Adds an end of the rope.
-///
-/// # Errors
-/// Where the ends are something else in the text.
+/// Errors: where the ends are something else in the text.
 pub fn add_end(document: &mut Document, end: RopeEnd) -> Result<(), String> {
     let mut ends = list_in(document, ENDS);
     ends.push(end.name().to_owned());
@@ -128,9 +114,7 @@ pub fn add_end(document: &mut Document, end: RopeEnd) -> Result<(), String> {
 }
 
 /// Takes an end of the rope away.
-///
-/// # Errors
-/// Where the ends are something else in the text.
+/// Errors: where the ends are something else in the text.
 pub fn remove_end(document: &mut Document, index: usize) -> Result<(), String> {
     let mut ends = list_in(document, ENDS);
     if index < ends.len() {

@@ -59,9 +59,7 @@ struct Variation {
 
 impl HauledLoad {
     /// Reads what `endline haul --json` printed.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or holds something else.
+    /// Errors: a file that cannot be read, or holds something else.
     pub fn read(file: &Path) -> Result<Self, Error> {
         let text = endline_gear::read::text(file)
             .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
@@ -93,7 +91,6 @@ impl HauledLoad {
     }
 
     /// Probability that a line that delivers a strength parts in the haul.
-    #[must_use]
     pub fn parts(&self, strength_n: f64) -> f64 {
         loads::probability(self.tension_n / strength_n, self.variation)
     }

@@ -10,7 +10,6 @@ use crate::study::stats::{Agreement, Findings, ObservationFinding};
 use super::inputs::simulated;
 
 /// All that can be held against observations: studies with what they found, and cases with the row that each answers.
-#[must_use]
 pub fn page(studies: &[(PreparedStudy, Findings)], cases: &[(String, Outcome)]) -> String {
     let seen = studies.iter().flat_map(|(_, findings)| &findings.observations);
     // Several observations may belong to one row: `B2-mouth` and `B2-tail`.
@@ -51,7 +50,6 @@ fn of_cases(cases: &[(String, Outcome)]) -> String {
 }
 
 /// Observations of one study, held against its merged table.
-#[must_use]
 pub fn markdown(opened: &PreparedStudy, findings: &Findings) -> String {
     let mut text = format!("## {}\n\n", opened.study.name);
     let count = |wanted: Agreement| {

@@ -25,9 +25,7 @@ use crate::table::{Column, Table};
 
 /// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; returns the path of the page. Hauls are shown beside what
 /// parts on whales.
-///
-/// # Errors
-/// Where the folder cannot be written.
+/// Errors: where the folder cannot be written.
 pub fn write(
     opened: &PreparedStudy,
     folder: &Folder,

@@ -72,9 +72,7 @@ struct Again<'a> {
 }
 
 /// The page as HTML.
-///
-/// # Errors
-/// Where the template cannot be filled in.
+/// Errors: where the template cannot be filled in.
 pub(super) fn html(
     opened: &PreparedStudy,
     findings: &Findings,

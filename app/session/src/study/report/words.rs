@@ -50,7 +50,6 @@ pub(super) fn force(newtons: f64) -> String {
 }
 
 /// `alone 12 %, tied 30 %`; `tied in all` if no resample separates the options.
-#[must_use]
 pub fn lowest(Lowest { alone, tied }: Lowest) -> String {
     match (alone > 0.0, tied > 0.0) {
         (false, true) if tied >= 1.0 => "tied in all".to_owned(),

@@ -31,7 +31,6 @@ struct Compared<'a> {
 }
 
 /// Sentences that answer the question of an event, by its name, the most important first.
-#[must_use]
 pub fn answer(findings: &Findings, event: &str) -> Vec<String> {
     let words = StudyEvent::find(event).map_or_else(|| event.to_owned(), |event| event.words());
     let asked = Asked {

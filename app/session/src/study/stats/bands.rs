@@ -175,13 +175,11 @@ impl AssumedBand {
     }
 
     /// Least and greatest rate.
-    #[must_use]
     pub fn rates(&self) -> Interval {
         Interval { low: self.least, high: self.greatest }
     }
 
     /// Whether the levels spread the rate by no more than levels assigned at random.
-    #[must_use]
     pub fn is_chance(&self) -> bool {
         self.greatest - self.least <= self.by_chance.high - self.by_chance.low
     }

@@ -50,7 +50,6 @@ struct End {
 
 impl Changes {
     /// The changes of an option from another.
-    #[must_use]
     pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
         let (own, other) = (ends(runs, option), ends(runs, baseline));
         let pairs: Vec<[End; 2]> =

@@ -121,19 +121,16 @@ pub struct LevelFinding {
 
 impl OptionFinding {
     /// The rate of an event.
-    #[must_use]
     pub fn rate(&self, event: &str) -> Option<&Rate> {
         self.rates.iter().find(|(name, _)| name == event).map(|(_, rate)| rate)
     }
 
     /// McNemar's probability of a registered event among all registered comparisons.
-    #[must_use]
     pub fn adjusted(&self, event: &str) -> Option<f64> {
         self.adjusted.iter().find(|(name, _)| name == event).map(|(_, adjusted)| *adjusted)
     }
 
     /// The comparison of an event with the baseline.
-    #[must_use]
     pub fn against(&self, event: &str) -> Option<&Paired> {
         self.against.iter().find(|(name, _)| name == event).map(|(_, paired)| paired)
     }
@@ -147,7 +144,6 @@ impl Findings {
     }
 
     /// The findings of a study's runs; `registration` is that of its folder.
-    #[must_use]
     pub fn of(opened: &PreparedStudy, runs: &Runs, registration: &Registration) -> Self {
         let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
         let event = &opened.study.event;
@@ -195,7 +191,6 @@ impl Findings {
     }
 
     /// One line of JSON.
-    #[must_use]
     pub fn json(&self) -> String {
         // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
         serde_json::to_string(self).unwrap_or_default()

@@ -19,7 +19,6 @@ pub struct EventIndicators(pub Vec<Option<EventIndicator>>);
 
 impl EventIndicators {
     /// The indicators of an event in the runs of an option.
-    #[must_use]
     pub fn of(runs: &Runs, option: &str, event: &StudyEvent) -> Self {
         let counted = event.counted();
         let mut indicators = vec![None; runs.encounters()];
@@ -31,7 +30,6 @@ impl EventIndicators {
     }
 
     /// The indicators of encounters of equal weight.
-    #[must_use]
     pub fn even(occurred: impl IntoIterator<Item = Option<bool>>) -> Self {
         let even =
             |occurred: Option<bool>| Some(EventIndicator { occurred: occurred?, weight: 1.0 });
@@ -45,14 +43,12 @@ impl EventIndicators {
     }
 
     /// Encounters in which the event occurred.
-    #[must_use]
     pub fn occurred(&self) -> Vec<bool> {
         let occurred = |indicator: EventIndicator| indicator.occurred;
         self.0.iter().map(|indicator| indicator.is_some_and(occurred)).collect()
     }
 
     /// Only the indicators of some encounters.
-    #[must_use]
     pub fn within(&self, keep: &[bool]) -> Self {
         let kept = self.0.iter().zip(keep);
         Self(kept.map(|(indicator, keep)| indicator.filter(|_| *keep)).collect())

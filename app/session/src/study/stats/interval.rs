@@ -26,7 +26,6 @@ pub struct Interval {
 
 impl Interval {
     /// `0.2 to 3.1 %`, with a no-break space before the sign.
-    #[must_use]
     pub fn percents(self) -> String {
         format!("{:.1} to {:.1}\u{a0}%", 100.0 * self.low, 100.0 * self.high)
     }
@@ -64,7 +63,6 @@ pub(super) fn z95() -> f64 {
 
 impl Rate {
     /// The rate of indicators.
-    #[must_use]
     pub fn of(indicators: &EventIndicators) -> Self {
         let known = || indicators.0.iter().flatten();
         let (hits, runs) =
@@ -86,7 +84,6 @@ impl Rate {
     }
 
     /// The rate of `hits` in `runs` that all count alike.
-    #[must_use]
     pub fn from_counts(hits: u64, runs: u64) -> Self {
         let share = if runs == 0 { 0.0 } else { hits as f64 / runs as f64 };
         Self::from_share(hits, runs, share, runs as f64)

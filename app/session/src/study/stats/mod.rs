@@ -45,7 +45,6 @@ use super::plan::OptionPlan;
 use crate::study::runs::Runs;
 
 /// Whether the interval of an event's rate is narrower than `width` in every option.
-#[must_use]
 pub fn is_narrow(runs: &Runs, options: &[OptionPlan], event: &StudyEvent, width: f64) -> bool {
     options.iter().all(|option| {
         let rate = Rate::of(&EventIndicators::of(runs, &option.id, event));

@@ -32,7 +32,6 @@ pub enum Agreement {
 
 impl Agreement {
     /// In words.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::Agrees => "agrees",

@@ -48,7 +48,6 @@ pub struct Paired {
 
 impl Paired {
     /// Compares the indicators of an option with those of another.
-    #[must_use]
     pub fn of(this: &EventIndicators, other: &EventIndicators) -> Self {
         let both = this.0.iter().zip(&other.0).filter_map(|(this, other)| {
             let (this, other) = ((*this)?, (*other)?);
@@ -99,7 +98,6 @@ impl Paired {
     }
 
     /// From counts by whether the event occurred with the option and with the other.
-    #[must_use]
     pub fn from_counts(counts: [[u64; 2]; 2]) -> Self {
         let effective = counts.map(|row| row.map(|count| count as f64));
         Self::from_effective(counts, effective, effective)

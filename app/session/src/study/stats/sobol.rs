@@ -30,7 +30,6 @@ pub struct SobolIndex {
 
 impl SobolIndex {
     /// First-order Sobol index and its permutation baseline; an index below the baseline is omitted.
-    #[must_use]
     pub fn words(&self) -> [String; 2] {
         let by_chance = format!("{:.1} %", 100.0 * self.by_chance.max(0.0));
         if self.index > self.by_chance {

@@ -55,7 +55,6 @@ pub(super) struct Followed {
 
 impl Survival {
     /// Of an option's runs that count.
-    #[must_use]
     pub fn of(runs: &Runs, option: &str) -> Self {
         let followed = |run: &RunRow| {
             let released = RELEASED.contains(&run.outcome.as_str());
@@ -102,7 +101,6 @@ impl Survival {
     }
 
     /// The share still held at a time since first contact; `None` beyond the time that any whale was followed.
-    #[must_use]
     pub fn at(&self, time_s: f64) -> Option<HeldShare> {
         if self.touched == 0 || time_s > self.followed_s {
             return None;
@@ -114,7 +112,6 @@ impl Survival {
     }
 
     /// Time at which half of the whales are free; `None` where more are held as long as they were followed [s].
-    #[must_use]
     pub fn median_s(&self) -> Option<f64> {
         self.steps.iter().find(|step| step.share <= 0.5).map(|step| step.time_s)
     }

@@ -22,7 +22,6 @@ pub struct Tensions {
 
 impl Tensions {
     /// The tensions of an option, compared with another's.
-    #[must_use]
     pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
         let (own, other) = (by_encounter(runs, option), by_encounter(runs, baseline));
         let mut sorted_n: Vec<(f64, f64)> = own.iter().flatten().copied().collect();
@@ -49,13 +48,11 @@ impl Tensions {
     }
 
     /// The tension below which a share of the runs stays [N].
-    #[must_use]
     pub fn quantile_n(&self, share: f64) -> Option<f64> {
         quantile(&self.sorted_n, share)
     }
 
     /// Share of runs whose greatest tension is above a strength.
-    #[must_use]
     pub fn share_above(&self, strength_n: f64) -> f64 {
         let weight = |least: f64| {
             let above = self.sorted_n.iter().filter(|(tension, _)| *tension > least);

@@ -83,7 +83,6 @@ impl Risk {
 
 impl Threats {
     /// The rows of a table of the tool that the study has something to say of, in that table's order.
-    #[must_use]
     pub fn fill<'a>(&self, poll: &'a Poll) -> Vec<Filled<'a>> {
         let filled = |row: &'a Polled| {
             let (risk, how) = self.risk_of(row)?;
@@ -136,17 +135,13 @@ fn by_traps(rows: &[&Threat], traps: u64) -> Option<(Risk, How)> {
 }
 
 /// Rows as a file that the tool reads in place of its own.
-///
-/// # Errors
-/// Where the table cannot be written.
+/// Errors: where the table cannot be written.
 pub fn as_own(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     written(&COLUMNS, rows.iter().map(columns))
 }
 
 /// Rows with their bands and origins.
-///
-/// # Errors
-/// Where the table cannot be written.
+/// Errors: where the table cannot be written.
 pub fn with_bands(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     let names: Vec<&str> = COLUMNS.iter().chain(&WITH_BANDS).copied().collect();
     let row = |filled: &Filled<'_>| {

@@ -66,9 +66,7 @@ pub struct Threats {
 
 impl Threats {
     /// The threats of a merged study by an event, beside a poll.
-    ///
-    /// # Errors
-    /// A study without an option that names a row, or with two options that name the same row.
+    /// Errors: a study without an option that names a row, or with two options that name the same row.
     pub fn of(
         opened: &PreparedStudy,
         runs: &Runs,
@@ -107,7 +105,6 @@ impl Threats {
     }
 
     /// One line of JSON.
-    #[must_use]
     pub fn json(&self) -> String {
         // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
         serde_json::to_string(self).unwrap_or_default()
@@ -144,7 +141,6 @@ impl Threat {
     }
 
     /// Least and greatest rate at the levels of the assumed inputs; the rate itself where none varies.
-    #[must_use]
     pub fn by_priors(&self) -> Interval {
         let rate = self.rate.rate;
         self.priors.as_ref().map_or(Interval { low: rate, high: rate }, AssumedBand::rates)

@@ -37,9 +37,7 @@ pub struct Poll {
 
 impl Poll {
     /// Reads a table; lines that begin with `#` are notes.
-    ///
-    /// # Errors
-    /// Every row that is none, at its line; a table without a column.
+    /// Errors: every row that is none, at its line; a table without a column.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))

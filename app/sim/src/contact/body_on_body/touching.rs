@@ -7,7 +7,6 @@ use crate::geometry::core::BodyCore;
 use crate::model::{Body, Model};
 
 /// Indices of the bodies that touch a body, all of them at these places and orientations; empty if bodies of the model do not touch.
-#[must_use]
 pub fn bodies_touching(model: &Model, bodies: &[(DVec3, DQuat)], body: usize) -> Vec<usize> {
     let (Some(mine), Some(at)) = (model.spec.bodies.get(body), bodies.get(body)) else {
         return Vec::new();

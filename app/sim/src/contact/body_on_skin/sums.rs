@@ -55,7 +55,6 @@ impl BodySums {
 
 impl BodySum {
     /// The part that it pressed on most, if any.
-    #[must_use]
     pub fn part(&self) -> Option<BodyPart> {
         let parts = BodyPart::ALL.iter().zip(self.push_n_s).filter(|(_, push)| *push > 0.0);
         parts.max_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(part, _)| *part)

@@ -93,7 +93,6 @@ impl StepSums {
     }
 
     /// Means and work on a region.
-    #[must_use]
     pub fn of_region(&self, region: Region) -> RegionMean {
         let Sum { normal, friction, force, work_j, .. } = self.regions[region as usize];
         let share = if self.span_s > 0.0 { 1.0 / self.span_s } else { 0.0 };
@@ -106,14 +105,12 @@ impl StepSums {
     }
 
     /// Mean force of rope on all skin [N].
-    #[must_use]
     pub fn force_n(&self) -> DVec3 {
         let sum: DVec3 = self.regions.iter().map(|sum| sum.force).sum();
         if self.span_s > 0.0 { sum / self.span_s } else { sum }
     }
 
     /// Work done against friction on all skin [J].
-    #[must_use]
     pub fn friction_work_j(&self) -> f64 {
         self.regions.iter().map(|sum| sum.work_j).sum()
     }

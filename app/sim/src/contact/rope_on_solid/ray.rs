@@ -9,7 +9,6 @@ use crate::model::{Body, PlacedShape, Shape};
 
 impl Shape {
     /// This shape larger by so much on every side, with sharp edges where it has edges [m].
-    #[must_use]
     pub fn grown(&self, by_m: f64) -> Self {
         match self {
             Self::Box(half) => Self::Box(*half + DVec3::splat(by_m)),
@@ -27,13 +26,11 @@ impl Shape {
     }
 
     /// Half of its least extent [m].
-    #[must_use]
     pub fn least_half_m(&self) -> f64 {
         self.half_m().min_element()
     }
 
     /// How far along a ray of its own frame it begins; zero from inside, `None` where the ray passes it [m].
-    #[must_use]
     pub fn met_by_ray(&self, from: DVec3, along: DVec3) -> Option<f64> {
         let ray = Ray::new(from, along);
         match self {
@@ -85,7 +82,6 @@ fn first_of([one, two]: [[f64; 2]; 2]) -> Option<f64> {
 impl Body {
     /// How far along a ray of unit direction it begins where it is at a place in an orientation, each of its parts being made larger until half of
     /// its least extent is this; `None` where the ray passes it [m].
-    #[must_use]
     pub fn met_by_ray(
         &self,
         (place, orientation): (DVec3, DQuat),

@@ -237,7 +237,6 @@ impl Curve {
     /// Interpolates `(time [s], value)`, sorted by time; without points the curve is zero.
     ///
     /// `repeats`: the first key follows the last, so that both have the slope of an inner key.
-    #[must_use]
     pub fn through(points: &[(f64, f64)], repeats: bool) -> Self {
         debug_assert!(
             points.is_sorted_by(|one, next| one.0 < next.0),

@@ -51,7 +51,6 @@ impl Acting {
     /// A motion with acts, which are numbered after those of the underlying motion.
     ///
     /// `answer` refers to its act by that number, which must be that of a clip.
-    #[must_use]
     pub fn new(beneath: Arc<dyn WhaleMotion>, clips: Vec<Clip>, answer: Option<Answer>) -> Self {
         let mut descriptor = beneath.descriptor().clone();
         let act = |clip: &Clip| Act {
@@ -331,9 +330,7 @@ pub const LEN: usize = 9 + ANGLES + 6;
 
 impl Floats {
     /// Reads the engine's floats.
-    ///
-    /// # Errors
-    /// Reports a number of floats other than [`LEN`].
+    /// Errors: reports a number of floats other than [`LEN`].
     pub fn read(state: &[f64]) -> Result<Self, HookError> {
         let wrong =
             || HookError::new(format!("expected {LEN} floats for acts, got {}", state.len()));

@@ -51,7 +51,6 @@ pub struct Wetted {
 
 impl Hull {
     /// A skin in a posture.
-    #[must_use]
     pub fn of(skin: &Skin, posture: &Posture) -> Self {
         let mut bones = Vec::new();
         pose(skin, DVec3::ZERO, DQuat::IDENTITY, posture, &mut bones);

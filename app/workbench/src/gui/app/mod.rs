@@ -49,7 +49,6 @@ pub struct App {
 
 impl App {
     /// A window on a workbench; layout and preferences are taken from eframe's storage.
-    #[must_use]
     pub fn new(creation: &CreationContext<'_>, mut shared: Shared) -> Self {
         let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
         if let Some(text) = stored(PREFERENCES_KEY) {

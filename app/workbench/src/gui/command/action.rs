@@ -137,14 +137,12 @@ pub enum WindowAction {
 }
 
 /// Whether a file has an extension, in any case.
-#[must_use]
 pub fn has_extension(file: &Path, wanted: &str) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
 impl WindowCommand {
     /// The identity it is declared by, such as `view.frame`.
-    #[must_use]
     pub fn id(&self) -> &'static str {
         match self {
             Self::Workbench(command) => command.id(),

@@ -74,7 +74,6 @@ fn count(modifiers: Modifiers) -> u32 {
 }
 
 /// A shortcut as egui has it; `None` where a key is not known.
-#[must_use]
 pub fn to_egui(keys: &str) -> Option<KeyboardShortcut> {
     let mut modifiers = Modifiers::NONE;
     let mut rest = keys;
@@ -91,7 +90,6 @@ pub fn to_egui(keys: &str) -> Option<KeyboardShortcut> {
 }
 
 /// A shortcut as it is spelled on screen.
-#[must_use]
 pub fn spelled(keys: &str) -> String {
     match keys {
         "Left" => "⏴".to_owned(),

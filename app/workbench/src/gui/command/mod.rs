@@ -70,7 +70,6 @@ pub fn declared() -> impl Iterator<Item = Declared> {
 }
 
 /// The declaration of an identity such as `view.frame`.
-#[must_use]
 pub fn find(id: &str) -> Option<Declared> {
     let window = || {
         let mut all = WINDOW_COMMANDS.iter().flat_map(|(_, commands)| *commands);
@@ -81,7 +80,6 @@ pub fn find(id: &str) -> Option<Declared> {
 
 impl Declared {
     /// Its identity.
-    #[must_use]
     pub fn id(self) -> &'static str {
         match self {
             Self::Workbench(info) => info.id,
@@ -90,7 +88,6 @@ impl Declared {
     }
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Workbench(info) => info.name,
@@ -99,7 +96,6 @@ impl Declared {
     }
 
     /// What it does, in a sentence.
-    #[must_use]
     pub fn help(self) -> &'static str {
         match self {
             Self::Workbench(info) => info.help,
@@ -108,7 +104,6 @@ impl Declared {
     }
 
     /// The keys that give it.
-    #[must_use]
     pub fn keys(self) -> &'static [Shortcut] {
         match self {
             Self::Workbench(info) => info.keys,
@@ -117,9 +112,7 @@ impl Declared {
     }
 
     /// Whether it does something now.
-    ///
-    /// # Errors
-    /// With the reason why it does not.
+    /// Errors: with the reason why it does not.
     pub fn enabled(self, shared: &Shared) -> Result<(), String> {
         match self {
             Self::Workbench(info) => (info.enabled)(&shared.workbench),
@@ -128,7 +121,6 @@ impl Declared {
     }
 
     /// The command where it needs nothing more.
-    #[must_use]
     pub fn plain(self) -> Option<WindowCommand> {
         match self {
             Self::Workbench(Info { make: Make::Plain(make), .. }) => Some(make().into()),
@@ -138,7 +130,6 @@ impl Declared {
     }
 
     /// What to ask for the file that it needs; `None` where it needs none.
-    #[must_use]
     pub fn question(self, shared: &Shared) -> Option<FileQuestion> {
         match self {
             Self::Workbench(Info { make: Make::File { question, .. }, .. }) => {
@@ -152,7 +143,6 @@ impl Declared {
     }
 
     /// The command for a file; `None` where it needs none.
-    #[must_use]
     pub fn with_file(self, shared: &Shared, file: PathBuf) -> Option<WindowCommand> {
         match self {
             Self::Workbench(Info { make: Make::File { command, .. }, .. }) => {
@@ -166,7 +156,6 @@ impl Declared {
     }
 
     /// Each way to give it now, with what it is chosen from; none where only a caller has its values.
-    #[must_use]
     pub fn choices(self, shared: &Shared) -> Vec<Choice<WindowCommand>> {
         match self {
             Self::Workbench(Info { make: Make::Choices(choices), .. }) => {
@@ -183,7 +172,6 @@ impl Declared {
     }
 
     /// Each way to give it now, as menus and palette show it.
-    #[must_use]
     pub fn offers(self, shared: &Shared) -> Vec<Offer> {
         let enabled = self.enabled(shared);
         let keys = self.keys().first().map_or_else(String::new, |shortcut| spelled(shortcut.keys));
@@ -198,7 +186,6 @@ impl Declared {
     }
 
     /// Help text for a control that gives it: what it does, its keys, and why it does nothing now.
-    #[must_use]
     pub fn hint(self, shared: &Shared) -> String {
         let keys: Vec<String> = self.keys().iter().map(|key| spelled(key.keys)).collect();
         let keys = if keys.is_empty() { String::new() } else { format!(" ({})", keys.join(", ")) };
