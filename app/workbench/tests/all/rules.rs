@@ -36,7 +36,7 @@ fn ask(harness: &mut Window, change: impl FnOnce(&mut RuleQuestion)) {
     harness.perform(RuleAction::Ask(question));
 }
 
-fn answer<'a>(harness: &'a Window) -> Option<&'a RuleAnswer> {
+fn answer(harness: &Window) -> Option<&RuleAnswer> {
     harness.workbench().rules().answer.as_ref()
 }
 
