@@ -1,15 +1,12 @@
 //! How well the capstan law comes out on triangles, over turns, segment lengths, facets and edges: tables for docs/lab-notebook.md.
 //!
 //! `cargo bench -p endline-sim --bench capstan`, and after `--` one of `turns`, `lengths`, `edges`, `follows` for that table alone.
-//! A rope is drawn round a drum of skin against a steady pull (`tests/all/common/drum.rs`); friction and ratio are by how much the
+//! A rope is drawn round a drum of skin against a steady pull (`tests/fixtures/src/capstan.rs`); friction and ratio are by how much the
 //! mean ratio of tensions misses `e^{μθ}`, ripple is its spread over its mean.
-
-#[path = "../tests/all/common/mod.rs"]
-mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::drum::{Capstan, Reading};
+use endline_fixtures::capstan::{Capstan, Reading};
 use endline_sim::model::Resolution;
 
 /// Segments of the shipped encounters [m].

@@ -1,15 +1,12 @@
 //! What a step of free rope with drag costs, by number of nodes: `cargo bench -p endline-sim --bench free_rope`.
 //!
-//! Throughput is told in nodes stepped a second; its inverse is the time of a node and step (docs/lab-notebook.md, Speed).
+//! Throughput is in nodes stepped per second; its inverse is the time of a node and step (docs/lab-notebook.md, Speed).
 
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
 
-#[path = "../tests/all/common/mod.rs"]
-mod common;
-
-use common::{fixed, line, water};
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use endline_fixtures::gear::{self, fixed, line, water};
 use endline_sim::model::{Joint, Line, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 
@@ -29,7 +26,7 @@ fn slack_rope(nodes: usize) -> Model {
     let length_m = SEGMENT_M * (nodes - 1) as f64;
     let ends =
         vec![fixed("near", DVec3::NEG_Z), fixed("far", DVec3::new(0.0, SPAN * length_m, -1.0))];
-    common::model(
+    gear::model(
         water(1025.0, 0.5),
         ends,
         vec![line("rope", length_m, nodes - 1)],
@@ -43,7 +40,7 @@ fn node_step(bencher: Bencher, nodes: usize) {
     time(bencher, &slack_rope(nodes), nodes);
 }
 
-/// Eight rigs of so many nodes each, stepped together: a rig in each lane.
+/// Eight rigs with this number of nodes each, stepped together: a rig in each lane.
 #[divan::bench(args = [100, 500, 2_000])]
 fn node_step_of_eight_rigs(bencher: Bencher, nodes: usize) {
     let mut spec = slack_rope(nodes).spec;

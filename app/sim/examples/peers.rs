@@ -12,11 +12,8 @@
     reason = "a program for the terminal that reads its reference"
 )]
 
-#[path = "../tests/all/common/mod.rs"]
-mod common;
-
-use common::{fixed, line, model, on_body, water, weight};
 use cpu_time::ThreadTime;
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Joint, JointKind, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 
@@ -82,7 +79,7 @@ fn run(case: &Case, mut state: State) -> (f64, Vec<[f64; 5]>) {
     let (begin, mut rows) = (ThreadTime::now(), Vec::with_capacity(case.reference.len()));
     for row in &case.reference {
         while state.time_s < row[0] - 1e-9 {
-            step(model, &Input::default(), &mut state, &mut workspace).expect("the run goes on");
+            step(model, &Input::default(), &mut state, &mut workspace).expect("a step");
         }
         let nodes = &state.rope.position;
         let (end, middle) = (nodes[nodes.len() - 1], nodes[nodes.len() / 2]);

@@ -5,8 +5,6 @@
     reason = "a test fails by panicking, in its helpers too"
 )]
 
-use std::sync::Arc;
-
 use crate::fins::bodies::adrift;
 use crate::fins::rig::{sea, whale};
 use crate::mouth::{LENGTH_M, motion, open, open_mouth};
@@ -49,7 +47,7 @@ fn ball(radius_m: f64, position_m: DVec3) -> Body {
 fn spec(skin: &Skin, ball: Body, friction: f64) -> ModelSpec {
     let strength = JawStrength::of_forces(skin, FORCES_N);
     let whale = Whale {
-        motion: Arc::new(motion(0.0, [0.2, 2.2])),
+        motion: motion(0.0, [0.2, 2.2]),
         position_m: DVec3::NEG_Z * 20.0,
         jaws: Some(strength),
         ..whale(skin.clone(), 0.0, [0.0; 3])

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::idle::{Idle, library};
+use crate::idle::{TestHooks, library};
 use endline_gear::limits::{DIAGNOSTICS, EXCERPT_CHARS, ROPE_NODES};
 use endline_gear::{Diagnostic, Library, Options, Scenario, assemble};
 
@@ -17,7 +17,8 @@ const WRAPPED: &str = "format = 1\nkind = \"scenario\"\nname = \"n\"\nsource = \
 
 fn problems(text: &str, options: &Options) -> Vec<Diagnostic> {
     let read = Scenario::read("test.toml", text);
-    let made = read.and_then(|scenario| assemble(&scenario, library(), &Idle::shared(), options));
+    let made = read
+        .and_then(|scenario| assemble(&scenario, library(), &TestHooks::without_effect(), options));
     made.err().unwrap_or_default()
 }
 

@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 use crate::fins::rig::{Taut, whale};
 use crate::fins::tally::is_pierced;
+use endline_fixtures::hooks::{Motion, descriptor};
 use endline_gear::whale::{WhaleForm, build_skin};
-use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, Posture, Region, WhaleMotion};
+use endline_sdk::{MotionOutput, Posture, Region, WhaleMotion};
 use endline_sim::geometry::distance::segment_triangle;
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Settings, Whale};
@@ -27,33 +28,6 @@ const WHALE: DVec3 = DVec3::new(0.0, 0.0, -20.0);
 /// A skimming whale's mouth, as `gear-library/acts/skim-feed.toml` opens it [rad].
 pub fn open() -> Posture {
     Posture { jaw: 0.2618, lips: [0.3491; 2], ..Posture::default() }
-}
-
-/// Constant forward speed with the mouth open, which closes between two times.
-pub struct Closing {
-    descriptor: Descriptor,
-    speed_m_s: f64,
-    closes_s: [f64; 2],
-}
-
-impl WhaleMotion for Closing {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
-    }
-
-    fn step(
-        &self,
-        _: &[f64],
-        input: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        let [from, to] = self.closes_s;
-        let share = ((to - input.time_s - input.dt_s) / (to - from)).clamp(0.0, 1.0);
-        let wide = open();
-        let posture =
-            Posture { jaw: wide.jaw * share, lips: wide.lips.map(|lip| lip * share), ..wide };
-        Ok(MotionOutput { speed_m_s: self.speed_m_s, posture, ..MotionOutput::default() })
-    }
 }
 
 /// The result of a run.
@@ -96,11 +70,16 @@ fn clear_places(skin: &[[DVec3; 3]]) -> Vec<DVec3> {
 }
 
 /// A level rope across the whale, at a place of the whale's frame.
-fn across(skin: &Skin, place: DVec3, pull_n: f64, motion: Closing, until_s: f64) -> Came {
-    let speed_m_s = motion.speed_m_s;
+fn across(
+    skin: &Skin,
+    place: DVec3,
+    pull_n: f64,
+    (speed_m_s, closes_s): (f64, [f64; 2]),
+    until_s: f64,
+) -> Came {
     let (position_m, orientation) = (WHALE, DQuat::IDENTITY);
     let whale = Whale {
-        motion: Arc::new(motion),
+        motion: motion(speed_m_s, closes_s),
         position_m,
         orientation,
         speed_m_s,
@@ -142,18 +121,15 @@ fn across(skin: &Skin, place: DVec3, pull_n: f64, motion: Closing, until_s: f64)
     Came { audit: workspace.audit, pierced: is_pierced(&model, &state), pressed, lodged, aft_m }
 }
 
-pub fn motion(speed_m_s: f64, closes_s: [f64; 2]) -> Closing {
-    let (id, name, help) = ("test.closing".into(), "Closing".into(), "Closes its mouth.".into());
-    let descriptor = Descriptor {
-        id,
-        version: "1".into(),
-        name,
-        help,
-        attributes: Vec::new(),
-        state_len: 0,
-        acts: Vec::new(),
-    };
-    Closing { descriptor, speed_m_s, closes_s }
+/// Returns a motion at constant speed with an open mouth, which closes between two times.
+pub fn motion(speed_m_s: f64, [from, to]: [f64; 2]) -> Arc<dyn WhaleMotion> {
+    Motion::new(descriptor("test.closing"), move |input| {
+        let share = ((to - input.time_s - input.dt_s) / (to - from)).clamp(0.0, 1.0);
+        let wide = open();
+        let posture =
+            Posture { jaw: wide.jaw * share, lips: wide.lips.map(|lip| lip * share), ..wide };
+        MotionOutput { speed_m_s, posture, ..MotionOutput::default() }
+    })
 }
 
 #[test]
@@ -164,7 +140,7 @@ fn jaws_that_close_on_rope_let_none_through() {
     assert!(places.len() >= 4, "{places:?}");
     let mut lodged = 0;
     for place in places.iter().step_by(places.len() / 4).take(4) {
-        let came = across(&skin, *place, 30.0, motion(0.0, [0.1, 1.1]), 2.6);
+        let came = across(&skin, *place, 30.0, (0.0, [0.1, 1.1]), 2.6);
         println!(
             "at {place:.2}: lodged {}, pressed {:?}, {:?}",
             came.lodged, came.pressed, came.audit
@@ -188,7 +164,7 @@ fn rope_that_enters_the_mouth_at_speed_is_let_through_nothing() {
                 &skin,
                 ahead,
                 [20.0, 200.0, 2000.0][number % 3],
-                motion(speed_m_s, [9.0, 10.0]),
+                (speed_m_s, [9.0, 10.0]),
                 2.0 / speed_m_s,
             );
             println!(

@@ -3,10 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 use std::path::Path;
-use std::sync::Arc;
 
-use endline_gear::{Diagnostic, Hooks, Library, Options, Scenario, Sources, assemble};
-use endline_sdk::{FrictionModel, GearType, WhaleMotion};
+use crate::idle::TestHooks;
+use endline_gear::{Diagnostic, Library, Options, Scenario, Sources, assemble};
 use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::JointKind;
 use endline_sim::{DVec3, ModelSpec};
@@ -14,24 +13,6 @@ use endline_sim::{DVec3, ModelSpec};
 /// The drum of the file, and a box instead.
 const DRUM: &str = "shape = \"cylinder\"\nposition = [\"0 m\", \"0 m\", \"-10 m\"]\nradius = \"0.495 m\"\nlength = \"2 m\"";
 const BOX: &str = "shape = \"box\"\nposition = [\"9 m\", \"0 m\", \"-10 m\"]\nsize = [\"2 m\", \"1 m\", \"1 m\"]\nheading = \"0 deg\"\npitch = \"30 deg\"";
-
-/// No plugins.
-struct None;
-
-impl Hooks for None {
-    fn motion(&self, _: &str) -> Option<Arc<dyn WhaleMotion>> {
-        Option::None
-    }
-    fn friction(&self, _: &str) -> Option<Arc<dyn FrictionModel>> {
-        Option::None
-    }
-    fn gear(&self, _: &str) -> Option<Arc<dyn GearType>> {
-        Option::None
-    }
-    fn ids(&self) -> Vec<String> {
-        Vec::new()
-    }
-}
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -43,7 +24,12 @@ fn drum() -> String {
 
 fn read(text: &str) -> Result<ModelSpec, Vec<Diagnostic>> {
     let (library, _) = Library::read(&Sources::from_folder(root()).unwrap());
-    assemble(&Scenario::read("test.toml", text)?, &library, &None, &Options::default())
+    assemble(
+        &Scenario::read("test.toml", text)?,
+        &library,
+        &TestHooks::default(),
+        &Options::default(),
+    )
 }
 
 /// The only problem of the full capstan with one change: its line, field and words.

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::idle::{Idle, library};
+use crate::idle::{TestHooks, library};
 use endline_gear::{Diagnostic, Options, Scenario, assemble};
 use endline_sdk::BodyPart;
 use endline_sim::geometry::distance::segment_triangle;
@@ -34,7 +34,7 @@ fn scenario(ends: [DVec3; 2], length_m: f64, wraps: &str) -> String {
 
 fn read(text: &str) -> Result<ModelSpec, Vec<Diagnostic>> {
     let scenario = Scenario::read("test.toml", text)?;
-    assemble(&scenario, library(), &Idle::shared(), &Options::default())
+    assemble(&scenario, library(), &TestHooks::without_effect(), &Options::default())
 }
 
 /// The least distance of the line's segments from the skin [m].

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::idle::Still;
+use endline_fixtures::hooks::NoEffect;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::{BodyPart, Region};
 use endline_sim::metrics::Metrics;
@@ -27,7 +27,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         position_m: DVec3::Z * -20.0,
         orientation: DQuat::IDENTITY,
         speed_m_s: 0.0,
-        motion: Still::shared(),
+        motion: NoEffect::shared(),
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
@@ -80,7 +80,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         gear: Vec::new(),
         whale: Some(whale),
         friction: Some(Friction::of_one(
-            Still::shared(),
+            NoEffect::shared(),
             Vec::new(),
             vec![[0.2; Region::ALL.len()]],
         )),

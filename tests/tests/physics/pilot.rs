@@ -6,11 +6,9 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use crate::linked::{Linked, library, report};
+use endline_fixtures::hooks::{Motion, descriptor};
 use endline_gear::{Hooks, Options, Scenario, assemble};
-use endline_sdk::{
-    Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput,
-    WhaleMotion,
-};
+use endline_sdk::{Act, Controls, Descriptor, FrictionModel, GearType, MotionOutput, WhaleMotion};
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 
 /// Speed of the plain motion at full control [m/s], and its turn rates [rad/s].
@@ -22,50 +20,22 @@ const LENGTH_M: f64 = 10.0;
 const ROPE_M: f64 = 20.0;
 const STEP_S: f64 = 0.01;
 
-/// A motion that does at once what the controls say, and no more; it declares two acts and does neither.
-struct Plain(Descriptor);
-
-impl Plain {
-    fn new() -> Self {
-        let (version, name, help) = ("1".into(), "Plain".into(), "".into());
-        let acts = vec![Act::new("wiggle", "Wiggle", ""), Act::new("spin", "Spin", "")];
-        Self(Descriptor {
-            id: "org.example.plain".into(),
-            version,
-            name,
-            help,
-            attributes: Vec::new(),
-            state_len: 0,
-            acts,
-        })
-    }
-}
-
-impl WhaleMotion for Plain {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn step(
-        &self,
-        _: &[f64],
-        input: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
+/// Returns a motion that follows the controls without delay; it declares two acts and performs neither.
+fn plain() -> Arc<dyn WhaleMotion> {
+    let acts = vec![Act::new("wiggle", "Wiggle", ""), Act::new("spin", "Spin", "")];
+    let descriptor = Descriptor { acts, ..descriptor("org.example.plain") };
+    Motion::new(descriptor, |input| {
         let Controls { speed, pitch, yaw, .. } = input.controls;
         let turn_rate_rad_s = [0.0, -TURN_RAD_S * pitch, TURN_RAD_S * yaw];
-        Ok(MotionOutput {
-            speed_m_s: SPEED_M_S * speed,
-            turn_rate_rad_s,
-            ..MotionOutput::default()
-        })
-    }
+        MotionOutput { speed_m_s: SPEED_M_S * speed, turn_rate_rad_s, ..MotionOutput::default() }
+    })
 }
 
 struct WithPlain;
 
 impl Hooks for WithPlain {
     fn motion(&self, _: &str) -> Option<Arc<dyn WhaleMotion>> {
-        Some(Arc::new(Plain::new()))
+        Some(plain())
     }
     fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
         Linked.friction(id)
@@ -133,7 +103,7 @@ fn model(pilot: &str) -> Model {
     read(pilot).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Flies by the program until so many entries have begun; the state then, with the controls of every step.
+/// Steps by the program until a number of entries have begun; returns the state and the controls of every step.
 fn flown(model: &Model, entries: usize) -> (State, Vec<Controls>) {
     let (mut state, mut workspace, mut controls) =
         (settle(model).state, Workspace::new(model), Vec::new());
@@ -154,7 +124,7 @@ fn second_began_s(pilot: &str) -> f64 {
     state.pilot.begun[1].at_s
 }
 
-/// Within the step in which it comes to that: the first step's end at or after `expected_s`.
+/// Whether an entry began at the end of the first step at or after `expected_s`.
 fn is_next_step(began_s: f64, expected_s: f64) {
     assert!(
         (-1e-6..STEP_S + 1e-6).contains(&(began_s - expected_s)),
@@ -234,7 +204,7 @@ fn holds_and_ramps_give_the_written_curve_and_then_let_go() {
 }
 
 #[test]
-fn a_snapshot_goes_on_as_the_run_it_was_taken_from() {
+fn a_snapshot_continues_like_the_run_it_was_taken_from() {
     let model = model(
         "[[whale.pilot]]\nheading = \"60 deg\"\nyaw = 0.0\nspeed = 0.1\n[[whale.pilot]]\nat = \"1 s\"\nyaw = 1.0",
     );
@@ -255,7 +225,7 @@ fn a_snapshot_goes_on_as_the_run_it_was_taken_from() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn a_mistake_is_reported_with_its_place() {
     let entry = |lines: &str| read(&format!("[[whale.pilot]]\n{lines}")).err().unwrap_or_default();
     for (lines, wanted) in [
         ("yaw = 1.0", "this entry of the pilot has no trigger"),

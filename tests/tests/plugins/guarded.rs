@@ -1,11 +1,12 @@
-//! Output that no law of friction, no whale and no gear can give ends the call with the plugin's name.
+//! Impossible output of a friction law, a whale or a gear ends the call with the plugin's name.
 
 use std::sync::Arc;
 
+use endline_fixtures::hooks::{Motion, descriptor};
 use endline_sdk::{
     AttributeValue, BodyKind, BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse,
-    GearAction, GearStep, GearType, HookError, LineEnd, MotionInput, MotionOutput, Rig, RigBody,
-    RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
+    GearAction, GearStep, GearType, HookError, LineEnd, MotionOutput, Rig, RigBody, RigEnd,
+    RigJoint, RigLine, RigLink, Site,
 };
 use endline_session::plugins::{Hook, PluginHost};
 
@@ -13,36 +14,13 @@ use crate::refused::{ONE_CONTACT, motion_input};
 
 const ID: &str = "org.example.bad";
 
-fn descriptor(state_len: usize) -> Descriptor {
-    let text = |text: &'static str| text.into();
-    Descriptor {
-        id: text(ID),
-        version: text("1"),
-        name: text("Bad"),
-        help: text("Bad."),
-        attributes: Vec::new(),
-        state_len,
-        acts: Vec::new(),
-    }
+/// A descriptor with this many numbers of state.
+fn with_state(state_len: usize) -> Descriptor {
+    Descriptor { state_len, ..descriptor(ID) }
 }
 
-/// A plugin that gives what it holds.
+/// A plugin with constant output.
 struct Gives<T>(Descriptor, T);
-
-impl WhaleMotion for Gives<MotionOutput> {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-
-    fn step(
-        &self,
-        _: &[f64],
-        _: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        Ok(self.1)
-    }
-}
 
 impl FrictionModel for Gives<FrictionResponse> {
     fn descriptor(&self) -> &Descriptor {
@@ -101,7 +79,7 @@ fn expect(error: &HookError, reason: &str) {
 
 fn friction(force_n: [f64; 3]) -> Arc<dyn FrictionModel> {
     let response = FrictionResponse { force_n, ..FrictionResponse::default() };
-    host(Hook::Friction(Arc::new(Gives(descriptor(0), response)))).friction(ID).unwrap()
+    host(Hook::Friction(Arc::new(Gives(with_state(0), response)))).friction(ID).unwrap()
 }
 
 #[test]
@@ -118,7 +96,7 @@ fn friction_that_cannot_be_is_refused() {
     );
     let too_few = friction([0.0; 3]).respond(&[], &ONE_CONTACT, &mut []);
     expect(&too_few.unwrap_err(), "expected 1 places for answers, got 0");
-    let hook = Hook::Friction(Arc::new(Gives(descriptor(1), FrictionResponse::default())));
+    let hook = Hook::Friction(Arc::new(Gives(with_state(1), FrictionResponse::default())));
     let advanced = host(hook).friction(ID).unwrap().advance(
         &[],
         &Contacts { state: &[0.0], ..ONE_CONTACT },
@@ -133,7 +111,8 @@ fn a_whale_that_cannot_be_is_refused() {
     let step = |change: fn(&mut MotionOutput)| {
         let mut out = MotionOutput::default();
         change(&mut out);
-        let motion = host(Hook::Motion(Arc::new(Gives(descriptor(0), out)))).motion(ID).unwrap();
+        let motion =
+            host(Hook::Motion(Motion::new(with_state(0), move |_| out))).motion(ID).unwrap();
         motion.step(&[], &motion_input(&forces), &mut [])
     };
     step(|_| ()).unwrap();
@@ -176,7 +155,7 @@ fn a_rig_that_does_not_fit_together_is_refused() {
     let build = |change: fn(&mut Rig)| {
         let mut rig = rig();
         change(&mut rig);
-        let gear = host(Hook::Gear(Arc::new(Gives(descriptor(0), rig)))).gear(ID).unwrap();
+        let gear = host(Hook::Gear(Arc::new(Gives(with_state(0), rig)))).gear(ID).unwrap();
         gear.build(&[], &Site { depth_m: 10.0, current_m_s: [0.0; 2] })
     };
     assert_eq!(build(|_| ()).unwrap(), rig());
@@ -209,7 +188,7 @@ fn a_rig_that_does_not_fit_together_is_refused() {
 
 #[test]
 fn an_action_on_a_line_it_lacks_is_refused() {
-    let gear = host(Hook::Gear(Arc::new(Gives(descriptor(0), rig())))).gear(ID).unwrap();
+    let gear = host(Hook::Gear(Arc::new(Gives(with_state(0), rig())))).gear(ID).unwrap();
     let step = |end_tension_n: &[[f64; 2]]| {
         gear.step(
             &[],
@@ -224,11 +203,11 @@ fn an_action_on_a_line_it_lacks_is_refused() {
 
 #[test]
 fn the_same_id_twice_and_an_unsound_id_are_refused() {
-    let hook = || Hook::Gear(Arc::new(Gives(descriptor(0), rig())));
+    let hook = || Hook::Gear(Arc::new(Gives(with_state(0), rig())));
     let mut host = host(hook());
     assert!(host.add(hook()).unwrap_err().reason.contains("already has a plugin with this id"));
     for id in ["", "bad", "org..bad", "org.exa mple"] {
-        let descriptor = Descriptor { id: id.into(), ..descriptor(0) };
+        let descriptor = Descriptor { id: id.into(), ..with_state(0) };
         let problem = host.add(Hook::Gear(Arc::new(Gives(descriptor, rig())))).unwrap_err();
         assert!(problem.reason.contains("not a reverse-domain name"), "{problem}");
     }

@@ -249,60 +249,14 @@ fn same_whale(one: &Whale, other: &Whale) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
-    use endline_sim::model::PilotProgram;
+    use endline_fixtures::whale::still;
     use endline_sim::whale::jaws::JawStrength;
-    use endline_sim::whale::pose::JointRanges;
-    use endline_sim::whale::skin::{Measures, Skin};
-    use endline_sim::{DQuat, DVec3};
+    use endline_sim::whale::skin::Skin;
 
     use super::*;
 
-    struct Still(Descriptor);
-
-    impl WhaleMotion for Still {
-        fn descriptor(&self) -> &Descriptor {
-            &self.0
-        }
-
-        fn step(
-            &self,
-            _: &[f64],
-            _: &MotionInput<'_>,
-            _: &mut [f64],
-        ) -> Result<MotionOutput, HookError> {
-            Ok(MotionOutput::default())
-        }
-    }
-
     fn whale(jaws: Option<JawStrength>) -> Whale {
-        let descriptor = Descriptor {
-            id: "still".into(),
-            version: "0.1.0".into(),
-            name: "Still".into(),
-            help: "A whale that does not move.".into(),
-            attributes: Vec::new(),
-            state_len: 0,
-            acts: Vec::new(),
-        };
-        Whale {
-            skin: Arc::new(Skin::default()),
-            joints: JointRanges::unbounded(),
-            length_m: 12.0,
-            measures: Measures::default(),
-            burst_speed_m_s: 4.0,
-            position_m: DVec3::ZERO,
-            orientation: DQuat::IDENTITY,
-            speed_m_s: 1.0,
-            motion: Arc::new(Still(descriptor)),
-            motion_attributes: Vec::new(),
-            pilot: PilotProgram::default(),
-            contact_stiffness_n_m2: 2e6,
-            jaws,
-            kinetic: None,
-        }
+        Whale { jaws, ..still(Skin::default()) }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sdk::LineEnd;
 use endline_sim::model::{Link, Seabed, Settings};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Stop, Workspace, settle, step};
@@ -89,7 +89,7 @@ fn let_go(dice: &mut Dice, auto_step: bool) -> (String, Result<f64, Stop>) {
     let (stiffness, ratio) = (dice.between(1.0, 1e6), dice.between(1e-4, 1e4));
     let (segment_m, step_s, segments) =
         (dice.between(1e-3, 10.0), dice.between(1e-4, 0.1), dice.between(2.0, 40.0) as usize);
-    let told = format!(
+    let drawn = format!(
         "EA x {stiffness:.3e}, mass ratio {ratio:.3e}, {segments} segments of {segment_m:.3e} m, step {step_s:.3e} s, auto {auto_step}"
     );
     let length = segment_m * segments as f64;
@@ -105,7 +105,7 @@ fn let_go(dice: &mut Dice, auto_step: bool) -> (String, Result<f64, Stop>) {
     let mut most = 0.0_f64;
     for _ in 0..60 {
         if let Err(stop) = step(&model, &Input::default(), &mut state, &mut workspace) {
-            return (told, Err(stop));
+            return (drawn, Err(stop));
         }
         let rope: f64 = (0..model.node_count)
             .map(|node| {
@@ -120,11 +120,11 @@ fn let_go(dice: &mut Dice, auto_step: bool) -> (String, Result<f64, Stop>) {
             + weight_kg * (0.5 * body.velocity.length_squared() + 9.81 * body.position.z);
         assert!(
             energy.is_finite() && state.rope.tension.iter().all(|tension| tension.is_finite()),
-            "{told}"
+            "{drawn}"
         );
         most = most.max(energy / (9.81 * length * (rope_kg + weight_kg)));
     }
-    (told, Ok(most))
+    (drawn, Ok(most))
 }
 
 /// EA to 10⁶ times, mass ratio 1:10 000 either way, segments of 1 mm to 10 m, steps of 0.1 ms to 0.1 s.
@@ -134,18 +134,18 @@ fn no_drawn_setting_blows_up() {
     let mut dice = Dice(seed);
     let (mut ended, mut worst) = (0, 0.0_f64);
     for case in 0..200 {
-        let (told, outcome) = let_go(&mut dice, case % 2 == 0);
+        let (drawn, outcome) = let_go(&mut dice, case % 2 == 0);
         match outcome {
             Ok(gained) => {
                 worst = worst.max(gained);
                 assert!(
                     gained < 5e-2,
-                    "seed {seed}, case {case}: {told}: energy grew by {gained:.2e}"
+                    "seed {seed}, case {case}: {drawn}: energy grew by {gained:.2e}"
                 );
             }
             Err(stop) => {
                 ended += 1;
-                println!("{told}: {stop:?}");
+                println!("{drawn}: {stop:?}");
                 assert!(!stop.part.is_empty() && !stop.reason.is_empty());
             }
         }
@@ -200,7 +200,7 @@ fn a_weak_link_parts_at_its_rating_and_only_when_enabled() {
     }
 }
 
-/// A box thrown along a level seabed comes to rest after `v²/2μg`, and does not creep on afterwards.
+/// A box thrown along a level seabed stops after `v²/2μg`, and does not creep afterwards.
 #[test]
 fn a_box_slides_to_rest_as_coulomb_says() {
     let half = DVec3::new(0.5, 0.3, 0.2);

@@ -4,10 +4,12 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{fixed, line, model, model_with, on_body, rope, water, weight};
+use endline_fixtures::gear::{
+    fixed, line, model, model_with, obstacle, on_body, rope, water, weight,
+};
 use endline_sim::balance::{BalanceSummary, Source};
 use endline_sim::geometry::shape::SolidShape;
-use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, Seabed, Settings};
+use endline_sim::model::{Joint, JointKind, Seabed, Settings};
 use endline_sim::water::Water;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
@@ -32,13 +34,13 @@ fn summary(model: &Model, state: &State, workspace: &Workspace) -> BalanceSummar
 }
 
 /// Impulse of a source.
-fn impulse(told: &BalanceSummary, source: Source) -> DVec3 {
-    told.impulse_ns[source as usize]
+fn impulse(balance: &BalanceSummary, source: Source) -> DVec3 {
+    balance.impulse_ns[source as usize]
 }
 
 /// Work of a source.
-fn work(told: &BalanceSummary, source: Source) -> f64 {
-    told.work_j[source as usize]
+fn work(balance: &BalanceSummary, source: Source) -> f64 {
+    balance.work_j[source as usize]
 }
 
 /// Two weights and the slack rope between them fall by `½ g t²`: the only impulse is that of the weight.
@@ -52,17 +54,17 @@ fn a_fall_in_a_vacuum_has_the_impulse_of_weight_alone() {
         let model = model(water(0.0, 0.0), joints, vec![rope], bodies, kept(auto_step));
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
         run(&model, &mut state, &mut workspace, 1.0);
-        let told = summary(&model, &state, &workspace);
+        let balance = summary(&model, &state, &workspace);
         let mass_kg = 6.0 + 5.0 * 0.06;
         let expected = DVec3::Z * (-9.81 * mass_kg);
-        println!("{told:?}");
-        assert!(impulse(&told, Source::Weight).distance(expected) < 1e-9);
-        assert!(told.momentum_ns.distance(expected) < 1e-9);
-        assert!(told.residual_share() < 1e-12, "{}", told.residual_share());
+        println!("{balance:?}");
+        assert!(impulse(&balance, Source::Weight).distance(expected) < 1e-9);
+        assert!(balance.momentum_ns.distance(expected) < 1e-9);
+        assert!(balance.residual_share() < 1e-12, "{}", balance.residual_share());
         let fallen_j = mass_kg * 9.81 * 9.81 / 2.0;
-        let damped = told.numerical_damping_j();
+        let damped = balance.numerical_damping_j();
         // The scheme starts with a step of backward Euler.
-        assert!((work(&told, Source::Weight) / fallen_j - 1.0).abs() < 2e-4, "{told:?}");
+        assert!((work(&balance, Source::Weight) / fallen_j - 1.0).abs() < 2e-4, "{balance:?}");
         assert!(damped.abs() < 2e-4 * fallen_j, "{damped} J of {fallen_j} J");
     }
 }
@@ -78,11 +80,14 @@ fn a_snap_leaves_no_residual_in_any_scheme() {
         let model = model(water(0.0, 0.0), joints, vec![rope], vec![body], settings);
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
         run(&model, &mut state, &mut workspace, 3.0);
-        let told = summary(&model, &state, &workspace);
-        println!("{step_s} {:.1e} {:.3}", told.residual_share(), told.numerical_damping_j());
-        assert!(told.residual_share() < 1e-4, "{told:?}");
-        assert!(work(&told, Source::Fixtures).abs() < 1e-9, "a fixture does no work: {told:?}");
-        assert!(told.damping_j < 0.0, "{told:?}");
+        let balance = summary(&model, &state, &workspace);
+        println!("{step_s} {:.1e} {:.3}", balance.residual_share(), balance.numerical_damping_j());
+        assert!(balance.residual_share() < 1e-4, "{balance:?}");
+        assert!(
+            work(&balance, Source::Fixtures).abs() < 1e-9,
+            "a fixture does no work: {balance:?}"
+        );
+        assert!(balance.damping_j < 0.0, "{balance:?}");
     }
 }
 
@@ -98,11 +103,11 @@ fn a_swing_keeps_its_energy_but_for_what_the_scheme_takes() {
         let model = model(water(0.0, 0.0), joints, vec![rope], bodies, settings);
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
         run(&model, &mut state, &mut workspace, 0.6);
-        let told = summary(&model, &state, &workspace);
-        println!("{step_s} {:.4} J, {told:?}", told.numerical_damping_j());
-        assert!(told.residual_share() < 1e-3, "{told:?}");
-        assert!(work(&told, Source::Weight) > 50.0, "{told:?}");
-        told.numerical_damping_j() / work(&told, Source::Weight)
+        let balance = summary(&model, &state, &workspace);
+        println!("{step_s} {:.4} J, {balance:?}", balance.numerical_damping_j());
+        assert!(balance.residual_share() < 1e-3, "{balance:?}");
+        assert!(work(&balance, Source::Weight) > 50.0, "{balance:?}");
+        balance.numerical_damping_j() / work(&balance, Source::Weight)
     });
     assert!(lost[2].abs() < 0.3 * lost[0].abs() && lost[2].abs() < 2e-3, "{lost:?}");
 }
@@ -128,18 +133,18 @@ fn a_tow_at_steady_speed_gives_what_drag_takes() {
     run(&model, &mut state, &mut workspace, 20.0);
     let before = summary(&model, &state, &workspace);
     run(&model, &mut state, &mut workspace, 30.0);
-    let told = summary(&model, &state, &workspace);
+    let balance = summary(&model, &state, &workspace);
     let area = PI * common.diameter_m * length_m;
     let drag_n = 0.5 * density * common.drag_tangential * area * speed_m_s * speed_m_s;
-    let given = |source| impulse(&told, source) - impulse(&before, source);
+    let given = |source| impulse(&balance, source) - impulse(&before, source);
     let expected = DVec3::X * (10.0 * drag_n);
-    println!("{} {expected} {:.1e}", given(Source::Fixtures), told.residual_share());
+    println!("{} {expected} {:.1e}", given(Source::Fixtures), balance.residual_share());
     assert!(given(Source::Fixtures).distance(expected) < 1e-3 * expected.x);
     let buoyant = given(Source::Water) + given(Source::Weight);
     assert!((buoyant + expected).length() < 1e-3 * expected.x, "{buoyant}");
-    let done_j = work(&told, Source::Fixtures) - work(&before, Source::Fixtures);
+    let done_j = work(&balance, Source::Fixtures) - work(&before, Source::Fixtures);
     assert!((done_j / (expected.x * speed_m_s) - 1.0).abs() < 1e-3, "{done_j}");
-    assert!(told.residual_share() < 1e-5, "{}", told.residual_share());
+    assert!(balance.residual_share() < 1e-5, "{}", balance.residual_share());
 }
 
 /// A box pushed over the seabed stops by friction: the seabed takes its momentum and its energy, and bears its weight.
@@ -167,16 +172,16 @@ fn a_box_that_slides_to_rest_gives_the_seabed_its_momentum() {
     state.rope.earlier_dt_s = 0.0;
     let mut workspace = Workspace::new(&model);
     run(&model, &mut state, &mut workspace, 4.0);
-    let told = summary(&model, &state, &workspace);
-    let seabed = impulse(&told, Source::Seabed);
-    println!("{told:?}");
-    // The grip breaks within the first step, which misses by a tenth of a newton second.
+    let balance = summary(&model, &state, &workspace);
+    let seabed = impulse(&balance, Source::Seabed);
+    println!("{balance:?}");
+    // The grip breaks within the first step, with an error of a tenth of a newton second.
     assert!((seabed.x + 18.0).abs() < 0.15, "{seabed}");
     assert!((seabed.z - 18.0 * 9.81 * 2.0).abs() < 0.05, "{seabed}");
-    assert!(told.residual_share() < 1e-3, "{}", told.residual_share());
+    assert!(balance.residual_share() < 1e-3, "{}", balance.residual_share());
     let motion_j = 0.5 * 18.0;
-    assert!((told.kinetic_j + motion_j).abs() < 1e-2, "{told:?}");
-    assert!(work(&told, Source::Seabed) < -0.9 * motion_j, "{told:?}");
+    assert!((balance.kinetic_j + motion_j).abs() < 1e-2, "{balance:?}");
+    assert!(work(&balance, Source::Seabed) < -0.9 * motion_j, "{balance:?}");
 }
 
 /// Rope drawn over a drum by a hand, with a steady pull on its other end: drum, hand and pull are in balance.
@@ -185,12 +190,12 @@ fn a_rope_over_a_drum_is_held_by_drum_and_fixtures() {
     let model = over_a_drum(true);
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
     run(&model, &mut state, &mut workspace, 1.0);
-    let told = summary(&model, &state, &workspace);
-    let (drum, ends) = (impulse(&told, Source::Obstacles), impulse(&told, Source::Fixtures));
-    println!("{drum} {ends} {:.1e} {told:?}", told.residual_share());
-    assert!(drum.z > 100.0 && (drum + ends - told.momentum_ns).length() < 1e-3 * drum.length());
-    assert!(told.residual_share() < 1e-3, "{}", told.residual_share());
-    assert!(work(&told, Source::Obstacles) < 0.0, "{told:?}");
+    let balance = summary(&model, &state, &workspace);
+    let (drum, ends) = (impulse(&balance, Source::Obstacles), impulse(&balance, Source::Fixtures));
+    println!("{drum} {ends} {:.1e} {balance:?}", balance.residual_share());
+    assert!(drum.z > 100.0 && (drum + ends - balance.momentum_ns).length() < 1e-3 * drum.length());
+    assert!(balance.residual_share() < 1e-3, "{}", balance.residual_share());
+    assert!(work(&balance, Source::Obstacles) < 0.0, "{balance:?}");
 }
 
 /// A rope over half a drum of 0.5 m, 50 N on one end and a hand at the other.
@@ -211,14 +216,8 @@ fn over_a_drum(balance: bool) -> Model {
     ];
     let mut rope = line("rope", whole, count);
     rope.start_m = (0..=count).map(|k| path(whole * k as f64 / count as f64)).collect();
-    let drum = Obstacle {
-        id: "drum".into(),
-        shape: SolidShape::Cylinder { radius_m: radius - 0.005, half_length_m: 1.0 },
-        position_m: DVec3::ZERO,
-        orientation: DQuat::from_rotation_x(PI / 2.0),
-        friction: 0.3,
-        stiffness_n_m2: ROPE_ON_HARD_N_M2,
-    };
+    let shape = SolidShape::Cylinder { radius_m: radius - 0.005, half_length_m: 1.0 };
+    let drum = obstacle(shape, DVec3::ZERO, DQuat::from_rotation_x(PI / 2.0), 0.3);
     let vacuum = Water { gravity_m_s2: 0.0, ..water(0.0, 0.0) };
     let settings = Settings { step_s: 0.005, balance, ..Settings::default() };
     model_with(vacuum, joints, vec![rope], Vec::new(), settings, vec![drum])

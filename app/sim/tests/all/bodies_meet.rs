@@ -4,7 +4,7 @@
 use endline_sim::model::{Body, PlacedShape, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
-use crate::common::{model, water, weight};
+use endline_fixtures::gear::{model, water, weight};
 
 /// Friction of bodies on each other, as the engine has it.
 const MU: f64 = 0.3;

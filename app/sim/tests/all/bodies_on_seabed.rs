@@ -4,7 +4,7 @@
 use endline_sim::model::{Body, PlacedShape, Seabed, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
-use crate::common::{model, water, weight};
+use endline_fixtures::gear::{model, water, weight};
 
 const RADIUS: f64 = 0.15;
 const MASS: f64 = 5.0;

@@ -4,8 +4,9 @@
 use endline_sim::model::{Body, PlacedShape, Settings, Shape, Whale};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
-use crate::common::weight;
-use crate::whale::{Steady, crate_of, kinetic, spec, whale};
+use endline_fixtures::gear::weight;
+use endline_fixtures::skin::cuboid;
+use endline_fixtures::whale::{kinetic, spec, spindle_whale, still, swimming};
 
 const MU: f64 = 0.2;
 const GRAVITY: f64 = 9.81;
@@ -13,13 +14,10 @@ const HALF: DVec3 = DVec3::new(6.0, 2.0, 0.5);
 
 /// A whale like a crate that stands still, its back tilted by an angle, as it goes.
 fn slab(angle: f64) -> Whale {
-    let still = whale(kinetic(10.0, 1e4, 2.0), 0.0, Steady::shared(0.0, [0.0; 3]));
     Whale {
-        skin: std::sync::Arc::new(crate_of(HALF)),
-        position_m: DVec3::ZERO,
         orientation: DQuat::from_rotation_y(angle),
-        kinetic: None,
-        ..still
+        contact_stiffness_n_m2: 4e5,
+        ..still(cuboid(HALF))
     }
 }
 
@@ -160,9 +158,9 @@ fn a_ball_rolls_down_a_slope() {
 fn whale_and_ball_keep_their_momentum() {
     let mass = 300.0;
     let swimmer = kinetic(4.0, 2000.0, 1.0);
-    let mut animal = whale(swimmer, 2.0, Steady::shared(0.0, [0.0; 3]));
+    let mut animal = spindle_whale(swimmer, 2.0, swimming(0.0, [0.0; 3]));
     animal.position_m = DVec3::ZERO;
-    animal.skin = std::sync::Arc::new(crate_of(DVec3::new(1.0, 0.8, 0.8)));
+    animal.skin = std::sync::Arc::new(cuboid(DVec3::new(1.0, 0.8, 0.8)));
     let whole_kg = animal.kinetic.as_ref().expect("kinetic").whole_mass_kg().x;
     let mut spec = spec(animal, 0.0);
     spec.water.gravity_m_s2 = 0.0;

@@ -5,8 +5,9 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common;
-use crate::common::{drum, line, on_body, water, weight};
+use endline_fixtures::gear::{self, coulomb, line, on_body, water, weight};
+use endline_fixtures::skin::drum;
+use endline_fixtures::whale::still;
 use endline_sdk::Region;
 use endline_sim::model::{Joint, JointKind, Model, ModelSpec, Resolution, Settings};
 use endline_sim::{DVec3, Input, State, Workspace, step};
@@ -42,7 +43,7 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
             DVec3::new(over * libm::cos(angle), 0.0, over * libm::sin(angle))
         }
     };
-    let mut rope = common::rope();
+    let mut rope = gear::rope();
     rope.axial_damping_n_s = 200.0;
     let hanging = weight("hanging", HANGING_KG, path(0.0), None);
     let driven =
@@ -66,19 +67,14 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         Joint { id: "hand".into(), kind: driven, position_m: path(whole) },
     ];
     ModelSpec {
-        water: water(0.0, 0.0),
-        seabed: None,
         ropes: vec![rope],
         joints,
         lines: vec![line],
         bodies: vec![hanging],
-        links: Vec::new(),
-        gear: Vec::new(),
-        whale: Some(drum::still(drum::drum(radius, (5.0 * radius).min(0.5), region, 96))),
-        friction: Some(drum::coulomb(FRICTION)),
-        obstacles: Vec::new(),
-        probes: Vec::new(),
+        whale: Some(still(drum(radius, (5.0 * radius).min(0.5), region, 96))),
+        friction: Some(coulomb(FRICTION)),
         settings: Settings { step_s: 0.002, ..Settings::default() },
+        ..gear::spec(water(0.0, 0.0))
     }
 }
 
@@ -153,12 +149,12 @@ fn over_an_edge(segments: usize, resolution: Option<Resolution>) -> (f64, f64, u
 }
 
 #[test]
-fn resolution_that_follows_mends_friction_over_a_thin_edge() {
+fn remeshing_corrects_friction_over_a_thin_edge() {
     let (uniform, uniform_ripple, _) = over_an_edge(60, None);
     let (follows, ripple, splits) =
         over_an_edge(60, Some(Resolution { near_m: 0.05, edge_m: 0.0125, far_m: 0.2 }));
     assert!(splits > 20, "{splits} splits");
-    assert!(uniform < 0.96, "the gap that is to be mended: {uniform}");
+    assert!(uniform < 0.96, "the error to be corrected: {uniform}");
     assert!((follows - 1.0).abs() < 0.03, "{follows}");
     assert!(ripple < 0.3 * uniform_ripple, "{ripple} against {uniform_ripple}");
 }

@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::whale;
 use std::sync::Arc;
 
-use crate::whale::{Steady, crate_of, kinetic, spec};
+use endline_fixtures::skin::cuboid;
+use endline_fixtures::whale::{kinetic, spec, spindle_whale, swimming};
 use endline_sdk::Posture;
 use endline_sim::whale::kinetic::{Dead, Hull};
 use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, State, Workspace, step};
@@ -19,10 +19,10 @@ const MASS_KG: f64 = DENSITY * 1025.0 * 24.0;
 const DRAUGHT_M: f64 = DENSITY;
 const HEIGHT_M: f64 = 0.5 - DRAUGHT_M;
 
-/// The box at a height and heel, without drag and added mass unless told.
+/// The box at a height and heel, without added mass, and with this drag area.
 fn afloat(height_m: f64, heel_rad: f64, drag_area_m2: f64) -> ModelSpec {
     let mut kinetic = kinetic(8.0, MASS_KG, 3.0);
-    let skin = crate_of(HALF);
+    let skin = cuboid(HALF);
     kinetic.drag.wetted_area_m2 = 0.0;
     kinetic.inertia_kg_m2 = DVec3::new(1.5 * 1.5 + 0.25, 16.25, 18.25) * (MASS_KG / 3.0);
     (kinetic.added_mass_kg, kinetic.added_inertia_kg_m2) = (DVec3::ZERO, DVec3::ZERO);
@@ -30,7 +30,7 @@ fn afloat(height_m: f64, heel_rad: f64, drag_area_m2: f64) -> ModelSpec {
     kinetic.turn_drag_m5 = DVec3::splat(drag_area_m2);
     kinetic.hull = Arc::new(Hull::of(&skin, &Posture::default()));
     kinetic.dead = Some(Dead { posture: Posture::default() });
-    let mut whale = whale::whale(kinetic, 0.0, Steady::shared(0.0, [0.0; 3]));
+    let mut whale = spindle_whale(kinetic, 0.0, swimming(0.0, [0.0; 3]));
     whale.skin = Arc::new(skin);
     whale.position_m = DVec3::Z * height_m;
     whale.orientation = DQuat::from_rotation_x(heel_rad);
@@ -48,7 +48,7 @@ fn run(model: &Model, time_s: f64, mut look: impl FnMut(f64, DVec3, f64)) {
 }
 
 #[test]
-fn it_floats_at_the_draught_of_archimedes_and_comes_to_rest_there() {
+fn it_floats_at_the_draught_of_archimedes_and_rests_there() {
     let model = Model::new(afloat(0.2, 0.5, 20.0)).expect("a sound model");
     let mut last = (DVec3::ZERO, 0.0);
     run(&model, 120.0, |_, place, heel| last = (place, heel));

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::common::drum::{Capstan, Reading};
+use endline_fixtures::capstan::{Capstan, Reading};
 use endline_sim::model::Resolution;
 
 /// Segments of the shipped encounters [m].

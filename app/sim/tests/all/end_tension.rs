@@ -1,6 +1,6 @@
 //! End tensions of a coarse line against the shooting solution of reference problem b.
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Float, Settings};
 use endline_sim::{DVec3, settle};

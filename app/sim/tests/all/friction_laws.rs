@@ -8,11 +8,13 @@
     reason = "a test says what it needs"
 )]
 
-use crate::common;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-use crate::common::{line, on_body, water, weight};
+use endline_fixtures::gear::{self, line, on_body, water, weight};
+use endline_fixtures::hooks::descriptor;
+use endline_fixtures::skin::drum_along;
+use endline_fixtures::whale;
 use endline_friction_models::{Baleen, Coulomb, Stribeck};
 use endline_sdk::{
     AttributeKind, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, Region,
@@ -20,60 +22,21 @@ use endline_sdk::{
 use endline_sim::model::{
     Friction, FrictionLaw, Joint, JointKind, Model, ModelSpec, Settings, Whale,
 };
-use endline_sim::whale::{Bone, Skin};
+use endline_sim::whale::Skin;
 use endline_sim::{DQuat, DVec3, Input, State, Stop, Workspace, step};
 
 const RADIUS: f64 = 0.3;
 const REACH: f64 = 0.005;
 const FACETS: u32 = 96;
 
-fn descriptor(id: &'static str, state_len: usize) -> Descriptor {
-    let (version, name, help) = ("1".into(), id.into(), "For a test.".into());
-    Descriptor {
-        id: id.into(),
-        version,
-        name,
-        help,
-        attributes: Vec::new(),
-        state_len,
-        acts: Vec::new(),
-    }
+/// Returns the drum of these tests; see [`drum_along`].
+fn drum(axes: [DVec3; 3], region: impl Fn(f64) -> Region) -> Skin {
+    drum_along(axes, [RADIUS, 0.5], FACETS, region)
 }
 
-/// A closed drum along an axis of the whale's frame; `aside` and `up` make a right-handed frame with it. Regions by angle from `aside`.
-fn drum([axis, aside, up]: [DVec3; 3], region: impl Fn(f64) -> Region) -> Skin {
-    let angle = |k: u32| f64::from(k) / f64::from(FACETS) * TAU;
-    let rim = |k: u32, along: f64| {
-        axis * along + (aside * libm::cos(angle(k)) + up * libm::sin(angle(k))) * RADIUS
-    };
-    let mut vertices: Vec<DVec3> = (0..FACETS).flat_map(|k| [rim(k, -0.5), rim(k, 0.5)]).collect();
-    vertices.extend([axis * -0.5, axis * 0.5]);
-    let (low, high) = (2 * FACETS, 2 * FACETS + 1);
-    let triangles: Vec<[u32; 3]> = (0..FACETS)
-        .flat_map(|k| {
-            let (a, b, c, d) =
-                (2 * k, 2 * k + 1, 2 * ((k + 1) % FACETS), 2 * ((k + 1) % FACETS) + 1);
-            [[a, c, b], [b, c, d], [a, low, c], [b, d, high]]
-        })
-        .collect();
-    Skin {
-        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
-        marks: Vec::new(),
-        regions: (0..FACETS).flat_map(|k| [region(angle(k) + PI / f64::from(FACETS)); 4]).collect(),
-        bones: vec![Bone {
-            name: "control".into(),
-            parent: None,
-            origin: DVec3::ZERO,
-            turns: Vec::new(),
-        }],
-        vertices,
-        triangles,
-    }
-}
-
-/// A skin as a whale that stays where it is, turned.
+/// Returns a turned whale that keeps its place.
 fn still(skin: Skin, orientation: DQuat) -> Whale {
-    Whale { orientation, ..common::drum::still(skin) }
+    Whale { orientation, ..whale::still(skin) }
 }
 
 /// Half a turn over a drum in the plane of x and z; a weight hangs on the side of -x, the other side is drawn down from 0.3 s on.
@@ -90,15 +53,13 @@ fn drawn_over(whale: Whale, friction: Friction, speed: f64) -> Model {
             DVec3::new(over * libm::cos(angle), 0.0, over * libm::sin(angle))
         }
     };
-    let mut rope = common::rope();
+    let mut rope = gear::rope();
     rope.axial_damping_n_s = 200.0;
     let mut line = line("rope", whole, 72);
     line.start_m = (0..=72).map(|k| path(whole * f64::from(k) / 72.0)).collect();
     let driven =
         JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.3, until_s: f64::INFINITY };
     Model::new(ModelSpec {
-        water: water(0.0, 0.0),
-        seabed: None,
         ropes: vec![rope],
         joints: vec![
             on_body("hanging", 0),
@@ -106,13 +67,10 @@ fn drawn_over(whale: Whale, friction: Friction, speed: f64) -> Model {
         ],
         lines: vec![line],
         bodies: vec![weight("hanging", 20.0, path(0.0), None)],
-        links: Vec::new(),
-        gear: Vec::new(),
         whale: Some(whale),
         friction: Some(friction),
-        obstacles: Vec::new(),
-        probes: Vec::new(),
         settings: Settings { step_s: 0.002, ..Settings::default() },
+        ..gear::spec(water(0.0, 0.0))
     })
     .expect("a sound model")
 }
@@ -260,7 +218,7 @@ impl FrictionModel for Motor {
 #[test]
 fn a_law_that_adds_energy_ends_the_run_with_its_name() {
     let friction = Friction::of_one(
-        Arc::new(Motor(descriptor("org.example.friction.motor", 3))),
+        Arc::new(Motor(Descriptor { state_len: 3, ..descriptor("org.example.friction.motor") })),
         Vec::new(),
         vec![[0.3; Region::ALL.len()]],
     );

@@ -13,7 +13,7 @@ use endline_sim::water::waves::{WaveKind, Waves};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DVec3, Model, State};
 
-use crate::common::{line, model, on_body, rope, water, weight};
+use endline_fixtures::gear::{line, model, on_body, rope, water, weight};
 
 const G: f64 = 9.81;
 const DENSITY: f64 = 1025.0;

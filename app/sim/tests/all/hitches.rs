@@ -4,9 +4,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{line, model_with, water};
+use endline_fixtures::gear::{line, model_with, obstacle, water};
 use endline_sim::geometry::shape::SolidShape;
-use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, RopeOnRope, Settings};
+use endline_sim::model::{Joint, JointKind, RopeOnRope, Settings};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 /// Radius of the rope's centre line on the post [m].
@@ -138,14 +138,8 @@ impl Way {
         let mut rope = line("rope", whole, segments);
         rope.segments_m = nodes.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
         rope.start_m = nodes;
-        let post = Obstacle {
-            id: "post".into(),
-            shape: SolidShape::Cylinder { radius_m: RADIUS - 0.5 * THICK, half_length_m: 0.3 },
-            position_m: DVec3::ZERO,
-            orientation: DQuat::IDENTITY,
-            friction: FRICTION,
-            stiffness_n_m2: ROPE_ON_HARD_N_M2,
-        };
+        let shape = SolidShape::Cylinder { radius_m: RADIUS - 0.5 * THICK, half_length_m: 0.3 };
+        let post = obstacle(shape, DVec3::ZERO, DQuat::IDENTITY, FRICTION);
         let settings = Settings {
             step_s: 0.002,
             rope_on_rope: Some(RopeOnRope::default()),
@@ -255,8 +249,8 @@ fn three_turns_hold_it() {
     assert!(held > 0.95 * ASKED && crept < 1e-5, "{held}, {crept}");
 }
 
-/// Two half hitches turn as far as two turns, which let slip at 23 times the tail's pull: what crosses presses on what it
-/// crosses, and holds it.
+/// Two half hitches have the wrap angle of two turns, which slip at 23 times the tail's pull. The strand on top presses on the one
+/// below and holds it.
 #[test]
 fn two_half_hitches_hold_it_too() {
     let mut pull = Pull::begin(two_half_hitches().model(150));
@@ -270,7 +264,7 @@ fn two_half_hitches_hold_it_too() {
     assert_eq!((pull.workspace.audit.ropes_crossed, pull.workspace.audit.ropes_through), (0, 0));
 }
 
-/// The same with rope that passes through itself: it is what crosses that holds.
+/// Without contact of rope on rope the hitches slip: the crossing strands hold them.
 #[test]
 fn without_rope_on_rope_the_hitches_slip() {
     let mut spec = two_half_hitches().model(150).spec;

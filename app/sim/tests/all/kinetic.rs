@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::whale;
 use std::sync::Arc;
 
-use crate::whale::{Steady, crate_of, kinetic, spec, swims};
+use endline_fixtures::skin::cuboid;
+use endline_fixtures::whale::{kinetic, spec, spindle_whale, swimming, swims};
 use endline_sdk::{Controls, Posture};
 use endline_sim::whale::Kinetic;
 use endline_sim::whale::kinetic::Hull;
@@ -28,7 +28,7 @@ fn run(model: &Model, controls: Controls, time_s: f64) -> State {
 fn a_whale_that_stops_fluking_slows_as_the_drag_law_integrates() {
     let kinetic = eg_1223();
     let (factor, mass) = (kinetic.drag.factor(1025.0, 0.0), kinetic.whole_mass_kg().x);
-    let model = Model::new(spec(whale::whale(kinetic, 2.0, Steady::shared(2.0, [0.0; 3])), 1025.0))
+    let model = Model::new(spec(spindle_whale(kinetic, 2.0, swimming(2.0, [0.0; 3])), 1025.0))
         .expect("a sound model");
     // m dU/dt = -c U^1.8: U = (U0^-0.8 + 0.8 c t/m)^-1.25, and the way is its integral, (U0^0.2 - U^0.2) m/0.2c.
     for time_s in [5.0, 60.0, 240.0] {
@@ -54,11 +54,9 @@ fn a_whale_that_stops_fluking_slows_as_the_drag_law_integrates() {
 fn a_clean_whale_swims_as_it_is_asked_to_and_pays_for_its_drag() {
     let (turn, speed) = (0.05, 1.23);
     let kinetic = eg_1223();
-    let model = Model::new(spec(
-        whale::whale(kinetic, speed, Steady::shared(speed, [0.0, 0.0, turn])),
-        1025.0,
-    ))
-    .expect("a sound model");
+    let model =
+        Model::new(spec(spindle_whale(kinetic, speed, swimming(speed, [0.0, 0.0, turn])), 1025.0))
+            .expect("a sound model");
     let now = run(&model, swims(), 40.0).whale.expect("a whale");
     assert!(
         (now.speed_m_s - speed).abs() < 1e-9 && (now.turn_rate - DVec3::Z * turn).length() < 1e-12
@@ -85,10 +83,10 @@ fn a_clean_whale_swims_as_it_is_asked_to_and_pays_for_its_drag() {
 fn what_is_out_of_the_water_weighs_on_the_whale() {
     let (half, speed) = (DVec3::new(4.0, 1.5, 0.5), 2.0);
     let mut kinetic = kinetic(8.0, 24.0 * 1025.0, 3.0);
-    kinetic.hull = Arc::new(Hull::of(&crate_of(half), &Posture::default()));
+    kinetic.hull = Arc::new(Hull::of(&cuboid(half), &Posture::default()));
     (kinetic.drag.wetted_area_m2, kinetic.side_drag_m2) = (0.0, [0.0; 2]);
     (kinetic.added_mass_kg, kinetic.added_inertia_kg_m2) = (DVec3::ZERO, DVec3::ZERO);
-    let mut whale = whale::whale(kinetic, speed, Steady::shared(0.0, [0.0; 3]));
+    let mut whale = spindle_whale(kinetic, speed, swimming(0.0, [0.0; 3]));
     whale.orientation = DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2);
     whale.position_m = DVec3::Z * -5.0;
     let mut spec = spec(whale, 1025.0);

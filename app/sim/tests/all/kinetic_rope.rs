@@ -2,9 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common::{fixed, line, on_body, weight};
-use crate::whale;
-use crate::whale::{Steady, bursts, kinetic, spec, swims};
+use endline_fixtures::gear::{fixed, line, on_body, weight};
+use endline_fixtures::whale::{bursts, kinetic, spec, spindle_whale, swimming, swims};
 use endline_sdk::Controls;
 use endline_sim::model::{Body, Hitch, Joint, JointKind, ModelSpec, Whale};
 use endline_sim::whale::Kinetic;
@@ -62,7 +61,7 @@ fn a_tether_gives_back_the_energy_it_took() {
     for step_s in [0.01, 0.0025] {
         let kinetic = eg_2212();
         let (mass, stiffness) = (kinetic.whole_mass_kg().x, 1e5 / 10.0);
-        let whale = whale::whale(kinetic, 1.0, Steady::shared(0.0, [0.0; 3]));
+        let whale = spindle_whale(kinetic, 1.0, swimming(0.0, [0.0; 3]));
         let mut spec = towing(whale, 0.0, (10.0, 8), |end| (fixed("post", end), Vec::new()));
         spec.water.gravity_m_s2 = 0.0;
         spec.settings.step_s = step_s;
@@ -82,7 +81,7 @@ fn a_tether_gives_back_the_energy_it_took() {
 fn whale_and_what_it_pulls_keep_their_momentum() {
     let kinetic = eg_2212();
     let mass = kinetic.whole_mass_kg().x;
-    let whale = whale::whale(kinetic, 1.5, Steady::shared(0.0, [0.0; 3]));
+    let whale = spindle_whale(kinetic, 1.5, swimming(0.0, [0.0; 3]));
     let mut spec = towing(whale, 0.0, (10.0, 8), |end| {
         (on_body("load", 0), vec![weight("load", 2_000.0, end, None)])
     });
@@ -120,7 +119,7 @@ fn held_at_a_post_it_pulls_with_what_its_length_allows() {
     for (controls, strength) in [(swims(), 99.0), (bursts(), 401.0)] {
         let mut kinetic = eg_2212();
         kinetic.muscle.effort = Effort::Speed;
-        let whale = whale::whale(kinetic, 0.0, Steady::shared(1.3, [0.0; 3]));
+        let whale = spindle_whale(kinetic, 0.0, swimming(1.3, [0.0; 3]));
         let mut spec = towing(whale, 1025.0, (10.0, 8), |end| (fixed("post", end), Vec::new()));
         // Rope that takes up the swing at once, so that the pull is the steady one.
         spec.ropes[0].axial_damping_n_s = 3e5;
@@ -153,7 +152,7 @@ fn gear_under_tow_slows_a_whale_by_the_power_ratio() {
     for (effort, expected) in [(Effort::Power, low), (Effort::Speed, asked)] {
         let mut kinetic = clean.clone();
         kinetic.muscle.effort = effort;
-        let whale = whale::whale(kinetic, expected + 0.01, Steady::shared(asked, [0.0; 3]));
+        let whale = spindle_whale(kinetic, expected + 0.01, swimming(asked, [0.0; 3]));
         let mut spec = towing(whale, 1025.0, (24.0, 6), |end| {
             let mut load = weight("load", 20.0, end, None);
             load.drag_area_m2 = DVec3::splat(drag_area);

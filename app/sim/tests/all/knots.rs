@@ -2,12 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common::drum::{coulomb, still};
-use crate::common::{line, model, water};
+use endline_fixtures::gear::coulomb;
+use endline_fixtures::gear::{line, model, obstacle, water};
+use endline_fixtures::skin::rigid;
+use endline_fixtures::whale::still;
 use endline_sdk::Region;
 use endline_sim::geometry::shape::SolidShape;
-use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, Settings};
-use endline_sim::whale::{Bone, Skin};
+use endline_sim::model::{Joint, JointKind, Settings};
+use endline_sim::whale::Skin;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 /// Width of the gap over the diameter of the knot, and whether the knot holds.
@@ -64,13 +66,10 @@ fn a_knot_holds_at_a_gap_of_two_blocks_that_is_narrower() {
     for (gap_m, knot_m, holds) in SIZES {
         let mut spec = drawn(knot_m, 60.0).spec.clone();
         spec.obstacles = [-1.0, 1.0]
-            .map(|side| Obstacle {
-                id: format!("block {side}"),
-                shape: SolidShape::Box(DVec3::new(HALF_M, 0.1, 0.1)),
-                position_m: DVec3::Y * (side * (0.1 + 0.5 * gap_m)),
-                orientation: DQuat::IDENTITY,
-                friction: 0.1,
-                stiffness_n_m2: ROPE_ON_HARD_N_M2,
+            .map(|side| {
+                let shape = SolidShape::Box(DVec3::new(HALF_M, 0.1, 0.1));
+                let place = DVec3::Y * (side * (0.1 + 0.5 * gap_m));
+                obstacle(shape, place, DQuat::IDENTITY, 0.1)
             })
             .to_vec();
         let model = Model::new(spec).expect("a sound model");
@@ -108,19 +107,7 @@ fn lips(gap_m: f64) -> Skin {
             triangles.extend([[a, c, b], [a + 1, b + 1, c + 1]]);
         }
     }
-    Skin {
-        regions: vec![Region::Body; triangles.len()],
-        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
-        marks: Vec::new(),
-        bones: vec![Bone {
-            name: "lips".into(),
-            parent: None,
-            origin: DVec3::ZERO,
-            turns: Vec::new(),
-        }],
-        vertices,
-        triangles,
-    }
+    rigid(vertices, triangles, |_| Region::Body)
 }
 
 #[test]

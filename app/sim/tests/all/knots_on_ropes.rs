@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common::{fixed, line, model, water};
+use endline_fixtures::gear::{fixed, line, model, water};
 use endline_sim::metrics::{EventKind, Metrics};
 use endline_sim::model::{Joint, JointKind, Line, RopeOnRope, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
@@ -110,7 +110,7 @@ impl Run {
     }
 }
 
-/// Where a knot comes to touch two ropes [m].
+/// Position at which a knot touches two ropes [m].
 fn touches_m(knot_m: f64, gap_m: f64) -> f64 {
     let (reach, aside) = (knot_m + ROPE_M, 0.5 * gap_m + ROPE_M);
     -libm::sqrt((reach * reach - aside * aside).max(0.0))

@@ -2,7 +2,7 @@
 
 #![allow(clippy::panic, reason = "a test fails by panicking, in its helpers too")]
 
-use crate::common::{model, water, weight};
+use endline_fixtures::gear::{model, water, weight};
 use endline_sim::model::Settings;
 use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
 use glam::DVec4;

@@ -1,7 +1,7 @@
 //! The reference problems: analytic and independently solved answers with their tolerances.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Float, Joint, JointKind, Settings};
 use endline_sim::state::LimitedBy;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
@@ -36,7 +36,7 @@ fn pendulum(segments: usize, step_s: f64) -> Model {
 
 fn run_until(model: &Model, state: &mut State, workspace: &mut Workspace, time_s: f64) {
     while state.time_s < time_s - 1e-9 {
-        step(model, &Input::default(), state, workspace).expect("the run goes on");
+        step(model, &Input::default(), state, workspace).expect("a step");
     }
 }
 
@@ -215,7 +215,7 @@ fn a_slack_groundline_settles_on_the_seabed() {
     }
 }
 
-/// The same with the step left to the program, from a step between inputs far too long for the snap.
+/// The snap load with the step chosen by the program, from an interval of inputs far too long for the snap.
 #[test]
 fn problem_c2_snap_load_at_the_programs_own_step() {
     let driven = JointKind::Driven { velocity_m_s: DVec3::X * 2.0, from_s: 0.0, until_s: 1.0 };

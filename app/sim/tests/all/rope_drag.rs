@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{fixed, line, model, rope, water};
+use endline_fixtures::gear::{fixed, line, model, rope, water};
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Joint, JointKind, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
@@ -48,7 +48,7 @@ fn run(model: &Model, until_s: f64) -> State {
     state
 }
 
-/// A rope that stands upright and sinks along itself: drag comes to bear its weight in water.
+/// A vertical rope sinks along itself until drag equals its weight in water.
 #[test]
 fn a_rope_that_sinks_along_itself_reaches_its_terminal_speed() {
     for viscous in [0.0, 0.3, 1.0] {
@@ -79,9 +79,9 @@ fn a_rope_held_in_a_current_bears_its_drag() {
         let settled = settle(&model);
         assert!(settled.converged);
         for state in [&settled.state, &run(&model, 20.0)] {
-            let told = Metrics::new(&model).summary(&model, state).lines[0].end_a_tension_n;
-            println!("{viscous} {speed_m_s}: {told} N for {expected} N");
-            assert!((told / expected - 1.0).abs() < 1e-3, "{told} N for {expected} N");
+            let tension_n = Metrics::new(&model).summary(&model, state).lines[0].end_a_tension_n;
+            println!("{viscous} {speed_m_s}: {tension_n} N for {expected} N");
+            assert!((tension_n / expected - 1.0).abs() < 1e-3, "{tension_n} N for {expected} N");
         }
     }
 }

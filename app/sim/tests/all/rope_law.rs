@@ -7,11 +7,11 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Rope, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 
-/// The same model with its rope changed.
+/// Returns the model with another rope.
 fn with_rope(model: &Model, change: impl Fn(&mut Rope)) -> Model {
     let mut spec = model.spec.clone();
     change(&mut spec.ropes[0]);

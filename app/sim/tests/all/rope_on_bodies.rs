@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use crate::common::{fixed, line, model, water, weight};
+use endline_fixtures::gear::{fixed, line, model, water, weight};
 use endline_sim::model::{Body, Joint, JointKind, PlacedShape, Seabed, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{fixed, line, model, water};
+use endline_fixtures::gear::{fixed, line, model, water};
 use endline_sim::geometry::crossing::first_crossing;
 use endline_sim::geometry::sweep::SweptSegment;
 use endline_sim::model::{Joint, JointKind, Line, RopeOnRope, Settings};
@@ -295,7 +295,7 @@ fn rope_on_rope_repeats_to_the_bit_whatever_the_scratch() {
     assert!(run(false) == run(true));
 }
 
-/// Ropes that lie in each other when the run begins stay as they are, and those whose centre lines cross are told. Once they have
+/// Ropes that lie in each other when the run begins stay as they are, and those whose centre lines cross are reported. Once they have
 /// been drawn apart, they touch as any others do.
 #[test]
 fn ropes_that_lie_in_each_other_at_the_start_stay_until_they_are_drawn_apart() {

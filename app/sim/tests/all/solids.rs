@@ -4,28 +4,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{line, model_with, water, weight};
+use endline_fixtures::gear::{line, model_with, obstacle, water, weight};
 use endline_sim::geometry::shape::SolidShape;
-use endline_sim::model::{
-    Joint, JointKind, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Settings, Shape,
-};
+use endline_sim::model::{Joint, JointKind, Obstacle, PlacedShape, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 
 const RADIUS: f64 = 0.5;
 const TAIL: f64 = 2.0;
 const SLACK_N: f64 = 50.0;
 const FRICTION: f64 = 0.3;
-
-fn obstacle(shape: SolidShape, position_m: DVec3, orientation: DQuat, friction: f64) -> Obstacle {
-    Obstacle {
-        id: "rock".into(),
-        shape,
-        position_m,
-        orientation,
-        friction,
-        stiffness_n_m2: ROPE_ON_HARD_N_M2,
-    }
-}
 
 fn drum(friction: f64) -> Obstacle {
     let shape = SolidShape::Cylinder { radius_m: RADIUS - 0.005, half_length_m: 2.0 };

@@ -1,7 +1,7 @@
 //! Error of the step that the program chooses: snaps against analytic and resolved peaks, swings against resolved motion.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Joint, JointKind, ModelSpec, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 
@@ -19,7 +19,7 @@ fn chosen() -> Settings {
 fn peak(model: &Model, mut state: State, until_s: f64) -> (f64, u64) {
     let (mut workspace, mut peak) = (Workspace::new(model), 0.0);
     while state.time_s < until_s - 1e-9 {
-        step(model, &Input::default(), &mut state, &mut workspace).expect("it goes on");
+        step(model, &Input::default(), &mut state, &mut workspace).expect("a step");
         peak = workspace.peak_tension_n.iter().copied().fold(peak, f64::max);
     }
     (peak, workspace.audit.solver_steps)
@@ -120,7 +120,7 @@ fn swing(density_kg_m3: f64, settings: Settings) -> (Vec<(DVec3, DVec3, f64)>, u
     while seen.len() < 280 {
         let until = 0.1 * (seen.len() + 1) as f64;
         while state.time_s < until - 1e-9 {
-            step(&model, &Input::default(), &mut state, &mut workspace).expect("it goes on");
+            step(&model, &Input::default(), &mut state, &mut workspace).expect("a step");
         }
         let rope = &state.rope;
         seen.push((rope.position[100], rope.position[50], rope.tension[0]));

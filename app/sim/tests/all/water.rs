@@ -4,7 +4,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::common::{fixed, line, model, on_body, water, weight};
+use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Body, Float, Seabed, Settings};
 use endline_sim::water::current::Tide;
 use endline_sim::water::waves::Spectrum;

@@ -1,19 +1,16 @@
 //! A small rig and a whale of eight triangles, for tests.
 
-use std::sync::Arc;
-
-use endline_sdk::{
-    Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput,
-    Region, WhaleMotion,
-};
+use endline_fixtures::hooks::NoEffect;
+use endline_fixtures::skin::rigid;
+use endline_fixtures::whale::of_skin;
+use endline_sdk::Region;
 use endline_sim::contact::ContactPoint;
 use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, PlacedShape,
-    Rope, Seabed, Settings, Shape, Strength, Whale,
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PlacedShape, Rope, Seabed,
+    Settings, Shape, Strength, Whale,
 };
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{Bone, JointRanges, Measures, Skin};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
 
 /// Depth of the sample's water [m].
@@ -196,97 +193,16 @@ fn whale() -> Whale {
         [1, 5, 3],
         [1, 2, 5],
     ];
-    let skin = Skin {
-        regions: vec![Region::Body; triangles.len()],
-        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
-        marks: Vec::new(),
-        bones: vec![Bone {
-            name: "control".into(),
-            parent: None,
-            origin: DVec3::ZERO,
-            turns: Vec::new(),
-        }],
-        vertices,
-        triangles,
-    };
+    let skin = rigid(vertices, triangles, |_| Region::Body);
     Whale {
-        skin: Arc::new(skin),
-        joints: JointRanges::unbounded(),
         length_m: 13.0,
-        measures: Measures::default(),
         burst_speed_m_s: 4.0,
         position_m: DVec3::new(-6.0, 2.0, -14.0),
-        orientation: DQuat::IDENTITY,
-        speed_m_s: 1.0,
-        motion: Arc::new(Still(nothing("still"))),
-        motion_attributes: Vec::new(),
-        pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 1e5,
-        jaws: None,
-        kinetic: None,
+        ..of_skin(skin, 1.0, NoEffect::shared())
     }
 }
 
 fn friction() -> Friction {
-    let model = Arc::new(Smooth(nothing("smooth")));
-    Friction::of_one(model, Vec::new(), vec![[0.0; Region::ALL.len()]])
-}
-
-/// A plugin without attributes or state.
-fn nothing(id: &'static str) -> Descriptor {
-    Descriptor {
-        id: id.into(),
-        version: "1".into(),
-        name: id.into(),
-        help: "".into(),
-        attributes: Vec::new(),
-        state_len: 0,
-        acts: Vec::new(),
-    }
-}
-
-/// A friction law without friction.
-struct Smooth(Descriptor);
-
-impl FrictionModel for Smooth {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-
-    fn respond(
-        &self,
-        _attributes: &[f64],
-        _contacts: &Contacts<'_>,
-        out: &mut [FrictionResponse],
-    ) -> Result<(), HookError> {
-        out.fill(FrictionResponse::default());
-        Ok(())
-    }
-
-    fn advance(
-        &self,
-        _attributes: &[f64],
-        _contacts: &Contacts<'_>,
-        _out: &mut [f64],
-    ) -> Result<(), HookError> {
-        Ok(())
-    }
-}
-
-/// A motion that does nothing.
-struct Still(Descriptor);
-
-impl WhaleMotion for Still {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-
-    fn step(
-        &self,
-        _attributes: &[f64],
-        _input: &MotionInput<'_>,
-        _state: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput::default())
-    }
+    Friction::of_one(NoEffect::shared(), Vec::new(), vec![[0.0; Region::ALL.len()]])
 }

@@ -1,74 +1,19 @@
 //! The rig of an encounter: a taut rope in still water, and a whale that is a moving piece of fin.
 
-use std::sync::Arc;
-
-use endline_friction_models::Coulomb;
-use endline_sdk::{
-    Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
-};
-use endline_sim::model::{
-    Friction, Joint, JointKind, Line, PilotProgram, Rope, Settings, Strength, Whale,
-};
+use endline_fixtures::gear::coulomb;
+use endline_fixtures::hooks::steady;
+use endline_fixtures::whale::of_skin;
+use endline_sim::model::{Joint, JointKind, Line, Rope, Settings, Strength, Whale};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{JointRanges, Measures, Skin};
-use endline_sim::{DQuat, DVec3, ModelSpec};
+use endline_sim::whale::Skin;
+use endline_sim::{DVec3, ModelSpec};
 
 const EA_N: f64 = 1e5;
 
-/// A motion at one speed and turn rate.
-struct Steady {
-    descriptor: Descriptor,
-    speed_m_s: f64,
-    turn_rate: [f64; 3],
-}
-
-impl WhaleMotion for Steady {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
-    }
-
-    fn step(
-        &self,
-        _: &[f64],
-        _: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput {
-            speed_m_s: self.speed_m_s,
-            turn_rate_rad_s: self.turn_rate,
-            ..MotionOutput::default()
-        })
-    }
-}
-
-/// A moving piece of fin.
+/// Returns a piece of fin that moves with constant speed and turn rates.
 pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
-    let (id, name, help) = ("test.steady".into(), "Steady".into(), "Always the same.".into());
-    let descriptor = Descriptor {
-        id,
-        version: "1".into(),
-        name,
-        help,
-        attributes: Vec::new(),
-        state_len: 0,
-        acts: Vec::new(),
-    };
-    Whale {
-        skin: Arc::new(skin),
-        joints: JointRanges::unbounded(),
-        length_m: 1.0,
-        measures: Measures::default(),
-        burst_speed_m_s: speed_m_s,
-        position_m: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        speed_m_s,
-        motion: Arc::new(Steady { descriptor, speed_m_s, turn_rate }),
-        motion_attributes: Vec::new(),
-        pilot: PilotProgram::default(),
-        contact_stiffness_n_m2: 4e5,
-        jaws: None,
-        kinetic: None,
-    }
+    let motion = steady(speed_m_s, turn_rate);
+    Whale { contact_stiffness_n_m2: 4e5, ..of_skin(skin, speed_m_s, motion) }
 }
 
 /// A taut rope, fixed at its start.
@@ -110,13 +55,6 @@ pub fn sea(
         joints.extend(ends(strand));
         lines.push(line(strand, number));
     }
-    let coulomb = Coulomb::new();
-    let attributes = coulomb
-        .descriptor()
-        .attributes
-        .iter()
-        .filter_map(|attribute| attribute.default_value().number())
-        .collect();
     ModelSpec {
         water: Water {
             density_kg_m3: 1025.0,
@@ -134,11 +72,7 @@ pub fn sea(
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction::of_one(
-            Arc::new(coulomb),
-            attributes,
-            vec![[friction; Region::ALL.len()]],
-        )),
+        friction: Some(coulomb(friction)),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings,

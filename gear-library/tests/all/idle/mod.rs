@@ -1,4 +1,4 @@
-//! Plugins that do nothing, and the shipped library.
+//! Plugins of tests by id, and the shipped library.
 
 #![allow(
     dead_code,
@@ -9,82 +9,37 @@
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
+use endline_fixtures::hooks::NoEffect;
 use endline_gear::{Hooks, Library, Sources};
-use endline_sdk::{
-    Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, MotionInput,
-    MotionOutput, WhaleMotion,
-};
+use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 
-/// A motion without movement and a friction model without friction, with the id `test.idle`.
-pub struct Idle(Arc<Still>);
+/// Returns its motion and its friction law for every id, and no gear type.
+#[derive(Default)]
+pub struct TestHooks {
+    pub motion: Option<Arc<dyn WhaleMotion>>,
+    pub friction: Option<Arc<dyn FrictionModel>>,
+}
 
-/// The instance of both hooks.
-pub struct Still(Descriptor);
-
-impl Idle {
-    pub fn shared() -> Self {
-        Self(Still::shared())
+impl TestHooks {
+    /// A motion and a friction law without effect.
+    pub fn without_effect() -> Self {
+        Self { motion: Some(NoEffect::shared()), friction: Some(NoEffect::shared()) }
     }
 }
 
-impl Still {
-    pub fn shared() -> Arc<Self> {
-        let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        Arc::new(Self(Descriptor {
-            id,
-            version: "0.1.0".into(),
-            name,
-            help,
-            attributes: Vec::new(),
-            state_len: 0,
-            acts: Vec::new(),
-        }))
-    }
-}
-
-impl Hooks for Idle {
+impl Hooks for TestHooks {
     fn motion(&self, _: &str) -> Option<Arc<dyn WhaleMotion>> {
-        Some(self.0.clone())
+        self.motion.clone()
     }
     fn friction(&self, _: &str) -> Option<Arc<dyn FrictionModel>> {
-        Some(self.0.clone())
+        self.friction.clone()
     }
     fn gear(&self, _: &str) -> Option<Arc<dyn GearType>> {
         None
     }
     fn ids(&self) -> Vec<String> {
-        vec!["test.idle".into()]
-    }
-}
-
-impl WhaleMotion for Still {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn step(
-        &self,
-        _: &[f64],
-        _: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput::default())
-    }
-}
-
-impl FrictionModel for Still {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn respond(
-        &self,
-        _: &[f64],
-        _: &Contacts<'_>,
-        _: &mut [FrictionResponse],
-    ) -> Result<(), HookError> {
-        Ok(())
-    }
-    fn advance(&self, _: &[f64], _: &Contacts<'_>, _: &mut [f64]) -> Result<(), HookError> {
-        Ok(())
+        let motion = self.motion.iter().map(|motion| motion.descriptor().id.to_string());
+        motion.chain(self.friction.iter().map(|law| law.descriptor().id.to_string())).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use endline_sdk::{MotionOutput, Posture, Region};
 use endline_sim::metrics::EventKind;
 
-use super::{Hands, Run, ramp, scenario, spec};
+use super::{Run, hands, ramp, scenario, spec};
 
 /// The whale opens its mouth, swims into a rope across its way, closes on it, waits, opens again and backs off.
 fn timetable(ahead_m: f64) -> impl Fn(f64) -> MotionOutput + Send + Sync {
@@ -32,7 +32,7 @@ fn rope_lodges_in_the_mouth_and_comes_out_again() {
         );
         scenario(&(end("west", -2.0) + &end("east", 2.0) + &line))
     };
-    let still = Hands::of(Box::new(|_| MotionOutput::default()), true);
+    let still = hands(Box::new(|_| MotionOutput::default()), true);
     let skin = spec(&across(20.0, -20.0, 4.0), &still).whale.unwrap().skin;
     let rostrum =
         skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| **region == Region::Rostrum);
@@ -48,8 +48,8 @@ fn rope_lodges_in_the_mouth_and_comes_out_again() {
     // The rope lies 0.3 m ahead of the snout, just below its tip; the whale takes it in as far as it may.
     let (start, ahead_m, height) = (snout + 0.3, 1.8, lowest - 0.08);
     println!("snout at x = {snout:.2} m, its tip's lowest at z = {lowest:.2} m");
-    let hands = Hands::of(Box::new(timetable(ahead_m)), true);
-    let mut run = Run::of(spec(&across(start, -20.0 + height, 4.1), &hands));
+    let hooks = hands(Box::new(timetable(ahead_m)), true);
+    let mut run = Run::of(spec(&across(start, -20.0 + height, 4.1), &hooks));
     let stop = 1.0 + ahead_m;
     let lodged = |run: &Run| run.summary().whale.unwrap().lodged_in_mouth;
     run.until(stop - 0.5, |_| ());

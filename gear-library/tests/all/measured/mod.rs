@@ -9,76 +9,33 @@ mod towed;
 
 use std::sync::Arc;
 
-use crate::idle::{Idle, library};
+use crate::idle::{TestHooks, library};
+use endline_fixtures::hooks::{Motion, descriptor};
 use endline_friction_models::Coulomb;
-use endline_gear::{Hooks, Options, Scenario, assemble};
-use endline_sdk::{
-    Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput, WhaleMotion,
-};
+use endline_gear::{Options, Scenario, assemble};
+use endline_sdk::MotionOutput;
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, step};
 
 /// Controls of a whale at a time [s].
 type Timetable = Box<dyn Fn(f64) -> MotionOutput + Send + Sync>;
 
-/// A whale with a timetable, and rope with Coulomb friction on it, or none.
-struct Hands {
-    whale: Arc<Script>,
-    rubs: bool,
+/// Hooks of a whale with a scripted motion, with Coulomb's law of friction or none.
+fn hands(timetable: Timetable, rubs: bool) -> TestHooks {
+    let script =
+        Motion::new(descriptor("test.script"), move |input| timetable(input.time_s + input.dt_s));
+    let mut hooks = TestHooks::without_effect();
+    hooks.motion = Some(script);
+    if rubs {
+        hooks.friction = Some(Arc::new(Coulomb::new()));
+    }
+    hooks
 }
 
-struct Script(Descriptor, Timetable);
-
-impl Hands {
-    fn of(timetable: Timetable, rubs: bool) -> Self {
-        let (id, name, help) =
-            ("test.script".into(), "Script".into(), "Keeps to a timetable.".into());
-        let descriptor = Descriptor {
-            id,
-            version: "0.1.0".into(),
-            name,
-            help,
-            attributes: Vec::new(),
-            state_len: 0,
-            acts: Vec::new(),
-        };
-        Self { whale: Arc::new(Script(descriptor, timetable)), rubs }
-    }
-}
-
-impl WhaleMotion for Script {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn step(
-        &self,
-        _: &[f64],
-        input: &MotionInput<'_>,
-        _: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        Ok(self.1(input.time_s + input.dt_s))
-    }
-}
-
-impl Hooks for Hands {
-    fn motion(&self, _: &str) -> Option<Arc<dyn WhaleMotion>> {
-        Some(self.whale.clone())
-    }
-    fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
-        if self.rubs { Some(Arc::new(Coulomb::new())) } else { Idle::shared().friction(id) }
-    }
-    fn gear(&self, _: &str) -> Option<Arc<dyn GearType>> {
-        None
-    }
-    fn ids(&self) -> Vec<String> {
-        vec!["test.script".into()]
-    }
-}
-
-fn spec(text: &str, hands: &Hands) -> ModelSpec {
+fn spec(text: &str, hooks: &TestHooks) -> ModelSpec {
     let scenario =
         Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", problems[0]));
-    assemble(&scenario, library(), hands, &Options::default())
+    assemble(&scenario, library(), hooks, &Options::default())
         .unwrap_or_else(|problems| panic!("{}", problems[0]))
 }
 

@@ -3,7 +3,7 @@
 use endline_sdk::MotionOutput;
 use endline_sim::metrics::{EventKind, Outcome};
 
-use super::{Hands, Run, scenario, spec};
+use super::{Run, hands, scenario, spec};
 
 #[test]
 fn a_loop_pulled_off_a_flipper_gives_events_in_order() {
@@ -16,10 +16,10 @@ fn a_loop_pulled_off_a_flipper_gives_events_in_order() {
     };
     let line = "[[line]]\nid = \"rope\"\nrope = \"rope\"\nfrom = \"fore\"\nto = \"aft\"\nlength = \"12 m\"\nstart = \"wrapped\"\n\
                 [[line.wrap]]\npart = \"left_flipper\"\nturns = 1.5\n";
-    let hands = Hands::of(Box::new(|_| MotionOutput::default()), false);
+    let hooks = hands(Box::new(|_| MotionOutput::default()), false);
     let mut run = Run::of(spec(
         &scenario(&(end("fore", 2.0, -21.0) + &end("aft", 0.0, -22.0) + line)),
-        &hands,
+        &hooks,
     ));
     run.until(1.0, |_| ());
     let early = run.summary().whale.unwrap();

@@ -3,7 +3,7 @@
 use endline_sdk::MotionOutput;
 use endline_sim::DVec3;
 
-use super::{Hands, Run, scenario, spec};
+use super::{Run, hands, scenario, spec};
 
 /// Rope and body as heavy as water trail straight behind: at speed u they drag with `rho u²/2 (Cd A + Ct pi d L)`.
 #[test]
@@ -12,14 +12,14 @@ fn drag_added_is_that_of_the_gear_towed() {
                 volume = \"40 L\"\nfloat_height = \"0.4 m\"\ndrag_area = \"0.1 m2\"\nadded_mass = 0.5\n\
                 [[line]]\nid = \"rope\"\nrope = \"rope\"\nfrom = \"whale:back\"\nto = \"pot\"\nlength = \"20 m\"\n";
     let speed = 1.2;
-    let hands = Hands::of(
+    let hooks = hands(
         Box::new(move |_| MotionOutput { speed_m_s: speed, ..MotionOutput::default() }),
         false,
     );
     let text = scenario(gear)
         .replace("segment = \"0.1 m\"", "segment = \"1 m\"")
         .replace("speed = \"0 m/s\"\nmotion", "speed = \"1.2 m/s\"\nmotion");
-    let mut run = Run::of(spec(&text, &hands));
+    let mut run = Run::of(spec(&text, &hooks));
     run.until(30.0, |_| ());
     let whale = run.summary().whale.unwrap();
     let wanted = 0.5 * 1025.0 * speed * speed * (0.1 + 0.02 * std::f64::consts::PI * 0.01 * 20.0);
@@ -49,7 +49,7 @@ fn drag_added_is_that_of_the_gear_towed() {
 fn forces_on_the_patches_add_up_to_what_the_whale_feels() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/dead-whale-wraps.toml");
     let text = std::fs::read_to_string(file).unwrap();
-    let mut run = Run::of(spec(&text, &Hands::of(Box::new(|_| MotionOutput::default()), true)));
+    let mut run = Run::of(spec(&text, &hands(Box::new(|_| MotionOutput::default()), true)));
     let (mut compared, mut greatest) = (0, 0.0_f64);
     run.until(0.6, |run| {
         let patches = run.summary().whale.unwrap().patches;
