@@ -163,21 +163,21 @@ def main():
     for name, edits, settings, expected in TRIPS:
         edited(*imported(whale), edits)
         bpy.ops.export_scene.gltf(filepath=str(item.with_name("mine.glb")), **settings)
-        code, told = called("check", item)
+        code, output = called("check", item)
         if isinstance(expected, str):
-            check(code == 1 and expected in told, f"{name}: refused, {told.splitlines()[0].split('error: ')[-1]}")
+            check(code == 1 and expected in output, f"{name}: refused, {output.splitlines()[0].split('error: ')[-1]}")
             continue
-        code, told = called("whale", "build", "right-whale", "--library", out / "library", "--out", back)
+        code, output = called("whale", "build", "right-whale", "--library", out / "library", "--out", back)
         far = apart(before, vertices(back)) if code == 0 else np.inf
-        check(far <= expected, f"{name}: taken, vertices within {far:.1e} m" if code == 0 else f"{name}: {told}")
+        check(far <= expected, f"{name}: taken, vertices within {far:.1e} m" if code == 0 else f"{name}: {output}")
     acts = out / "library/acts"
     act(whale, acts / "mine.glb")
     (acts / "mine.toml").write_text(
         'format = 1\nkind = "act"\nname = "Mine"\nsource = "keyed in Blender"\nconfidence = "estimate"\n'
         'fade = "0.5 s"\nanimation = "mine.glb"\n'
     )
-    code, told = called("check", acts / "mine.toml")
-    check(code == 0, f"an act keyed in Blender: {told.strip()}")
+    code, output = called("check", acts / "mine.toml")
+    check(code == 0, f"an act keyed in Blender: {output.strip()}")
     sys.exit(1 if FAULTS else 0)
 
 

@@ -137,10 +137,10 @@ require('gltf-validator').validateBytes(new Uint8Array(fs.readFileSync(path))).t
 def khronos(path):
     if not shutil.which("node"):
         return print("--    no node: the Khronos validator was not asked")
-    told = subprocess.run(["node", "-e", KHRONOS, path], capture_output=True, text=True)
-    if told.returncode:
+    output = subprocess.run(["node", "-e", KHRONOS, path], capture_output=True, text=True)
+    if output.returncode:
         return print("--    no gltf-validator for node: the Khronos validator was not asked")
-    issues = json.loads(told.stdout)
+    issues = json.loads(output.stdout)
     found = [f"{one['code']} at {one['pointer']}: {one['message']}" for one in issues["messages"] if one["severity"] < 2][:5]
     check(not issues["numErrors"] and not issues["numWarnings"], f"the Khronos validator finds no error and no warning {found or ''}")
 

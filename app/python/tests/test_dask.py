@@ -28,33 +28,33 @@ def alone(study, out):
 
 @pytest.mark.parametrize("shared", [True, False], ids=["shared folder", "blocks sent back"])
 def test_the_bytes_are_those_of_one_machine(small, client, tmp_path, shared):
-    study, told = endline.Study(small(10)), []
+    study, reported = endline.Study(small(10)), []
     table = endline.dask.run_study(
-        study, client, out=tmp_path / "dask", encounters=3, shared=shared, progress=lambda *of: told.append(of)
+        study, client, out=tmp_path / "dask", encounters=3, shared=shared, progress=lambda *of: reported.append(of)
     )
-    assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert reported == [(1, 4), (2, 4), (3, 4), (4, 4)]
     assert table.read_bytes() == alone(study, tmp_path / "alone")
 
 
 def test_what_is_there_is_not_run_again(small, client, tmp_path):
-    study, out, told = endline.Study(small(10)), tmp_path / "dask", []
+    study, out, reported = endline.Study(small(10)), tmp_path / "dask", []
     study.run(out, part=0, of=2)
-    endline.dask.run_study(study, client, out=out, encounters=5, progress=lambda *of: told.append(of))
-    assert told == [(1, 1)]
+    endline.dask.run_study(study, client, out=out, encounters=5, progress=lambda *of: reported.append(of))
+    assert reported == [(1, 1)]
 
 
 @pytest.mark.parametrize("shared", [True, False], ids=["shared folder", "blocks sent back"])
 def test_a_killed_worker_costs_its_tasks_alone(small, client, tmp_path, shared):
-    study, killed, told = endline.Study(small(24, seconds=2)), [], []
+    study, killed, reported = endline.Study(small(24, seconds=2)), [], []
 
     def kill(done, total):
-        told.append((done, total))
+        reported.append((done, total))
         if not killed:
             killed.append(next(iter(client.run(os.getpid).values())))
             os.kill(killed[0], signal.SIGKILL)
 
     table = endline.dask.run_study(study, client, out=tmp_path / "dask", encounters=2, shared=shared, progress=kill)
-    assert killed and told[-1] == (12, 12)
+    assert killed and reported[-1] == (12, 12)
     assert table.read_bytes() == alone(study, tmp_path / "alone")
     client.wait_for_workers(2, timeout=60)
 

@@ -175,8 +175,8 @@ def test_exported_tables_are_read_by_other_libraries(hello, command, tmp_path):
     contacts = str(tmp_path / "contacts.parquet")
     [(count, most)] = duckdb.sql(f"select count(*), max(normal_force_N) from '{contacts}'").fetchall()
     assert count == len(hello.contacts) and most == hello.contacts.normal_force_N.max()
-    told = duckdb.sql(f"select unit from '{tmp_path / 'columns.parquet'}' where \"column\" = 'tension_N'").fetchall()
-    assert told == [("N",)]
+    reported = duckdb.sql(f"select unit from '{tmp_path / 'columns.parquet'}' where \"column\" = 'tension_N'").fetchall()
+    assert reported == [("N",)]
 
 
 def test_arrow_tables_are_mapped_into_memory_by_other_libraries(hello, command, tmp_path):

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn an_earlier_moment_is_told_by_its_frame_and_the_events_before_it() {
+    fn an_earlier_moment_is_described_by_its_frame_and_the_events_before_it() {
         let frame = |time_s: f64| Frame {
             time_s,
             body_contacts: vec![

@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_of_a_file_is_told_in_the_unit_of_the_profile_where_that_is_another() {
+    fn a_value_of_a_file_is_shown_in_the_unit_of_the_profile() {
         for (units, text, shown) in [
             (Units::Noaa, "25 m", Some("82.0 ft")),
             (Units::Noaa, "0.25 m/s", Some("0.49 kn")),

@@ -114,7 +114,7 @@ fn a_mistake_in_a_text_is_reported_with_its_place() {
     let values: Vec<_> =
         gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
     let error = gear.build(&values, &Site { depth_m: 20.0, current_m_s: [0.0; 2] }).unwrap_err();
-    assert!(error.message.contains("`repeat` of `groundline-1` comes to inf"), "{error}");
+    assert!(error.message.contains("`repeat` of `groundline-1` is inf"), "{error}");
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn an_animated_model_has_bodies_lines_and_whale_where_the_run_has_them() {
 }
 
 #[test]
-fn a_stretch_that_is_none_and_an_ending_that_is_none_are_told() {
+fn an_empty_stretch_and_an_unknown_ending_are_reported() {
     let place = Place::new("animation-wrong");
     let scenario = place.short_scenario("hello-endline", "1 s");
     place

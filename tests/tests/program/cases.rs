@@ -112,7 +112,7 @@ fn the_page_of_cases_has_plots_with_text() {
 
 /// Faults of a case file are reported with file, line and what was expected; `check` and `validate` say the same.
 #[test]
-fn faults_of_a_case_are_told_where_they_stand() {
+fn errors_of_a_case_are_located() {
     let (place, mut whole) = (Place::new("case-faults"), None);
     for (start, line, words) in [
         (

@@ -113,7 +113,7 @@ fn out_holds_summary_and_recording() {
 
 /// Forty nodes in all cannot be 5 cm apart along a whale; a run with equal segments wishes for none.
 #[test]
-fn a_resolution_that_cannot_be_kept_is_told_and_counts_agree() {
+fn a_resolution_that_cannot_be_kept_is_reported_and_counts_agree() {
     let place = Place::new("resolution");
     let scenario = place.encounter();
     let audit = || {
@@ -198,7 +198,7 @@ fn settle_prints_shape_tensions_and_residual() {
 
 /// In 2 m/s nothing holds the shipped single: a run does not start from gear that drags, unless it is allowed.
 #[test]
-fn a_run_refuses_unsettled_gear_unless_told() {
+fn a_run_refuses_unsettled_gear_unless_allowed() {
     let place = Place::new("unsettled");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     edit(scenario.as_ref(), "speed", "speed = \"2 m/s\"");
@@ -214,7 +214,7 @@ fn a_run_refuses_unsettled_gear_unless_told() {
 
 /// A whale that swims away from the gear touches nothing: the run is over after half a minute, and its recording is as long.
 #[test]
-fn a_run_ends_when_it_is_over_if_told() {
+fn a_run_ends_when_it_is_over_if_requested() {
     let place = Place::new("over");
     let scenario = place.short_scenario("hello-endline", "40 s");
     edit(scenario.as_ref(), "heading", "heading = \"180 deg\"");

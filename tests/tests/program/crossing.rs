@@ -54,7 +54,7 @@ fn is_pierced(run: &Run) -> bool {
 }
 
 #[test]
-fn a_forced_crossing_makes_a_run_invalid_and_is_told() {
+fn a_forced_crossing_makes_a_run_invalid_and_is_reported() {
     let place = Place::new("crossing");
     let plugins = endline_tests::products().unwrap().join("plugins");
     let (host, problems) = PluginHost::discover(&[plugins]);

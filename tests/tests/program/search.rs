@@ -78,7 +78,7 @@ fn a_search_continues_after_an_end_and_says_when_it_found_nothing() {
 }
 
 #[test]
-fn mistakes_are_told_where_they_stand_all_at_once() {
+fn mistakes_are_located_and_reported_all_at_once() {
     let place = place("search-mistakes");
     let wrong = OBSERVATION.replace("\"body\"", "\"bodi\"").replace("[1, 2]", "[2, 1]");
     place.write("wrong.toml", &wrong);

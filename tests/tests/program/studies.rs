@@ -486,7 +486,7 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
     let second = ["study", "run", &study, "--out", &out.display().to_string(), "--shard", "2/3"];
     place
         .endline(&second)
-        .fails(1, &["block-00001.parquet", "cannot be written", "goes on from them"]);
+        .fails(1, &["block-00001.parquet", "cannot be written", "continues from them"]);
     assert_eq!(fs::read(out.join("block-00000.parquet")).unwrap(), before);
     fs::remove_dir_all(out.join("block-00001.parquet")).unwrap();
     place.endline(&second).done();
@@ -513,7 +513,7 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
             .current_dir(&place.folder)
             .envs(third.get_envs().filter_map(|(name, value)| Some((name, value?))));
         common::called(&mut limited)
-            .fails(1, &["block-0000", ".parquet cannot be written", "goes on from them"]);
+            .fails(1, &["block-0000", ".parquet cannot be written", "continues from them"]);
         assert_eq!(blocks(&out), before, "nothing half written stands there as a block");
         place
             .endline(&["study", "run", &study, "--out", out.to_str().unwrap(), "--shard", "3/3"])

@@ -16,7 +16,7 @@
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
 //! | [`assembly`] | parts of an assembly added, split and joined |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
-//! | [`observation`] | parts of an observation told, its path of rope put in order |
+//! | [`observation`] | sightings of an observation, and its path of rope |
 //! | [`pilot_program`] | entries of the scenario's pilot program |
 
 pub mod assembly;

@@ -214,12 +214,12 @@ mod tests {
     }
 
     #[test]
-    fn what_was_changed_added_and_taken_away_is_told_by_its_path() {
+    fn changes_additions_and_removals_have_paths() {
         let saved = "a = 1\nplace = [1.0, 2.0]\n[waves]\nheight = \"1 m\"\nperiod = \"6 s\"\n[[gear]]\nassembly = \"single\"\n[strength]\nvalue = \"1 kN\"\nsource = \"mill\"\n";
         let present = "a = 2\nplace = [1.0, 3.0]\n[[gear]]\nassembly = \"single\"\n[gear.links]\nbuoy = \"600 lbf\"\n[strength]\nvalue = \"2 kN\"\nsource = \"unsourced\"\n";
-        let told = changes(saved, present);
+        let found = changes(saved, present);
         let sets: Vec<_> =
-            told.sets.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
+            found.sets.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
         assert_eq!(
             sets,
             [
@@ -229,7 +229,7 @@ mod tests {
                 ("strength", "2 kN")
             ]
         );
-        assert_eq!(told.removes, ["waves"], "a table that is gone is one removal");
+        assert_eq!(found.removes, ["waves"], "a table that is gone is one removal");
         assert_eq!(changes(saved, saved), Changes::default());
     }
 

@@ -1,7 +1,7 @@
 //! Unsaved edits written to a file every few seconds, and offered back after a crash.
 //!
 //! Each running program has a file of its own, `recovery-NAME.json`, and holds a lock on `recovery-NAME.lock` beside it for as
-//! long as it runs. A file whose lock nobody holds was left by a crash. Numbers of processes would not tell: a container gives
+//! long as it runs. A file whose lock is free was left by a crash. Numbers of processes would not tell: a container gives
 //! the same ones again.
 
 use std::collections::BTreeMap;

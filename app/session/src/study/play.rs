@@ -119,7 +119,7 @@ impl PreparedStudy {
     }
 
     /// Plays an option in an encounter to its end.
-    /// Errors: faults of the scenario so made, or gear that does not come to rest.
+    /// Errors: faults of the scenario so made, or gear without an equilibrium.
     pub fn play(
         &self,
         option: usize,
@@ -143,7 +143,7 @@ impl PreparedStudy {
     }
 
     /// Plays an encounter as prepared.
-    /// Errors: gear that does not come to rest.
+    /// Errors: gear without an equilibrium.
     pub(super) fn play_prepared(
         &self,
         option: usize,

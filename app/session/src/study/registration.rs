@@ -95,7 +95,7 @@ source = "assumed"
 [[claim]]
 id = "one"
 says = "more wraps than contacts"
-source = "nobody"
+source = "none"
 event = "wrap_any"
 less_event = "contact"
 more = ["a"]
@@ -103,7 +103,7 @@ less = ["a"]
 [[observation]]
 id = "B0"
 says = "half"
-source = "nobody"
+source = "none"
 of = "contact"
 observed = [0.4, 0.6]
 "#;

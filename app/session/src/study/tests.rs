@@ -158,7 +158,7 @@ fn a_paused_study_does_not_advance_and_its_table_is_that_of_one_never_paused() {
             scope.spawn(|| batch::run(&opened, &folder, Shard::WHOLE, 2, &control).map(|_| ()));
         wait("the first encounter", || control.progress().encounters.done > 0);
         control.pause();
-        // Encounters under way, one on each thread, still come to their end.
+        // Encounters in progress, one on each thread, still end.
         std::thread::sleep(Duration::from_millis(500));
         let done = control.progress().encounters.done;
         std::thread::sleep(Duration::from_millis(300));

@@ -166,7 +166,7 @@ impl Plugins {
     ) -> Result<(), String> {
         let (sender, receiver) = channel();
         let work = move || {
-            // Nobody waits any more where the workbench is gone.
+            // The receiver is gone if the workbench has closed.
             let _ = sender.send(work());
             waker();
         };

@@ -91,7 +91,7 @@ impl Workbench {
     }
 }
 
-/// So many entries, in words.
+/// A number of entries, in words.
 fn counted(entries: usize) -> String {
     if entries == 1 { "1 entry".to_owned() } else { format!("{entries} entries") }
 }

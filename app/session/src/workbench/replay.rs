@@ -46,7 +46,7 @@ impl Workbench {
         self.send(RunCommand::Pause)
     }
 
-    /// Goes on with what is played; `elapsed_s` of real time are over.
+    /// Advances the playback by `elapsed_s` of real time.
     pub fn play(&mut self, elapsed_s: f64) {
         let replay = &self.run.replay;
         let Some((shown_s, view)) = replay.shown_s.zip(self.view()) else { return };

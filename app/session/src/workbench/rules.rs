@@ -266,7 +266,7 @@ impl Workbench {
         };
         let (host, waker) = self.helpers();
         let checks = &mut self.rules;
-        // An area that nobody chose is taken over as if it was.
+        // The default area is used as if it were chosen.
         if checks.question.area.is_empty() {
             checks.question.area.clone_from(&answer.question.area);
             checks.asked = Some((answer.version, checks.question.clone()));
@@ -455,12 +455,12 @@ mod tests {
         };
         let read = fishing(&typed).unwrap();
         assert_eq!((read.distance_m, read.depth_m, read.traps), (Some(9260.0), None, Some(8)));
-        for (wrong, told) in [
+        for (wrong, message) in [
             (RuleQuestion { on: "June".to_owned(), ..typed.clone() }, "day `June`"),
             (RuleQuestion { depth: "5 lbf".to_owned(), ..typed.clone() }, "depth `5 lbf`"),
             (RuleQuestion { traps: "few".to_owned(), ..typed.clone() }, "traps `few`"),
         ] {
-            assert!(fishing(&wrong).unwrap_err().starts_with(told), "{told}");
+            assert!(fishing(&wrong).unwrap_err().starts_with(message), "{message}");
         }
         assert!(Date::parse(&today()) > Date::parse("2025-01-01"));
     }

@@ -130,7 +130,7 @@ impl Workbench {
         self.send(RunCommand::Pause)
     }
 
-    /// Pauses what goes on; plays where an earlier moment is shown; else runs on.
+    /// Pauses a run or playback; plays if an earlier moment is shown; else continues the run.
     pub(crate) fn toggle(&mut self) -> Result<(), String> {
         if self.running() {
             return self.pause();

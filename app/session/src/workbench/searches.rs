@@ -17,10 +17,10 @@ use crate::search::question::Length;
 use crate::search::{Question, Story};
 use crate::task::{Fault, Task};
 
-/// Runs at most, where nobody says otherwise.
+/// Default limit of runs.
 const TRIALS: usize = 1000;
 
-/// Neighbours of each story, where nobody says otherwise.
+/// Default number of neighbours of each story.
 const NEIGHBOURS: usize = 12;
 
 /// The animal drawn where the observation names none.
@@ -118,7 +118,7 @@ impl Workbench {
         Ok(())
     }
 
-    /// Goes on with a new observation beside those of the library.
+    /// Opens a new observation beside those of the library.
     pub(crate) fn new_observation(&mut self) -> Result<(), String> {
         self.leave_observation()?;
         let file = self.project.documents.new_observation(observation::NEW)?;
@@ -127,7 +127,7 @@ impl Workbench {
         Ok(())
     }
 
-    /// Goes on with a copy of the open observation beside those of the library.
+    /// Opens a copy of the open observation beside those of the library.
     pub(crate) fn duplicate_observation(&mut self) -> Result<(), String> {
         let copy = self.project.documents.duplicate_observation()?;
         self.notice = Some(Notice::done(format!("a copy: {}", copy.display())));
@@ -175,7 +175,7 @@ impl Workbench {
         })
     }
 
-    /// Searches for the open observation, or goes on, on the texts as they are edited. Nothing is saved.
+    /// Starts or continues the search for the open observation, on the texts as they are edited. Nothing is saved.
     pub(crate) fn run_search(&mut self) -> Result<(), String> {
         let request = self.search_request().ok_or("open an observation first")?;
         let (host, waker) = self.helpers();
@@ -184,7 +184,7 @@ impl Workbench {
         Ok(())
     }
 
-    /// Pauses the search at work, or goes on with it.
+    /// Pauses or continues the running search.
     pub(crate) fn pause_search(&mut self) -> Result<(), String> {
         let job = self.searches.at_work().ok_or("no search is at work")?;
         if job.state() == State::Paused {

@@ -54,7 +54,7 @@ impl Workbench {
         self.follow_job();
     }
 
-    /// Results of the job shown are read again as it goes on.
+    /// Results of the job shown are read again as it advances.
     fn follow_job(&mut self) {
         let studies = &self.studies;
         let Some(shown) = studies.results.followed() else { return };
@@ -188,7 +188,7 @@ impl Workbench {
         job.ok_or_else(|| format!("{} is not in the queue", file.display()))
     }
 
-    /// Goes on with a copy of the open study beside those of the library.
+    /// Opens a copy of the open study beside those of the library.
     pub(crate) fn duplicate_study(&mut self) -> Result<(), String> {
         let copy = self.project.documents.duplicate_study()?;
         self.notice = Some(Notice::done(format!("a copy: {}", copy.display())));

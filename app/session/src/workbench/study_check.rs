@@ -56,7 +56,7 @@ impl Workbench {
         let documents = &self.project.documents;
         let version = documents.version();
         let check = &self.studies.check;
-        // What is wrong with a text is told without assembling anything.
+        // Errors of a text are reported without assembling anything.
         if check.task.busy() || check.version == Some(version) || !self.study_is_sound() {
             return;
         }

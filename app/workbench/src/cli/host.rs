@@ -20,11 +20,11 @@ pub(super) fn allow(allowed: bool) {
 
 /// Loads the plugins; those that fail or were not allowed are reported on standard error and left out.
 pub(super) fn load() -> PluginHost {
-    load_told().0
+    load_reported().0
 }
 
 /// Loads the plugins, and returns the problems too.
-pub(super) fn load_told() -> (PluginHost, Vec<PluginProblem>) {
+pub(super) fn load_reported() -> (PluginHost, Vec<PluginProblem>) {
     let mut loader = loader();
     let (mut host, mut problems) = load_with(&mut loader);
     if ALLOW.get() == Some(&true) && allow_waiting(&mut loader, &problems) {

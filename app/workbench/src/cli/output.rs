@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_terminal_is_told_nothing_and_a_reader_of_json_the_same() {
+    fn neither_a_terminal_nor_a_reader_of_json_gets_progress() {
         let clipboard = "name\u{1b}]52;c;cm0gLXJm\u{7}\u{9b}2J\u{202e}gpj";
         let plain = sanitized(clipboard);
         assert!(!plain.contains(is_obeyed), "{plain}");

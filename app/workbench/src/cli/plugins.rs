@@ -41,7 +41,7 @@ pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
 
 /// Every plugin found, and those left out; the reasons are printed on standard error.
 fn list() -> Result<ExitCode, Failure> {
-    let (host, problems) = host::load_told();
+    let (host, problems) = host::load_reported();
     let folders: Vec<String> =
         host::folders().iter().map(|folder| folder.display().to_string()).collect();
     let mut text: String = host.list().iter().map(words).collect();

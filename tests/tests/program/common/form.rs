@@ -47,7 +47,7 @@ fn close(schema: &mut Value) {
 
 #[test]
 #[should_panic(expected = "wraps_seen")]
-fn a_key_that_a_form_does_not_name_is_told() {
+fn a_key_that_a_form_does_not_name_is_reported() {
     let law = json!({ "schema": "endline.mill/1", "wraps_seen": 1 });
     hold(&law, "endline.mill/1");
 }

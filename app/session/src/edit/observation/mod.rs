@@ -1,7 +1,7 @@
-//! An observation edited part by part: what is told of each, and the path of the rope with what hung behind.
+//! An observation edited part by part: the sighting of each part, and the path of the rope with what trailed behind.
 //!
-//! A part that is hidden from view stands under `[hidden]`, any other under `[[site]]`; one that stands under neither is not told.
-//! A fin is told by itself or as either of its pair, whichever the text has.
+//! A part that was hidden from view is under `[hidden]`, any other under `[[site]]`; a part under neither is unknown.
+//! A fin has a sighting of its own or one of its pair, as in the text.
 
 mod rope;
 #[cfg(test)]
@@ -14,47 +14,47 @@ pub use rope::{
     Range, add_end, add_place, ends, move_place, places, range, remove_end, remove_place, set_range,
 };
 
-/// Text of an observation of which nothing is told yet.
+/// Text of a new observation.
 pub const NEW: &str = r#"format = 1
 kind = "observation"
 name = "A new observation"
-source = "not told yet"
+source = "not stated yet"
 confidence = "estimate"
 encounters = "met-single"
 mirrored = false
 "#;
 
-/// List of the parts that are told.
+/// List of the parts with a sighting.
 const SITES: &str = "site";
 
-/// List of the parts that nobody could see.
+/// List of the parts that were hidden from view.
 const HIDDEN: &str = "hidden.parts";
 
 /// How sure it is that rope was there, where the text does not say.
 const SURE: f64 = 0.95;
 
-/// What is told of a part.
+/// The sighting of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Told {
+pub enum Sighting {
     /// Nothing.
     Nothing,
-    /// That nobody could see it.
+    /// It was hidden from view.
     Hidden,
     /// That it was seen, and the probability that rope was there: 1 surely, 0 surely not.
     Seen(f64),
 }
 
-impl Told {
+impl Sighting {
     /// Whether rope was seen there rather than not.
     pub fn has_rope(self) -> bool {
         matches!(self, Self::Seen(present) if present > 0.5)
     }
 }
 
-/// The site under which a single one is told: itself, or the pair that it belongs to.
+/// The site that holds the sighting of a single part: itself, or its pair.
 pub fn site_of(documents: &Documents, single: Site) -> Site {
     let pair = pair_of(single).filter(|pair| {
-        told(documents, single) == Told::Nothing && told(documents, *pair) != Told::Nothing
+        sighting_of(documents, single) == Sighting::Nothing && sighting_of(documents, *pair) != Sighting::Nothing
     });
     pair.unwrap_or(single)
 }
@@ -64,16 +64,16 @@ pub fn pair_of(site: Site) -> Option<Site> {
     [Site::Flipper, Site::Fluke].into_iter().find(|pair| pair.singles().contains(&site))
 }
 
-/// What is told of a site by its own name.
-pub fn told(documents: &Documents, site: Site) -> Told {
+/// The sighting of a site by its own name.
+pub fn sighting_of(documents: &Documents, site: Site) -> Sighting {
     if list(documents, HIDDEN).iter().any(|name| name == site.name()) {
-        return Told::Hidden;
+        return Sighting::Hidden;
     }
     match index_of(documents, site) {
-        None => Told::Nothing,
+        None => Sighting::Nothing,
         Some(_) => {
             let present = field(documents, site, "present").and_then(|text| text.parse().ok());
-            Told::Seen(present.unwrap_or(SURE))
+            Sighting::Seen(present.unwrap_or(SURE))
         }
     }
 }
@@ -83,7 +83,7 @@ pub fn field(documents: &Documents, site: Site, key: &str) -> Option<String> {
     documents.field(Documents::OBSERVATION, &path(documents, site, key)?)
 }
 
-/// Dotted path of a field of a site, for its problems; `None` where the site is not told.
+/// Dotted path of a field of a site, for its problems; `None` if the site has no sighting.
 pub fn path(documents: &Documents, site: Site, key: &str) -> Option<String> {
     index_of(documents, site).map(|index| format!("{SITES}.{index}.{key}"))
 }
@@ -105,20 +105,20 @@ fn part_field(index: usize) -> String {
 
 /// Tells of a site that rope was there or not, that it was hidden, or nothing.
 /// Errors: where `site` or `hidden` are something else in the text.
-pub fn tell(document: &mut Document, site: Site, told: Told) -> Result<(), String> {
+pub fn set_sighting(document: &mut Document, site: Site, sighting: Sighting) -> Result<(), String> {
     let mut hidden = list_in(document, HIDDEN);
     hidden.retain(|name| name != site.name());
-    match told {
-        Told::Seen(present) => {
+    match sighting {
+        Sighting::Seen(present) => {
             put_list(document, HIDDEN, &hidden)?;
             let present = format!("{}", (100.0 * present).round() / 100.0);
             set(document, site, "present", Some(&Setting::plain(&present)))
         }
-        Told::Hidden | Told::Nothing => {
+        Sighting::Hidden | Sighting::Nothing => {
             if let Some(index) = index_in(document, site) {
                 document.remove_table(SITES, index).map_err(message)?;
             }
-            if told == Told::Hidden {
+            if sighting == Sighting::Hidden {
                 hidden.push(site.name().to_owned());
             }
             put_list(document, HIDDEN, &hidden)
@@ -126,7 +126,7 @@ pub fn tell(document: &mut Document, site: Site, told: Told) -> Result<(), Strin
     }
 }
 
-/// Sets a field of a site, such as `tight`; `None` takes it away. A site that was not told is from now on.
+/// Sets a field of a site, such as `tight`; `None` takes it away. A site without a sighting gets one.
 /// Errors: where `site` is something else in the text.
 pub fn set(
     document: &mut Document,
@@ -141,16 +141,16 @@ pub fn set(
     put(document, &format!("{SITES}.{index}.{key}"), value)
 }
 
-/// Tells of a pair what was told of one of it, or of one what was told of the pair.
+/// Gives a pair the sighting of one of its parts, or a part that of its pair.
 /// Errors: where `site` or `hidden` are something else in the text.
 pub fn rename(document: &mut Document, from: Site, to: Site) -> Result<(), String> {
     let was_hidden = list_in(document, HIDDEN).iter().any(|name| name == from.name());
     let covered: Vec<Site> =
         to.singles().iter().copied().filter(|single| *single != from).collect();
-    covered.into_iter().try_for_each(|single| tell(document, single, Told::Nothing))?;
+    covered.into_iter().try_for_each(|single| set_sighting(document, single, Sighting::Nothing))?;
     if was_hidden {
-        tell(document, from, Told::Nothing)?;
-        return tell(document, to, Told::Hidden);
+        set_sighting(document, from, Sighting::Nothing)?;
+        return set_sighting(document, to, Sighting::Hidden);
     }
     match index_in(document, from) {
         Some(index) => document.set(&part_field(index), to.name()).map_err(message),

@@ -23,7 +23,7 @@ pub enum Range {
 }
 
 impl Range {
-    /// Its dotted path, for its problems; `None` where its site is not told.
+    /// Its dotted path, for its problems; `None` if its site has no sighting.
     pub fn path(self, documents: &Documents) -> Option<String> {
         match self {
             Self::Wraps(site) => path(documents, site, "wraps"),
@@ -33,7 +33,7 @@ impl Range {
     }
 }
 
-/// Least and most of a range as typed; empty where it is not told.
+/// Least and most of a range as typed; empty if it is unknown.
 pub fn range(documents: &Documents, range: Range) -> [String; 2] {
     let ends = range.path(documents).map(|path| list(documents, &path)).unwrap_or_default();
     [0, 1].map(|end| ends.get(end).cloned().unwrap_or_default())

@@ -35,32 +35,32 @@ fn present(seen: &Observation, site: Site) -> Option<f64> {
 }
 
 #[test]
-fn a_part_is_told_hidden_and_forgotten() {
-    let (text, seen) = edited(|document| tell(document, Site::Mouth, Told::Seen(0.8)));
+fn a_part_is_seen_hidden_and_unknown_again() {
+    let (text, seen) = edited(|document| set_sighting(document, Site::Mouth, Sighting::Seen(0.8)));
     assert_eq!(present(&seen, Site::Mouth), Some(0.8));
     assert!(text.contains("# What the drawing shows."), "{text}");
     let (_, seen) = edited(|document| {
-        tell(document, Site::Peduncle, Told::Hidden)?;
-        tell(document, Site::Head, Told::Hidden)
+        set_sighting(document, Site::Peduncle, Sighting::Hidden)?;
+        set_sighting(document, Site::Head, Sighting::Hidden)
     });
     assert_eq!((present(&seen, Site::Peduncle), seen.hidden.len()), (None, 2));
     let (text, seen) = edited(|document| {
-        tell(document, Site::Head, Told::Hidden)?;
-        tell(document, Site::Head, Told::Seen(0.3))?;
-        tell(document, Site::Flipper, Told::Nothing)
+        set_sighting(document, Site::Head, Sighting::Hidden)?;
+        set_sighting(document, Site::Head, Sighting::Seen(0.3))?;
+        set_sighting(document, Site::Flipper, Sighting::Nothing)
     });
     assert_eq!((present(&seen, Site::Head), seen.hidden.len()), (Some(0.3), 0));
     assert!(!text.contains("[hidden]") && !text.contains("flipper"), "{text}");
 }
 
 #[test]
-fn one_of_a_pair_takes_what_was_told_of_the_pair_and_the_reverse() {
+fn a_part_takes_the_sighting_of_its_pair_and_the_reverse() {
     let (_, seen) = edited(|document| rename(document, Site::Flipper, Site::LeftFlipper));
     assert_eq!(present(&seen, Site::LeftFlipper), Some(0.1));
     assert_eq!(present(&seen, Site::Flipper), None);
     let (_, seen) = edited(|document| {
-        tell(document, Site::LeftFluke, Told::Hidden)?;
-        tell(document, Site::RightFluke, Told::Seen(0.9))?;
+        set_sighting(document, Site::LeftFluke, Sighting::Hidden)?;
+        set_sighting(document, Site::RightFluke, Sighting::Seen(0.9))?;
         rename(document, Site::LeftFluke, Site::Fluke)
     });
     assert_eq!(
@@ -69,9 +69,9 @@ fn one_of_a_pair_takes_what_was_told_of_the_pair_and_the_reverse() {
     );
 }
 
-/// An observation with so many sites beside those of the text, for what is not there.
+/// An observation with a number of sites beside those of the text.
 fn seen_sites(sites: &[Site]) -> Observation {
-    edited(|document| sites.iter().try_for_each(|site| tell(document, *site, Told::Seen(1.0)))).1
+    edited(|document| sites.iter().try_for_each(|site| set_sighting(document, *site, Sighting::Seen(1.0)))).1
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn ranges_begin_with_one_value_and_go_with_it() {
 }
 
 #[test]
-fn what_is_no_number_is_told_where_it_stands() {
+fn what_is_no_number_is_reported_at_its_line() {
     let mut document = Document::parse(TEXT).unwrap();
     let ends = ["0.5".into(), "2".into()];
     set_range(&mut document, Range::Wraps(Site::Peduncle), ends, 1, "many").unwrap();

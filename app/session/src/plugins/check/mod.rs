@@ -133,7 +133,7 @@ pub fn by_child(
     limit: Duration,
 ) -> impl Fn(&Path, &str) -> Result<(), String> {
     let program = program.into();
-    move |file, hash| told_by_child(&program, file, hash, limit).1
+    move |file, hash| reported_by_child(&program, file, hash, limit).1
 }
 
 /// The child's report on a file, without the lines that announce checks, and the verdict. A folder without code needs no child.
@@ -145,11 +145,11 @@ pub fn report_of_child(
     if file.is_dir() {
         return report_of_folder(file);
     }
-    told_by_child(program, file, "", limit)
+    reported_by_child(program, file, "", limit)
 }
 
 /// Checks a file with these bytes.
-fn told_by_child(
+fn reported_by_child(
     program: &Path,
     file: &Path,
     hash: &str,

@@ -79,7 +79,7 @@ fn each_mistake_stands_at_its_line() {
 }
 
 #[test]
-fn mistakes_are_told_all_at_once_and_words_of_an_expression_at_their_column() {
+fn mistakes_are_reported_all_at_once_and_words_of_an_expression_at_their_column() {
     let many = PACK.replacen("2022-05-01", "May", 1).replacen("\"law\"", "\"lax\"", 1).replacen(
         "traps >= 1",
         "trap >= 1 && trips > 2",

@@ -126,7 +126,7 @@ fn every_fact_has_a_value_of_its_kind() {
 }
 
 #[test]
-fn the_weakest_place_of_a_line_is_told_with_its_limit() {
+fn the_weakest_place_of_a_line_is_reported_with_its_limit() {
     let gear = rig(
         1,
         "sink-3-8",

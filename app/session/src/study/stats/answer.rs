@@ -174,7 +174,7 @@ mod tests {
             "In 8 encounters, no option differs from as today in “held” by more than chance."
         );
         let points = 100.0 * paired.difference_interval.high;
-        assert!((20.0..40.0).contains(&points), "Wilson's upper bound of none in eight is 32 %");
+        assert!((20.0..40.0).contains(&points), "Wilson's upper bound of 0 in 8 is 32 %");
         let hidden = format!("weak may differ from it by up to {points:.0} points.");
         assert!(answer[1].starts_with(&hidden), "{}", answer[1]);
         assert!(answer[1].ends_with("All these encounters have the same result."), "{}", answer[1]);

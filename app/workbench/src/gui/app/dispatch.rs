@@ -32,7 +32,7 @@ impl App {
     /// Performs commands, one after the other.
     pub fn perform(&mut self, context: &Context, commands: Vec<WindowCommand>) {
         for command in commands {
-            if let Some([now, _]) = &mut self.told {
+            if let Some([now, _]) = &mut self.reported {
                 now.push(command.id().to_owned());
             }
             self.select();

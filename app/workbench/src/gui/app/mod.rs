@@ -43,8 +43,8 @@ pub struct App {
     dressed: Option<crate::gui::theme::Theme>,
     controls_at_s: Option<f64>,
     /// Commands performed in this frame and in the one before, reported on standard error once a frame after them was drawn;
-    /// `None` where nobody asked.
-    told: Option<[Vec<String>; 2]>,
+    /// `None` if not requested.
+    reported: Option<[Vec<String>; 2]>,
 }
 
 impl App {
@@ -84,7 +84,7 @@ impl App {
             palette: crate::gui::palette::Palette::default(),
             dressed: None,
             controls_at_s: None,
-            told: std::env::var_os("ENDLINE_TELL_COMMANDS").map(|_| Default::default()),
+            reported: std::env::var_os("ENDLINE_TELL_COMMANDS").map(|_| Default::default()),
         }
     }
 
@@ -190,7 +190,7 @@ impl App {
 
     /// Reports the commands whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
     fn tell(&mut self, context: &Context) {
-        let Some([now, drawn]) = &mut self.told else { return };
+        let Some([now, drawn]) = &mut self.reported else { return };
         drawn.drain(..).for_each(|command| eprintln!("command: {command}"));
         std::mem::swap(now, drawn);
         if !drawn.is_empty() {

@@ -37,7 +37,7 @@ pub enum ViewAction {
     Look(View),
     /// Bring everything into sight.
     Frame,
-    /// Show so many views at once, one to four.
+    /// Shows a number of views at once, one to four.
     Split(usize),
     /// Show or hide the handles that drag the whale's start.
     Pose,

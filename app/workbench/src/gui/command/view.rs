@@ -62,7 +62,7 @@ pub static COMMANDS: &[WindowInfo] = &[
     WindowInfo::new(
         "view.split",
         "Views at once:",
-        "Shows so many views of the same moment beside one another.",
+        "Shows this number of views of the same moment side by side.",
         Make::Choices(|_| {
             (1..=MOST_PANES)
                 .map(|count| Choice::new(count.to_string(), ViewAction::Split(count).into()))
@@ -87,7 +87,7 @@ pub static COMMANDS: &[WindowInfo] = &[
     WindowInfo::new(
         "view.save-film",
         "Save a film of the run",
-        "Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window goes on meanwhile.",
+        "Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window can be used meanwhile.",
         Make::File {
             question: |shared| {
                 let scenario = stem(shared.workbench.project().documents.scenario_path());

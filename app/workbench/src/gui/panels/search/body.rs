@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, FontId, Painter, Rect, RichText, Sense, Stroke, Ui, vec2};
 use endline_gear::{PathPlace, Site};
 use endline_sdk::Side;
-use endline_session::edit::observation::{self, Range, Told};
+use endline_session::edit::observation::{self, Range, Sighting};
 
 use super::SearchPanel;
 use crate::gui::bodymap::{BodyMap, Edge, Face};
@@ -24,7 +24,7 @@ pub(super) struct Map {
 /// The observation, prepared for drawing.
 struct Seen {
     /// For each single site: the site of the observation that covers it, and its state.
-    sites: Vec<(Site, Site, Told)>,
+    sites: Vec<(Site, Site, Sighting)>,
     /// Wraps of a site, such as `1 – 4`.
     wraps: Vec<(Site, String)>,
     path: Vec<PathPlace>,
@@ -36,9 +36,9 @@ impl Seen {
         let documents = shared.documents();
         let entry = |single: Site| {
             let site = observation::site_of(documents, single);
-            (single, site, observation::told(documents, site))
+            (single, site, observation::sighting_of(documents, site))
         };
-        let sites: Vec<(Site, Site, Told)> = Site::SINGLE.into_iter().map(entry).collect();
+        let sites: Vec<(Site, Site, Sighting)> = Site::SINGLE.into_iter().map(entry).collect();
         let wraps = sites.iter().filter_map(|(single, site, sighting)| {
             let [least, most] = observation::range(documents, Range::Wraps(*site));
             let words = if least == most { least } else { format!("{least} – {most}") };
@@ -49,9 +49,9 @@ impl Seen {
         Self { wraps: wraps.collect(), sites, path, palette: Theme::palette_of(ui) }
     }
 
-    fn sighting(&self, single: Site) -> (Site, Told) {
+    fn sighting(&self, single: Site) -> (Site, Sighting) {
         let found = self.sites.iter().find(|(own, ..)| *own == single);
-        found.map_or((single, Told::Nothing), |(_, site, sighting)| (*site, *sighting))
+        found.map_or((single, Sighting::Nothing), |(_, site, sighting)| (*site, *sighting))
     }
 }
 
@@ -109,11 +109,11 @@ fn is_of(site: Site, single: Site) -> bool {
 }
 
 /// Colour of a body part, stronger with greater certainty.
-fn colour(sighting: Told, plain: Color32, palette: Palette) -> Color32 {
+fn colour(sighting: Sighting, plain: Color32, palette: Palette) -> Color32 {
     match sighting {
-        Told::Nothing => plain,
-        Told::Hidden => palette.ground.lerp_to_gamma(plain, 0.25),
-        Told::Seen(present) => {
+        Sighting::Nothing => plain,
+        Sighting::Hidden => palette.ground.lerp_to_gamma(plain, 0.25),
+        Sighting::Seen(present) => {
             // The colours of the dark theme are light enough for filling.
             let Palette { warning, good, .. } = Theme::Dark.palette();
             let end = if present > 0.5 { warning } else { good };
@@ -165,10 +165,10 @@ fn legend(ui: &mut Ui, seen: &Seen, plain: Color32, hovered: Option<Site>) {
     let palette = seen.palette;
     ui.horizontal_wrapped(|ui| {
         let meanings = [
-            (Told::Seen(1.0), "rope"),
-            (Told::Seen(0.0), "no rope"),
-            (Told::Hidden, "hidden"),
-            (Told::Nothing, "unknown"),
+            (Sighting::Seen(1.0), "rope"),
+            (Sighting::Seen(0.0), "no rope"),
+            (Sighting::Hidden, "hidden"),
+            (Sighting::Nothing, "unknown"),
         ];
         for (sighting, words) in meanings {
             let (rect, _) = ui.allocate_exact_size(vec2(11.0, 11.0), Sense::hover());
@@ -193,11 +193,11 @@ fn legend(ui: &mut Ui, seen: &Seen, plain: Color32, hovered: Option<Site>) {
 }
 
 /// State of a part in words.
-fn in_words(sighting: Told) -> String {
+fn in_words(sighting: Sighting) -> String {
     match sighting {
-        Told::Nothing => "unknown".to_owned(),
-        Told::Hidden => "hidden from view".to_owned(),
-        Told::Seen(present) => {
+        Sighting::Nothing => "unknown".to_owned(),
+        Sighting::Hidden => "hidden from view".to_owned(),
+        Sighting::Seen(present) => {
             let what = if present > 0.5 { "rope" } else { "no rope" };
             format!("{what}, {:.0} % sure", 100.0 * present.max(1.0 - present))
         }

@@ -4,7 +4,7 @@ use egui::{CollapsingHeader, ComboBox, RichText, Slider, TextEdit, Ui};
 use endline_gear::{PathPlace, RopeEnd, Setting, Site};
 use endline_sdk::Side;
 use endline_session::command::EditAction;
-use endline_session::edit::observation::{Range, Told};
+use endline_session::edit::observation::{Range, Sighting};
 use endline_session::edit::{Documents, observation};
 
 use crate::gui::fields::Said;
@@ -27,14 +27,14 @@ const WRAPS: Words = Words {
 pub(super) fn show_part(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &mut Edits) {
     let documents = shared.documents();
     let site = observation::site_of(documents, single);
-    let sighting = observation::told(documents, site);
+    let sighting = observation::sighting_of(documents, site);
     egui::Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(8.0).show(
         ui,
         |ui| {
             ui.set_width(ui.available_width());
             head(ui, single, site, sighting, edits);
             state(ui, site, sighting, edits);
-            if let Told::Seen(present) = sighting {
+            if let Sighting::Seen(present) = sighting {
                 sure(ui, shared, site, present, edits);
                 rope_on_part(ui, shared, site, sighting, edits);
             }
@@ -43,10 +43,10 @@ pub(super) fn show_part(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &
 }
 
 /// Draws the name of the part, and for paired parts whether the side is known.
-fn head(ui: &mut Ui, single: Site, site: Site, sighting: Told, edits: &mut Edits) {
+fn head(ui: &mut Ui, single: Site, site: Site, sighting: Sighting, edits: &mut Edits) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(capital(&spoken(site.name()))).strong());
-        let Some(pair) = observation::pair_of(single).filter(|_| sighting != Told::Nothing) else {
+        let Some(pair) = observation::pair_of(single).filter(|_| sighting != Sighting::Nothing) else {
             return;
         };
         let help = "If the side is not known";
@@ -59,30 +59,30 @@ fn head(ui: &mut Ui, single: Site, site: Site, sighting: Told, edits: &mut Edits
 }
 
 /// Draws the choice between rope, no rope, hidden and unknown.
-fn state(ui: &mut Ui, site: Site, sighting: Told, edits: &mut Edits) {
+fn state(ui: &mut Ui, site: Site, sighting: Sighting, edits: &mut Edits) {
     ui.horizontal(|ui| {
         widgets::name(ui, "Seen");
-        let rope = matches!(sighting, Told::Seen(present) if present > 0.5);
-        let none = matches!(sighting, Told::Seen(present) if present <= 0.5);
+        let rope = matches!(sighting, Sighting::Seen(present) if present > 0.5);
+        let none = matches!(sighting, Sighting::Seen(present) if present <= 0.5);
         let choices = [
-            (rope, Told::Seen(SURE), "Rope", "Rope was seen on this part"),
-            (none, Told::Seen(1.0 - SURE), "No rope", "The part was visible and had no rope"),
+            (rope, Sighting::Seen(SURE), "Rope", "Rope was seen on this part"),
+            (none, Sighting::Seen(1.0 - SURE), "No rope", "The part was visible and had no rope"),
             (
-                sighting == Told::Hidden,
-                Told::Hidden,
+                sighting == Sighting::Hidden,
+                Sighting::Hidden,
                 "Hidden",
                 "The part was not visible; it does not affect the distance",
             ),
             (
-                sighting == Told::Nothing,
-                Told::Nothing,
+                sighting == Sighting::Nothing,
+                Sighting::Nothing,
                 "Unknown",
                 "The observation does not mention it; rope there adds a small cost",
             ),
         ];
         for (is_so, then, words, help) in choices {
             if ui.selectable_label(is_so, words).on_hover_text(help).clicked() && !is_so {
-                edits.push(Box::new(move |document| observation::tell(document, site, then)));
+                edits.push(Box::new(move |document| observation::set_sighting(document, site, then)));
             }
         }
     });
@@ -109,7 +109,7 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
                     shared.set_held(Documents::OBSERVATION, &field, &text);
                 }
                 None => edits.push(Box::new(move |document| {
-                    observation::tell(document, site, Told::Seen(present))
+                    observation::set_sighting(document, site, Sighting::Seen(present))
                 })),
             }
         } else if response.drag_stopped() {
@@ -119,7 +119,7 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
 }
 
 /// Draws wraps, tightness and method of observation.
-fn rope_on_part(ui: &mut Ui, shared: &Shared, site: Site, sighting: Told, edits: &mut Edits) {
+fn rope_on_part(ui: &mut Ui, shared: &Shared, site: Site, sighting: Sighting, edits: &mut Edits) {
     if sighting.has_rope() {
         ends(ui, shared, &WRAPS, Range::Wraps(site), edits);
         tight(ui, shared, site, edits);

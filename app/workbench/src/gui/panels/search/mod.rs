@@ -87,7 +87,7 @@ impl SearchPanel {
         }
         self.of = path.map(Path::to_owned);
         let has_rope = |single: &Site| {
-            observation::told(documents, observation::site_of(documents, *single)).has_rope()
+            observation::sighting_of(documents, observation::site_of(documents, *single)).has_rope()
         };
         self.chosen = Site::SINGLE.into_iter().find(has_rope).unwrap_or(Site::Body);
     }
