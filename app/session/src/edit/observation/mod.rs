@@ -54,7 +54,8 @@ impl Sighting {
 /// The site that holds the sighting of a single part: itself, or its pair.
 pub fn site_of(documents: &Documents, single: Site) -> Site {
     let pair = pair_of(single).filter(|pair| {
-        sighting_of(documents, single) == Sighting::Nothing && sighting_of(documents, *pair) != Sighting::Nothing
+        sighting_of(documents, single) == Sighting::Nothing
+            && sighting_of(documents, *pair) != Sighting::Nothing
     });
     pair.unwrap_or(single)
 }

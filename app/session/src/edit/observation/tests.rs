@@ -71,7 +71,10 @@ fn a_part_takes_the_sighting_of_its_pair_and_the_reverse() {
 
 /// An observation with a number of sites beside those of the text.
 fn seen_sites(sites: &[Site]) -> Observation {
-    edited(|document| sites.iter().try_for_each(|site| set_sighting(document, *site, Sighting::Seen(1.0)))).1
+    edited(|document| {
+        sites.iter().try_for_each(|site| set_sighting(document, *site, Sighting::Seen(1.0)))
+    })
+    .1
 }
 
 #[test]

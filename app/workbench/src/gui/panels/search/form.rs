@@ -46,7 +46,8 @@ pub(super) fn show_part(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &
 fn head(ui: &mut Ui, single: Site, site: Site, sighting: Sighting, edits: &mut Edits) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(capital(&spoken(site.name()))).strong());
-        let Some(pair) = observation::pair_of(single).filter(|_| sighting != Sighting::Nothing) else {
+        let Some(pair) = observation::pair_of(single).filter(|_| sighting != Sighting::Nothing)
+        else {
             return;
         };
         let help = "If the side is not known";
@@ -82,7 +83,9 @@ fn state(ui: &mut Ui, site: Site, sighting: Sighting, edits: &mut Edits) {
         ];
         for (is_so, then, words, help) in choices {
             if ui.selectable_label(is_so, words).on_hover_text(help).clicked() && !is_so {
-                edits.push(Box::new(move |document| observation::set_sighting(document, site, then)));
+                edits.push(Box::new(move |document| {
+                    observation::set_sighting(document, site, then)
+                }));
             }
         }
     });
