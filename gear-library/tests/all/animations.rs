@@ -166,7 +166,7 @@ fn problems_of_an_animation_have_a_place_and_a_correction() {
         (
             "animation",
             "key = [{ at = \"0 s\", jaw = \"1 deg\" }]\nanimation",
-            ["both `animation` and [[key]]", "leave one of them out"],
+            ["both `animation` and [[key]]", "remove one of them"],
         ),
     ] {
         let message = reported(&ACT.replacen(from, to, 1), &good);

@@ -377,9 +377,9 @@ fn a_study_names_no_file_out_of_its_folder_and_options_have_ids_that_are_names()
         ("../../../.cargo/config.toml", "b", "leads out of the study's folder", 4),
         ("/etc/x.toml", "b", "leads out of the study's folder", 4),
         ("../x", "b", "leads out of the study's folder", 4),
-        ("hello-endline", "../../x", "is no `id`", 10),
-        ("hello-endline", "", "is no `id`", 10),
-        ("hello-endline", "=cmd|calc", "is no `id`", 10),
+        ("hello-endline", "../../x", "is not a valid `id`", 10),
+        ("hello-endline", "", "is not a valid `id`", 10),
+        ("hello-endline", "=cmd|calc", "is not a valid `id`", 10),
     ];
     for (scenario, option, says, line) in hostile {
         let problems = endline_gear::Study::read("s.toml", &text(scenario, option)).unwrap_err();

@@ -309,7 +309,7 @@ fn weights_must_be_there_and_be_four_at_most() {
             own.insert("WEIGHTS_0".into(), own["COLOR_0"].clone());
         }
     });
-    assert_problems(&off, &["rows of 3, not 4 numbers"]);
+    assert_problems(&off, &["rows of 3 instead of 4 numbers"]);
     let unskinned = changed(|file| {
         file["nodes"][0].as_object_mut().unwrap().remove("skin");
     });

@@ -127,7 +127,7 @@ impl LinearSystem {
         force: DVec3,
         block: &DMat3,
     ) {
-        debug_assert!((0.0..=1.0).contains(&fraction), "fraction {fraction} of a segment");
+        debug_assert!(is_fraction(fraction), "fraction {fraction} of a segment");
         if self.in_lanes {
             self.lanes.add_contact(segment, fraction, force, block);
         } else {
@@ -157,7 +157,7 @@ impl LinearSystem {
     pub fn couple_ropes(&mut self, coupling: ContactBlock, force: DVec3) -> bool {
         debug_assert!(!self.in_lanes, "ropes are coupled as lines");
         debug_assert!(
-            coupling.fractions.iter().all(|fraction| (0.0..=1.0).contains(fraction)),
+            coupling.fractions.into_iter().all(is_fraction),
             "fractions {:?} of segments",
             coupling.fractions
         );
@@ -262,6 +262,11 @@ impl LinearSystem {
         let moves = plan.body_block.iter().map(|block| self.interface.step[*block].length());
         moves.fold(0.0, f64::max)
     }
+}
+
+/// Whether a number is from 0 to 1, but for rounding.
+fn is_fraction(number: f64) -> bool {
+    (-1e-9..=1.0 + 1e-9).contains(&number)
 }
 
 /// Adds a line reduced to its ends to the interface system.

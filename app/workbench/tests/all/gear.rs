@@ -197,7 +197,7 @@ fn inserts_are_spaced_along_the_whole_endline_and_a_wrong_share_keeps_form_and_d
     assert!(answer.is_err(), "a length is not a share");
     assert!(harness.query_all_by_label("Within top").next().is_some(), "the form is kept");
     assert!(
-        harness.query_all_by_label_contains("as it was last").next().is_some(),
+        harness.query_all_by_label_contains("last result").next().is_some(),
         "the drawing is not marked as outdated"
     );
 }

@@ -75,7 +75,7 @@ fn a_study_is_edited_and_run_and_a_run_of_it_is_replayed_to_the_bit() {
     let parts = [
         (Part::Forest, "Difference of rates from Strong link"),
         (Part::Tensions, "Each dot is a run"),
-        (Part::Sensitivity, "by parts of each input"),
+        (Part::Sensitivity, "for parts of the range of each input"),
         (Part::Rates, "Strong link (baseline)"),
     ];
     for (part, says) in parts {
