@@ -177,7 +177,7 @@ fn ballast_and_pieces_that_are_impossible_are_reported() {
             "\"0.1 kg\"\nlength",
             "`kg` is a unit of a mass, not of a length",
         ),
-        (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L is more than the whole cylinder's 1.18 L"),
+        (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L exceeds the 1.18 L of the cylinder"),
         (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry the mass"),
     ] {
         let message = message_of(path, from, to);

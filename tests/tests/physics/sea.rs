@@ -139,7 +139,7 @@ const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
         "",
         "[current]\nroughness = \"3 mm\"\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
         "roughness",
-        ["beside a profile", "take"],
+        ["beside a profile", "remove"],
     ),
     (
         "",

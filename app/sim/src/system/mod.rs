@@ -264,9 +264,9 @@ impl LinearSystem {
     }
 }
 
-/// Whether a number is from 0 to 1, but for rounding.
+/// Whether a number is from 0 to 1, but for rounding. A trial that diverges has numbers that are not finite.
 fn is_fraction(number: f64) -> bool {
-    (-1e-9..=1.0 + 1e-9).contains(&number)
+    (-1e-9..=1.0 + 1e-9).contains(&number) || !number.is_finite()
 }
 
 /// Adds a line reduced to its ends to the interface system.

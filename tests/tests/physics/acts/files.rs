@@ -223,8 +223,8 @@ fn shipped_acts_keep_to_the_right_whales_joints() {
     );
     let message = problems[0].to_string();
     assert!(
-        message.contains("asks for 50.0 deg of FlipperRaise(0)")
-            && message.contains("turns -60.0 to 25.0 deg"),
+        message.contains("sets FlipperRaise(0) to 50.0 deg")
+            && message.contains("is -60.0 to 25.0 deg"),
         "{message}"
     );
 }

@@ -162,7 +162,7 @@ fn figures_of_a_run_that_are_computed() {
     };
     assert_eq!(counts["snap"], report.audit.limited_by[2]);
     let mostly = value(AUDIT, "steps_mostly_limited_by", &report);
-    assert!(matches!(mostly, Value::Text(text) if text.starts_with("forces that balance")));
+    assert!(matches!(mostly, Value::Text(text) if text.starts_with("forces that converge")));
     let body = &report.summary.bodies[1];
     assert_eq!(value(BODY, "whale_part", body), "head".into());
     assert_eq!(value(BODY, "peak_whale_part", body), "peduncle".into());
