@@ -185,7 +185,7 @@ fn problems_of_an_animation_have_a_place_and_a_correction() {
     }
     let message = reported(ACT, &twisted);
     assert!(
-        message.contains("turns `jaw`")
+        message.contains("rotates `jaw`")
             && message.contains("axis that the bone does not have")
             && message.contains("lock"),
         "{message}"
