@@ -71,7 +71,7 @@ pub struct Rule {
     /// Its numbers.
     pub parameters: Vec<Parameter>,
     /// Remedy for gear that does not comply.
-    pub mend: String,
+    pub remedy: String,
     /// Remarks; may be empty.
     pub notes: String,
 }
@@ -175,7 +175,7 @@ fn rule(
     let id = fields.need_id("id", "write an id such as \"ma.strength\"");
     let asks = fields.need_text("asks", "write the requirement in a sentence");
     let cite = fields.need_text("cite", "name the law, or the page, that states it");
-    let mend = fields.need_text("mend", "write the remedy for gear that does not comply");
+    let remedy = fields.need_text("remedy", "write the remedy for gear that does not comply");
     let standing =
         fields.need_word("standing", "write law, voluntary or proposed", &Standing::WORDS);
     let (from, until) = in_force(fields);
@@ -214,7 +214,7 @@ fn rule(
         when: None,
         check: check.clone()?,
         parameters: Vec::new(),
-        mend: mend?.value,
+        remedy: remedy?.value,
         notes,
     })
 }

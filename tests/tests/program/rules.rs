@@ -22,7 +22,7 @@ from = "2024-01-01"
 areas = ["my-bay"]
 subject = "every endline"
 check = "sinking_share >= least"
-mend = "Use sinking rope."
+remedy = "Use sinking rope."
 [rule.parameters]
 least = 0.5
 "#;
@@ -88,14 +88,14 @@ fn a_strength_names_the_rope_that_has_it_and_a_length_the_whole_endline() {
 fn mistakes_in_a_pack_stand_at_their_lines_and_the_packs_that_ship_have_none() {
     let place = Place::new("rule-mistakes");
     let pack = PACK
-        .replace("areas = [\"my-bay\"]", "areas = [\"my-bay\"]\nmened = 1")
+        .replace("areas = [\"my-bay\"]", "areas = [\"my-bay\"]\nremmedy = 1")
         .replace("2024-01-01", "2024-13-01")
         .replace("least = 0.5", "least = \"1 m\"");
     place.write("bay.toml", &pack);
     let called = place.endline(&["--library", library().to_str().unwrap(), "check", "bay.toml"]);
     let printed = [
         "bay.toml:15:8",
-        "unknown field `mened`",
+        "unknown field `remmedy`",
         "bay.toml:19:9",
         "compares a plain number and a length",
     ];

@@ -188,7 +188,7 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
             .collect::<Vec<_>>()
             .join(": ")
     });
-    let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.mend));
+    let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.remedy));
     let name = [rule.rule.clone(), standing].into_iter().filter(|line| !line.is_empty());
     vec![
         Cell::lines(name),

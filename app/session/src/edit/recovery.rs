@@ -188,7 +188,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_files_whose_lock_nobody_holds_were_left_behind() {
+    fn only_files_with_a_free_lock_were_left_behind() {
         let folder = std::env::temp_dir().join(format!("endline-recovery-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let kept = UnsavedEdits { root: "root".into(), ..UnsavedEdits::default() };

@@ -263,7 +263,7 @@ struct RuleOf<'a> {
     /// Numbers of the expressions.
     parameters: Vec<ParameterOf<'a>>,
     /// How to make gear meet the rule, in words.
-    mend: &'a str,
+    remedy: &'a str,
     /// Notes.
     notes: &'a str,
 }
@@ -331,7 +331,7 @@ fn rule(rule: &Rule) -> RuleOf<'_> {
         when: rule.when.as_ref().map(|when| when.value.as_str()),
         check: &rule.check.value,
         parameters: rule.parameters.iter().map(parameter).collect(),
-        mend: &rule.mend,
+        remedy: &rule.remedy,
         notes: &rule.notes,
     }
 }

@@ -58,7 +58,7 @@ pub struct RuleResult {
     /// The measured values, beside the limits.
     pub measured: Vec<Measured>,
     /// How to make gear that fails meet it; empty otherwise.
-    pub mend: String,
+    pub remedy: String,
 }
 
 /// A measured value beside its limit.
@@ -142,7 +142,7 @@ pub(super) fn of(
         verdict: found.verdict,
         why: found.why,
         measured: found.measured,
-        mend: if fails { rule.mend.clone() } else { String::new() },
+        remedy: if fails { rule.remedy.clone() } else { String::new() },
     })
 }
 

@@ -67,7 +67,7 @@ impl Question {
         Self::of_sources((path, text), encounters, files, None, host)
     }
 
-    /// The same with the library and the open scenario and study as they are edited.
+    /// The question with the library and the open scenario and study as they are edited.
     /// Errors: as [`open`](Self::open).
     pub fn of_sources(
         (path, text): (&Path, &str),

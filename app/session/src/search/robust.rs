@@ -33,7 +33,7 @@ pub(super) struct Tried<'a> {
     pub(super) elite: &'a Elite,
     /// Share of its neighbours that are like the observation.
     pub(super) alike: f64,
-    /// The same encounter on a finer resolution.
+    /// The encounter on a finer resolution.
     pub(super) finer: FinerRun,
 }
 

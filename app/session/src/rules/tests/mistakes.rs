@@ -24,7 +24,7 @@ season = [300, 60]
 subject = "every endline"
 when = "traps >= 1"
 check = "least_rated <= strength && longest_gap(weak_places(line, strength)) <= spacing"
-mend = "Change it."
+remedy = "Change it."
 [rule.parameters]
 strength = "1,700 lbf"
 spacing = { value = "60 ft", source = "another page", confidence = "estimate" }
@@ -64,7 +64,7 @@ fn each_mistake_stands_at_its_line() {
             22,
         ),
         ("(line, strength)", "(line, spacing)", "`weak_places` takes an endline and a force", 22),
-        ("mend = ", "mened = ", "unknown field `mened`", 23),
+        ("remedy = ", "remmedy = ", "unknown field `remmedy`", 23),
         ("1,700 lbf", "1,700 lbs of force", "unknown unit `lbs of force`", 25),
         ("spacing = {", "weak_places_x = {", "begins with the name of the function", 26),
         ("spacing = {", "traps = {", "`traps` is the name of a fact", 26),

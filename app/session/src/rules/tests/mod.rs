@@ -45,7 +45,7 @@ fn every_rule_that_ships_passes_gear_and_fails_gear_or_cannot_be_checked() {
             let result = verdict(&packs, rule, gear, place);
             assert_eq!(result.verdict, expected, "{rule} on\n{gear}\n{result:?}");
             assert!(!result.measured.is_empty(), "{result:?}");
-            assert_eq!(result.mend.is_empty(), expected == Verdict::Pass, "{result:?}");
+            assert_eq!(result.remedy.is_empty(), expected == Verdict::Pass, "{result:?}");
         }
     }
     let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS]);

@@ -137,7 +137,7 @@ fn fewer_by(own: &EventIndicators, fewer: &EventIndicators) -> (Rate, Option<f64
     (Rate::of(fewer), paired.ratio.map(|ratio| 1.0 - ratio), interval)
 }
 
-/// The same for shares among encounters that need not be the same ones for both: interval on the logarithm of the ratio with
+/// Reduction of shares among independent encounters: interval on the logarithm of the ratio with
 /// variance `Σ (1 - p)/k`, half an event added to each count `k` (Katz et al. 1978).
 fn fewer_apart(own: Rate, fewer: Rate) -> (Rate, Option<f64>, Interval) {
     let unknown = Interval { low: f64::NEG_INFINITY, high: 1.0 };

@@ -67,7 +67,7 @@ fn one(rule: &RuleResult) -> String {
         text += &format!("{indent}and {} more\n", rule.measured.len() - MOST_SHOWN);
     }
     if rule.verdict == Verdict::Fail {
-        text += &format!("{indent}fix: {}\n{indent}{}\n", rule.mend, rule.cite);
+        text += &format!("{indent}fix: {}\n{indent}{}\n", rule.remedy, rule.cite);
     }
     text
 }

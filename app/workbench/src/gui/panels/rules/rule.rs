@@ -62,8 +62,8 @@ fn measured(ui: &mut Ui, rule: &RuleResult) {
 fn edits(ui: &mut Ui, shared: &mut Shared, answer: &RuleAnswer, rule: &RuleResult) {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "To comply");
-    if !rule.mend.is_empty() {
-        ui.add(Label::new(&rule.mend).wrap());
+    if !rule.remedy.is_empty() {
+        ui.add(Label::new(&rule.remedy).wrap());
     }
     let Some(remedies) = &answer.remedies else {
         ui.horizontal(|ui| {
