@@ -202,7 +202,7 @@ fn of_row(
     Ok((path.clone(), document.text(), known.is_some()))
 }
 
-/// Where figures that a row changes come from: what the row says, unless it only repeats what the entry said of the old ones.
+/// Source of the figures that a row changes: that of the row, unless it repeats the source of the old figures.
 fn provenance(
     document: &Document,
     source: Option<&str>,

@@ -41,7 +41,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// In a few words: what begins it and what it sets.
+    /// A short description: its start and its settings.
     pub fn words(&self) -> String {
         let begins = TRIGGERS
             .iter()

@@ -91,7 +91,7 @@ impl Documents {
         self.newer.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }
 
-    /// Decides what becomes of a file that is [`newer`](Self::newer) and of the edits of it here; says what was done.
+    /// Resolves the conflict of a file that is [`newer`](Self::newer) with its edits here; returns a description of the result.
     /// Errors: a file that cannot be written, or that has changed once more.
     pub fn reconcile(&mut self, path: &str, keep: Keep) -> Result<String, String> {
         let Some(theirs) = self.newer.remove(path) else {

@@ -36,7 +36,7 @@ pub struct OptionPlan {
 }
 
 impl OptionPlan {
-    /// The baseline scenario and the library with what was drawn, and with what the option sets and removes of the fields asked for.
+    /// The baseline scenario and the library with the drawn values, and with the settings and removals of the option.
     /// Errors: a field that cannot be set or removed.
     pub(super) fn edited<'a>(
         &self,

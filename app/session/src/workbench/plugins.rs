@@ -178,7 +178,7 @@ impl Plugins {
         Ok(())
     }
 
-    /// Takes in what threads have ready: a new host, where plugins were loaded again, and what to tell.
+    /// Receives the results of threads: a new host, if plugins were loaded again, and a notice.
     fn poll(&mut self) -> Option<(PluginHost, Option<String>)> {
         let mut answers = Vec::new();
         self.pending.retain(|pending| match pending.try_recv() {

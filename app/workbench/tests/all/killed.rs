@@ -83,7 +83,7 @@ fn began(root: &Path) -> Child {
         .unwrap()
 }
 
-/// Starts and kills one process, and returns what is wrong with what it left.
+/// Starts and kills one process, and returns the errors in the files that it left.
 fn kill_one(root: &Path, after: Duration) -> String {
     let before = std::fs::read_to_string(root.join("log")).unwrap_or_default().lines().count();
     let mut child = began(root);

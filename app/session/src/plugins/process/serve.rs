@@ -1,7 +1,7 @@
 //! The side of the process: it opens the library whose bytes it receives, and answers calls of its plugins until the pipe closes.
 //!
-//! Before it answers, it gives up what a law of friction, a motion or a gear type has no use for: more than 2 GB of memory, and what
-//! `sandbox` names. The library's initialisers have run by then; the check has seen them too.
+//! Before it answers, it gives up rights that a friction law, a motion or a gear type does not need: more than 2 GB of memory, and
+//! those that `sandbox` names. The library's initialisers have run by then; the check has seen them too.
 
 use std::fs::File;
 use std::io::{self, BufReader, IsTerminal};

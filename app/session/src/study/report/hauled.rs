@@ -1,4 +1,4 @@
-//! Hauls beside a study: what parts at the hauler against what parts on a whale, by the strength of the line.
+//! Hauls beside a study: probability of parting at the hauler against parting on a whale, by the strength of the line.
 //!
 //! A haul bore `T` where it came nearest to parting. A line that delivers `S` in the mean there, with the coefficient of variation `c`, parts
 //! at the hauler with the probability `Φ((T/S - 1)/c)` (`haul/risk.rs`): the load of a haul depends on weight and speed, hardly on the
