@@ -137,7 +137,7 @@ impl Lanes {
             } else {
                 (index, 0)
             };
-            let behind = if piece.goes_on { (index + 1, 1) } else { (index, piece.segments) };
+            let behind = if piece.continues { (index + 1, 1) } else { (index, piece.segments) };
             let place_of = |(piece, k): (usize, usize)| {
                 self.node(piece, k).place.vector(self.pieces[piece].lane)
             };
@@ -184,7 +184,7 @@ impl PieceRows<'_> {
         let bending = model.spec.ropes[model.spec.lines[piece.line].rope].bending_stiffness_n_m2;
         for (k, row) in nodes[1..][..=piece.segments].iter_mut().enumerate() {
             let behind = piece.first_segment + k;
-            let is_inner = (k > 0 || piece.follows) && (k < piece.segments || piece.goes_on);
+            let is_inner = (k > 0 || piece.follows) && (k < piece.segments || piece.continues);
             let bends = is_inner && !cut[behind - 1] && !cut[behind];
             let [one, other] =
                 if bends { [length[behind - 1], length[behind]] } else { [1.0, 1.0] };

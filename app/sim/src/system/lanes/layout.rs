@@ -18,7 +18,7 @@ pub(crate) struct Piece {
     pub segments: usize,
     /// Whether the line continues before and behind it.
     pub follows: bool,
-    pub goes_on: bool,
+    pub continues: bool,
     /// Whether its end A is on a fixture.
     pub anchored: bool,
     /// Whether its rope resists bending.
@@ -68,7 +68,7 @@ pub(crate) fn pieces(model: &Model) -> Vec<Piece> {
                 first_segment: segments.start + from,
                 segments: to - from,
                 follows: part > 0,
-                goes_on: part + 1 < count,
+                continues: part + 1 < count,
                 bends: model.spec.ropes[model.spec.lines[line].rope].bending_stiffness_n_m2 > 0.0,
                 anchored: part == 0 && is_fixture(&model.spec.joints[model.spec.lines[line].from]),
                 group: 0,
