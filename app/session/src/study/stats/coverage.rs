@@ -107,8 +107,8 @@ proposal = { bins = ["0 m", "0.02 m", "1 m"], weights = [0.6, 0.4] }
 source = "assumed"
 "#;
 
-/// One simulated study: an encounter's offset, whether two options hold the whale, and what it weighs; `elsewhere` is how likely that is away
-/// from where most are drawn, as a share of what it is there.
+/// One simulated study: whether each of two options holds the whale, with the weights of encounters; `elsewhere` is the probability of
+/// the event far from most proposals, as a share of that near them.
 fn rare_study(
     study: &Study,
     draws: &mut Draws,
