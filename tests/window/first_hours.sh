@@ -57,7 +57,7 @@ flown() {
     within 300 "kept $1" 0.3
 }
 # A cell of the first rope of the table, typed anew.
-strength() { click 890 "$1"; keys ctrl+a; typed "$2"; keys Return; still 5; }
+strength() { click 860 "$1"; keys ctrl+a; typed "$2"; keys Return; still 5; }
 
 # The designer's task list: edit a rope, put inserts every 60 ft into the top 75 % of the endline, compare slack and running tide, fly, find the peak tension.
 designer() {
