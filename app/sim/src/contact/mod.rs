@@ -377,18 +377,23 @@ impl Contacts {
         self.kinds().any(ContactKind::is_touching)
     }
 
+    /// Whether rope may touch skin in the solver step.
+    pub fn rope_touches_skin(&self) -> bool {
+        self.rope_on_skin.as_ref().is_some_and(|kind| kind.touching)
+    }
+
     /// Whether anything but rope on rope may touch in the solver step.
     pub fn is_touching_besides_ropes(&self) -> bool {
         self.kinds().any(|kind| kind.kind() != Kind::RopeOnRope && kind.is_touching())
     }
 
     /// Whether any kind may add forces on rope in the solver step, other than couplings of rope on rope.
-    pub fn add_on_rope(&self) -> bool {
+    pub fn adds_on_rope(&self) -> bool {
         self.kinds().any(ContactKind::adds_on_rope)
     }
 
     /// Whether the check of paths reads the places of rope.
-    pub fn check_path_of_rope(&self) -> bool {
+    pub fn checks_path_of_rope(&self) -> bool {
         self.kinds().any(ContactKind::checks_path_of_rope)
     }
 
@@ -526,9 +531,7 @@ impl Contacts {
     /// find; they are found from now on. Rope that stayed near its drift has reached nothing else.
     pub fn find_more(&mut self, context: &StepContext<'_>, moved_m: f64, places: &[DVec3]) -> bool {
         let StepContext { model, state, scheme } = *context;
-        let ropes = &self.rope_on_rope;
-        let beyond_ropes =
-            ropes.law.is_some() && (!ropes.pairs.is_empty() || moved_m > ropes.unwatched_m());
+        let beyond_ropes = self.may_move_beyond_ropes(moved_m);
         let beyond_solids = self.may_move_beyond_solids(moved_m);
         if !beyond_solids && !beyond_ropes {
             return false;
@@ -554,10 +557,12 @@ impl Contacts {
 
     /// Whether [`find_more`](Self::find_more) reads the places of rope after iterations that moved it by `moved_m` in all.
     pub fn reads_places(&self, moved_m: f64) -> bool {
+        self.may_move_beyond_ropes(moved_m) || self.may_move_beyond_solids(moved_m)
+    }
+
+    fn may_move_beyond_ropes(&self, moved_m: f64) -> bool {
         let ropes = &self.rope_on_rope;
-        let beyond_ropes =
-            ropes.law.is_some() && (!ropes.pairs.is_empty() || moved_m > ropes.unwatched_m());
-        beyond_ropes || self.may_move_beyond_solids(moved_m)
+        ropes.law.is_some() && (!ropes.pairs.is_empty() || moved_m > ropes.unwatched_m())
     }
 
     fn may_move_beyond_solids(&self, moved_m: f64) -> bool {

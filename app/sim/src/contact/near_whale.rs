@@ -1,6 +1,7 @@
 //! The search for rope and bodies near the whale over a step of the model.
 
 use crate::contact::Contacts;
+use crate::contact::rope_on_skin::RopeOnSkin;
 use crate::model::Model;
 use crate::state::State;
 
@@ -62,6 +63,6 @@ impl Contacts {
 
     /// Whether rope is near the whale in this step of the model.
     pub fn rope_is_near_whale(&self) -> bool {
-        self.rope_on_skin.as_ref().is_some_and(crate::contact::rope_on_skin::RopeOnSkin::is_near)
+        self.rope_on_skin.as_ref().is_some_and(RopeOnSkin::is_near)
     }
 }

@@ -43,7 +43,7 @@ impl Forces {
         }
     }
 
-    /// Direction and load of a segment on the end of a line, with the tension that was solved for [N].
+    /// Pull of a line on its end node `tip`: the solved tension of the end segment, toward its other node `inner` [N].
     pub fn pull_at(&self, trial: &Trial, [tip, inner, segment]: [usize; 3]) -> DVec3 {
         if self.cut[segment] {
             return DVec3::ZERO;

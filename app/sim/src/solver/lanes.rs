@@ -10,8 +10,7 @@ use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::trial::StepContext;
-use crate::trial::plan::Attachment;
-use crate::trial::plan::Plan;
+use crate::trial::plan::{Attachment, Plan};
 use crate::trial::scheme::Scheme;
 
 /// Rope nearer to the seabed than this is not free [m].

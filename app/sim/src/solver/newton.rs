@@ -135,7 +135,7 @@ impl Solver {
         if !self.system.in_lanes() {
             return self.solve_lines(context, share);
         }
-        if self.contacts.add_on_rope() {
+        if self.contacts.adds_on_rope() {
             return self.solve_in_lanes(context, rules, share);
         }
         let passed = self.pass_in_lanes(context, share);

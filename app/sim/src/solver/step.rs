@@ -12,9 +12,10 @@ use crate::forces::{Forces, body, pulled, tilt};
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
-use crate::trial::StepContext;
-use crate::trial::plan::Attachment;
+use crate::system::LinearSystem;
+use crate::trial::plan::{Attachment, Plan};
 use crate::trial::scheme::Scheme;
+use crate::trial::{StepContext, Trial};
 
 /// Contact with skin at the end of a solver step.
 pub(crate) struct SkinTouches<'a> {
@@ -93,10 +94,7 @@ impl Solver {
         forces.add_bending(model, trial, system);
         forces.add_bodies(context, (plan, trial), system);
         contacts.assemble_on_bodies(Order::Last, &assembly, system);
-        self.add_end_turns(model, scheme);
-        let Self { plan, trial, contacts, system, .. } = self;
-        let assembly =
-            Assembly { context: *context, plan, trial, active_set: ActiveSet::Predicted };
+        add_end_turns(context, forces, (plan, trial), system);
         contacts.assemble_on_rope(Order::Last, &assembly, system);
     }
 
@@ -123,26 +121,7 @@ impl Solver {
         contacts.assemble_on_bodies(Order::First, &assembly, system);
         forces.add_tension(model, scheme, trial, system);
         forces.add_bending(model, trial, system);
-        self.add_end_turns(model, scheme);
-    }
-
-    /// Adds the turning stiffness of rope that pulls on bodies (see [`body::turn_stiffness`]).
-    fn add_end_turns(&mut self, model: &Model, scheme: &Scheme) {
-        let Self { forces, plan, trial, system, .. } = self;
-        for (index, line) in model.spec.lines.iter().enumerate() {
-            let segments = &model.line_segments[index];
-            for (joint, segment, sign) in
-                [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)]
-            {
-                let attachment = plan.attachments[joint];
-                let Attachment::Body { block, .. } = attachment else { continue };
-                let force =
-                    forces.pull[segment].direction * (sign * trial.tension[segment].max(0.0));
-                let turning = if scheme.exact { tilt::turning } else { body::turn_stiffness };
-                let stiffness = turning(trial.arm(attachment), force);
-                *system.interface.at(block + 1, block + 1) += stiffness;
-            }
-        }
+        add_end_turns(context, forces, (plan, trial), system);
     }
 
     /// Solves the assembled system.
@@ -200,7 +179,7 @@ impl Solver {
         context: &StepContext<'_>,
         crossings: &mut [u64; Kind::COUNT],
     ) -> Result<(), ContactFailure> {
-        if self.contacts.check_path_of_rope() {
+        if self.contacts.checks_path_of_rope() {
             self.take_places();
         }
         self.contacts.check_path(context, &self.trial, crossings)
@@ -301,5 +280,26 @@ impl Solver {
             body.orientation = trial.orientation;
         }
         state.time_s = self.trial.time;
+    }
+}
+
+/// Adds the turning stiffness of rope that pulls on bodies (see [`body::turn_stiffness`]).
+fn add_end_turns(
+    context: &StepContext<'_>,
+    forces: &Forces,
+    (plan, trial): (&Plan, &Trial),
+    system: &mut LinearSystem,
+) {
+    let StepContext { model, scheme, .. } = *context;
+    let turning = if scheme.exact { tilt::turning } else { body::turn_stiffness };
+    for (line, segments) in model.spec.lines.iter().zip(&model.line_segments) {
+        for (joint, segment, sign) in
+            [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)]
+        {
+            let attachment = plan.attachments[joint];
+            let Attachment::Body { block, .. } = attachment else { continue };
+            let force = forces.pull[segment].direction * (sign * trial.tension[segment].max(0.0));
+            *system.interface.at(block + 1, block + 1) += turning(trial.arm(attachment), force);
+        }
     }
 }

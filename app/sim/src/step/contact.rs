@@ -39,8 +39,8 @@ pub(super) fn solve(
         solver.cost.enter(CostPart::Detection);
         if !solver.find_more(context, solved.moved_m) {
             let contacts = &solver.contacts;
-            let on_skin = contacts.rope_on_skin.as_ref().is_some_and(|kind| kind.touching);
-            audit.rope_steps += u64::from(contacts.rope_on_rope.touching && !on_skin);
+            audit.rope_steps +=
+                u64::from(contacts.rope_on_rope.touching && !contacts.rope_touches_skin());
             check_path(context, solver, audit)?;
             return Ok(solved);
         }

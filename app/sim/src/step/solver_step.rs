@@ -119,8 +119,7 @@ fn choose_scheme(
 
 /// Counts an accepted step with rope near the whale, and its least distances.
 fn count_contacts(model: &Model, solver: &Solver, contacts: &[ContactPoint], audit: &mut Audit) {
-    let on_skin = solver.contacts.rope_on_skin.as_ref().is_some_and(|kind| kind.touching);
-    if !on_skin || model.spec.friction.is_none() {
+    if !solver.contacts.rope_touches_skin() || model.spec.friction.is_none() {
         return;
     }
     audit.contact_steps += 1;
