@@ -1,84 +1,30 @@
 //! Cost of a step of an encounter: `cargo bench -p endline-gear --bench encounter`.
 //!
-//! Five hundred nodes: far from the whale, near it without contact, sliding over it on uniform segments and on fine ones near the whale,
-//! wound about it, and wound tight with 150 segments in contact. Of each: solver steps and Newton passes, CPU time a solver step, its share for the search of near pairs
+//! The sections are in `encounter/sections.rs`. Of each: solver steps and Newton passes, CPU time a solver step, its share for the search of near pairs
 //! (search, distances and sweeps repeated outside the step), and seconds of the run per second.
 //! A name after `--` selects the sections with that name; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
-//! tolerance, `from=17 to=18` the section of the run, `scenario=PATH` runs that scenario instead; `detection=0` omits that measurement. Also of each section: peak tension, mean and ripple of the tension at the top of the first line, work against friction, mean speed of slip by push.
+//! tolerance, `from=17 to=18` the section of the run, `scenario=PATH` runs that scenario instead; `detection=0` omits that measurement; `sections=all` prints the names alone, `count=NAME` runs one section for [`count`]. Also of each section: peak tension, mean and ripple of the tension at the top of the first line, work against friction, mean speed of slip by push.
 //! Ripple is the mean deviation from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
 
+#[path = "encounter/count.rs"]
+mod count;
 #[path = "encounter/detection.rs"]
 mod detection;
 #[path = "../../tests/tests/linked/mod.rs"]
 mod linked;
+#[path = "encounter/sections.rs"]
+mod sections;
 
 use cpu_time::ThreadTime;
 use detection::Detection;
 use endline_sim::{Audit, Input, Model, State, Workspace, settle, step};
 use linked::{built, spec};
+use sections::{SECTIONS, Section};
 
 /// Steps of the model in the running mean of a tension.
 const RIPPLE_STEPS: usize = 25;
-
-/// A section of a scenario's run.
-struct Stretch<'a> {
-    name: &'static str,
-    scenario: &'a str,
-    /// Replacements in its text.
-    changes: &'static [(&'static str, &'static str)],
-    from_s: f64,
-    to_s: f64,
-}
-
-const STRETCHES: [Stretch<'_>; 6] = [
-    Stretch { name: "far", scenario: "hello-endline", changes: &[NODES], from_s: 1.0, to_s: 9.0 },
-    Stretch {
-        name: "near",
-        scenario: "hello-endline",
-        changes: &[NODES],
-        from_s: 10.5,
-        to_s: 12.0,
-    },
-    Stretch {
-        name: "sliding",
-        scenario: "hello-endline",
-        changes: UNIFORM,
-        from_s: 15.0,
-        to_s: 33.0,
-    },
-    Stretch {
-        name: "fine",
-        scenario: "hello-endline",
-        changes: &[NODES],
-        from_s: 15.0,
-        to_s: 33.0,
-    },
-    Stretch { name: "wound", scenario: "dead-whale-wraps", changes: &[], from_s: 1.0, to_s: 4.0 },
-    Stretch {
-        name: "wound-tight",
-        scenario: "dead-whale-wraps",
-        changes: TIGHT,
-        from_s: 1.0,
-        to_s: 2.0,
-    },
-];
-
-/// Half of the nodes of the shipped scenario.
-const NODES: (&str, &str) = ("rope_nodes = 1000", "rope_nodes = 500");
-
-/// Segments of constant length.
-const UNIFORM: &[(&str, &str)] =
-    &[NODES, ("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "")];
-
-/// More turns, laid taut: more of the rope presses on skin.
-const TIGHT: &[(&str, &str)] = &[
-    ("turns = 2\n", "turns = 3\n"),
-    ("turns = 2.5", "turns = 6"),
-    ("pretension = \"20 N\"", "pretension = \"300 N\""),
-    ("length = \"38 m\"", "length = \"60 m\""),
-];
 
 /// Settings of the command line for every section.
 #[derive(Default)]
@@ -105,23 +51,30 @@ fn main() {
         to_s: value("to"),
         detects: value("detection") != Some(0.0),
     };
-    let own = word("scenario").map(|scenario| Stretch {
+    let own = word("scenario").map(|scenario| Section {
         name: "own",
         scenario,
         changes: &[],
-        from_s: 0.0,
-        to_s: 25.0,
+        time_s: [0.0, 25.0],
+        counted_s: 0.0,
     });
+    if let Some(name) = word("count") {
+        let section = SECTIONS.iter().find(|section| section.name == name);
+        return count(section.unwrap_or_else(|| panic!("no section {name}")));
+    }
+    if word("sections").is_some() {
+        return SECTIONS.iter().for_each(|section| println!("{}", section.name));
+    }
     println!(
-        "stretch      run s   steps  passes  touches  pairs  us a step  detection us  times real time"
+        "section      run s   steps  passes  touches  pairs  us a step  detection us  times real time"
     );
-    let is_asked = |stretch: &&Stretch<'_>| {
-        asked.is_empty() || asked.iter().any(|word| stretch.name.contains(word.as_str()))
+    let is_asked = |section: &&Section<'_>| {
+        asked.is_empty() || asked.iter().any(|word| section.name.contains(word.as_str()))
     };
     if let Some(own) = own {
         run(&own, &changes);
     } else {
-        STRETCHES.iter().filter(is_asked).for_each(|stretch| run(stretch, &changes));
+        SECTIONS.iter().filter(is_asked).for_each(|section| run(section, &changes));
     }
 }
 
@@ -138,26 +91,19 @@ struct Taken {
     slip: [f64; 2],
 }
 
-fn run(stretch: &Stretch<'_>, changes: &Changes) {
-    let mut spec = spec(stretch.scenario, stretch.changes);
+fn run(section: &Section<'_>, changes: &Changes) {
+    let mut spec = spec(section.scenario, section.changes);
     let settings = &mut spec.settings;
     settings.contact_step_s = changes.contact_step_s.unwrap_or(settings.contact_step_s);
     settings.contact_tolerance = changes.tolerance.unwrap_or(settings.contact_tolerance);
     let model = built(spec);
-    let stretch = &Stretch {
-        from_s: changes.from_s.unwrap_or(stretch.from_s),
-        to_s: changes.to_s.unwrap_or(stretch.to_s),
-        ..*stretch
-    };
-    let start =
-        if model.spec.settings.as_placed { State::start(&model) } else { settle(&model).state };
-    let (mut state, mut workspace) = (start, Workspace::new(&model));
-    while state.time_s < stretch.from_s - 1e-9 {
-        advance(&model, &mut state, &mut workspace);
-    }
+    let [from_s, to_s] = section.time_s;
+    let [from_s, to_s] = [changes.from_s.unwrap_or(from_s), changes.to_s.unwrap_or(to_s)];
+    let section = &Section { time_s: [from_s, to_s], ..*section };
+    let (mut state, mut workspace) = brought_to(&model, from_s);
     let (before, mut taken) = (workspace.audit, Taken::default());
     let mut detection = Detection::of(&model);
-    while state.time_s < stretch.to_s - 1e-9 {
+    while state.time_s < to_s - 1e-9 {
         let earlier = state.clone();
         let start = ThreadTime::now();
         advance(&model, &mut state, &mut workspace);
@@ -175,7 +121,31 @@ fn run(stretch: &Stretch<'_>, changes: &Changes) {
             detection.measure(&model, &earlier, &state);
         }
     }
-    print_costs(stretch, (&before, &workspace.audit), &taken, &detection);
+    print_costs(section, (&before, &workspace.audit), &taken, &detection);
+}
+
+/// The run of a model up to a time [s].
+fn brought_to(model: &Model, from_s: f64) -> (State, Workspace) {
+    let start =
+        if model.spec.settings.as_placed { State::start(model) } else { settle(model).state };
+    let (mut state, mut workspace) = (start, Workspace::new(model));
+    while state.time_s < from_s - 1e-9 {
+        advance(model, &mut state, &mut workspace);
+    }
+    (state, workspace)
+}
+
+/// Runs the first part of a section with its instructions counted; prints its simulated time.
+fn count(section: &Section<'_>) {
+    let model = built(spec(section.scenario, section.changes));
+    let from_s = section.time_s[0];
+    let (mut state, mut workspace) = brought_to(&model, from_s);
+    count::counted(|| {
+        while state.time_s < from_s + section.counted_s - 1e-9 {
+            advance(&model, &mut state, &mut workspace);
+        }
+    });
+    println!("{} {:.6}", section.name, state.time_s - from_s);
 }
 
 fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
@@ -185,7 +155,7 @@ fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
 }
 
 fn print_costs(
-    stretch: &Stretch<'_>,
+    section: &Section<'_>,
     (before, after): (&Audit, &Audit),
     taken: &Taken,
     detection: &Detection,
@@ -196,15 +166,15 @@ fn print_costs(
         [taken.touches, detection.pairs].map(|count| count as f64 / taken.model_steps as f64);
     println!(
         "{:<12} {:5.1} {:7} {:7.1} {:8.0} {:6.0} {:10.1} {:13.1} {:16.1}",
-        stretch.name,
-        stretch.to_s - stretch.from_s,
+        section.name,
+        section.time_s[1] - section.time_s[0],
         steps,
         passes,
         touches,
         pairs,
         1e6 * taken.seconds / steps,
         1e6 * detection.seconds / detection.steps.max(1) as f64,
-        (stretch.to_s - stretch.from_s) / taken.seconds
+        (section.time_s[1] - section.time_s[0]) / taken.seconds
     );
     let [tunnelled, unconverged, halved] = [
         after.tunnelled - before.tunnelled,

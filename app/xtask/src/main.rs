@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "chores read the repository")]
 
 mod driven;
+mod instructions;
 mod long_tests;
 mod materials;
 mod package;
@@ -32,6 +33,10 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
                                          workspace, the golden states and calls of the program
        cargo xtask golden                rewrite the table of golden states after an intended change of the
                                          physics
+       cargo xtask instructions          count the instructions of simulated sections under Callgrind, if valgrind is
+                                         installed, and compare them with the table of counts
+       cargo xtask instructions --write REASON
+                                         add these counts to the table, with the reason of the change
        cargo xtask fuzz --hours N        feed damaged files to every reader, and damaged scenarios to the solver, for
                                          N hours; print inputs, panics, hangs and memory
        cargo xtask soak --hours N        run random sessions of the window for N hours, with faults and kills, and check
@@ -73,6 +78,10 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["run", "--", program @ ..] => Box::new(|workspace| run::run_with(workspace, program)),
         ["test"] => Box::new(test::test),
         ["test", "--quick"] => Box::new(test::quick),
+        ["instructions"] => Box::new(instructions::compare),
+        ["instructions", "--write", reason] => {
+            Box::new(|workspace| instructions::write(workspace, reason))
+        }
         ["golden"] => Box::new(test::write_golden),
         [which @ ("fuzz" | "soak"), "--hours", hours] => {
             let hours: f64 = hours.parse().ok().filter(|hours| *hours > 0.0)?;

@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 
 use crate::workspace::{Profile, Workspace, announce};
-use crate::{Outcome, driven, plugins, run, system_packages};
+use crate::{Outcome, driven, instructions, plugins, run, system_packages};
 
 /// Programs of the quick tier: the rules of the workspace and the golden states.
 const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
@@ -11,7 +11,7 @@ const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
 /// Tests of the quick tier that call the program, by module.
 const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
 
-/// Runs formatting, lints, every test of the workspace, the bundled encounter, the scripts of the window, and a study on Slurm
+/// Runs formatting, lints, every test of the workspace, the bundled encounter, the counts of instructions if valgrind is installed, the scripts of the window, and a study on Slurm
 /// if that is installed.
 /// Errors: when any of them fails; the first failure ends it.
 pub fn test(workspace: &Workspace) -> Outcome {
@@ -24,6 +24,7 @@ pub fn test(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["test", "--workspace", "--tests", "--no-run"])?;
     workspace.cargo(&["test", "--workspace", "--tests", "--no-fail-fast"])?;
     run::show_encounter(workspace, Profile::Dev)?;
+    instructions::compare(workspace)?;
     driven::window(workspace)?;
     driven::slurm(workspace)
 }

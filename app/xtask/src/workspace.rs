@@ -106,6 +106,24 @@ impl Workspace {
         }
     }
 
+    /// Builds a benchmark; returns the path of its program.
+    /// Errors: when it does not compile.
+    pub fn bench(&self, package: &str, name: &str) -> Outcome<PathBuf> {
+        let arguments =
+            ["bench", "-p", package, "--bench", name, "--no-run", "--message-format=json"];
+        announce("cargo", &arguments);
+        let output = self.cargo_command(&arguments).stderr(Stdio::inherit()).output();
+        let output = output.map_err(|error| format!("cannot start cargo: {error}"))?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let ours = format!("\"name\":\"{name}\"");
+        text.lines()
+            .filter(|line| line.contains(&ours))
+            .find_map(|line| line.split_once("\"executable\":\"")?.1.split('"').next())
+            .filter(|_| output.status.success())
+            .map(PathBuf::from)
+            .ok_or_else(|| format!("`cargo {}` built no program", arguments.join(" ")))
+    }
+
     /// Whether a cargo call succeeds; prints nothing.
     pub fn quiet_cargo(&self, arguments: &[&str]) -> bool {
         let quiet =
