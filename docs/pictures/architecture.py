@@ -66,7 +66,7 @@ STEP = [
       ["each kind writes gap, normal force, friction and block of its contact points"], "Contacts::measure", "")],
     [("5. Assemble", ["forces/*.rs, contact/*/kind.rs"],
       ["writes LinearSystem: forces and blocks, always in the same order"], "Solver::assemble", "")],
-    [("6. Solve", ["system/mod.rs, system/block_tridiagonal.rs or system/lanes, system/interface.rs, system/woodbury.rs"],
+    [("6. Solve", ["system/mod.rs, system/block_tridiagonal.rs or system/lanes, system/interface.rs, system/coupled.rs"],
       ["writes the moves: rope.step and interface.step"], "LinearSystem::solve", "")],
     [("7. Move, and test the error", ["solver/newton.rs, solver/stopping.rs"],
       ["writes Trial; each kind stores its solved forces. Above the tolerance: back to 4"], "Solver::solve_step", "")],

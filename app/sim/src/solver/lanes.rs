@@ -54,7 +54,7 @@ impl Solver {
         scheme: &Scheme,
         change: impl FnOnce(&mut Self),
     ) {
-        self.system.hold_rope(true);
+        self.system.begin(true);
         self.forces.lengths.take(model, &state.rope.segment_length);
         self.trial.begin_free(model, &self.plan, state, scheme);
         change(self);

@@ -56,7 +56,7 @@ impl Solver {
     /// Begins a step from a state, with rope held as lines.
     pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         let Self { forces, trial, plan, system, cost, .. } = self;
-        system.hold_rope(false);
+        system.begin(false);
         forces.lengths.take(model, &state.rope.segment_length);
         trial.begin(model, plan, state, scheme);
         forces.cut.clone_from(&state.rope.cut);

@@ -10,8 +10,8 @@ use crate::model::{
 };
 use crate::solver::Solver;
 use crate::state::State;
+use crate::system::coupled::ContactBlock;
 use crate::system::tests::Method;
-use crate::system::woodbury::ContactBlock;
 use crate::trial::StepContext;
 use crate::trial::scheme::Scheme;
 use crate::water::{Current, Water};

@@ -22,12 +22,11 @@ pub(crate) struct BlockTridiagonal {
     pub force: Vec<DVec3>,
     /// Solution: move of each node.
     pub step: Vec<DVec3>,
-    /// After [`eliminate`](Self::eliminate): force of each inner node, inverse of its diagonal, and the blocks that couple its row to
-    /// end A and end A's row to it.
+    /// After [`eliminate`](Self::eliminate): force of each inner node, inverse of its diagonal, and the block that couples its row to
+    /// end A.
     reduced: Vec<DVec3>,
-    pub inverse: Vec<DMat3>,
-    pub fill: Vec<DMat3>,
-    pub back: Vec<DMat3>,
+    inverse: Vec<DMat3>,
+    fill: Vec<DMat3>,
 }
 
 /// Matrix and force of a line reduced to its ends A and B.
@@ -53,7 +52,6 @@ impl BlockTridiagonal {
             reduced: vec![DVec3::ZERO; nodes],
             inverse: vec![DMat3::ZERO; nodes],
             fill: vec![DMat3::ZERO; nodes],
-            back: vec![DMat3::ZERO; nodes],
         }
     }
 
@@ -83,17 +81,19 @@ impl BlockTridiagonal {
         self.low[segment] += *block * (first * second);
     }
 
-    /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all. Matrix and forces stay as they
-    /// are.
+    /// Eliminates the inner nodes of a line or of a span of it. `a_moves`: whether end A has freedom at all; `owns_a`: whether the result
+    /// contains the block and the force of end A, which two spans share. Matrix and forces stay as they are.
     pub fn eliminate(
         &mut self,
         nodes: &Range<usize>,
         segments: &Range<usize>,
         a_moves: bool,
+        owns_a: bool,
     ) -> Ends {
         let (a, b) = (nodes.start, nodes.end - 1);
         let (mut fill, mut gill) = (self.low[segments.start], self.up[segments.start]);
-        let (mut aa, mut force_a) = (self.diagonal[a], self.force[a]);
+        let (mut aa, mut force_a) =
+            if owns_a { (self.diagonal[a], self.force[a]) } else { (DMat3::ZERO, DVec3::ZERO) };
         let (mut diagonal, mut force) = (self.diagonal[a + 1], self.force[a + 1]);
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
             let inverse = diagonal.inverse();
@@ -104,7 +104,6 @@ impl BlockTridiagonal {
                 let back = gill * inverse;
                 aa -= back * fill;
                 force_a -= back * force;
-                self.back[node] = gill;
                 gill = -(back * up);
                 self.fill[node] = fill;
                 fill = -(across * fill);

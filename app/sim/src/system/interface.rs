@@ -6,54 +6,28 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::matrix::{Columns, cross_matrix};
+use crate::matrix::cross_matrix;
 use crate::model::Model;
+use crate::system::sparse::BlockSparse;
 use crate::trial::plan::{Attachment, Plan};
 
-/// Pattern, order and storage of the interface matrix.
+/// Matrix, force and solution of the interface.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InterfaceSystem {
-    blocks: usize,
-    /// Storage place of block (row, column), or `NONE`.
-    storage: Vec<u32>,
-    order: Vec<usize>,
-    /// For each block in `order`: the later blocks its row couples to.
-    later: Vec<Vec<usize>>,
-    value: Vec<DMat3>,
+    matrix: BlockSparse,
     /// Force out of balance.
     pub force: Vec<DVec3>,
     /// Solution.
     pub step: Vec<DVec3>,
 }
 
-const NONE: u32 = u32::MAX;
-
 impl InterfaceSystem {
-    /// Lays out the matrix for `blocks` blocks coupled in these pairs.
-    pub fn new(blocks: usize, pairs: &[(usize, usize)]) -> Self {
-        let mut coupled = vec![false; blocks * blocks];
-        for block in 0..blocks {
-            coupled[block * blocks + block] = true;
-        }
-        for &(one, other) in pairs {
-            coupled[one * blocks + other] = true;
-            coupled[other * blocks + one] = true;
-        }
-        let (order, later) = order_of_least_degree(blocks, &mut coupled);
-        let mut storage = vec![NONE; blocks * blocks];
-        let mut count = 0;
-        for (place, _) in coupled.iter().enumerate().filter(|(_, there)| **there) {
-            storage[place] = count;
-            count += 1;
-        }
-        Self {
-            blocks,
-            storage,
-            order,
-            later,
-            value: vec![DMat3::ZERO; count as usize],
-            force: vec![DVec3::ZERO; blocks],
-            step: vec![DVec3::ZERO; blocks],
+    /// Lays out the matrix for `blocks` blocks coupled in these pairs; matrix and forces become zero.
+    pub fn lay_out(&mut self, blocks: usize, pairs: impl Iterator<Item = (usize, usize)>) {
+        self.matrix.lay_out(blocks, pairs);
+        for list in [&mut self.force, &mut self.step] {
+            list.clear();
+            list.resize(blocks, DVec3::ZERO);
         }
     }
 
@@ -82,33 +56,48 @@ impl InterfaceSystem {
             .iter()
             .filter(|attachment| matches!(attachment, Attachment::Free(_)))
             .count();
-        Self::new(free + 2 * plan.body_block.len(), &pairs)
+        let mut system = Self::default();
+        system.lay_out(free + 2 * plan.body_block.len(), pairs.into_iter());
+        system
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.matrix.unknowns()
+    }
+
+    /// Pairs of blocks that the layout couples.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.matrix.pairs()
     }
 
     /// Empties matrix and forces for a new pass.
     pub fn clear(&mut self) {
-        self.value.fill(DMat3::ZERO);
+        self.matrix.clear();
         self.force.fill(DVec3::ZERO);
     }
 
     /// Copies matrix and forces of a system of the same layout.
     pub fn copy_values(&mut self, from: &Self) {
-        self.value.clone_from(&from.value);
+        self.matrix.copy_values(&from.matrix);
         self.force.clone_from(&from.force);
+    }
+
+    /// Adds matrix and forces of a smaller system, whose blocks the layout must hold.
+    pub fn add_all(&mut self, from: &Self) {
+        self.matrix.add_all(&from.matrix);
+        self.force.iter_mut().zip(&from.force).for_each(|(sum, force)| *sum += *force);
     }
 
     /// The block at (row, column), which the layout must hold.
     pub fn at(&mut self, row: usize, column: usize) -> &mut DMat3 {
-        let storage = self.storage[row * self.blocks + column];
-        debug_assert!(storage != NONE, "interface block ({row}, {column}) is not in the layout");
-        &mut self.value[storage as usize]
+        self.matrix.at(row, column)
     }
 
     /// The block at (row, column), if the layout holds it.
     #[cfg(test)]
     pub(super) fn get(&self, row: usize, column: usize) -> Option<DMat3> {
-        let storage = self.storage[row * self.blocks + column];
-        (storage != NONE).then(|| self.value[storage as usize])
+        self.matrix.holds(row, column).then(|| self.matrix.get(row, column))
     }
 
     /// Adds a block that acts between the points of two attachments; `row_arm` and `column_arm` lead from a
@@ -151,9 +140,7 @@ impl InterfaceSystem {
             for row in [*block, block + 1] {
                 let columns = [*block, block + 1];
                 let bent: DVec3 = columns
-                    .map(|column| {
-                        self.value[self.storage[row * self.blocks + column] as usize] * step[column]
-                    })
+                    .map(|column| self.matrix.get(row, column) * step[column])
                     .into_iter()
                     .sum();
                 slope += share * step[row].dot(bent) - self.force[row].dot(step[row]);
@@ -164,81 +151,7 @@ impl InterfaceSystem {
 
     /// Factors and solves in place.
     pub fn solve(&mut self) {
-        for place in 0..self.order.len() {
-            self.eliminate(place);
-        }
-        for place in (0..self.order.len()).rev() {
-            let block = self.order[place];
-            let mut right = self.force[block];
-            for &other in &self.later[place] {
-                right -= self.value[self.storage[block * self.blocks + other] as usize]
-                    * self.step[other];
-            }
-            // The diagonal was replaced by its inverse in `eliminate`.
-            self.step[block] =
-                self.value[self.storage[block * self.blocks + block] as usize] * right;
-        }
-    }
-
-    /// Adds a force, or several, at the point of an attachment to another right-hand side.
-    pub fn push_again<T: Columns>(
-        &self,
-        attachment: Attachment,
-        arm: DVec3,
-        force: T,
-        right: &mut [T],
-    ) {
-        for (block, turn) in parts(attachment, arm) {
-            right[block] += turn.map_or(force, |turn| force.by(turn.transpose()));
-        }
-    }
-
-    /// Solves for another right-hand side, after [`solve`](Self::solve).
-    pub fn solve_again<T: Columns>(&self, right: &mut [T], step: &mut [T]) {
-        let at = |row: usize, column: usize| {
-            self.value[self.storage[row * self.blocks + column] as usize]
-        };
-        for (place, &block) in self.order.iter().enumerate() {
-            let moved = right[block].by(at(block, block));
-            for &row in &self.later[place] {
-                right[row] -= moved.by(at(row, block));
-            }
-        }
-        for (place, &block) in self.order.iter().enumerate().rev() {
-            let mut left = right[block];
-            for &other in &self.later[place] {
-                left -= step[other].by(at(block, other));
-            }
-            step[block] = left.by(at(block, block));
-        }
-    }
-
-    /// Move of the point of an attachment in such a solution.
-    pub fn step_again<T: Columns>(&self, attachment: Attachment, arm: DVec3, step: &[T]) -> T {
-        let mut sum = T::ZERO;
-        for (block, turn) in parts(attachment, arm) {
-            sum += turn.map_or(step[block], |turn| step[block].by(turn));
-        }
-        sum
-    }
-
-    fn eliminate(&mut self, place: usize) {
-        let block = self.order[place];
-        let diagonal = self.storage[block * self.blocks + block] as usize;
-        let inverse = self.value[diagonal].inverse();
-        self.value[diagonal] = inverse;
-        for row_place in 0..self.later[place].len() {
-            let row = self.later[place][row_place];
-            let across = self.value[self.storage[row * self.blocks + block] as usize] * inverse;
-            for column_place in 0..self.later[place].len() {
-                let column = self.later[place][column_place];
-                let taken =
-                    across * self.value[self.storage[block * self.blocks + column] as usize];
-                self.value[self.storage[row * self.blocks + column] as usize] -= taken;
-            }
-            let taken = across * self.force[block];
-            self.force[row] -= taken;
-        }
+        self.matrix.solve(&mut self.force, &mut self.step);
     }
 }
 
@@ -258,28 +171,6 @@ pub(super) fn parts(
     list.into_iter().flatten()
 }
 
-/// Greedy order of least degree; `coupled` is completed with the fill.
-fn order_of_least_degree(blocks: usize, coupled: &mut [bool]) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let mut left: Vec<usize> = (0..blocks).collect();
-    let (mut order, mut later) = (Vec::new(), Vec::new());
-    while !left.is_empty() {
-        let degree =
-            |block: &usize| left.iter().filter(|other| coupled[block * blocks + **other]).count();
-        let Some(&next) = left.iter().min_by_key(|block| (degree(block), **block)) else { break };
-        left.retain(|block| *block != next);
-        let neighbours: Vec<usize> =
-            left.iter().copied().filter(|other| coupled[next * blocks + other]).collect();
-        for &one in &neighbours {
-            for &other in &neighbours {
-                coupled[one * blocks + other] = true;
-            }
-        }
-        order.push(next);
-        later.push(neighbours);
-    }
-    (order, later)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -294,7 +185,8 @@ mod tests {
         );
         let (arm, force) = (DVec3::new(0.3, -1.2, 0.8), DVec3::new(5.0, -4.0, 3.0));
         let body = Attachment::Body { block: 1, body: 0, offset: arm };
-        let mut interface = InterfaceSystem::new(3, &[(0, 1), (0, 2), (1, 2)]);
+        let mut interface = InterfaceSystem::default();
+        interface.lay_out(3, [(0, 1), (0, 2), (1, 2)].into_iter());
         interface.add(body, arm, Attachment::Free(0), DVec3::ZERO, value);
         interface.add(body, arm, body, arm, value);
         interface.push(body, arm, force);
@@ -313,7 +205,6 @@ mod tests {
         assert_eq!(interface.force, [DVec3::ZERO, force, arm.cross(force)]);
         interface.step = vec![DVec3::ZERO, DVec3::X, DVec3::new(0.1, 0.2, -0.3)];
         let moved = interface.step_of(body, arm);
-        assert_eq!(moved, interface.step_again(body, arm, &interface.step));
         assert!(moved.distance(DVec3::X + interface.step[2].cross(arm)) < 1e-15);
     }
 
@@ -323,7 +214,8 @@ mod tests {
         let blocks = 5;
         let pairs: Vec<(usize, usize)> =
             (0..blocks).map(|block| (block, (block + 1) % blocks)).collect();
-        let mut interface = InterfaceSystem::new(blocks, &pairs);
+        let mut interface = InterfaceSystem::default();
+        interface.lay_out(blocks, pairs.iter().copied());
         let mut dense = vec![DMat3::ZERO; blocks * blocks];
         for (index, &(one, other)) in pairs.iter().enumerate() {
             let size = 1.0 + index as f64;

@@ -11,17 +11,16 @@
 //! Rope is held in one of two forms. *Lines*: one block-tridiagonal matrix for each line (`block_tridiagonal.rs`).
 //! *Lanes*: pieces of lines side by side in the lanes of the processor (`lanes`), which evaluate the force laws of rope as well.
 //! Both eliminate each line down to its two ends, which join the interface system of free joints and bodies (`interface.rs`).
-//! Couplings of rope on rope are a low-rank correction (`woodbury.rs`).
+//! Couplings of rope on rope cut the lines at the touched nodes, which join that system (`coupled.rs`); both are sparse (`sparse.rs`).
 //! Cost is linear in the number of nodes; no ratio of stiffness or mass limits the step.
 
 pub(crate) mod block_tridiagonal;
-pub(crate) mod condensed;
-pub(crate) mod dense;
+pub(crate) mod coupled;
 pub(crate) mod interface;
 pub(crate) mod lanes;
+mod sparse;
 #[cfg(test)]
 pub(crate) mod tests;
-pub(crate) mod woodbury;
 
 use glam::{DMat3, DVec3};
 
@@ -30,9 +29,9 @@ use crate::model::Model;
 use crate::trial::Trial;
 use crate::trial::plan::{Attachment, Plan};
 use block_tridiagonal::{BlockTridiagonal, Ends};
+use coupled::{ContactBlock, CoupledRopes};
 use interface::InterfaceSystem;
 use lanes::Lanes;
-use woodbury::{ContactBlock, Woodbury};
 
 /// Largest number of places at which rope presses on rope at a time: four times as many as in four tight hitches. Their dense
 /// system then has 1,200 rows, 12 MB and some 1e9 operations an iteration.
@@ -51,7 +50,7 @@ pub(crate) struct LinearSystem {
     pub interface: InterfaceSystem,
     /// Pairs of bodies that the layout of the interface system couples.
     coupled: Vec<[usize; 2]>,
-    ropes: Woodbury,
+    ropes: CoupledRopes,
     /// Attachment and arm of each joint at the last solution.
     attachments: Vec<(Attachment, DVec3)>,
     #[cfg(test)]
@@ -67,7 +66,7 @@ impl LinearSystem {
             in_lanes: false,
             interface: InterfaceSystem::of_model(plan, model, &[]),
             coupled: Vec::new(),
-            ropes: Woodbury::new(),
+            ropes: CoupledRopes::default(),
             attachments: Vec::new(),
             #[cfg(test)]
             method: tests::Method::default(),
@@ -83,9 +82,10 @@ impl LinearSystem {
         self.lanes.suit(model)
     }
 
-    /// Sets the form in which rope is held.
-    pub fn hold_rope(&mut self, in_lanes: bool) {
+    /// Begins a solver step with rope held in this form.
+    pub fn begin(&mut self, in_lanes: bool) {
         self.in_lanes = in_lanes;
+        self.ropes.begin();
     }
 
     /// Whether rope is held as lanes.
@@ -102,6 +102,7 @@ impl LinearSystem {
         self.coupled.clear();
         self.coupled.extend_from_slice(coupled);
         self.interface = InterfaceSystem::of_model(plan, model, coupled);
+        self.ropes.discard_layout();
         true
     }
 
@@ -109,7 +110,7 @@ impl LinearSystem {
     pub fn clear(&mut self) {
         self.rope.clear();
         self.interface.clear();
-        self.ropes.touches.clear();
+        self.ropes.couplings.clear();
     }
 
     /// Removes contact from rope as lanes.
@@ -161,7 +162,7 @@ impl LinearSystem {
             "fractions {:?} of segments",
             coupling.fractions
         );
-        if self.ropes.touches.len() == MOST_COUPLINGS {
+        if self.ropes.couplings.len() == MOST_COUPLINGS {
             return false;
         }
         for (k, sign) in [(0, 1.0), (1, -1.0)] {
@@ -169,7 +170,7 @@ impl LinearSystem {
             self.rope.force[node] += force * (sign * (1.0 - fraction));
             self.rope.force[node + 1] += force * (sign * fraction);
         }
-        self.ropes.touches.push(coupling);
+        self.ropes.couplings.push(coupling);
         true
     }
 
@@ -201,10 +202,13 @@ impl LinearSystem {
             return self.solve_densely(model);
         }
         let Self { rope, interface, attachments, .. } = self;
+        if !self.ropes.couplings.is_empty() {
+            return self.ropes.solve(model, rope, interface, attachments);
+        }
         for (index, line) in model.spec.lines.iter().enumerate() {
             let ends = [attachments[line.from], attachments[line.to]];
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
-            let left = rope.eliminate(nodes, segments, ends[0].0 != Attachment::Fixed);
+            let left = rope.eliminate(nodes, segments, ends[0].0 != Attachment::Fixed, true);
             join(interface, ends, &left);
         }
         interface.solve();
@@ -214,7 +218,6 @@ impl LinearSystem {
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
             rope.substitute(nodes, segments, a.0 != Attachment::Fixed, step_a, step_b);
         }
-        self.ropes.correct(model, &mut self.rope, &mut self.interface, &self.attachments);
     }
 
     /// Evaluates forces and eliminates rope as lanes; the ends of lines join the interface system.

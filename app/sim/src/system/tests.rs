@@ -1,17 +1,15 @@
 //! Another linear system: the whole matrix, dense, solved with pivoting. It passes the tests of the solver.
 
 use glam::{DMat3, DVec3};
-use pulp::Arch;
 
 use super::LinearSystem;
-use super::dense::solve_in_place;
 use super::interface::parts;
 use crate::model::Model;
 
 /// How a system is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Method {
-    /// Lines eliminated down to their ends, interface system, low-rank correction.
+    /// Lines eliminated down to their ends and touched nodes, then the sparse system of these.
     #[default]
     Elimination,
     /// One dense matrix of all nodes, free joints and bodies.
@@ -56,8 +54,35 @@ impl Dense {
         }
     }
 
+    /// Gauss elimination with pivoting; the solution replaces the right-hand side.
+    fn eliminate(&mut self) {
+        let Self { rows, matrix, right } = self;
+        let rows = *rows;
+        for column in 0..rows {
+            let size = |row: &usize| matrix[row * rows + column].abs();
+            let pivot = (column..rows).max_by(|one, other| size(one).total_cmp(&size(other)));
+            let pivot = pivot.unwrap_or(column);
+            (0..rows).for_each(|k| matrix.swap(column * rows + k, pivot * rows + k));
+            right.swap(column, pivot);
+            for row in column + 1..rows {
+                let factor = matrix[row * rows + column] / matrix[column * rows + column];
+                if factor != 0.0 {
+                    let (above, below) = matrix.split_at_mut(row * rows);
+                    let lead = &above[column * rows + column..column * rows + rows];
+                    let values = below[column..rows].iter_mut().zip(lead);
+                    values.for_each(|(value, lead)| *value -= factor * lead);
+                    right[row] -= factor * right[column];
+                }
+            }
+        }
+        for row in (0..rows).rev() {
+            let known: f64 = (row + 1..rows).map(|k| matrix[row * rows + k] * right[k]).sum();
+            right[row] = (right[row] - known) / matrix[row * rows + row];
+        }
+    }
+
     fn solve(mut self) -> Vec<DVec3> {
-        solve_in_place(Arch::new(), &mut self.matrix, &mut self.right);
+        self.eliminate();
         self.right.chunks_exact(3).map(DVec3::from_slice).collect()
     }
 }
@@ -93,7 +118,7 @@ impl LinearSystem {
                 dense.add(&nodes[node + 1], &nodes[node], self.rope.low[segment]);
             }
         }
-        for coupling in &self.ropes.touches {
+        for coupling in &self.ropes.couplings {
             for (row, row_weight) in coupling.weights() {
                 for (column, weight) in coupling.weights() {
                     let block = coupling.block * (row_weight * weight);
@@ -121,5 +146,13 @@ impl LinearSystem {
             }
         }
         nodes
+    }
+}
+
+/// Numbers from -0.5 to 0.5, the same for the same seed.
+pub(super) fn random(mut seed: u64) -> impl FnMut() -> f64 {
+    move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 }

@@ -3,7 +3,7 @@
 //! At a point (`points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii, of a knot its own),
 //! bearing length `l` and stiffness `K` per metre: `N` by the law of `law/barrier.rs`, along the line between the two. Friction
 //! is the elastic grip that slips at `μN` (`law/elastic_grip.rs`), stretched by the relative move of the two points of the ropes. Both
-//! act on the four nodes, in opposite senses; the block joins the linear system as a coupling (`system/woodbury.rs`).
+//! act on the four nodes, in opposite senses; the block joins the linear system as a coupling (`system/coupled.rs`).
 
 use glam::{DMat3, DVec3};
 
@@ -22,7 +22,7 @@ use crate::matrix::outer;
 use crate::model::RopeOnRope as RopeLaw;
 use crate::state::State;
 use crate::system::LinearSystem;
-use crate::system::woodbury::ContactBlock;
+use crate::system::coupled::ContactBlock;
 use crate::trial::{StepContext, Trial};
 
 /// Contact of two ropes at a point.

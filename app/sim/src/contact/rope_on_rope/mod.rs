@@ -6,7 +6,7 @@
 //! end of their common length (`points.rs`). A knot touches as a ball with its own radius (`broad_phase/knots.rs`).
 //!
 //! Nothing crosses: every path is checked by additive continuous collision detection (`geometry/segment_pair.rs`) and again by an exact
-//! test (`geometry/crossing.rs`). The forces are in `kind.rs`, the linear algebra in `system/woodbury.rs`.
+//! test (`geometry/crossing.rs`). The forces are in `kind.rs`, the linear algebra in `system/coupled.rs`.
 
 mod kind;
 pub(crate) mod near;

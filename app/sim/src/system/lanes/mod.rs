@@ -158,7 +158,7 @@ impl Lanes {
     /// Matrix and force of a line reduced to its ends.
     pub fn line_ends(&mut self, line: usize, a_moves: bool) -> Ends {
         let pieces = self.line_pieces[line].clone();
-        self.chain.eliminate(&chain_nodes(line, &pieces), &pieces, a_moves)
+        self.chain.eliminate(&chain_nodes(line, &pieces), &pieces, a_moves, true)
     }
 
     /// Sets the moves of the ends of a line.
