@@ -123,10 +123,9 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
         && every.value < *length_m + 0.01
     {
         let message = format!("`every` is {} m, but an insert is {length_m} m long", every.value);
-        fields.problems().push(
+        return fields.refuse(
             every.place.error(message, "write a longer `every`, so that inserts do not overlap"),
         );
-        return None;
     }
     Some(Inserts {
         what,
@@ -157,15 +156,10 @@ fn insert(fields: &Fields<'_>) -> Option<Insert> {
         (None, Some(sleeve), Some(_)) => {
             let help =
                 "a sleeve has no length; remove `length`, or name a rope instead of a sleeve";
-            fields.problems().push(sleeve.place.error("a sleeve has no length", help));
-            None
+            fields.refuse(sleeve.place.error("a sleeve has no length", help))
         }
-        (Some(rope), Some(_), _) => {
-            fields
-                .problems()
-                .push(rope.place.error("both `rope` and `sleeve` are present", "keep one of them"));
-            None
-        }
+        (Some(rope), Some(_), _) => fields
+            .refuse(rope.place.error("both `rope` and `sleeve` are present", "keep one of them")),
         (None, None, _) => {
             fields.missing(
                 "rope",

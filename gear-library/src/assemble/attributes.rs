@@ -69,8 +69,7 @@ fn read_attribute(
             if !words.iter().any(|known| known == word) {
                 let message = format!("`{}` is not one of its words", attribute.key);
                 let help = format!("write \"{}\"", words.join("\" or \""));
-                problems.push(node.place.error(message, help));
-                return None;
+                return problems.refuse(node.place.error(message, help));
             }
             Some(AttributeValue::Choice(word.to_owned()))
         }
@@ -87,8 +86,7 @@ fn number(attribute: &Attribute, node: &Node, range: Range, problems: &Problems)
         let (key, unit) = (&attribute.key, &attribute.unit);
         let message = format!("attribute `{key}` is declared in the unknown unit `{unit}`");
         let help = "this is an error of the plugin; remove the attribute";
-        problems.push(node.place.error(message, help));
-        return None;
+        return problems.refuse(node.place.error(message, help));
     };
     read_value(node, quantity, range, problems).map(|value| value.value)
 }
@@ -106,8 +104,7 @@ fn count(
         let message = format!("`{}` is {value}, not a whole number", attribute.key);
         let help =
             format!("write a whole number from {least} to {most}, such as {}", value.round());
-        problems.push(node.place.error(message, help));
-        return None;
+        return problems.refuse(node.place.error(message, help));
     }
     Some(value)
 }
@@ -123,13 +120,11 @@ fn item(
     let Content::Text(id) = &node.content else {
         let (key, noun) = (&attribute.key, node.content.noun());
         let message = format!("`{key}` is {noun}, not the id of an item in {folder}/");
-        problems
-            .push(node.place.error(message, "write the id in quotes; an empty text means none"));
-        return None;
+        return problems
+            .refuse(node.place.error(message, "write the id in quotes; an empty text means none"));
     };
     if !id.is_empty() && !ids.contains(&id.as_str()) {
-        problems.push(node.place.error(format!("no `{id}` in {folder}/"), hint(id, ids)));
-        return None;
+        return problems.refuse(node.place.error(format!("no `{id}` in {folder}/"), hint(id, ids)));
     }
     Some(id.clone())
 }

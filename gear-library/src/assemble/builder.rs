@@ -200,12 +200,11 @@ impl<'a> Builder<'a> {
                     id.value,
                     condition.value.word()
                 );
-                self.problems.push(
+                return self.problems.refuse(
                     condition
                         .place
                         .error(message, format!("give it a `{key}`, or choose another condition")),
                 );
-                return None;
             }
         };
         if let Some(scale) = scale {
@@ -228,9 +227,9 @@ impl<'a> Builder<'a> {
         let Some(rope) = self.find_rope(id, &self.problems) else {
             let mut known = self.library.ids(Kind::Rope);
             known.extend(self.scenario.ropes.iter().map(|entry| entry.id.as_str()));
-            self.problems
-                .push(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
-            return None;
+            return self
+                .problems
+                .refuse(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
         };
         if !self.scenario.ropes.iter().any(|entry| entry.id == id.value) {
             self.uses(&rope.entry.path);

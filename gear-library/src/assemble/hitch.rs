@@ -77,18 +77,17 @@ impl Builder<'_> {
             if self.scenario.whale.is_some() {
                 return None;
             }
-            self.problems.push(
+            return self.problems.refuse(
                 end.place
                     .error("the scenario has no whale", "add a [whale], or name a body or joint"),
             );
-            return None;
         };
         let name = spot.unwrap_or_default();
         let Some(found) = SPOTS.iter().find(|known| known.name == name) else {
             let message = format!("the whale has no spot `{name}`");
-            self.problems
-                .push(end.place.error(message, hint(name, SPOTS.iter().map(|spot| spot.name))));
-            return None;
+            return self
+                .problems
+                .refuse(end.place.error(message, hint(name, SPOTS.iter().map(|spot| spot.name))));
         };
         let id = format!("whale:{name}");
         if let Some(joint) = self.spec.joints.iter().position(|joint| joint.id == id) {
@@ -99,9 +98,9 @@ impl Builder<'_> {
             &self.library.whales.iter().find(|item| item.entry.id == placed.item.value)?.form;
         let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
             let message = format!("the skin of this whale has no triangle at `{name}`");
-            self.problems
-                .push(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
-            return None;
+            return self
+                .problems
+                .refuse(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
         };
         let hitch = Hitch { triangle, barycentric: [1.0 / 3.0; 3], stand_off_m: STAND_OFF_M };
         let frame = DAffine3::from_rotation_translation(whale.orientation, whale.position_m);

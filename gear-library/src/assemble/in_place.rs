@@ -148,8 +148,7 @@ impl Builder<'_> {
             ),
             Some(_) => return Some(ProbeTarget::Whale(figure.value)),
         };
-        self.problems.push(figure.place.error(error.0, error.1));
-        None
+        self.problems.refuse(figure.place.error(error.0, error.1))
     }
 
     /// First and last piece of a line.
@@ -167,8 +166,7 @@ impl Builder<'_> {
         if first != last {
             let message = format!("line `{}` consists of {} pieces", id.value, last + 1 - first);
             let help = format!("name one of its pieces, such as `{}`", self.spec.lines[first].id);
-            self.problems.push(id.place.error(message, help));
-            return None;
+            return self.problems.refuse(id.place.error(message, help));
         }
         Some(first)
     }

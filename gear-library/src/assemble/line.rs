@@ -319,11 +319,10 @@ impl Builder<'_> {
             (Some(Part::Joint(joint)), None) => Some(joint),
             (Some(Part::Joint(_)), Some(point)) => {
                 let message = format!("joint `{part}` has no point `{point}`");
-                self.problems.push(end.place.error(
+                self.problems.refuse(end.place.error(
                     message,
                     "only a body has points; remove the colon and the text after it",
-                ));
-                None
+                ))
             }
             (Some(Part::Body(body)), point) => self.body_joint(body, point, end),
             _ => {
@@ -348,8 +347,7 @@ impl Builder<'_> {
             let name = point.unwrap_or_default();
             let known = points.iter().map(|(name, _)| name.as_str());
             let message = format!("body `{}` has no point `{name}`", holder.id);
-            self.problems.push(end.place.error(message, hint(name, known)));
-            return None;
+            return self.problems.refuse(end.place.error(message, hint(name, known)));
         };
         let (name, offset_m) = &points[found];
         let (id, offset_m) = (

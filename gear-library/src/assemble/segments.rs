@@ -63,10 +63,7 @@ impl Builder<'_> {
         let nodes = shares.iter().sum::<f64>() + 2.0 * lengths.len() as f64;
         match limits::check_nodes(nodes) {
             Ok(()) => Some(shares.into_iter().map(at_least_one).collect()),
-            Err(beyond) => {
-                self.problems.push(beyond.at(&longest.place));
-                None
-            }
+            Err(beyond) => self.problems.refuse(beyond.at(&longest.place)),
         }
     }
 

@@ -287,8 +287,9 @@ impl Builder<'_> {
             let Some(at) = ids().position(|id| id == answer.act.value) else {
                 let message =
                     format!("the whale has no act `{}` to answer a touch with", answer.act.value);
-                self.problems.push(answer.act.place.error(message, hint(&answer.act.value, ids())));
-                return None;
+                return self
+                    .problems
+                    .refuse(answer.act.place.error(message, hint(&answer.act.value, ids())));
             };
             Some(Answer { act: own + at + 1, above_n: answer.above_n, again_s: answer.again_s })
         });

@@ -226,13 +226,10 @@ fn limit(fields: &Fields<'_>) -> Option<Limit> {
             Content::List(ends) if ends.len() == 2 => {
                 Some(Limit::Between(reading(&ends[0], problems)?, reading(&ends[1], problems)?))
             }
-            _ => {
-                problems.push(node.place.error(
-                    "`between` does not have two values",
-                    "write [least, most], such as [0.35, 0.6]",
-                ));
-                None
-            }
+            _ => problems.refuse(node.place.error(
+                "`between` does not have two values",
+                "write [least, most], such as [0.35, 0.6]",
+            )),
         },
         _ => {
             fields.missing("tolerance", "write tolerance = 0.002 (a share) or \"1 cm\", or between = [least, most]; one of them");

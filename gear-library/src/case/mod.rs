@@ -197,11 +197,10 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
             } else {
                 format!("of {}", allowed.join(", "))
             };
-            fields.problems().push(item.place.error(
+            fields.refuse(item.place.error(
                 format!("this is not a value of `{key}`"),
                 format!("expected a list {choice}"),
-            ));
-            None
+            ))
         }
     };
     items.iter().filter_map(word).collect()
@@ -293,8 +292,7 @@ fn groups(fields: &Fields<'_>) -> Option<Vec<String>> {
         return None;
     };
     let Content::List(items) = &node.content else {
-        fields.problems().push(node.place.error("`groups` is not a list", "write [16, 18]"));
-        return None;
+        return fields.refuse(node.place.error("`groups` is not a list", "write [16, 18]"));
     };
     let text = |content: &Content| match content {
         Content::Number(number) => Some(number.to_string()),

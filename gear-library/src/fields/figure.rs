@@ -163,8 +163,7 @@ pub fn read_value(
         },
         Err(refused) => refused,
     };
-    problems.push(node.place.error(refused.message, refused.help));
-    None
+    problems.refuse(node.place.error(refused.message, refused.help))
 }
 
 /// Rejects a value outside its range or beyond the limit of its quantity.

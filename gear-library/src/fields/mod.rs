@@ -84,8 +84,7 @@ impl<'a> Fields<'a> {
             Content::Text(text) => Some(At { value: text.clone(), place: node.place.clone() }),
             other => {
                 let message = format!("`{key}` is {}, not a text", other.noun());
-                self.problems.push(node.place.error(message, "write it in quotes"));
-                None
+                self.problems.refuse(node.place.error(message, "write it in quotes"))
             }
         }
     }
@@ -109,8 +108,7 @@ impl<'a> Fields<'a> {
             return Some(text);
         }
         let message = format!("{:?} is not a valid `{key}`", text.value);
-        self.problems.push(text.place.error(message, names::ID_HELP));
-        None
+        self.problems.refuse(text.place.error(message, names::ID_HELP))
     }
 
     /// One of the allowed words, if present.
@@ -124,8 +122,7 @@ impl<'a> Fields<'a> {
             .map(|word| format!("; did you mean `{word}`?"));
         let choices =
             format!("expected one of {}{}", allowed.join(", "), meant.unwrap_or_default());
-        self.problems.push(text.place.error(message, choices));
-        None
+        self.problems.refuse(text.place.error(message, choices))
     }
 
     /// One of the allowed words, required.
@@ -140,11 +137,10 @@ impl<'a> Fields<'a> {
         if let Content::Flag(flag) = node.content {
             return Some(flag);
         }
-        self.problems.push(node.place.error(
+        self.problems.refuse(node.place.error(
             format!("`{key}` is {}", node.content.noun()),
             "write true or false, without quotes",
-        ));
-        None
+        ))
     }
 
     /// A value with a unit, if present.
@@ -173,15 +169,14 @@ impl<'a> Fields<'a> {
             quantity.examples()
         );
         let Content::List(items) = &node.content else {
-            self.problems.push(
+            return self.problems.refuse(
                 node.place.error(format!("`{key}` is {}, not a list", node.content.noun()), help),
             );
-            return None;
         };
         if !lengths.contains(&items.len()) {
-            self.problems
-                .push(node.place.error(format!("`{key}` has {} values", items.len()), help));
-            return None;
+            return self
+                .problems
+                .refuse(node.place.error(format!("`{key}` has {} values", items.len()), help));
         }
         let read: Vec<_> = items
             .iter()
@@ -198,22 +193,19 @@ impl<'a> Fields<'a> {
     pub fn count(&self, key: &'a str, limit: &Limit) -> Option<At<u64>> {
         let node = self.get(key)?;
         let Content::Number(number) = node.content else {
-            self.problems.push(node.place.error(
+            return self.problems.refuse(node.place.error(
                 format!("`{key}` is {}", node.content.noun()),
                 "write a whole number, without quotes",
             ));
-            return None;
         };
         if number.fract() != 0.0 || number < limit.least {
-            self.problems.push(node.place.error(
+            return self.problems.refuse(node.place.error(
                 format!("`{key}` is {number}"),
                 format!("expected a whole number, {} or more", limit.least),
             ));
-            return None;
         }
         if let Err(beyond) = limit.check(key, number) {
-            self.problems.push(beyond.at(&node.place));
-            return None;
+            return self.problems.refuse(beyond.at(&node.place));
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -274,6 +266,11 @@ impl<'a> Fields<'a> {
     pub fn problems(&self) -> &'a Problems {
         self.problems
     }
+
+    /// Reports a problem; `None` in place of the refused value.
+    pub fn refuse<T>(&self, problem: Diagnostic) -> Option<T> {
+        self.problems.refuse(problem)
+    }
 }
 
 fn words_of(lengths: &[usize]) -> String {
@@ -301,6 +298,12 @@ impl Problems {
         {
             *warning = problem;
         }
+    }
+
+    /// Adds one; `None` in place of the refused value.
+    pub fn refuse<T>(&self, problem: Diagnostic) -> Option<T> {
+        self.push(problem);
+        None
     }
 
     /// Adds several.
@@ -361,8 +364,7 @@ pub fn rising(
     let node = fields.get(key)?;
     if matches!(&node.content, Content::List(items) if items.len() != 2) {
         let help = format!("write the least and the most, {example}");
-        fields.problems().push(node.place.error(format!("`{key}` is not two values"), help));
-        return None;
+        return fields.refuse(node.place.error(format!("`{key}` is not two values"), help));
     }
     let values = fields.values(key, quantity, &[2])?;
     match values.value.as_slice() {
@@ -370,9 +372,7 @@ pub fn rising(
         _ => {
             let help = format!("write the least and the most, {example}");
             fields
-                .problems()
-                .push(values.place.error(format!("the two values of `{key}` do not rise"), help));
-            None
+                .refuse(values.place.error(format!("the two values of `{key}` do not rise"), help))
         }
     }
 }

@@ -201,8 +201,7 @@ fn channel_key<'a>(
     };
     if items.len() != places || places == 1 {
         let message = format!("`{}` has {} values", channel.key, items.len());
-        key.problems().push(node.place.error(message, channel.expected()));
-        return None;
+        return key.refuse(node.place.error(message, channel.expected()));
     }
     let range = Range::Between(channel.range[0], channel.range[1]);
     items

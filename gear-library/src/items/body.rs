@@ -281,32 +281,24 @@ fn float_length(
 ) -> Option<f64> {
     match (shape, entry.figure("length")) {
         (BuoyShape::Sphere, None) => Some(diameter_m),
-        (BuoyShape::Sphere, Some(length)) => {
-            problems.push(
-                length.place.error(
-                    "a sphere has no `length`",
-                    "take it out, or choose the shape \"bullet\"",
-                ),
-            );
-            None
-        }
+        (BuoyShape::Sphere, Some(length)) => problems.refuse(
+            length
+                .place
+                .error("a sphere has no `length`", "take it out, or choose the shape \"bullet\""),
+        ),
         (_, Some(length)) if length.value >= diameter_m => Some(length.value),
         (_, Some(length)) => {
             let message = format!("`length` {} is below the diameter", length.text);
-            problems.push(
+            problems.refuse(
                 length
                     .place
                     .error(message, "the length is along the axis and not less than the diameter"),
-            );
-            None
+            )
         }
-        (_, None) => {
-            problems.push(entry.place.error(
-                "`length` is missing",
-                "every shape except a sphere needs a length, such as 14 in",
-            ));
-            None
-        }
+        (_, None) => problems.refuse(entry.place.error(
+            "`length` is missing",
+            "every shape except a sphere needs a length, such as 14 in",
+        )),
     }
 }
 

@@ -143,11 +143,10 @@ fn each(
     };
     if items.len() != SPINE_JOINTS {
         let message = format!("`each` has {} angles", items.len());
-        inner.problems().push(place.error(
+        return inner.refuse(place.error(
             message,
             format!("write {SPINE_JOINTS}, one for each spine joint from the neck aft"),
         ));
-        return None;
     }
     let range = Range::Between(0.0, FRAC_PI_2);
     let read: Vec<_> = items

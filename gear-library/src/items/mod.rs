@@ -32,8 +32,7 @@ fn gltf_beside(fields: &Fields<'_>, key: &'static str) -> Option<At<String>> {
     if name.value.contains(['/', '\\']) || Form::of_file(&name.value).is_none() {
         let message = format!("`{}` is not the name of a glTF file", name.value);
         let help = "write the name of a .glb or .gltf file beside this one";
-        fields.problems().push(name.place.error(message, help));
-        return None;
+        return fields.refuse(name.place.error(message, help));
     }
     let folder = name.place.source.path.rsplit('/').nth(1).unwrap_or_default();
     Some(At { value: format!("{folder}/{}", name.value), place: name.place })

@@ -185,12 +185,7 @@ fn spine_joints(
     let rising = values.windows(2).all(|pair| pair[1] > pair[0]);
     match values.try_into() {
         Ok(joints) if rising => Some(joints),
-        _ => {
-            spine
-                .problems()
-                .push(place.error("`joints` is not a rising list of the right length", help));
-            None
-        }
+        _ => spine.refuse(place.error("`joints` is not a rising list of the right length", help)),
     }
 }
 

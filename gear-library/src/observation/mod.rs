@@ -241,8 +241,7 @@ fn rope_path(fields: &Fields<'_>) -> Vec<PathPlace> {
             } else {
                 hint(site, names())
             };
-            table.problems().push(text.place.error(message, help));
-            None
+            table.refuse(text.place.error(message, help))
         })
     };
     places.into_iter().filter_map(place).collect()
@@ -273,8 +272,7 @@ fn hidden(table: &Fields<'_>) -> Vec<At<Site>> {
         Some(value) => Some(At { value, place: text.place }),
         None => {
             let message = format!("`{}` is not a part of a whale", text.value);
-            table.problems().push(text.place.error(message, hint(&text.value, names())));
-            None
+            table.refuse(text.place.error(message, hint(&text.value, names())))
         }
     };
     let sites = texts(table, "parts").into_iter().filter_map(site).collect();

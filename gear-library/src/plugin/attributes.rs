@@ -29,8 +29,7 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
             "write small letters, digits and underscores; {} are reserved",
             TAKEN.join(", ")
         );
-        problems.push(key.place.error(message, help));
-        return None;
+        return problems.refuse(key.place.error(message, help));
     }
     Some(Attribute { key: key.value.into(), unit: unit.into(), help: help?.value.into(), kind })
 }
@@ -69,10 +68,9 @@ fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
         return None;
     };
     if !(min..=max).contains(&default) {
-        fields.problems().push(
+        return fields.refuse(
             node.place.error("the default is outside the range", "change the range or the default"),
         );
-        return None;
     }
     if is_count {
         return count(node, [min, max, default], fields);
@@ -89,11 +87,10 @@ fn count(
 ) -> Option<(&'static str, AttributeKind)> {
     let whole = |value: f64| value.fract() == 0.0 && (0.0..=1000.0).contains(&value);
     if !numbers.into_iter().all(whole) {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "a count is a whole number from 0 to 1000",
             "write whole numbers for default and range",
         ));
-        return None;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     let [min, max, default] = numbers.map(|value| value as u32);
@@ -107,8 +104,7 @@ fn item(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
     let folders = FOLDERS.map(Kind::folder);
     if !folders.contains(&folder.value.as_str()) {
         let message = format!("`{}` is not a folder of items for gear", folder.value);
-        fields.problems().push(folder.place.error(message, hint(&folder.value, folders)));
-        return None;
+        return fields.refuse(folder.place.error(message, hint(&folder.value, folders)));
     }
     Some(("", AttributeKind::Item { library: folder.value.into(), default: default.into() }))
 }

@@ -338,13 +338,12 @@ impl Template {
         while let Some((before, after)) = rest.split_once('{') {
             pieces.push(Piece::Text(before.to_owned()));
             let Some((inside, after)) = after.split_once('}') else {
-                problems.push(
+                return problems.refuse(
                     text.place.error(
                         "a brace is not closed",
                         "write the missing }, such as \"trap-{i}\"",
                     ),
                 );
-                return None;
             };
             pieces.push(piece(inside.trim(), text, names, problems)?);
             rest = after;
@@ -382,16 +381,12 @@ fn piece(inside: &str, text: &At<String>, names: &[Name], problems: &Problems) -
                 "`{{{inside}}}` is {}, not a whole number or an item",
                 noun(expression.power)
             );
-            problems.push(
+            problems.refuse(
                 text.place
                     .error(message, "write a count such as {i}, or the key of an item attribute"),
-            );
-            None
+            )
         }
-        Err((message, help)) => {
-            problems.push(text.place.error(message, help));
-            None
-        }
+        Err((message, help)) => problems.refuse(text.place.error(message, help)),
     }
 }
 

@@ -182,9 +182,9 @@ impl Reader<'_> {
             Some((_, node)) => {
                 let help =
                     "write it along and across the gear, such as position = [\"-10 m\", \"0 m\"]";
-                self.problems
-                    .push(node.place.error("`position` is not a list of two lengths", help));
-                return None;
+                return self
+                    .problems
+                    .refuse(node.place.error("`position` is not a list of two lengths", help));
             }
         };
         let height = if fields.get("height").is_some() {

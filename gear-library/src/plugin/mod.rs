@@ -120,8 +120,11 @@ fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> 
         Ok(text) => text,
         Err(error) => {
             let help = "a plugin's file is text in UTF-8 that you may read";
-            problems.push(Diagnostic::of_file(path, format!("cannot be read: {error}"), help));
-            return None;
+            return problems.refuse(Diagnostic::of_file(
+                path,
+                format!("cannot be read: {error}"),
+                help,
+            ));
         }
     };
     add(path, text.as_bytes(), bytes);

@@ -192,15 +192,13 @@ fn date(fields: &Fields<'_>, key: &'static str, may_be_unknown: bool) -> Option<
     let node = fields.get(key)?;
     let (Content::Text(text) | Content::Date(text)) = &node.content else {
         let message = format!("`{key}` is {}, not a date", node.content.noun());
-        fields.problems().push(node.place.error(message, "write a day such as \"2022-05-01\""));
-        return None;
+        return fields.refuse(node.place.error(message, "write a day such as \"2022-05-01\""));
     };
     let value = Date::parse(text);
     if value.is_none() && !(may_be_unknown && text == "unknown") {
         let unknown = if may_be_unknown { ", or \"unknown\"" } else { "" };
         let help = format!("write year, month and day, such as \"2022-05-01\"{unknown}");
-        fields.problems().push(node.place.error(format!("`{text}` is not a date"), help));
-        return None;
+        return fields.refuse(node.place.error(format!("`{text}` is not a date"), help));
     }
     Some(At { value, place: node.place.clone() })
 }

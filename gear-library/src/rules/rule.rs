@@ -241,10 +241,8 @@ fn season(fields: &Fields<'_>) -> Option<[u16; 2]> {
     let whole = |day: &f64| day.fract() == 0.0 && (1.0..=366.0).contains(day);
     if !days.value.iter().all(whole) {
         let help = "write two days of the year from 1 to 366, such as season = [32, 120]";
-        fields
-            .problems()
-            .push(days.place.error("`season` does not consist of days of the year", help));
-        return None;
+        return fields
+            .refuse(days.place.error("`season` does not consist of days of the year", help));
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
     let day = |at: usize| days.value[at] as u16;

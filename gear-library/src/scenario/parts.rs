@@ -224,8 +224,7 @@ fn above_zero<'a>(fields: &Fields<'a>, key: &'a str, quantity: Quantity) -> Opti
         return Some(three);
     }
     let message = format!("a value of `{key}` is not above zero");
-    fields.problems().push(values.place.error(message, "write three values, each above zero"));
-    None
+    fields.refuse(values.place.error(message, "write three values, each above zero"))
 }
 
 /// Three values, each within a limit.
@@ -234,8 +233,7 @@ fn within<'a>(fields: &Fields<'a>, key: &'a str, limit: &'static Limit) -> Optio
     let three = place3(&values.value);
     let beyond = three.to_array().into_iter().find_map(|value| limit.check(key, value).err());
     let Some(beyond) = beyond else { return Some(three) };
-    fields.problems().push(beyond.at(&values.place));
-    None
+    fields.refuse(beyond.at(&values.place))
 }
 
 /// Reads a `[[probe]]`; `None` if a required field is missing, which is reported.
@@ -406,11 +404,10 @@ fn cuboid(fields: &Fields<'_>) -> Option<(SolidShape, DQuat)> {
     let size = size?;
     let half = 0.5 * place3(&size.value);
     if half.min_element() <= 0.0 {
-        fields.problems().push(size.place.error(
+        return fields.refuse(size.place.error(
             "a `size` is not above zero",
             "write length, width and height, each above zero",
         ));
-        return None;
     }
     let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - heading)
         * DQuat::from_rotation_y(-pitch);
@@ -429,10 +426,8 @@ fn direction(fields: &Fields<'_>, key: &'static str) -> Option<DQuat> {
     let values = fields.values(key, Quantity::Ratio, &[3])?;
     let Some(direction) = place3(&values.value).try_normalize() else {
         let message = format!("`{key}` has no length");
-        fields
-            .problems()
-            .push(values.place.error(message, "write east, north and up, such as [0, 0, 1]"));
-        return None;
+        return fields
+            .refuse(values.place.error(message, "write east, north and up, such as [0, 0, 1]"));
     };
     Some(DQuat::from_rotation_arc(DVec3::Z, direction))
 }

@@ -257,13 +257,10 @@ fn row(node: &Node, toward_rad: f64, problems: &Problems) -> Option<CurrentRow> 
         (None, Some(depth)) => {
             Some(At { value: RowHeight::BelowSurface(depth.value), place: depth.place })
         }
-        (Some(_), Some(depth)) => {
-            problems.push(depth.place.error(
-                "a row with both `height` and `depth`",
-                "keep the height above the seabed or the depth",
-            ));
-            None
-        }
+        (Some(_), Some(depth)) => problems.refuse(depth.place.error(
+            "a row with both `height` and `depth`",
+            "keep the height above the seabed or the depth",
+        )),
         (None, None) if written => None,
         (None, None) => {
             fields.missing("height", "write the height above the seabed, such as height = \"2 m\", or the depth below the surface");

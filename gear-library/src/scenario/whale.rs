@@ -155,11 +155,8 @@ fn acts(node: &Node, problems: &Problems) -> Vec<At<String>> {
     };
     let id = |item: &Node| match &item.content {
         Content::Text(id) => Some(At { value: id.clone(), place: item.place.clone() }),
-        other => {
-            problems
-                .push(item.place.error(format!("an act is {}, not a text", other.noun()), help));
-            None
-        }
+        other => problems
+            .refuse(item.place.error(format!("an act is {}, not a text", other.noun()), help)),
     };
     items.iter().filter_map(id).collect()
 }
@@ -335,13 +332,12 @@ fn trigger(fields: &Fields<'_>, ids: &Ids) -> Option<TriggerOf> {
     let of = fields.text("of");
     let Some((key, _)) = triggers.first() else {
         let examples = TRIGGERS.map(|(_, example)| example).join(", ");
-        fields.problems().push(
+        return fields.refuse(
             fields.place.error(
                 "this entry of the pilot has no trigger",
                 format!("write one of {examples}"),
             ),
         );
-        return None;
     };
     if let Some((other, node)) = triggers.get(1) {
         let message = format!("this entry has two triggers, `{key}` and `{other}`");

@@ -177,10 +177,7 @@ fn observed(fields: &Fields<'_>) -> Option<[f64; 2]> {
     };
     match *numbers.as_slice() {
         [low, high] if low < high => Some([low, high]),
-        _ => {
-            fields.problems().push(node.place.error("these are not two rising shares", help));
-            None
-        }
+        _ => fields.refuse(node.place.error("these are not two rising shares", help)),
     }
 }
 
@@ -220,14 +217,13 @@ fn read_discretisation(node: &Node, problems: &Problems) -> Option<Discretisatio
     let (only_here, only_finer) = (only_here?.value, only_finer?.value);
     let with_event = both.saturating_add(only_here).saturating_add(only_finer);
     let Some(neither) = encounters.value.checked_sub(with_event) else {
-        problems.push(encounters.place.error(
+        return problems.refuse(encounters.place.error(
             format!(
                 "`encounters` is {}, fewer than the {with_event} with the event",
                 encounters.value
             ),
             "write the number of all compared encounters, including those without the event",
         ));
-        return None;
     };
     Some(Discretisation {
         event: event?,

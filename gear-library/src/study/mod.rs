@@ -203,8 +203,7 @@ fn scenario(fields: &Fields<'_>) -> Option<At<String>> {
     }
     let message = format!("`scenario` is {text:?}, which leads out of the study's folder");
     let help = format!("{help}, or the path of a file below the study's own folder");
-    fields.problems().push(named.place.error(message, help));
-    None
+    fields.refuse(named.place.error(message, help))
 }
 
 fn encounters(fields: &Fields<'_>) -> Option<u64> {

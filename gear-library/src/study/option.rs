@@ -107,11 +107,10 @@ fn flatten(node: &Node, path: &str, settings: &mut Vec<Setting>, problems: &Prob
 
 fn setting(path: String, place: &Place, node: &Node, problems: &Problems) -> Option<Setting> {
     let Some(value) = Value::of(node) else {
-        problems.push(node.place.error(
+        return problems.refuse(node.place.error(
             format!("`{path}` is {}", node.content.noun()),
             "write a text, a number, true or false, or a list of them",
         ));
-        return None;
     };
     Some(Setting { field: At { value: path, place: place.clone() }, value })
 }
@@ -132,16 +131,14 @@ pub(crate) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
         Content::List(items) => items.iter().collect(),
         _ => vec![node],
     };
-    let text = |item: &&Node| match &item.content {
-        Content::Text(text) => Some(At { value: text.clone(), place: item.place.clone() }),
-        other => {
-            fields.problems().push(item.place.error(
+    let text =
+        |item: &&Node| match &item.content {
+            Content::Text(text) => Some(At { value: text.clone(), place: item.place.clone() }),
+            other => fields.refuse(item.place.error(
                 format!("`{key}` holds {}, not a text", other.noun()),
                 "write texts in quotes",
-            ));
-            None
-        }
-    };
+            )),
+        };
     items.iter().filter_map(text).collect()
 }
 

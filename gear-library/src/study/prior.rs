@@ -69,11 +69,10 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
     let Some(target) = target(name, known.is_some()) else {
         let names = KNOWN.iter().map(|(known, _)| *known).chain(["aim", "aim_by", "gap"]);
         let help = hint(name, names);
-        problems.push(key.error(
+        return problems.refuse(key.error(
             format!("an encounter has no quantity `{name}`"),
             format!("{help} Write a field of the scenario or of a library item as a dotted path in quotes"),
         ));
-        return None;
     };
     let fields = Fields::of(node, problems);
     let law = law(&fields, known);
@@ -342,11 +341,10 @@ fn uniform(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<Law
     let (pair, quantity) = numbers(node, known, fields)?;
     let [low, high] = two(&pair, node, fields)?;
     if low >= high {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "the first value is not below the second",
             "write the least value first; or value = … for a constant",
         ));
-        return None;
     }
     Some(Law::Uniform { low, high, quantity })
 }
@@ -374,11 +372,10 @@ fn normal(
     let (ends, _) = numbers(between, known, fields)?;
     let [low, high] = two(&ends, between, fields)?;
     if deviation <= 0.0 || low >= high {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "this normal law has no width",
             "write a deviation above zero, and rising values of `between`",
         ));
-        return None;
     }
     Some(Law::Normal { mean, deviation, low, high, quantity })
 }
@@ -394,11 +391,10 @@ fn bins(
     let sum: f64 = weights.iter().sum();
     let rises = edges.len() > 1 && edges.windows(2).all(|ends| ends[0] < ends[1]);
     if !rises || weights.len() + 1 != edges.len() || sum <= 0.0 {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "`bins` and `weights` do not fit",
             "write the ends of ranges in rising order, and one weight for each range, not all zero",
         ));
-        return None;
     }
     let shares = weights.into_iter().map(|weight| weight / sum).collect();
     Some(Law::Bins { edges, shares, quantity })
@@ -407,11 +403,10 @@ fn bins(
 /// Weights as they are written.
 fn shares(node: &Node, fields: &Fields<'_>) -> Option<Vec<f64>> {
     let Content::List(items) = &node.content else {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             format!("`weights` is {}", node.content.noun()),
             "write a list of numbers, such as weights = [0.7, 0.3]",
         ));
-        return None;
     };
     let read = items.iter().map(|item| {
         read_value(item, Quantity::Ratio, Range::NotNegative, fields.problems()).map(|at| at.value)
@@ -426,11 +421,10 @@ fn choice(
     fields: &Fields<'_>,
 ) -> Option<Law> {
     let Content::List(items) = &node.content else {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "`choice` is not a list",
             "write choice = [a, b], and weights = [0.7, 0.3] if they differ",
         ));
-        return None;
     };
     let levels =
         items.iter().map(|item| level(item, known, fields)).collect::<Option<Vec<Level>>>()?;
@@ -440,11 +434,10 @@ fn choice(
     };
     let sum: f64 = weights.iter().sum();
     if weights.len() != levels.len() || levels.is_empty() || sum <= 0.0 {
-        fields.problems().push(node.place.error(
+        return fields.refuse(node.place.error(
             "`choice` and `weights` do not fit",
             "write as many weights as values, not all zero",
         ));
-        return None;
     }
     let mut choice: Vec<(Level, f64)> =
         levels.into_iter().zip(weights.into_iter().map(|weight| weight / sum)).collect();
@@ -470,11 +463,10 @@ fn level(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<Level
         }
         Content::Flag(flag) => Some(Level { text: flag.to_string(), number: None, plain: true }),
         other => {
-            fields.problems().push(node.place.error(
+            fields.refuse(node.place.error(
                 format!("this is {}", other.noun()),
                 "write a text, a number, true or false",
-            ));
-            None
+            ))
         }
     }
 }
@@ -482,18 +474,15 @@ fn level(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<Level
 /// A list of numbers, all of one quantity.
 fn numbers(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<(Vec<f64>, Quantity)> {
     let Content::List(items) = &node.content else {
-        fields
-            .problems()
-            .push(node.place.error("this is not a list", "write two values in brackets"));
-        return None;
+        return fields
+            .refuse(node.place.error("this is not a list", "write two values in brackets"));
     };
     let (quantity, range) = match known {
         Some(Takes::Number(quantity, range)) => (quantity, range),
         Some(Takes::Word) => {
-            fields.problems().push(
+            return fields.refuse(
                 node.place.error("this is a choice of words", "write choice = [\"…\", \"…\"]"),
             );
-            return None;
         }
         None => {
             let first = items.first().map(|item| &item.content);
@@ -518,10 +507,7 @@ fn two(values: &[f64], node: &Node, fields: &Fields<'_>) -> Option<[f64; 2]> {
     if let [first, second] = *values {
         return Some([first, second]);
     }
-    fields
-        .problems()
-        .push(node.place.error(format!("there are {} values", values.len()), "write two"));
-    None
+    fields.refuse(node.place.error(format!("there are {} values", values.len()), "write two"))
 }
 
 /// Quantity and value of a text with a unit.
