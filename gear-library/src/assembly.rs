@@ -140,51 +140,27 @@ impl Assembly {
 impl Parts {
     fn read(fields: &Fields<'_>) -> Self {
         Self {
-            bodies: fields
-                .tables("body")
-                .iter()
-                .filter_map(|node| body(node, fields.problems()))
-                .collect(),
-            joints: fields
-                .tables("joint")
-                .iter()
-                .filter_map(|node| joint(node, fields.problems()))
-                .collect(),
-            lines: fields
-                .tables("line")
-                .iter()
-                .filter_map(|node| line(node, fields.problems()))
-                .collect(),
-            links: fields
-                .tables("link")
-                .iter()
-                .filter_map(|node| link(node, fields.problems(), false))
-                .collect(),
+            bodies: fields.each("body", body),
+            joints: fields.each("joint", joint),
+            lines: fields.each("line", line),
+            links: fields.each("link", |table| link(table, false)),
         }
     }
 }
 
-fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
-    let fields = Fields::of(node, problems);
+fn body(fields: &Fields<'_>) -> Option<PartBody> {
     let id = fields.need_id("id", "write an id such as \"trap-1\"");
-    let known = fields.need_word("kind", "write trap, buoy or anchor", &["trap", "buoy", "anchor"]);
+    let kinds = [("trap", Kind::Trap), ("buoy", Kind::Buoy), ("anchor", Kind::Anchor)];
+    let kind = fields.need_choice("kind", "write trap, buoy or anchor", &kinds);
     let item =
         fields.need_text("item", "write the id of a library item, such as \"wire-lobster-3ft\"");
-    let start = start(&fields);
-    fields.finish();
-    let kind = match known?.value.as_str() {
-        "trap" => Kind::Trap,
-        "buoy" => Kind::Buoy,
-        _ => Kind::Anchor,
-    };
-    Some(PartBody { id: id?, kind, item: item?, start })
+    let start = start(fields);
+    Some(PartBody { id: id?, kind: kind?, item: item?, start })
 }
 
-fn joint(node: &Node, problems: &Problems) -> Option<PartJoint> {
-    let fields = Fields::of(node, problems);
+fn joint(fields: &Fields<'_>) -> Option<PartJoint> {
     let id = fields.need_id("id", "write an id such as \"splice\"");
-    let start = start(&fields);
-    fields.finish();
+    let start = start(fields);
     Some(PartJoint { id: id?, start })
 }
 
@@ -200,15 +176,7 @@ fn start(fields: &Fields<'_>) -> Start {
 }
 
 /// Reads a `[[line]]`.
-pub(crate) fn line(node: &Node, problems: &Problems) -> Option<PartLine> {
-    let fields = Fields::of(node, problems);
-    let line = line_fields(&fields);
-    fields.finish();
-    line
-}
-
-/// Reads the fields of a line; other fields are not reported.
-pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
+pub(crate) fn line(fields: &Fields<'_>) -> Option<PartLine> {
     let id = fields.need_id("id", "write an id such as \"groundline-1\"");
     let rope = fields.need_text("rope", "write the id of a rope, such as \"pp-3-8\"");
     let from = fields.need_text("from", "write the id of the body or joint at the `from` end");
@@ -226,8 +194,7 @@ pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
 }
 
 /// Reads a `[[link]]`; with `in_place` it may have a rating instead of an item.
-pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<PartLink> {
-    let fields = Fields::of(node, problems);
+pub(crate) fn link(fields: &Fields<'_>, in_place: bool) -> Option<PartLink> {
     let id = fields.need_id("id", "write an id such as \"buoy-link\"");
     let rating =
         if in_place { fields.value("rating", Quantity::Force, Range::Positive) } else { None };
@@ -237,9 +204,7 @@ pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<P
         fields.need_text("item", "write the id of a weak link, such as \"wl-600\"")
     };
     let line = fields.need_text("line", "write the id of its line");
-    let end = fields.need_word("end", "write from or to", &["from", "to"]);
-    fields.finish();
-    let end = if end?.value == "from" { LineEnd::A } else { LineEnd::B };
+    let end = fields.need_end("end", "write from or to")?;
     if item.is_none() && rating.is_none() {
         return None;
     }

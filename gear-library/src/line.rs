@@ -6,7 +6,7 @@
 use endline_sdk::LineEnd;
 
 use crate::diagnostic::{At, Place};
-use crate::fields::{Fields, Range};
+use crate::fields::{ENDS, Fields, Range};
 use crate::items::Condition;
 use crate::tree::Node;
 use crate::units::Quantity;
@@ -66,13 +66,10 @@ pub enum Insert {
 impl LineMake {
     /// Reads the make of a line.
     pub(crate) fn read(fields: &Fields<'_>) -> Self {
-        let condition = fields.word("condition", &Condition::WORDS);
         let wear = fields.value("wear_factor", Quantity::Ratio, Range::Between(0.05, 1.0));
         let delivered = fields.value("delivered_strength", Quantity::Force, Range::Positive);
         Self {
-            condition: condition.and_then(|word| {
-                Some(At { value: Condition::from_word(&word.value)?, place: word.place })
-            }),
+            condition: fields.choice("condition", &Condition::WORDS),
             wear_factor: wear.map(|wear| wear.value),
             delivered_n: delivered.map(|delivered| delivered.value),
             keeps_stiffness: fields.flag("keeps_stiffness"),
@@ -115,7 +112,7 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
     let every = fields.need_value("every", Quantity::Length, along);
     let first = fields.value("first", Quantity::Length, along);
     let within = fields.value("within", Quantity::Ratio, Range::Between(0.0, 1.0));
-    let end = fields.word("counted_from", &["from", "to"]);
+    let end = fields.choice("counted_from", &ENDS);
     let knot = fields.text("knot");
     fields.finish();
     let (what, every) = (what?, every?);
@@ -129,11 +126,7 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
     }
     Some(Inserts {
         what,
-        counted_from: if end.is_some_and(|end| end.value == "from") {
-            LineEnd::A
-        } else {
-            LineEnd::B
-        },
+        counted_from: end.map_or(LineEnd::B, |end| end.value),
         first_m: first.map_or(every.value, |first| first.value),
         every_m: every.value,
         within: within.map_or(1.0, |within| within.value),

@@ -1,7 +1,7 @@
 //! A comparison of a case: a measure of the readings, its expected value and tolerance.
 
 use crate::diagnostic::At;
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Range};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
@@ -94,16 +94,14 @@ pub enum Limit {
 }
 
 /// Reads `[[check]]`; `None` if a field is missing or wrong, which is reported.
-pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
-    let fields = Fields::of(node, problems);
+pub(super) fn read(fields: &Fields<'_>) -> Option<Check> {
     let name = fields.need_text("name", "write the compared quantity, such as \"anchor tension\"");
-    let measure = measure(&fields);
-    let limit = limit(&fields);
+    let measure = measure(fields);
+    let limit = limit(fields);
     if measure.is_none() {
         // The fields of an unknown measure are not known; the measure is reported.
         fields.rest();
     }
-    fields.finish();
     Some(Check { name: name?.value, measure: measure?, limit: limit? })
 }
 

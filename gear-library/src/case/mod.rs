@@ -94,8 +94,7 @@ impl Case {
         if haul.is_some() && !matches!(samples, Some(Samples::Every(_)) | None) {
             fields.missing("every", "a [haul] is sampled at intervals: write every = \"0.1 s\"");
         }
-        let checks: Vec<Check> =
-            fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
+        let checks = fields.each("check", check::read);
         if fields.tables("check").is_empty() {
             fields.missing("check", "write the comparisons under [[check]]");
         }

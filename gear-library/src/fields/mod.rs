@@ -4,6 +4,8 @@ mod figure;
 
 use std::cell::{Cell, RefCell};
 
+use endline_sdk::LineEnd;
+
 use crate::diagnostic::{At, Diagnostic, Place, hint, nearest};
 use crate::limits::{DIAGNOSTICS, Limit};
 use crate::names;
@@ -14,6 +16,9 @@ pub use figure::{
     Figure, Provenance, Range, confidence, provenance, provenance_over, read_figure, read_value,
     sourced,
 };
+
+/// The ends of a line.
+pub const ENDS: [(&str, LineEnd); 2] = [("from", LineEnd::A), ("to", LineEnd::B)];
 
 /// A table that is being read; [`finish`](Self::finish) reports every key that was not requested.
 pub struct Fields<'a> {
@@ -131,6 +136,30 @@ impl<'a> Fields<'a> {
         self.word(key, allowed)
     }
 
+    /// The value of one of the allowed words, if present.
+    pub fn choice<T: Copy>(&self, key: &'a str, choices: &[(&str, T)]) -> Option<At<T>> {
+        let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
+        let At { value, place } = self.word(key, &words)?;
+        let (_, value) = choices.iter().find(|(word, _)| *word == value)?;
+        Some(At { value: *value, place })
+    }
+
+    /// The value of one of the allowed words, required.
+    pub fn need_choice<T: Copy>(
+        &self,
+        key: &'a str,
+        help: &str,
+        choices: &[(&str, T)],
+    ) -> Option<T> {
+        self.require(key, help);
+        self.choice(key, choices).map(|choice| choice.value)
+    }
+
+    /// An end of a line, required.
+    pub fn need_end(&self, key: &'a str, help: &str) -> Option<LineEnd> {
+        self.need_choice(key, help, &ENDS)
+    }
+
     /// True or false, if present.
     pub fn flag(&self, key: &'a str) -> Option<bool> {
         let node = self.get(key)?;
@@ -241,6 +270,17 @@ impl<'a> Fields<'a> {
             }
             None => &[],
         }
+    }
+
+    /// Reads each table of a list, such as `[[line]]`, and reports its unknown keys; omits a table that gives `None`.
+    pub fn each<T>(&self, key: &'a str, read: impl Fn(&Fields<'a>) -> Option<T>) -> Vec<T> {
+        let one = |node: &'a Node| {
+            let fields = Fields::of(node, self.problems);
+            let value = read(&fields);
+            fields.finish();
+            value
+        };
+        self.tables(key).iter().filter_map(one).collect()
     }
 
     /// A table, if present.

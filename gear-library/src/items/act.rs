@@ -47,15 +47,11 @@ impl ActItem {
         let head = entry::header(&fields, Kind::Act.word(), problems);
         let file = head.2.clone();
         let entry = entry::body(&fields, Kind::Act, head, id);
-        let after = word(
-            &fields,
-            "after",
-            ("return", After::Return),
-            &[("hold", After::Hold), ("repeat", After::Repeat)],
-        );
-        let blend = word(&fields, "blend", ("replace", Blend::Replace), &[("add", Blend::Add)]);
-        let side =
-            word(&fields, "side", ("as-written", Side::AsWritten), &[("touched", Side::Touched)]);
+        let afters = [("return", After::Return), ("hold", After::Hold), ("repeat", After::Repeat)];
+        let after = fields.choice("after", &afters).map_or(After::Return, |after| after.value);
+        let blend = fields.choice("blend", &[("replace", Blend::Replace), ("add", Blend::Add)]);
+        let sides = [("as-written", Side::AsWritten), ("touched", Side::Touched)];
+        let side = fields.choice("side", &sides);
         let mirror = fields.text("mirrored_as");
         let ends_at_touch = parts(&fields);
         let animation = ActAnimation::read(&fields, &file);
@@ -75,9 +71,9 @@ impl ActItem {
             length_s,
             after,
             fade_s: entry.value("fade")?,
-            blend,
+            blend: blend.map_or(Blend::Replace, |blend| blend.value),
             turn_rate_rad_s: entry.value("turn_rate").unwrap_or(TURN_RATE_RAD_S),
-            side,
+            side: side.map_or(Side::AsWritten, |side| side.value),
             ends_at_touch,
         };
         Some(Self { angles: angles(&keyed), clips: with_mirror(clip, mirror), entry, animation })
@@ -102,19 +98,6 @@ fn with_mirror(clip: Clip, mirror: Option<At<String>>) -> Vec<Clip> {
         ..clip.clone()
     });
     std::iter::once(clip).chain(other).collect()
-}
-
-/// The meaning of a word; the first one is the default.
-fn word<T: Copy>(
-    fields: &Fields<'_>,
-    key: &'static str,
-    first: (&str, T),
-    others: &[(&str, T)],
-) -> T {
-    let all: Vec<&str> =
-        std::iter::once(first.0).chain(others.iter().map(|(word, _)| *word)).collect();
-    let Some(word) = fields.word(key, &all) else { return first.1 };
-    others.iter().find(|(other, _)| *other == word.value).map_or(first.1, |(_, meaning)| *meaning)
 }
 
 /// `ends_at_touch`: true (rope on any part), or a list of parts.

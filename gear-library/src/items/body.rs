@@ -9,7 +9,6 @@ use std::f64::consts::FRAC_PI_4;
 use crate::diagnostic::At;
 use crate::entry::Entry;
 use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over};
-use crate::tree::Node;
 use crate::units::Quantity;
 
 use super::rope::{GRAVITY_M_S2, SEA_WATER_KG_M3};
@@ -349,13 +348,12 @@ pub struct BuoyPiece {
 
 /// Reads the `[[piece]]`s of a buoy.
 pub(crate) fn pieces(fields: &Fields<'_>, file: &Provenance) -> Vec<BuoyPiece> {
-    fields.tables("piece").iter().filter_map(|node| piece(node, file, fields.problems())).collect()
+    fields.each("piece", |table| piece(table, file))
 }
 
-fn piece(node: &Node, file: &Provenance, problems: &Problems) -> Option<BuoyPiece> {
-    let fields = Fields::of(node, problems);
+fn piece(fields: &Fields<'_>, file: &Provenance) -> Option<BuoyPiece> {
     let name = fields.need_text("name", "write a name such as \"staff\"");
-    let row = provenance_over(&fields, file);
+    let row = provenance_over(fields, file);
     let need = |key, quantity: Quantity, range| {
         fields.require(key, quantity.expected());
         fields.figure(key, quantity, range, &row)
@@ -367,10 +365,9 @@ fn piece(node: &Node, file: &Provenance, problems: &Problems) -> Option<BuoyPiec
     let volume = fields.figure("volume", Quantity::Volume, Range::NotNegative, &row);
     let across = need("drag_across", Quantity::Ratio, Range::Between(0.0, 10.0));
     let along = need("drag_along", Quantity::Ratio, Range::Between(0.0, 10.0));
-    fields.finish();
     let (diameter, length) = (diameter?.value, length?.value);
     let solid = FRAC_PI_4 * diameter * diameter * length;
-    check_piece_volume(volume.as_ref(), solid, problems);
+    check_piece_volume(volume.as_ref(), solid, fields.problems());
     Some(BuoyPiece {
         name: name?.value,
         at_m: at?.value,
@@ -402,8 +399,7 @@ pub struct Point {
 /// Reads the `[[point]]`s of a trap, buoy or anchor.
 pub(crate) fn points(fields: &Fields<'_>, file: &Provenance) -> Vec<Point> {
     let mut read: Vec<Point> = Vec::new();
-    for node in fields.tables("point") {
-        let Some((name, point)) = point(node, file, fields.problems()) else { continue };
+    for (name, point) in fields.each("point", |table| point(table, file)) {
         if read.iter().any(|known| known.name == point.name) {
             let message = format!("there are two points `{}`", point.name);
             fields.problems().push(name.place.error(message, "rename one of them"));
@@ -413,25 +409,23 @@ pub(crate) fn points(fields: &Fields<'_>, file: &Provenance) -> Vec<Point> {
     read
 }
 
-fn point(node: &Node, file: &Provenance, problems: &Problems) -> Option<(At<String>, Point)> {
-    let fields = Fields::of(node, problems);
+fn point(fields: &Fields<'_>, file: &Provenance) -> Option<(At<String>, Point)> {
     let name = fields.need_text("name", "write a name such as \"eye\"");
-    let row = provenance_over(&fields, file);
+    let row = provenance_over(fields, file);
     fields.require("at",
             "write the place along, to port and up from the middle, such as [\"0.4 m\", \"0 m\", \"0.1 m\"]");
     let at = fields.values("at", Quantity::Length, &[3]);
     if row.source.is_none() || row.confidence.is_none() {
-        let message = format!("`{}` has no source or no confidence", node.place.field);
-        problems.push(node.place.error(
+        let message = format!("`{}` has no source or no confidence", fields.place.field);
+        fields.problems().push(fields.place.error(
             message,
             "write source = \"…\" and confidence = \"measured\" here, or for the whole file",
         ));
     }
-    fields.finish();
     let name = name?;
     if name.value.is_empty() || name.value.contains(':') {
         let message = format!("`{}` cannot be a point's name", name.value);
-        problems.push(name.place.error(
+        fields.problems().push(name.place.error(
             message,
             "a name has letters, digits and dashes; a colon separates the body from its point",
         ));

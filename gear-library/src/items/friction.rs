@@ -38,11 +38,7 @@ impl RopeFriction {
         let head = entry::header(&fields, Kind::Friction.word(), problems);
         let file = head.2.clone();
         let entry = entry::body(&fields, Kind::Friction, head, id);
-        let models = fields
-            .tables("model")
-            .iter()
-            .filter_map(|node| model_figures(node, &file, problems))
-            .collect();
+        let models = fields.each("model", |table| model_figures(table, &file));
         fields.finish();
         let mut coefficients = [0.0; Region::ALL.len()];
         for (place, region) in coefficients.iter_mut().zip(Region::ALL) {
@@ -64,18 +60,16 @@ impl RopeFriction {
 }
 
 /// A table of `[[model]]`.
-fn model_figures(node: &Node, file: &Provenance, problems: &Problems) -> Option<ModelFigures> {
-    let fields = Fields::of(node, problems);
+fn model_figures(fields: &Fields<'_>, file: &Provenance) -> Option<ModelFigures> {
     let model = fields.need_text(
         "id",
         "write the id of a friction model, such as \"org.endline.friction.baleen\"",
     );
-    let surfaces = read_surfaces(&fields, "surfaces");
+    let surfaces = read_surfaces(fields, "surfaces");
     let attributes = fields.rest().into_iter().filter_map(|(key, place, node)| {
-        Some((key.clone(), place.clone(), sourced(node, file, problems)?))
+        Some((key.clone(), place.clone(), sourced(node, file, fields.problems())?))
     });
     let attributes = Attributes(attributes.collect());
-    fields.finish();
     Some(ModelFigures { model: model?, surfaces, attributes })
 }
 

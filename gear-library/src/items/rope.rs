@@ -25,26 +25,13 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Words in files.
-    pub const WORDS: [&'static str; 3] = ["secant", "new", "worked"];
-
-    /// The condition of a word.
-    pub fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "secant" => Some(Self::Secant),
-            "new" => Some(Self::New),
-            "worked" => Some(Self::Worked),
-            _ => None,
-        }
-    }
+    /// Words in files, in the order of the variants.
+    pub const WORDS: [(&'static str, Self); 3] =
+        [("secant", Self::Secant), ("new", Self::New), ("worked", Self::Worked)];
 
     /// Its word.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Secant => "secant",
-            Self::New => "new",
-            Self::Worked => "worked",
-        }
+        Self::WORDS[self as usize].0
     }
 }
 

@@ -108,14 +108,15 @@ fn sections(fields: &Fields<'_>, file: &Provenance) -> Option<Vec<[Figure; 4]>> 
         return None;
     };
     let of_all = provenance_over(&table, file);
-    let nodes = table.tables("rows");
+    let count = table.tables("rows").len();
+    let sections = table.each("rows", |row| section(row, &of_all));
     table.finish();
-    if nodes.len() < 4 {
+    if count < 4 {
         table.missing("rows", help);
+    }
+    if count < 4 || sections.len() < count {
         return None;
     }
-    let read: Vec<_> = nodes.iter().map(|node| section(node, &of_all, fields.problems())).collect();
-    let sections = read.into_iter().collect::<Option<Vec<_>>>()?;
     for pair in sections.windows(2).filter(|pair| pair[1][0].value <= pair[0][0].value) {
         let place = &pair[1][0].place;
         fields.problems().push(place.error(
@@ -126,9 +127,8 @@ fn sections(fields: &Fields<'_>, file: &Provenance) -> Option<Vec<[Figure; 4]>> 
     Some(sections)
 }
 
-fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figure; 4]> {
-    let fields = Fields::of(node, problems);
-    let row = provenance_over(&fields, file);
+fn section(fields: &Fields<'_>, file: &Provenance) -> Option<[Figure; 4]> {
+    let row = provenance_over(fields, file);
     let ratio = |key: &'static str, range| {
         fields.require(key, "expected a share of body length, such as 0.149");
         fields.figure(key, Quantity::Ratio, range, &row)
@@ -137,11 +137,10 @@ fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figur
     let width = ratio("width", Range::Between(0.0, 1.0));
     let dorsal = ratio("dorsal", Range::Between(-0.5, 0.5));
     let ventral = ratio("ventral", Range::Between(-0.5, 0.5));
-    fields.finish();
     if let (Some(dorsal), Some(ventral)) = (&dorsal, &ventral)
         && ventral.value > dorsal.value
     {
-        problems.push(ventral.place.error(
+        fields.problems().push(ventral.place.error(
             "`ventral` is above `dorsal`",
             "heights are measured from the level of the snout, and the belly is lower than the back",
         ));

@@ -79,7 +79,7 @@ impl Observation {
         let whale = fields.text("whale");
         let size = size(&fields);
         let mirrored = fields.flag("mirrored").unwrap_or(false);
-        let sites = sites(&fields);
+        let sites = fields.each("site", site);
         let path_of_rope = rope_path(&fields);
         let trailing = fields.table("trailing").and_then(|table| trailing(&table));
         let twist = fields.table("twist").and_then(|table| twist(&table));
@@ -199,25 +199,18 @@ impl RopeEnd {
     }
 }
 
-/// Reads `[[site]]`.
-fn sites(fields: &Fields<'_>) -> Vec<SeenSite> {
-    let problems = fields.problems();
-    fields.tables("site").iter().filter_map(|node| site(node, problems)).collect()
-}
-
-fn site(node: &Node, problems: &Problems) -> Option<SeenSite> {
-    let fields = Fields::of(node, problems);
+/// Reads a `[[site]]`.
+fn site(fields: &Fields<'_>) -> Option<SeenSite> {
     let names = Site::ALL.map(Site::name);
-    fields.need_text("part", &format!("write one of {}", names.join(", ")));
-    let part = fields.word("part", &names);
+    fields.require("part", format!("write one of {}", names.join(", ")));
+    let part = fields.choice("part", &Site::ALL.map(|site| (site.name(), site)));
     let present = fields.value("present", Quantity::Ratio, Range::Between(0.0, 1.0));
-    let wraps = rising(&fields, "wraps", Quantity::Ratio, "such as wraps = [0.5, 1.5]");
+    let wraps = rising(fields, "wraps", Quantity::Ratio, "such as wraps = [0.5, 1.5]");
     let tight = fields.flag("tight");
     let seen_by = fields.text("seen_by").map(|text| text.value).unwrap_or_default();
-    fields.finish();
     let part = part?;
     Some(SeenSite {
-        site: Site::named(&part.value)?,
+        site: part.value,
         place: part.place,
         present: present.map_or(SURE, |present| present.value),
         wraps,

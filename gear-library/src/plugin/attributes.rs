@@ -3,7 +3,7 @@
 use endline_sdk::{Attribute, AttributeKind};
 
 use crate::diagnostic::hint;
-use crate::fields::{Fields, Problems, Range, read_value};
+use crate::fields::{Fields, Range, read_value};
 use crate::schema::Kind;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
@@ -14,12 +14,10 @@ use super::expression::Name;
 pub(super) const TAKEN: [&str; 5] = ["depth", "i", "min", "max", "sqrt"];
 
 /// Reads an attribute; `None` if a field is missing or wrong, which is reported.
-pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
-    let fields = Fields::of(node, problems);
+pub(super) fn read(fields: &Fields<'_>) -> Option<Attribute> {
     let key = fields.need_text("key", "write a key such as \"scope\"");
     let help = fields.need_text("help", "write a description in one sentence");
-    let kind = kind(&fields);
-    fields.finish();
+    let kind = kind(fields);
     let (key, (unit, kind)) = (key?, kind?);
     let plain = key.value.starts_with(|c: char| c.is_ascii_lowercase())
         && key.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
@@ -29,7 +27,7 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
             "write small letters, digits and underscores; {} are reserved",
             TAKEN.join(", ")
         );
-        return problems.refuse(key.place.error(message, help));
+        return fields.refuse(key.place.error(message, help));
     }
     Some(Attribute { key: key.value.into(), unit: unit.into(), help: help?.value.into(), kind })
 }

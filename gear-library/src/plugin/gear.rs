@@ -74,20 +74,15 @@ impl TextGear {
         let (name, notes, _) = entry::header(&fields, "gear-type", problems);
         let id = fields
             .need_text("id", "write a reverse-domain id such as \"org.example.gear.two-buoys\"");
-        let attributes: Vec<_> = fields
-            .tables("attribute")
-            .iter()
-            .filter_map(|node| attributes::read(node, problems))
-            .collect();
+        let attributes = fields.each("attribute", attributes::read);
         let own = [("depth", 1), ("i", 0)]
             .map(|(key, power)| Name { key: key.to_owned(), power: Some(power) });
         let names = attributes.iter().map(attributes::name).chain(own).collect();
         let reader = Reader { names, problems };
-        let each = |key: &'static str| fields.tables(key).iter();
-        let bodies = each("body").filter_map(|node| reader.body(node)).collect();
-        let joints = each("joint").filter_map(|node| reader.joint(node)).collect();
-        let lines: Vec<_> = each("line").filter_map(|node| reader.line(node)).collect();
-        let links = each("link").filter_map(|node| reader.link(node)).collect();
+        let bodies = fields.each("body", |table| reader.body(table));
+        let joints = fields.each("joint", |table| reader.joint(table));
+        let lines = fields.each("line", |table| reader.line(table));
+        let links = fields.each("link", |table| reader.link(table));
         fields.finish();
         if lines.is_empty() && !problems.any_error() {
             fields.missing("line", "write parts under [[body]], [[joint]], [[line]] and [[link]]");
@@ -196,69 +191,56 @@ impl Reader<'_> {
     }
 
     /// Reads a `[[body]]`; `None` if a field is missing or wrong, which is reported.
-    fn body(&self, node: &Node) -> Option<Body> {
-        let fields = Fields::of(node, self.problems);
-        let part = self.part(&fields);
-        let kind =
-            fields.need_word("kind", "write trap, buoy or anchor", &["trap", "buoy", "anchor"]);
+    fn body(&self, fields: &Fields<'_>) -> Option<Body> {
+        let part = self.part(fields);
+        let kinds =
+            [("trap", BodyKind::Trap), ("buoy", BodyKind::Buoy), ("anchor", BodyKind::Anchor)];
+        let kind = fields.need_choice("kind", "write trap, buoy or anchor", &kinds);
         let item = self.need_template(
-            &fields,
+            fields,
             "item",
             "write the id of an item, or the key of an attribute in braces: \"{trap}\"",
         );
-        let place = self.place(&fields);
-        fields.finish();
-        let kind = match kind?.value.as_str() {
-            "trap" => BodyKind::Trap,
-            "buoy" => BodyKind::Buoy,
-            _ => BodyKind::Anchor,
-        };
-        Some(Body { part: part?, kind, item: item?, place: place? })
+        let place = self.place(fields);
+        Some(Body { part: part?, kind: kind?, item: item?, place: place? })
     }
 
     /// Reads a `[[joint]]`; `None` if a field is missing or wrong, which is reported.
-    fn joint(&self, node: &Node) -> Option<Joint> {
-        let fields = Fields::of(node, self.problems);
-        let (part, place) = (self.part(&fields), self.place(&fields));
-        fields.finish();
+    fn joint(&self, fields: &Fields<'_>) -> Option<Joint> {
+        let (part, place) = (self.part(fields), self.place(fields));
         Some(Joint { part: part?, place: place? })
     }
 
     /// Reads a `[[line]]`; `None` if a field is missing or wrong, which is reported.
-    fn line(&self, node: &Node) -> Option<Line> {
-        let fields = Fields::of(node, self.problems);
-        let part = self.part(&fields);
+    fn line(&self, fields: &Fields<'_>) -> Option<Line> {
+        let part = self.part(fields);
         let rope = self.need_template(
-            &fields,
+            fields,
             "rope",
             "write the id of a rope, or the key of an attribute in braces: \"{rope}\"",
         );
         let from = self.need_template(
-            &fields,
+            fields,
             "from",
             "write the id of the body or joint at the `from` end",
         );
         let to =
-            self.need_template(&fields, "to", "write the id of the body or joint at the `to` end");
-        let length = self.expression(&fields, "length", 1);
-        fields.finish();
+            self.need_template(fields, "to", "write the id of the body or joint at the `to` end");
+        let length = self.expression(fields, "length", 1);
         Some(Line { part: part?, rope: rope?, ends: [from?, to?], length: length? })
     }
 
     /// Reads a `[[link]]`; `None` if a field is missing or wrong, which is reported.
-    fn link(&self, node: &Node) -> Option<Link> {
-        let fields = Fields::of(node, self.problems);
-        let part = self.part(&fields);
+    fn link(&self, fields: &Fields<'_>) -> Option<Link> {
+        let part = self.part(fields);
         let item = self.need_template(
-            &fields,
+            fields,
             "item",
             "write the id of a weak link, or the key of an attribute in braces: \"{weak_link}\"",
         );
-        let line = self.need_template(&fields, "line", "write the id of its line");
-        let end = fields.need_word("end", "write from or to", &["from", "to"]);
-        fields.finish();
-        let end = if end?.value == "from" { LineEnd::A } else { LineEnd::B };
-        Some(Link { part: part?, item: item?, line: line?, end })
+        let line = self.need_template(fields, "line", "write the id of its line");
+        let end = fields.need_end("end", "write from or to");
+        Some(Link { part: part?, item: item?, line: line?, end: end? })
     }
 }
 

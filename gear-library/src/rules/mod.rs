@@ -64,8 +64,7 @@ impl RulePack {
         let (name, notes, file) = entry::header(&fields, "rules", problems);
         let jurisdiction =
             fields.need_text("jurisdiction", "write the jurisdiction, such as \"US-MA\"");
-        let areas: Vec<Area> =
-            fields.tables("area").iter().filter_map(|node| area(node, problems)).collect();
+        let areas = fields.each("area", area);
         let rules = rules(&fields, &file, judge);
         fields.finish();
         if fields.tables("rule").is_empty() {
@@ -92,12 +91,10 @@ fn rules(
 }
 
 /// Reads an `[[area]]`.
-fn area(node: &Node, problems: &Problems) -> Option<Area> {
-    let fields = Fields::of(node, problems);
+fn area(fields: &Fields<'_>) -> Option<Area> {
     let id = fields.need_id("id", "write an id such as \"lma-1\"");
     let name = fields.need_text("name", "write a name in quotes");
     let within = fields.text("within");
-    fields.finish();
     Some(Area { id: id?, name: name?.value, within })
 }
 

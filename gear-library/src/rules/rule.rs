@@ -91,8 +91,9 @@ pub struct RuleDraft {
 }
 
 impl Standing {
-    /// The words a file uses.
-    pub const WORDS: [&'static str; 3] = ["law", "voluntary", "proposed"];
+    /// The words a file uses, in the order of the variants.
+    const WORDS: [(&'static str, Self); 3] =
+        [("law", Self::Law), ("voluntary", Self::Voluntary), ("proposed", Self::Proposed)];
 
     /// Whether it is binding; other rules are advice.
     pub fn binds(self) -> bool {
@@ -101,31 +102,22 @@ impl Standing {
 
     /// Its word.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Law => "law",
-            Self::Voluntary => "voluntary",
-            Self::Proposed => "proposed",
-        }
+        Self::WORDS[self as usize].0
     }
 }
 
 impl Subject {
     /// The words a file uses, in the order of the variants.
-    pub const WORDS: [&'static str; 4] =
-        ["gear", "every endline", "any endline", "every groundline"];
+    const WORDS: [(&'static str, Self); 4] = [
+        ("gear", Self::Gear),
+        ("every endline", Self::EveryEndline),
+        ("any endline", Self::AnyEndline),
+        ("every groundline", Self::EveryGroundline),
+    ];
 
     /// Its words.
     pub fn word(self) -> &'static str {
-        Self::WORDS[self as usize]
-    }
-
-    fn named(word: &str) -> Self {
-        match word {
-            "every endline" => Self::EveryEndline,
-            "any endline" => Self::AnyEndline,
-            "every groundline" => Self::EveryGroundline,
-            _ => Self::Gear,
-        }
+        Self::WORDS[self as usize].0
     }
 }
 
@@ -146,8 +138,8 @@ impl RuleDraft {
     pub(super) fn read(node: &Node, file: &Provenance, problems: &Problems) -> Self {
         let fields = Fields::of(node, problems);
         let own = provenance_over(&fields, file);
-        let subject = fields.word("subject", &Subject::WORDS);
-        let subject = subject.map_or(Subject::Gear, |word| Subject::named(&word.value));
+        let subject = fields.choice("subject", &Subject::WORDS);
+        let subject = subject.map_or(Subject::Gear, |subject| subject.value);
         let when = fields.text("when");
         let check =
             fields.need_text("check", "write the required condition, such as \"traps >= least\"");
@@ -177,7 +169,7 @@ fn rule(
     let cite = fields.need_text("cite", "name the law, or the page, that states it");
     let remedy = fields.need_text("remedy", "write the remedy for gear that does not comply");
     let standing =
-        fields.need_word("standing", "write law, voluntary or proposed", &Standing::WORDS);
+        fields.need_choice("standing", "write law, voluntary or proposed", &Standing::WORDS);
     let (from, until) = in_force(fields);
     for (key, lacks) in [("source", own.source.is_none()), ("confidence", own.confidence.is_none())]
     {
@@ -196,11 +188,7 @@ fn rule(
         id: id?,
         asks: asks?.value,
         cite: cite?.value,
-        standing: match standing?.value.as_str() {
-            "law" => Standing::Law,
-            "voluntary" => Standing::Voluntary,
-            _ => Standing::Proposed,
-        },
+        standing: standing?,
         source: own.source.clone()?,
         confidence: own.confidence?,
         from: from?.value,

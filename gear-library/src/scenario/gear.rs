@@ -3,12 +3,12 @@
 use endline_sdk::BodyPart;
 use endline_sim::model::Resolution;
 
-use crate::assembly::{Attributes, PartLine, line_fields};
+use crate::assembly::{Attributes, PartLine, line};
 use crate::diagnostic::{At, Place};
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Range};
 use crate::limits;
 use crate::line::{LineMake, line_choices};
-use crate::tree::{Content, Node};
+use crate::tree::Content;
 use crate::units::Quantity;
 
 use super::parts::LineStart;
@@ -33,16 +33,14 @@ pub struct PlacedGear {
 }
 
 /// Reads a `[[gear]]`; `None` without an assembly, which is reported.
-pub(super) fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
-    let fields = Fields::of(node, problems);
+pub(super) fn placed_gear(fields: &Fields<'_>) -> Option<PlacedGear> {
     let id = fields.id("id");
     let assembly = fields.need_text("assembly", "write the id of an assembly, such as \"single\"");
     let position = fields.values("position", Quantity::Length, &[2]);
     let heading = fields.value("heading", Quantity::Angle, Range::Any);
-    let attributes = Attributes::read(&fields, "attributes");
-    let ropes = rope_choices(&fields);
-    let lines = line_choices(&fields);
-    fields.finish();
+    let attributes = Attributes::read(fields, "attributes");
+    let ropes = rope_choices(fields);
+    let lines = line_choices(fields);
     Some(PlacedGear {
         id,
         assembly: assembly?,
@@ -74,18 +72,16 @@ fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
 }
 
 /// Reads a `[[line]]` with its initial shape; `None` if a required field is missing, which is reported.
-pub(super) fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {
-    let fields = Fields::of(node, problems);
-    let line = line_fields(&fields);
+pub(super) fn free_line(fields: &Fields<'_>) -> Option<(PartLine, LineStart)> {
+    let part = line(fields);
     let start = fields.word("start", &["straight", "catenary", "around", "wrapped"]);
     let start = match start.as_ref().map_or("straight", |start| start.value.as_str()) {
         "catenary" => Some(LineStart::Catenary),
-        "around" => around(&fields),
-        "wrapped" => wrapped(&fields),
+        "around" => around(fields),
+        "wrapped" => wrapped(fields),
         _ => Some(LineStart::Straight),
     };
-    fields.finish();
-    Some((line?, start?))
+    Some((part?, start?))
 }
 
 fn around(fields: &Fields<'_>) -> Option<LineStart> {
@@ -103,14 +99,12 @@ fn around(fields: &Fields<'_>) -> Option<LineStart> {
 }
 
 fn wrapped(fields: &Fields<'_>) -> Option<LineStart> {
-    let wraps = fields.tables("wrap");
-    if wraps.is_empty() && fields.get("wrap").is_none() {
+    let Some(tables) = fields.get("wrap").map(|_| fields.tables("wrap").len()) else {
         fields.missing("wrap", "write each wrap under [[line.wrap]], with `part` and `turns`");
         return None;
-    }
-    let wraps: Vec<Option<WrapOf>> =
-        wraps.iter().map(|node| WrapOf::read(node, fields.problems())).collect();
-    wraps.into_iter().collect::<Option<Vec<_>>>().map(LineStart::Wrapped)
+    };
+    let wraps = fields.each("wrap", WrapOf::read);
+    (wraps.len() == tables).then_some(LineStart::Wrapped(wraps))
 }
 
 /// Default station of a wrap on a fin: closer to the root a plane across the fin intersects the body.
@@ -143,14 +137,13 @@ pub struct WrapOf {
 
 impl WrapOf {
     /// Reads a wrap; `None` if a required field is missing, which is reported.
-    pub(super) fn read(node: &Node, problems: &Problems) -> Option<Self> {
-        let fields = Fields::of(node, problems);
-        let names = BodyPart::ALL.map(BodyPart::name);
-        let part =
-            fields.need_word("part", "write the part of the whale, such as \"peduncle\"", &names);
+    pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
+        let parts = BodyPart::ALL.map(|part| (part.name(), part));
+        let help = "write the part of the whale, such as \"peduncle\"";
+        let part = fields.need_choice("part", help, &parts);
         let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-20.0, 20.0));
         if let Some(none) = turns.as_ref().filter(|turns| turns.value.abs() < 0.05) {
-            problems.push(none.place.error(
+            fields.problems().push(none.place.error(
                 "`turns` is almost zero",
                 "write at least 0.05 turns, or at most -0.05 (left-handed)",
             ));
@@ -166,16 +159,13 @@ impl WrapOf {
             && slack.value > 0.0
             && pretension.value > 0.0
         {
-            problems.push(slack.place.error(
+            fields.problems().push(slack.place.error(
                 "both `slack` and `pretension` are present",
                 "a slack wrap has no tension: keep one of them",
             ));
         }
-        fields.finish();
         let value = |at: Option<At<f64>>| at.map(|at| at.value);
-        let part = BodyPart::ALL
-            .into_iter()
-            .find(|known| part.as_ref().is_some_and(|part| part.value == known.name()))?;
+        let part = part?;
         Some(Self {
             part,
             turns: turns?.value,
@@ -186,7 +176,7 @@ impl WrapOf {
             pretension_n: value(pretension).unwrap_or(0.0),
             segment_m: value(segment),
             before_m: value(before),
-            place: node.place.clone(),
+            place: fields.place.clone(),
         })
     }
 }
@@ -201,15 +191,13 @@ pub struct LineSegments {
 }
 
 impl LineSegments {
-    pub(super) fn read(node: &Node, problems: &Problems) -> Option<Self> {
-        let fields = Fields::of(node, problems);
+    pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
         let line = fields.need_text(
             "line",
             "write the id of a line, or its beginning and `*`, such as \"endline-*\"",
         );
         let longest =
             fields.need_value("longest", Quantity::Length, Range::Within(&limits::SEGMENT));
-        fields.finish();
         Some(Self { line: line?, longest_m: longest?.value })
     }
 

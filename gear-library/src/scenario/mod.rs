@@ -112,10 +112,8 @@ impl Scenario {
             fields.need_value("duration", Quantity::Time, Range::Within(&limits::DURATION));
         let whale = fields.table("whale");
         let resolution = fields.table("resolution");
-        let start = fields.word("start", &["rest", "placed"]);
-        let rope_condition = fields.word("rope_condition", &Condition::WORDS);
+        let start = fields.choice("start", &[("rest", false), ("placed", true)]);
         let flag = |key, usual| fields.flag(key).unwrap_or(usual);
-        let each = |key: &'static str| fields.tables(key).iter();
         let scenario = Self {
             name,
             notes,
@@ -128,9 +126,7 @@ impl Scenario {
             contact_tolerance: contact_tolerance(&fields),
             rope_nodes: fields.count("rope_nodes", &limits::ROPE_NODES),
             segment_m: segment(&fields),
-            line_segments: each("segments")
-                .filter_map(|node| LineSegments::read(node, problems))
-                .collect(),
+            line_segments: fields.each("segments", LineSegments::read),
             weak_links: flag("weak_links", true),
             rope_on_bodies: flag("rope_on_bodies", true),
             bodies_on_whale: flag("bodies_on_whale", true),
@@ -138,27 +134,25 @@ impl Scenario {
             rope_on_rope: flag("rope_on_rope", true),
             balance: fields.flag("balance"),
             rope_friction: rope_friction(&fields),
-            as_placed: start.is_some_and(|start| start.value == "placed"),
-            rope_condition: rope_condition
-                .and_then(|word| Condition::from_word(&word.value))
-                .unwrap_or_default(),
+            as_placed: start.is_some_and(|start| start.value),
+            rope_condition: fields
+                .choice("rope_condition", &Condition::WORDS)
+                .map_or(Condition::Secant, |condition| condition.value),
             rope_bending: flag("rope_bending", false),
             strength_variation: flag("strength_scatter", true),
             sea: sea::read(&fields),
-            gear: each("gear").filter_map(|node| gear::placed_gear(node, problems)).collect(),
+            gear: fields.each("gear", gear::placed_gear),
             resolution: resolution.map(|table| gear::resolution(&table, whale.is_some())),
             whale: whale.as_ref().and_then(PlacedWhale::read),
             friction: fields.table("friction").as_ref().and_then(whale::friction),
             ropes: parts::ropes(&fields, &file),
-            fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
-            joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
-            obstacles: each("obstacle")
-                .filter_map(|node| parts::obstacle(node, &file, problems))
-                .collect(),
-            bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
-            lines: each("line").filter_map(|node| gear::free_line(node, problems)).collect(),
-            links: each("link").filter_map(|node| link(node, problems, true)).collect(),
-            probes: each("probe").filter_map(|node| parts::probe(node, problems)).collect(),
+            fixtures: fields.each("fixture", parts::fixture),
+            joints: fields.each("joint", parts::joint),
+            obstacles: fields.each("obstacle", |table| parts::obstacle(table, &file)),
+            bodies: fields.each("body", |table| parts::body(table, &file)),
+            lines: fields.each("line", gear::free_line),
+            links: fields.each("link", |table| link(table, true)),
+            probes: fields.each("probe", parts::probe),
         };
         scenario.check_whole(&fields);
         fields.finish();

@@ -7,7 +7,7 @@ use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
-use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over};
+use crate::fields::{Fields, Figure, Provenance, Range, provenance_over};
 use crate::limits::{self, Limit};
 use crate::schema::Kind;
 use crate::tree::Node;
@@ -133,31 +133,31 @@ pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
 }
 
 /// Reads a `[[fixture]]`; `None` if a required field is missing, which is reported.
-pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
-    let fields = Fields::of(node, problems);
+pub(super) fn fixture(fields: &Fields<'_>) -> Option<Fixture> {
     let id = fields.need_id("id", "write an id such as \"anchor\"");
-    let position = position(&fields);
+    let position = position(fields);
     let velocity = fields.values("velocity", Quantity::Speed, &[3]);
     let from = fields.value("from", Quantity::Time, Range::NotNegative);
     let until = fields.value("until", Quantity::Time, Range::NotNegative);
     let force = fields.values("force", Quantity::Force, &[3]);
     match (&velocity, &force, from.as_ref().or(until.as_ref()), &until) {
         (Some(_), Some(force), ..) => {
-            problems.push(force.place.error("both a `velocity` and a `force`", "keep one of them"));
+            fields
+                .problems()
+                .push(force.place.error("both a `velocity` and a `force`", "keep one of them"));
         }
-        (None, None, Some(lone), _) => problems.push(lone.place.error(
+        (None, None, Some(lone), _) => fields.problems().push(lone.place.error(
             "a time without a `velocity`",
             "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or remove the time",
         )),
         (None, Some(_), _, Some(until)) => {
-            problems.push(until.place.error(
+            fields.problems().push(until.place.error(
                 "a `force` has no `until`",
                 "remove it: a force acts from `from` to the end",
             ));
         }
         _ => {}
     }
-    fields.finish();
     let begins = from.map_or(0.0, |from| from.value);
     let drive = velocity.map(|velocity| {
         (place3(&velocity.value), begins, until.map_or(f64::INFINITY, |until| until.value))
@@ -167,26 +167,23 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
 }
 
 /// Reads a `[[joint]]`: a free end, or a place where lines meet.
-pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVec3)> {
-    let fields = Fields::of(node, problems);
+pub(super) fn joint(fields: &Fields<'_>) -> Option<(At<String>, DVec3)> {
     let id = fields.need_id("id", "write an id such as \"tail\"");
-    let position = position(&fields);
-    fields.finish();
+    let position = position(fields);
     Some((id?, position?))
 }
 
 /// Reads a `[[body]]`; `None` if a required field is missing, which is reported.
-pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
-    let fields = Fields::of(node, problems);
+pub(super) fn body(fields: &Fields<'_>, file: &Provenance) -> Option<FreeBody> {
     let id = fields.need_id("id", "write an id such as \"bob\"");
     let role = fields.word("role", &["buoy", "weight"]);
-    let position = position(&fields);
+    let position = position(fields);
     let held = fields.value("held_until", Quantity::Time, Range::NotNegative);
     let wetted = fields.flag("wetted_drag");
     let spin = fields.values("spin", Quantity::TurnRate, &[3]);
-    let size = within(&fields, "size", &limits::BODY_SIZE);
-    let inertia = above_zero(&fields, "inertia", Quantity::Inertia);
-    let row = provenance_over(&fields, file);
+    let size = within(fields, "size", &limits::BODY_SIZE);
+    let inertia = above_zero(fields, "inertia", Quantity::Inertia);
+    let row = provenance_over(fields, file);
     let figure = |key, quantity, range| fields.figure(key, quantity, range, &row);
     fields.require("mass", "expected a mass such as 20 kg");
     let mass = figure("mass", Quantity::Mass, Range::Positive);
@@ -195,7 +192,6 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
     let height = figure("float_height", Quantity::Length, Range::Positive);
     let drag = figure("drag_area", Quantity::Area, Range::NotNegative);
     let added = figure("added_mass", Quantity::Ratio, Range::NotNegative);
-    fields.finish();
     let or = |figure: Option<Figure>, default: f64| figure.map_or(default, |figure| figure.value);
     let radius_m = or(radius, 0.1);
     Some(FreeBody {
@@ -237,8 +233,7 @@ fn within<'a>(fields: &Fields<'a>, key: &'a str, limit: &'static Limit) -> Optio
 }
 
 /// Reads a `[[probe]]`; `None` if a required field is missing, which is reported.
-pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
-    let fields = Fields::of(node, problems);
+pub(super) fn probe(fields: &Fields<'_>) -> Option<ProbeOf> {
     let id = fields.need_id("id", "write an id such as \"anchor tension\"");
     let of = fields.need_word(
         "of",
@@ -246,16 +241,15 @@ pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
         &["tension", "middle", "line", "height", "place", "energy", "whale"],
     );
     let part = of.and_then(|of| match of.value.as_str() {
-        "tension" => tension(&fields),
-        "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
-        "line" => coordinate(&fields, "line")
-            .and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
-        "height" => height(&fields),
-        "energy" => Some(ProbePart::Energy(energy_form(&fields))),
-        "whale" => whale_figure(&fields).map(ProbePart::Whale),
-        _ => place(&fields),
+        "tension" => tension(fields),
+        "middle" => coordinate(fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
+        "line" => coordinate(fields, "line")
+            .and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(fields)?, axis))),
+        "height" => height(fields),
+        "energy" => Some(ProbePart::Energy(energy_form(fields))),
+        "whale" => whale_figure(fields).map(ProbePart::Whale),
+        _ => place(fields),
     });
-    fields.finish();
     Some(ProbeOf { id: id?, part: part? })
 }
 
@@ -265,12 +259,9 @@ fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
     if fields.get("at").is_some() {
         return Some(ProbePart::TensionAt(line?, length_at(fields)?));
     }
-    let end = fields.need_word(
-        "end",
-        "write from or to; or `at`, a length of rope from its end `from`",
-        &["from", "to"],
-    )?;
-    Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
+    let help = "write from or to; or `at`, a length of rope from its end `from`";
+    let end = fields.need_end("end", help)?;
+    Some(ProbePart::Tension(line?, end))
 }
 
 /// A coordinate of a body or a `point` of it, of a joint or a fixture.
@@ -292,34 +283,31 @@ fn length_at(fields: &Fields<'_>) -> Option<f64> {
 }
 
 fn energy_form(fields: &Fields<'_>) -> EnergyForm {
-    let form = fields.word("form", &["total", "kinetic", "height", "stretch"]);
-    match form.as_ref().map(|form| form.value.as_str()) {
-        Some("kinetic") => EnergyForm::Kinetic,
-        Some("height") => EnergyForm::Height,
-        Some("stretch") => EnergyForm::Stretch,
-        _ => EnergyForm::Total,
-    }
+    let forms = [
+        ("total", EnergyForm::Total),
+        ("kinetic", EnergyForm::Kinetic),
+        ("height", EnergyForm::Height),
+        ("stretch", EnergyForm::Stretch),
+    ];
+    fields.choice("form", &forms).map_or(EnergyForm::Total, |form| form.value)
 }
 
 fn whale_figure(fields: &Fields<'_>) -> Option<At<WhaleFigure>> {
-    let figure = fields.need_word(
-        "figure",
-        "write speed, thrust, power or body-drag",
-        &["speed", "thrust", "power", "body-drag"],
-    )?;
-    let value = match figure.value.as_str() {
-        "speed" => WhaleFigure::Speed,
-        "thrust" => WhaleFigure::Thrust,
-        "power" => WhaleFigure::Power,
-        _ => WhaleFigure::BodyDrag,
-    };
-    Some(At { value, place: figure.place })
+    let figures = [
+        ("speed", WhaleFigure::Speed),
+        ("thrust", WhaleFigure::Thrust),
+        ("power", WhaleFigure::Power),
+        ("body-drag", WhaleFigure::BodyDrag),
+    ];
+    fields.require("figure", "write speed, thrust, power or body-drag");
+    fields.choice("figure", &figures)
 }
 
 fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usize)> {
     let part = fields.need_text(key, "write an id");
-    let axis = fields.need_word("axis", "write x (east), y (north) or z (up)", &["x", "y", "z"])?;
-    Some((part?, ["x", "y", "z"].iter().position(|name| *name == axis.value)?))
+    let axes = [("x", 0), ("y", 1), ("z", 2)];
+    let axis = fields.need_choice("axis", "write x (east), y (north) or z (up)", &axes)?;
+    Some((part?, axis))
 }
 
 /// `position`: east, north and up [m]; `None` if it is missing, which is reported.
@@ -350,16 +338,15 @@ pub struct ObstacleOf {
 }
 
 /// Reads an `[[obstacle]]`.
-pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> Option<ObstacleOf> {
-    let fields = Fields::of(node, problems);
+pub(super) fn obstacle(fields: &Fields<'_>, file: &Provenance) -> Option<ObstacleOf> {
     let id = fields.need_id("id", "write an id such as \"rock\"");
     let word = fields.need_word(
         "shape",
         "write plane, sphere, cylinder or box",
         &["plane", "sphere", "cylinder", "box"],
     );
-    let position_m = position(&fields);
-    let row = provenance_over(&fields, file);
+    let position_m = position(fields);
+    let row = provenance_over(fields, file);
     fields.require(
         "friction",
         "write the friction of rope and bodies on it, such as 0.3; 0 is smooth",
@@ -367,15 +354,18 @@ pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> O
     let friction = fields.figure("friction", Quantity::Ratio, Range::Between(0.0, 10.0), &row);
     let stiffness = fields.figure("stiffness", Quantity::Pressure, Range::Positive, &row);
     // The dimensions depend on the shape.
-    let shape = match word?.value.as_str() {
-        "plane" => direction(&fields, "normal").map(|turn| (SolidShape::Plane, turn)),
-        "sphere" => {
-            measure(&fields, "radius").map(|radius| (SolidShape::Sphere(radius), DQuat::IDENTITY))
-        }
-        "cylinder" => cylinder(&fields),
-        _ => cuboid(&fields),
+    let Some(word) = word else {
+        fields.rest();
+        return None;
     };
-    fields.finish();
+    let shape = match word.value.as_str() {
+        "plane" => direction(fields, "normal").map(|turn| (SolidShape::Plane, turn)),
+        "sphere" => {
+            measure(fields, "radius").map(|radius| (SolidShape::Sphere(radius), DQuat::IDENTITY))
+        }
+        "cylinder" => cylinder(fields),
+        _ => cuboid(fields),
+    };
     let (shape, orientation) = shape?;
     Some(ObstacleOf {
         id: id?,

@@ -9,9 +9,8 @@ use endline_sim::water::waves::{WaveKind, Waves};
 
 use crate::compass::direction;
 use crate::diagnostic::{At, Place};
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Range};
 use crate::limits;
-use crate::tree::Node;
 use crate::units::Quantity;
 
 /// Site, seabed, current and waves.
@@ -180,11 +179,7 @@ pub(super) fn read_current(fields: &Fields<'_>) -> CurrentOf {
     let speed_height = fields.value("speed_height", Quantity::Length, Range::Between(0.01, 6000.0));
     let exponent = fields.value("exponent", Quantity::Ratio, Range::Between(0.0, 1.0));
     let roughness = fields.value("roughness", Quantity::Length, Range::Between(1e-6, 1.0));
-    let rows: Vec<_> = fields
-        .tables("profile")
-        .iter()
-        .filter_map(|node| row(node, toward_rad, fields.problems()))
-        .collect();
+    let rows = fields.each("profile", |table| row(table, toward_rad));
     let table = times(fields, toward_rad);
     let tide = fields.table("tide").as_ref().and_then(constituent);
     check_law(fields, [&speed, &speed_height, &exponent, &roughness], !rows.is_empty());
@@ -244,11 +239,10 @@ fn check_law(
 }
 
 /// Reads a `[[current.profile]]`: velocity by height above the seabed or by depth.
-fn row(node: &Node, toward_rad: f64, problems: &Problems) -> Option<CurrentRow> {
-    let fields = Fields::of(node, problems);
+fn row(fields: &Fields<'_>, toward_rad: f64) -> Option<CurrentRow> {
     let height = fields.value("height", Quantity::Length, Range::Between(0.0, 6000.0));
     let depth = fields.value("depth", Quantity::Length, Range::Between(0.0, 6000.0));
-    let velocity_m_s = velocity(&fields, toward_rad);
+    let velocity_m_s = velocity(fields, toward_rad);
     let written = fields.get("height").or(fields.get("depth")).is_some();
     let at = match (height, depth) {
         (Some(height), None) => {
@@ -257,7 +251,7 @@ fn row(node: &Node, toward_rad: f64, problems: &Problems) -> Option<CurrentRow> 
         (None, Some(depth)) => {
             Some(At { value: RowHeight::BelowSurface(depth.value), place: depth.place })
         }
-        (Some(_), Some(depth)) => problems.refuse(depth.place.error(
+        (Some(_), Some(depth)) => fields.refuse(depth.place.error(
             "a row with both `height` and `depth`",
             "keep the height above the seabed or the depth",
         )),
@@ -267,7 +261,6 @@ fn row(node: &Node, toward_rad: f64, problems: &Problems) -> Option<CurrentRow> 
             None
         }
     };
-    fields.finish();
     Some(CurrentRow { at: at?, velocity_m_s: velocity_m_s? })
 }
 

@@ -91,7 +91,9 @@ impl PlacedWhale {
         let state = fields.word("state", &["alive", "dead"]);
         let dead = state.is_some_and(|word| word.value == "dead");
         let dynamics = fields.word("dynamics", &["kinematic", "kinetic"]);
-        let effort = fields.word("effort", &["power", "thrust", "speed"]);
+        let efforts =
+            [("power", Effort::Power), ("thrust", Effort::Thrust), ("speed", Effort::Speed)];
+        let effort = fields.choice("effort", &efforts);
         let (speed, motion) = if dead { adrift(fields) } else { under_way(fields) };
         let attributes = Attributes::read(fields, "attributes");
         let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
@@ -112,7 +114,7 @@ impl PlacedWhale {
             contact_stiffness_n_m2: stiffness.map(|stiffness| stiffness.value),
             dead,
             kinetic: dynamics.is_some_and(|word| word.value == "kinetic"),
-            effort: effort_of(effort.as_ref().map(|word| word.value.as_str())),
+            effort: effort.map_or(Effort::Power, |effort| effort.value),
             motion: motion?,
             attributes,
             acts,
@@ -187,14 +189,6 @@ fn under_way(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
 /// Speed and motion of a dead whale; the motion is not used.
 fn adrift(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
     (Some(0.0), Some(At { value: NO_MOTION.to_owned(), place: fields.place.clone() }))
-}
-
-fn effort_of(word: Option<&str>) -> Effort {
-    match word {
-        Some("thrust") => Effort::Thrust,
-        Some("speed") => Effort::Speed,
-        _ => Effort::Power,
-    }
 }
 
 /// An entry of the pilot program; [`assemble`](crate::assemble) resolves its names.
@@ -366,10 +360,9 @@ fn trigger(fields: &Fields<'_>, ids: &Ids) -> Option<TriggerOf> {
 
 /// A body part by name; `None` for any.
 fn touch(fields: &Fields<'_>) -> Option<Option<BodyPart>> {
-    let words: Vec<&str> =
-        std::iter::once("any").chain(BodyPart::ALL.map(BodyPart::name)).collect();
-    let word = fields.word("touch", &words)?;
-    Some(BodyPart::ALL.into_iter().find(|part| part.name() == word.value))
+    let parts = BodyPart::ALL.map(|part| (part.name(), Some(part)));
+    let choices: Vec<_> = std::iter::once(("any", None)).chain(parts).collect();
+    fields.choice("touch", &choices).map(|part| part.value)
 }
 
 /// The index of the earlier entry with an id.
@@ -421,25 +414,19 @@ pub(super) fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
         "write the id of a friction model, such as \"org.endline.friction.coulomb\"",
     );
     let attributes = Attributes::read(fields, "attributes");
-    let on = fields
-        .tables("on")
-        .iter()
-        .filter_map(|node| friction_on(node, fields.problems()))
-        .collect();
+    let on = fields.each("on", friction_on);
     fields.finish();
     Some(FrictionChoice { model: model?, attributes, on })
 }
 
 /// `[[friction.on]]`: a model for some surfaces.
-fn friction_on(node: &Node, problems: &Problems) -> Option<FrictionOn> {
-    let fields = Fields::of(node, problems);
+fn friction_on(fields: &Fields<'_>) -> Option<FrictionOn> {
     fields.require("surfaces", "write the surfaces of this model, such as [\"baleen\"]");
-    let surfaces = read_surfaces(&fields, "surfaces");
+    let surfaces = read_surfaces(fields, "surfaces");
     let model = fields.need_text(
         "model",
         "write the id of a friction model, such as \"org.endline.friction.baleen\"",
     );
-    let attributes = Attributes::read(&fields, "attributes");
-    fields.finish();
+    let attributes = Attributes::read(fields, "attributes");
     (!surfaces.is_empty()).then_some(FrictionOn { surfaces, model: model?, attributes })
 }

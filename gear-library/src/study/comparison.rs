@@ -2,9 +2,9 @@
 //! finer segments and steps found by another study.
 
 use crate::diagnostic::At;
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Range};
 use crate::limits;
-use crate::tree::{Content, Node};
+use crate::tree::Content;
 use crate::units::Quantity;
 
 use super::event::{self, StudyEvent};
@@ -31,25 +31,19 @@ pub struct Claim {
 
 /// Reads `[[claim]]`, sorted by id.
 pub(super) fn read_claims(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Claim> {
-    let mut claims: Vec<Claim> = fields
-        .tables("claim")
-        .iter()
-        .filter_map(|node| read_claim(node, options, fields.problems()))
-        .collect();
+    let mut claims = fields.each("claim", |table| read_claim(table, options));
     claims.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     claims
 }
 
-fn read_claim(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Claim> {
-    let fields = Fields::of(node, problems);
+fn read_claim(fields: &Fields<'_>, options: &[StudyOption]) -> Option<Claim> {
     let id = fields.need_id("id", "write an id such as \"slack-mouth\"");
     let says = fields.need_text("says", "write the statement in words");
     let source = fields.need_text("source", "name the source of the statement");
-    let event = event::need(&fields, "event");
-    let less_event = event::maybe(&fields, "less_event");
-    let more = known_options(&fields, "more", options);
-    let less = known_options(&fields, "less", options);
-    fields.finish();
+    let event = event::need(fields, "event");
+    let less_event = event::maybe(fields, "less_event");
+    let more = known_options(fields, "more", options);
+    let less = known_options(fields, "less", options);
     let event = event?;
     Some(Claim {
         id: id?,
@@ -107,32 +101,22 @@ pub(super) fn read_observations(
     fields: &Fields<'_>,
     options: &[StudyOption],
 ) -> Vec<ObservedShare> {
-    let mut observations: Vec<ObservedShare> = fields
-        .tables("observation")
-        .iter()
-        .filter_map(|node| read_observation(node, options, fields.problems()))
-        .collect();
+    let mut observations = fields.each("observation", |table| read_observation(table, options));
     observations.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     observations
 }
 
-fn read_observation(
-    node: &Node,
-    options: &[StudyOption],
-    problems: &Problems,
-) -> Option<ObservedShare> {
-    let fields = Fields::of(node, problems);
+fn read_observation(fields: &Fields<'_>, options: &[StudyOption]) -> Option<ObservedShare> {
     let id = fields.need_id("id", "write an id such as \"mouth\"");
     let says = fields.need_text("says", "write the observation in words");
     let source = fields.need_text("source", "name the source of the observation");
-    let of = event::need(&fields, "of");
-    let among = event::maybe(&fields, "among");
+    let of = event::need(fields, "of");
+    let among = event::maybe(fields, "among");
     let (option, fewer_with) =
-        (known_option(&fields, "option", options), known_option(&fields, "fewer_with", options));
+        (known_option(fields, "option", options), known_option(fields, "fewer_with", options));
     let times = fields.value("times", Quantity::Ratio, Range::Positive);
-    let observed = observed(&fields);
+    let observed = observed(fields);
     let notes = fields.text("notes").map(|notes| notes.value).unwrap_or_default();
-    fields.finish();
     Some(ObservedShare {
         id: id?,
         says: says?.value,
@@ -200,24 +184,21 @@ pub struct Discretisation {
 
 /// Reads `[[discretisation]]`.
 pub(super) fn read_discretisations(fields: &Fields<'_>) -> Vec<Discretisation> {
-    let nodes = fields.tables("discretisation").iter();
-    nodes.filter_map(|node| read_discretisation(node, fields.problems())).collect()
+    fields.each("discretisation", read_discretisation)
 }
 
-fn read_discretisation(node: &Node, problems: &Problems) -> Option<Discretisation> {
-    let fields = Fields::of(node, problems);
-    let event = event::need(&fields, "event");
-    let encounters = count(&fields, "encounters");
-    let both = count(&fields, "both");
-    let only_here = count(&fields, "only_here");
-    let only_finer = count(&fields, "only_finer");
+fn read_discretisation(fields: &Fields<'_>) -> Option<Discretisation> {
+    let event = event::need(fields, "event");
+    let encounters = count(fields, "encounters");
+    let both = count(fields, "both");
+    let only_here = count(fields, "only_here");
+    let only_finer = count(fields, "only_finer");
     let source = fields.need_text("source", "name the study and the program version");
-    fields.finish();
     let (encounters, both) = (encounters?, both?.value);
     let (only_here, only_finer) = (only_here?.value, only_finer?.value);
     let with_event = both.saturating_add(only_here).saturating_add(only_finer);
     let Some(neither) = encounters.value.checked_sub(with_event) else {
-        return problems.refuse(encounters.place.error(
+        return fields.refuse(encounters.place.error(
             format!(
                 "`encounters` is {}, fewer than the {with_event} with the event",
                 encounters.value

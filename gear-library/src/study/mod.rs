@@ -250,13 +250,10 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
         return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), FROM_PRIORS);
     };
     let lines = texts(&table, "aim");
-    let by = table.word("aim_by", &["baseline", "own"]);
+    let by = table.choice("aim_by", &[("baseline", false), ("own", true)]);
     let gap = table.value("gap", Quantity::Length, Range::Between(0.1, 1000.0));
-    let aim = Aim {
-        lines,
-        own: by.is_some_and(|by| by.value == "own"),
-        gap_m: gap.map_or(4.0, |gap| gap.value),
-    };
+    let aim =
+        Aim { lines, own: by.is_some_and(|by| by.value), gap_m: gap.map_or(4.0, |gap| gap.value) };
     let from_priors = table.value("from_priors", Quantity::Ratio, Range::Between(0.05, 1.0));
     let priors = prior::read_all(&table);
     table.finish();

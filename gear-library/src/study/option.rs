@@ -51,9 +51,9 @@ pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
     Some((format!("{item}.toml"), field))
 }
 
-/// Reads options, or values of an axis, sorted by id; `what` is their name in messages.
-pub(super) fn read_each(nodes: &[Node], what: &str, problems: &Problems) -> Vec<StudyOption> {
-    sorted(nodes.iter().filter_map(|node| read_option(node, problems)).collect(), what, problems)
+/// Reads options, or values of an axis, sorted by id.
+fn read_each(fields: &Fields<'_>, key: &'static str) -> Vec<StudyOption> {
+    sorted(fields.each(key, read_option), key, fields.problems())
 }
 
 /// Sorts by id; reports duplicate ids.
@@ -71,20 +71,18 @@ pub(super) fn sorted(
     options
 }
 
-fn read_option(node: &Node, problems: &Problems) -> Option<StudyOption> {
-    let fields = Fields::of(node, problems);
+fn read_option(fields: &Fields<'_>) -> Option<StudyOption> {
     let id = fields.need_id("id", "write an id such as \"link-600\"");
     let name = fields.text("name");
     let strength = fields.value("strength", Quantity::Force, Range::Positive);
     let curve = fields.text("curve");
-    let removes = texts(&fields, "remove");
-    let threat = read_threat(fields.get("threat"), problems);
+    let removes = texts(fields, "remove");
+    let threat = read_threat(fields.get("threat"), fields.problems());
     let mut settings = Vec::new();
     if let Some(set) = fields.get("set") {
-        Fields::of(set, problems).rest();
-        flatten(set, "", &mut settings, problems);
+        Fields::of(set, fields.problems()).rest();
+        flatten(set, "", &mut settings, fields.problems());
     }
-    fields.finish();
     let id = id?;
     let name = name.map_or_else(|| id.value.clone(), |name| name.value);
     let (strength_n, curve) =
@@ -144,12 +142,11 @@ pub(crate) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
 
 /// Reads `[[option]]` and `[[axis]]`; options sorted by id.
 pub(super) fn read_options(fields: &Fields<'_>) -> Vec<StudyOption> {
-    let (written, axes) = (fields.tables("option"), fields.tables("axis"));
-    if written.is_empty() && axes.is_empty() {
+    if fields.tables("option").is_empty() && fields.tables("axis").is_empty() {
         fields.missing("option", "write each option under [[option]], including the baseline");
     }
-    let mut options = read_each(written, "option", fields.problems());
-    options.extend(read_axes(axes, fields.problems()));
+    let mut options = read_each(fields, "option");
+    options.extend(read_axes(fields));
     sorted(options, "option", fields.problems())
 }
 
@@ -163,13 +160,13 @@ struct Axis {
 }
 
 /// Reads axes and combines their values, axes in the order of their ids.
-pub(super) fn read_axes(nodes: &[Node], problems: &Problems) -> Vec<StudyOption> {
-    let mut axes: Vec<Axis> = nodes.iter().filter_map(|node| read_axis(node, problems)).collect();
+fn read_axes(fields: &Fields<'_>) -> Vec<StudyOption> {
+    let mut axes = fields.each("axis", read_axis);
     axes.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     let Some(first) = axes.first() else { return Vec::new() };
     let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.values.len()));
     if count > MOST_OPTIONS {
-        problems.push(first.id.place.error(
+        fields.problems().push(first.id.place.error(
             format!("the axes make {count} options"),
             format!("at most {MOST_OPTIONS} are possible: remove some values"),
         ));
@@ -185,19 +182,16 @@ pub(super) fn read_axes(nodes: &[Node], problems: &Problems) -> Vec<StudyOption>
             .collect();
     }
     let options: Vec<StudyOption> = options.into_iter().flatten().collect();
-    options.first().into_iter().for_each(|option| check_once(option, problems));
+    options.first().into_iter().for_each(|option| check_once(option, fields.problems()));
     options
 }
 
-fn read_axis(node: &Node, problems: &Problems) -> Option<Axis> {
-    let fields = Fields::of(node, problems);
+fn read_axis(fields: &Fields<'_>) -> Option<Axis> {
     let id = fields.need_id("id", "write the difference of the options, such as id = \"rope\"");
-    let nodes = fields.tables("value");
-    if nodes.is_empty() {
+    if fields.tables("value").is_empty() {
         fields.missing("value", "write each of its values under [[axis.value]]");
     }
-    let values = read_each(nodes, "value", problems);
-    fields.finish();
+    let values = read_each(fields, "value");
     Some(Axis { id: id?, values })
 }
 
