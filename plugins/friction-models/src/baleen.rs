@@ -17,11 +17,9 @@
 //! Reference for the order of ropes: Cavatorta, Starczak, Prada and Moore, "Friction of different ropes in right whale baleen: An
 //! entanglement issue", J. Cetacean Res. Manage. (SC/57). Place and orientation of the plates: `docs/whale.md`.
 
-use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
+use endline_sdk::{Attribute, Descriptor, FrictionResponse, HookError};
 
-use crate::law::{
-    self, Bristle, Contact, Law, Limit, Vec3, coefficient_scale, dot, friction_model, values,
-};
+use crate::law::{Bristle, Contact, Law, Limit, Model, Vec3, coefficient_scale, dot, values};
 
 /// Smallest cosine between rope and plates for wedging: 45 degrees.
 const LIES_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -29,58 +27,11 @@ const LIES_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const MOST_WEDGE: f64 = 10.0;
 
 /// The baleen model.
-#[derive(Clone, Debug)]
-pub struct Baleen {
-    descriptor: Descriptor,
-}
-
-friction_model!(Baleen, Plates);
-
-fn descriptor() -> Descriptor {
-    let help = "Rope slides more easily along baleen plates than across them, and wedges between them until it is pulled out.";
-    let own = vec![
-        Attribute::number(
-            "stick_stiffness",
-            "N/m^2",
-            [1e4, 1e10],
-            1e6,
-            "How stiffly plates and fringe hold a sticking rope, per metre of rope.",
-        ),
-        Attribute::number(
-            "across_ratio",
-            "1",
-            [0.2, 3.0],
-            1.5,
-            "Friction across the plates over that along them; the library's coefficient is that along.",
-        ),
-        Attribute::number(
-            "wedge_pressure",
-            "N/m",
-            [0.0, 1e6],
-            500.0,
-            "Normal force by length of rope above which a rope that lies along the plates enters between them.",
-        ),
-        Attribute::number(
-            "wedge_coefficient",
-            "1",
-            [0.0, 3.0],
-            1.5,
-            "Effective coefficient of a wedged rope.",
-        ),
-        Attribute::number(
-            "pull_out",
-            "N/m",
-            [0.0, 1e5],
-            600.0,
-            "Pull by length of rope that draws a wedged rope out.",
-        ),
-        coefficient_scale(),
-    ];
-    law::descriptor("org.endline.friction.baleen", "Baleen", help, Plates::STATE_LEN, own)
-}
+pub type Baleen = Model<Plates>;
 
 /// The law with a call's attribute values.
-struct Plates {
+#[derive(Clone, Debug)]
+pub struct Plates {
     stick_stiffness_n_m2: f64,
     across_ratio: f64,
     wedge_pressure_n_m: f64,
@@ -92,6 +43,49 @@ struct Plates {
 impl Law for Plates {
     /// The bristle [m], world frame; and 1 for a wedged rope.
     const STATE_LEN: usize = 4;
+
+    fn descriptor() -> Descriptor {
+        let help = "Rope slides more easily along baleen plates than across them, and wedges between them until it is pulled out.";
+        let own = vec![
+            Attribute::number(
+                "stick_stiffness",
+                "N/m^2",
+                [1e4, 1e10],
+                1e6,
+                "How stiffly plates and fringe hold a sticking rope, per metre of rope.",
+            ),
+            Attribute::number(
+                "across_ratio",
+                "1",
+                [0.2, 3.0],
+                1.5,
+                "Friction across the plates over that along them; the library's coefficient is that along.",
+            ),
+            Attribute::number(
+                "wedge_pressure",
+                "N/m",
+                [0.0, 1e6],
+                500.0,
+                "Normal force by length of rope above which a rope that lies along the plates enters between them.",
+            ),
+            Attribute::number(
+                "wedge_coefficient",
+                "1",
+                [0.0, 3.0],
+                1.5,
+                "Effective coefficient of a wedged rope.",
+            ),
+            Attribute::number(
+                "pull_out",
+                "N/m",
+                [0.0, 1e5],
+                600.0,
+                "Pull by length of rope that draws a wedged rope out.",
+            ),
+            coefficient_scale(),
+        ];
+        Descriptor::new("org.endline.friction.baleen", "Baleen", help).with_attributes(own)
+    }
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let [

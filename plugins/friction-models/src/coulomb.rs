@@ -19,38 +19,16 @@
 //! models", IEEE Trans. Automatic Control 47 (2002) 787-792; Winn et al., "Modeling whale
 //! entanglement injuries", Marine Mammal Science 24 (2008) 326-340, for the compliance of tissue.
 
-use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
+use endline_sdk::{Attribute, Descriptor, FrictionResponse, HookError};
 
-use crate::law::{self, Bristle, Contact, Law, Limit, coefficient_scale, friction_model, values};
+use crate::law::{Bristle, Contact, Law, Limit, Model, coefficient_scale, values};
 
 /// The Coulomb model.
-#[derive(Clone, Debug)]
-pub struct Coulomb {
-    descriptor: Descriptor,
-}
-
-friction_model!(Coulomb, Sticking);
-
-fn descriptor() -> Descriptor {
-    let help = "Rope sticks to the skin until the pull along it passes coefficient times normal force, then slips.";
-    let stiffness = Attribute::number(
-        "stick_stiffness",
-        "N/m^2",
-        [1e4, 1e10],
-        1e7,
-        "How stiffly skin holds a sticking rope, per metre of rope; represents the shear compliance of tissue.",
-    );
-    law::descriptor(
-        "org.endline.friction.coulomb",
-        "Coulomb",
-        help,
-        Sticking::STATE_LEN,
-        vec![stiffness, coefficient_scale()],
-    )
-}
+pub type Coulomb = Model<Sticking>;
 
 /// The law with a call's attribute values.
-struct Sticking {
+#[derive(Clone, Debug)]
+pub struct Sticking {
     stick_stiffness_n_m2: f64,
     coefficient_scale: f64,
 }
@@ -58,6 +36,19 @@ struct Sticking {
 impl Law for Sticking {
     /// The bristle [m], world frame.
     const STATE_LEN: usize = 3;
+
+    fn descriptor() -> Descriptor {
+        let help = "Rope sticks to the skin until the pull along it passes coefficient times normal force, then slips.";
+        let stiffness = Attribute::number(
+            "stick_stiffness",
+            "N/m^2",
+            [1e4, 1e10],
+            1e7,
+            "How stiffly skin holds a sticking rope, per metre of rope; represents the shear compliance of tissue.",
+        );
+        Descriptor::new("org.endline.friction.coulomb", "Coulomb", help)
+            .with_attributes(vec![stiffness, coefficient_scale()])
+    }
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let [stick_stiffness_n_m2, coefficient_scale] = values(attributes)?;

@@ -12,7 +12,9 @@
 //! It releases no energy, for any change of `L` between steps. With `z = c z*`, `0 <= c <= 1`, at the end, and `s = z* - z0`:
 //! `f . s + k/2 (|z|² - |z0|²) = -k z . (z* - z) - k/2 |z - z0|² <= 0`.
 
-use endline_sdk::{Attribute, Contacts, Descriptor, FrictionResponse, HookError};
+use std::marker::PhantomData;
+
+use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
 
 /// Greatest force of a bristle with its derivatives.
 #[derive(Clone, Copy, Default)]
@@ -101,10 +103,10 @@ pub(crate) fn matrix(entry: impl Fn(usize, usize) -> f64) -> [[f64; 3]; 3] {
 }
 
 /// A vector in the world frame.
-pub(crate) type Vec3 = [f64; 3];
+pub type Vec3 = [f64; 3];
 
 /// One contact of a pass.
-pub(crate) struct Contact<'a> {
+pub struct Contact<'a> {
     /// Length of the step [s].
     pub dt_s: f64,
     /// Unit normal.
@@ -185,9 +187,11 @@ pub(crate) fn values<const COUNT: usize>(attributes: &[f64]) -> Result<[f64; COU
 }
 
 /// A law of friction for one contact.
-pub(crate) trait Law: Sized {
+pub trait Law: Sized + Send + Sync {
     /// Floats of a contact.
     const STATE_LEN: usize;
+    /// Descriptor of the model, without version and floats.
+    fn descriptor() -> Descriptor;
     /// The law with a call's attribute values.
     fn read(attributes: &[f64]) -> Result<Self, HookError>;
     /// Force and derivatives.
@@ -196,48 +200,58 @@ pub(crate) trait Law: Sized {
     fn advance(&self, contact: &Contact<'_>, out: &mut [f64]);
 }
 
-/// Responses of all contacts of a pass.
-pub(crate) fn respond<L: Law>(
-    attributes: &[f64],
-    contacts: &Contacts<'_>,
-    out: &mut [FrictionResponse],
-) -> Result<(), HookError> {
-    let law = L::read(attributes)?;
-    for (index, answer) in out.iter_mut().enumerate() {
-        *answer = law.respond(&Contact::at(contacts, index, L::STATE_LEN)?);
-    }
-    Ok(())
+/// The friction model of a law.
+#[derive(Clone, Debug)]
+pub struct Model<L> {
+    descriptor: Descriptor,
+    law: PhantomData<L>,
 }
 
-/// Floats of all contacts at the end of an accepted step.
-pub(crate) fn advance<L: Law>(
-    attributes: &[f64],
-    contacts: &Contacts<'_>,
-    out: &mut [f64],
-) -> Result<(), HookError> {
-    let law = L::read(attributes)?;
-    for (index, floats) in out.chunks_exact_mut(L::STATE_LEN).enumerate() {
-        law.advance(&Contact::at(contacts, index, L::STATE_LEN)?, floats);
+impl<L: Law> Model<L> {
+    /// The model with its descriptor.
+    #[must_use]
+    pub fn new() -> Self {
+        let version = env!("CARGO_PKG_VERSION").into();
+        let descriptor = Descriptor { version, ..L::descriptor() }.with_state(L::STATE_LEN);
+        Self { descriptor, law: PhantomData }
     }
-    Ok(())
 }
 
-/// Descriptor of a friction model.
-pub(crate) fn descriptor(
-    id: &'static str,
-    name: &'static str,
-    help: &'static str,
-    state_len: usize,
-    own: Vec<Attribute>,
-) -> Descriptor {
-    Descriptor {
-        id: id.into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        name: name.into(),
-        help: help.into(),
-        attributes: own,
-        state_len,
-        acts: Vec::new(),
+impl<L: Law> Default for Model<L> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<L: Law> FrictionModel for Model<L> {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
+        let law = L::read(attributes)?;
+        for (index, answer) in out.iter_mut().enumerate() {
+            *answer = law.respond(&Contact::at(contacts, index, L::STATE_LEN)?);
+        }
+        Ok(())
+    }
+
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
+        let law = L::read(attributes)?;
+        for (index, floats) in out.chunks_exact_mut(L::STATE_LEN).enumerate() {
+            law.advance(&Contact::at(contacts, index, L::STATE_LEN)?, floats);
+        }
+        Ok(())
     }
 }
 
@@ -251,48 +265,3 @@ pub(crate) fn coefficient_scale() -> Attribute {
         "Multiplies every coefficient of friction of the gear library.",
     )
 }
-
-/// Implements a friction model by its [`Law`].
-macro_rules! friction_model {
-    ($model:ident, $law:ident) => {
-        impl $model {
-            /// The model with its descriptor.
-            #[must_use]
-            pub fn new() -> Self {
-                Self { descriptor: descriptor() }
-            }
-        }
-
-        impl Default for $model {
-            fn default() -> Self {
-                Self::new()
-            }
-        }
-
-        impl FrictionModel for $model {
-            fn descriptor(&self) -> &Descriptor {
-                &self.descriptor
-            }
-
-            fn respond(
-                &self,
-                attributes: &[f64],
-                contacts: &Contacts<'_>,
-                out: &mut [FrictionResponse],
-            ) -> Result<(), HookError> {
-                law::respond::<$law>(attributes, contacts, out)
-            }
-
-            fn advance(
-                &self,
-                attributes: &[f64],
-                contacts: &Contacts<'_>,
-                out: &mut [f64],
-            ) -> Result<(), HookError> {
-                law::advance::<$law>(attributes, contacts, out)
-            }
-        }
-    };
-}
-
-pub(crate) use friction_model;

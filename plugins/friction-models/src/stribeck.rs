@@ -20,66 +20,19 @@
 //! sliding velocities", J. Tribology 112 (1990) 147-152; Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994)
 //! 1083-1138.
 
-use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
+use endline_sdk::{Attribute, Descriptor, FrictionResponse, HookError};
 
-use crate::law::{self, Bristle, Contact, Law, Limit, coefficient_scale, friction_model, values};
+use crate::law::{Bristle, Contact, Law, Limit, Model, coefficient_scale, values};
 
 /// Greatest viscous part, as a share of the kinetic coefficient.
 const MOST_VISCOUS: f64 = 1.0;
 
 /// The Stribeck model.
-#[derive(Clone, Debug)]
-pub struct Stribeck {
-    descriptor: Descriptor,
-}
-
-friction_model!(Stribeck, Film);
-
-fn descriptor() -> Descriptor {
-    let help = "Rope on wet skin: holds most at rest, least at a slow slip, and more again as it slips faster.";
-    let own = vec![
-        Attribute::number(
-            "stick_stiffness",
-            "N/m^2",
-            [1e4, 1e10],
-            1e7,
-            "How stiffly skin holds a sticking rope, per metre of rope.",
-        ),
-        Attribute::number(
-            "static_ratio",
-            "1",
-            [1.0, 2.0],
-            1.4,
-            "Static over kinetic coefficient; the library's coefficient is the kinetic.",
-        ),
-        Attribute::number(
-            "stribeck_speed",
-            "m/s",
-            [1e-3, 5.0],
-            0.05,
-            "Slip speed over which the coefficient falls from static to kinetic.",
-        ),
-        Attribute::number(
-            "viscous_speed",
-            "m/s",
-            [0.1, 1e4],
-            20.0,
-            "Slip speed at which drag in the film is as great as kinetic friction; it grows no further.",
-        ),
-        Attribute::number(
-            "film_time",
-            "s",
-            [0.0, 1.0],
-            0.01,
-            "Time by which the film lags behind the slip speed.",
-        ),
-        coefficient_scale(),
-    ];
-    law::descriptor("org.endline.friction.stribeck", "Stribeck", help, Film::STATE_LEN, own)
-}
+pub type Stribeck = Model<Film>;
 
 /// The law with a call's attribute values.
-struct Film {
+#[derive(Clone, Debug)]
+pub struct Film {
     stick_stiffness_n_m2: f64,
     static_ratio: f64,
     stribeck_speed_m_s: f64,
@@ -91,6 +44,49 @@ struct Film {
 impl Law for Film {
     /// The bristle [m], world frame, and the lagged slip speed of the film [m/s].
     const STATE_LEN: usize = 4;
+
+    fn descriptor() -> Descriptor {
+        let help = "Rope on wet skin: holds most at rest, least at a slow slip, and more again as it slips faster.";
+        let own = vec![
+            Attribute::number(
+                "stick_stiffness",
+                "N/m^2",
+                [1e4, 1e10],
+                1e7,
+                "How stiffly skin holds a sticking rope, per metre of rope.",
+            ),
+            Attribute::number(
+                "static_ratio",
+                "1",
+                [1.0, 2.0],
+                1.4,
+                "Static over kinetic coefficient; the library's coefficient is the kinetic.",
+            ),
+            Attribute::number(
+                "stribeck_speed",
+                "m/s",
+                [1e-3, 5.0],
+                0.05,
+                "Slip speed over which the coefficient falls from static to kinetic.",
+            ),
+            Attribute::number(
+                "viscous_speed",
+                "m/s",
+                [0.1, 1e4],
+                20.0,
+                "Slip speed at which drag in the film is as great as kinetic friction; it grows no further.",
+            ),
+            Attribute::number(
+                "film_time",
+                "s",
+                [0.0, 1.0],
+                0.01,
+                "Time by which the film lags behind the slip speed.",
+            ),
+            coefficient_scale(),
+        ];
+        Descriptor::new("org.endline.friction.stribeck", "Stribeck", help).with_attributes(own)
+    }
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let [

@@ -19,60 +19,19 @@
 //! Reference: Winn, Woodward, Moore, Peterson and Riley, "Modeling whale entanglement injuries: An experimental study of tissue
 //! compliance, line tension, and draw-length", Marine Mammal Science 24 (2008) 326-340.
 
-use endline_sdk::{Attribute, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError};
+use endline_sdk::{Attribute, Descriptor, FrictionResponse, HookError};
 
 use crate::law::{
-    self, Bristle, Contact, Law, Limit, Vec3, across, coefficient_scale, dot, friction_model,
-    matrix, projector, values,
+    Bristle, Contact, Law, Limit, Model, Vec3, across, coefficient_scale, dot, matrix, projector,
+    values,
 };
 
 /// The model of elastic tissue.
-#[derive(Clone, Debug)]
-pub struct Tissue {
-    descriptor: Descriptor,
-}
-
-friction_model!(Tissue, Drawn);
-
-fn descriptor() -> Descriptor {
-    let help =
-        "Skin moves with the rope over an elastic range, then the rope breaks loose and slips.";
-    let own = vec![
-        Attribute::number(
-            "stiffness",
-            "N/m^2",
-            [1e2, 1e9],
-            3e4,
-            "How stiffly tissue holds the rope within its elastic range, per metre of rope.",
-        ),
-        Attribute::number(
-            "draw",
-            "m",
-            [1e-4, 0.5],
-            0.05,
-            "Elastic range: distance that skin moves with the rope before it is taut.",
-        ),
-        Attribute::number(
-            "taut_ratio",
-            "1",
-            [1.0, 1e3],
-            50.0,
-            "How many times stiffer taut tissue is.",
-        ),
-        Attribute::number(
-            "static_ratio",
-            "1",
-            [1.0, 3.0],
-            1.25,
-            "Static over kinetic coefficient; the library's coefficient is the kinetic.",
-        ),
-        coefficient_scale(),
-    ];
-    law::descriptor("org.endline.friction.tissue", "Tissue stick-slip", help, Drawn::STATE_LEN, own)
-}
+pub type Tissue = Model<Drawn>;
 
 /// The law with a call's attribute values.
-struct Drawn {
+#[derive(Clone, Debug)]
+pub struct Drawn {
     stiffness_n_m2: f64,
     draw_m: f64,
     taut_ratio: f64,
@@ -83,6 +42,44 @@ struct Drawn {
 impl Law for Drawn {
     /// Draw along and across the direction of the skin [m]; and 1 for a slipping rope.
     const STATE_LEN: usize = 3;
+
+    fn descriptor() -> Descriptor {
+        let help =
+            "Skin moves with the rope over an elastic range, then the rope breaks loose and slips.";
+        let own = vec![
+            Attribute::number(
+                "stiffness",
+                "N/m^2",
+                [1e2, 1e9],
+                3e4,
+                "How stiffly tissue holds the rope within its elastic range, per metre of rope.",
+            ),
+            Attribute::number(
+                "draw",
+                "m",
+                [1e-4, 0.5],
+                0.05,
+                "Elastic range: distance that skin moves with the rope before it is taut.",
+            ),
+            Attribute::number(
+                "taut_ratio",
+                "1",
+                [1.0, 1e3],
+                50.0,
+                "How many times stiffer taut tissue is.",
+            ),
+            Attribute::number(
+                "static_ratio",
+                "1",
+                [1.0, 3.0],
+                1.25,
+                "Static over kinetic coefficient; the library's coefficient is the kinetic.",
+            ),
+            coefficient_scale(),
+        ];
+        Descriptor::new("org.endline.friction.tissue", "Tissue stick-slip", help)
+            .with_attributes(own)
+    }
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let [stiffness_n_m2, draw_m, taut_ratio, static_ratio, coefficient_scale] =

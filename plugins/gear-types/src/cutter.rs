@@ -7,55 +7,44 @@
 //! Hauling and jerks are short, but a whale pulls for a long time. The device is at the endline's foot (the whale takes the whole
 //! line without a trap), at the splice or at the buoy. Floats: for each endline the time `t` [s] and whether it was cut.
 
-use endline_sdk::{
-    Attribute, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig,
-    Site,
-};
+use endline_sdk::{Attribute, Descriptor, GearAction, GearStep, HookError, LineEnd, Rig, Site};
 
 use crate::lay::Values;
 use crate::trawl::Set;
+use crate::{Laid, Layout};
 
 /// Floats of each endline: time above the tension, and 1 once cut.
 const FLOATS: usize = 2;
 
 /// The gear type of one trap or more with a cutter in each endline.
+pub type TimeTensionCutter = Laid<WithCutters>;
+
+/// Layout of [`TimeTensionCutter`].
 #[derive(Clone, Debug)]
-pub struct TimeTensionCutter {
-    descriptor: Descriptor,
-}
+pub struct WithCutters;
 
-impl TimeTensionCutter {
-    /// The gear type with its descriptor.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { descriptor: descriptor() }
-    }
-}
-
-impl Default for TimeTensionCutter {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl GearType for TimeTensionCutter {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
+impl Layout for WithCutters {
+    fn descriptor() -> Descriptor {
+        let mut attributes = Set::attributes(1, 0.0, "polyball-a1");
+        attributes.extend(Cutter::attributes());
+        let help = "One trap or more with a cutter in each endline that parts it when the tension has \
+         stayed high for a time.";
+        Descriptor::new("org.endline.gear.time-tension-cutter", "Time-tension cutter", help)
+            .with_attributes(attributes)
+            .with_state(2 * FLOATS)
     }
 
-    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        Set::read(&Values::new(&self.descriptor.attributes, attributes))?.build(site)
+    fn build(values: &Values<'_>, site: &Site) -> Result<Rig, HookError> {
+        Set::read(values)?.build(site)
     }
 
     fn step(
-        &self,
-        attributes: &[AttributeValue],
+        values: &Values<'_>,
         input: &GearStep<'_>,
         state: &mut [f64],
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
-        let values = Values::new(&self.descriptor.attributes, attributes);
-        let (set, cutter) = (Set::read(&values)?, Cutter::read(&values)?);
+        let (set, cutter) = (Set::read(values)?, Cutter::read(values)?);
         for (endline, floats) in state.chunks_exact_mut(FLOATS).take(set.endlines).enumerate() {
             let (line, end) = cutter.seat(&set, endline);
             let tension = input.end_tension_n.get(line).map_or(0.0, |ends| ends[end as usize]);
@@ -143,21 +132,5 @@ impl Cutter {
         let parts = *above_s > 0.0 && *above_s >= self.hold_s - 0.5 * dt_s;
         *done = f64::from(u8::from(parts));
         parts
-    }
-}
-
-fn descriptor() -> Descriptor {
-    let mut attributes = Set::attributes(1, 0.0, "polyball-a1");
-    attributes.extend(Cutter::attributes());
-    Descriptor {
-        id: "org.endline.gear.time-tension-cutter".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        name: "Time-tension cutter".into(),
-        help: "One trap or more with a cutter in each endline that parts it when the tension has \
-         stayed high for a time."
-            .into(),
-        attributes,
-        state_len: 2 * FLOATS,
-        acts: Vec::new(),
     }
 }

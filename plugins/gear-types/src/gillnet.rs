@@ -18,41 +18,36 @@
 //! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline follow practice and rules of the
 //! northeast United States.
 
-use endline_sdk::{
-    Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigEnd,
-    Site,
-};
+use endline_sdk::{Attribute, BodyKind, Descriptor, HookError, LineEnd, Rig, RigEnd, Site};
 
 use crate::lay::{Endline, FAR, Foot, Lay, Values, depth_of};
+use crate::{Laid, Layout};
 
 /// The gear type of an anchored string of gillnet panels.
+pub type Gillnet = Laid<NetString>;
+
+/// Layout of [`Gillnet`].
 #[derive(Clone, Debug)]
-pub struct Gillnet {
-    descriptor: Descriptor,
-}
+pub struct NetString;
 
-impl Gillnet {
-    /// The gear type with its descriptor.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { descriptor: descriptor() }
-    }
-}
-
-impl Default for Gillnet {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl GearType for Gillnet {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
+impl Layout for NetString {
+    fn descriptor() -> Descriptor {
+        let mut attributes = Net::attributes();
+        attributes.push(Attribute::count(
+            "endlines",
+            [0, 2],
+            2,
+            "Number of endlines: none, one at the near end, or one at each end.",
+        ));
+        attributes.extend(Endline::attributes("polyball-a1"));
+        let help = "Panels of netting between a headline with floats and a leadline, anchored at both \
+         ends, with endlines.";
+        Descriptor::new("org.endline.gear.gillnet", "Gillnet string", help)
+            .with_attributes(attributes)
     }
 
-    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        let values = Values::new(&self.descriptor.attributes, attributes);
-        let (net, endline) = (Net::read(&values)?, Endline::read(&values)?);
+    fn build(values: &Values<'_>, site: &Site) -> Result<Rig, HookError> {
+        let (net, endline) = (Net::read(values)?, Endline::read(values)?);
         let endlines = values.count("endlines")? as usize;
         let mut rig = Lay::default();
         let feet = net.lay(&mut rig, site)?;
@@ -181,28 +176,6 @@ impl Net<'_> {
             self.anchor_line_m,
         );
         Foot { end: anchor.clone(), at_m, body: anchor, body_at_m: at_m }
-    }
-}
-
-fn descriptor() -> Descriptor {
-    let mut attributes = Net::attributes();
-    attributes.push(Attribute::count(
-        "endlines",
-        [0, 2],
-        2,
-        "Number of endlines: none, one at the near end, or one at each end.",
-    ));
-    attributes.extend(Endline::attributes("polyball-a1"));
-    Descriptor {
-        id: "org.endline.gear.gillnet".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        name: "Gillnet string".into(),
-        help: "Panels of netting between a headline with floats and a leadline, anchored at both \
-         ends, with endlines."
-            .into(),
-        attributes,
-        state_len: 0,
-        acts: Vec::new(),
     }
 }
 

@@ -17,11 +17,11 @@
 //! Floats: one for each endline, 1 once it has been released.
 
 use endline_sdk::{
-    Attribute, AttributeValue, BodyKind, Descriptor, GearAction, GearStep, GearType, HookError,
-    LineEnd, Rig, RigEnd, Site,
+    Attribute, BodyKind, Descriptor, GearAction, GearStep, HookError, LineEnd, Rig, RigEnd, Site,
 };
 
 use crate::lay::{FAR, Foot, Ground, Lay, Values, depth_of};
+use crate::{Laid, Layout};
 
 /// Greatest number of endlines: one at each end.
 const MOST_ENDLINES: usize = 2;
@@ -31,33 +31,25 @@ const TIED_AT_M: [f64; 3] = [0.6, 0.4, 0.1];
 const BUOY_UP_M: f64 = 0.5;
 
 /// The gear type of traps with a stowed endline.
+pub type OnDemand = Laid<Stowed>;
+
+/// Layout of [`OnDemand`].
 #[derive(Clone, Debug)]
-pub struct OnDemand {
-    descriptor: Descriptor,
-}
+pub struct Stowed;
 
-impl OnDemand {
-    /// The gear type with its descriptor.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { descriptor: descriptor() }
-    }
-}
-
-impl Default for OnDemand {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl GearType for OnDemand {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
+impl Layout for Stowed {
+    fn descriptor() -> Descriptor {
+        let mut attributes = Ground::attributes(1, 0.0);
+        attributes.extend(Stow::attributes());
+        let help = "One trap or more whose endline lies stowed at the trap until an acoustic release \
+         lets its buoy rise.";
+        Descriptor::new("org.endline.gear.on-demand", "On-demand", help)
+            .with_attributes(attributes)
+            .with_state(MOST_ENDLINES)
     }
 
-    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        let values = Values::new(&self.descriptor.attributes, attributes);
-        let (ground, stow) = (Ground::read(&values)?, Stow::read(&values)?);
+    fn build(values: &Values<'_>, site: &Site) -> Result<Rig, HookError> {
+        let (ground, stow) = (Ground::read(values)?, Stow::read(values)?);
         let mut rig = Lay::default();
         let feet = ground.lay(&mut rig, site)?;
         for (foot, prefix) in feet.iter().zip(["", FAR]).take(stow.endlines) {
@@ -67,13 +59,12 @@ impl GearType for OnDemand {
     }
 
     fn step(
-        &self,
-        attributes: &[AttributeValue],
+        values: &Values<'_>,
         input: &GearStep<'_>,
         state: &mut [f64],
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
-        let stow = Stow::read(&Values::new(&self.descriptor.attributes, attributes))?;
+        let stow = Stow::read(values)?;
         for (endline, released) in state.iter_mut().take(stow.endlines).enumerate() {
             if *released > 0.0 || input.time_s < stow.release_at_s[endline] {
                 continue;
@@ -229,20 +220,4 @@ fn release_attributes() -> Vec<Attribute> {
             "Time of the call of the far endline's release, if there is one.",
         ),
     ]
-}
-
-fn descriptor() -> Descriptor {
-    let mut attributes = Ground::attributes(1, 0.0);
-    attributes.extend(Stow::attributes());
-    Descriptor {
-        id: "org.endline.gear.on-demand".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        name: "On-demand".into(),
-        help: "One trap or more whose endline lies stowed at the trap until an acoustic release \
-         lets its buoy rise."
-            .into(),
-        attributes,
-        state_len: MOST_ENDLINES,
-        acts: Vec::new(),
-    }
 }

@@ -1,40 +1,33 @@
 //! The trawl: traps on gangions along a groundline, an endline at one end or at both, optional anchors.
 
-use endline_sdk::{Attribute, AttributeValue, Descriptor, GearType, HookError, Rig, Site};
+use endline_sdk::{Attribute, Descriptor, HookError, Rig, Site};
 
 use crate::lay::{Endline, FAR, Ground, Lay, Values};
+use crate::{Laid, Layout};
 
 /// Greatest number of traps with one endline (NOAA Decision Support Tool, `EndlinesPerTrawlModel`: two from 6 traps up).
 const MOST_ON_ONE_ENDLINE: u32 = 5;
 
 /// The gear type of traps along a groundline.
+pub type Trawl = Laid<TrapsInRow>;
+
+/// Layout of [`Trawl`].
 #[derive(Clone, Debug)]
-pub struct Trawl {
-    descriptor: Descriptor,
-}
+pub struct TrapsInRow;
 
-impl Trawl {
-    /// The gear type with its descriptor.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { descriptor: descriptor() }
-    }
-}
-
-impl Default for Trawl {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl GearType for Trawl {
-    fn descriptor(&self) -> &Descriptor {
-        &self.descriptor
+impl Layout for TrapsInRow {
+    fn descriptor() -> Descriptor {
+        let help = "Traps on gangions along a groundline, an endline at one end or at both, anchors \
+         where wanted.";
+        Descriptor::new("org.endline.gear.trawl", "Trawl", help).with_attributes(Set::attributes(
+            5,
+            1.83,
+            "polyball-a1",
+        ))
     }
 
-    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        let values = Values::new(&self.descriptor.attributes, attributes);
-        Set::read(&values)?.build(site)
+    fn build(values: &Values<'_>, site: &Site) -> Result<Rig, HookError> {
+        Set::read(values)?.build(site)
     }
 }
 
@@ -97,18 +90,4 @@ pub(crate) fn endlines(values: &Values<'_>, ground: &Ground<'_>) -> Result<usize
         0 => 1 + usize::from(ground.traps() > MOST_ON_ONE_ENDLINE),
         asked => asked as usize,
     })
-}
-
-fn descriptor() -> Descriptor {
-    Descriptor {
-        id: "org.endline.gear.trawl".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        name: "Trawl".into(),
-        help: "Traps on gangions along a groundline, an endline at one end or at both, anchors \
-         where wanted."
-            .into(),
-        attributes: Set::attributes(5, 1.83, "polyball-a1"),
-        state_len: 0,
-        acts: Vec::new(),
-    }
 }
