@@ -1,5 +1,7 @@
 //! A library file of any kind as read: id, name, texts and figures; levels of confidence.
 
+use strum::{IntoStaticStr, VariantArray};
+
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Figure, Problems, Provenance, provenance};
 use crate::items::{BuoyPiece, Point, pieces, points};
@@ -185,7 +187,8 @@ pub fn read(node: &Node, kind: Kind, id: &str, problems: &Problems) -> Entry {
 pub(crate) const FORMER_CONFIDENCE: &str = "sureness";
 
 /// Confidence in a figure or distribution, from high to low.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub enum Confidence {
     /// Measured, or stated as measured by its source.
     Measured,
@@ -199,7 +202,7 @@ pub enum Confidence {
 
 impl Confidence {
     /// All levels, from high to low.
-    pub const ALL: [Self; 4] = [Self::Measured, Self::Derived, Self::Estimate, Self::Assumed];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Words of figures; an assumption has no source, which a figure needs.
     pub(crate) const OF_FIGURES: [&'static str; 3] = ["measured", "derived", "estimate"];
@@ -209,16 +212,11 @@ impl Confidence {
 
     /// Its word in files.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Measured => "measured",
-            Self::Derived => "derived",
-            Self::Estimate => "estimate",
-            Self::Assumed => "assumed",
-        }
+        self.into()
     }
 
     /// The level of a word.
     pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|confidence| confidence.word() == word)
+        Self::ALL.iter().copied().find(|confidence| confidence.word() == word)
     }
 }

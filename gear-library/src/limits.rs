@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn every_quantity_has_a_limit() {
-        for quantity in Quantity::ALL {
+        for quantity in Quantity::ALL.iter().copied() {
             assert_eq!(amount(quantity).quantity, quantity);
             assert!(!amount(quantity).holds(1e300) && !amount(quantity).holds(f64::NAN));
         }

@@ -6,6 +6,7 @@
 mod place;
 
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 use crate::diagnostic::{At, Diagnostic, Place, hint};
 use crate::entry::{self, Confidence};
@@ -157,7 +158,20 @@ pub struct Trailing {
 }
 
 /// The kind of an end of rope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Serialize,
+    Deserialize,
+    IntoStaticStr,
+    VariantArray,
+)]
+#[strum(serialize_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum RopeEnd {
     /// It parted there.
@@ -174,17 +188,11 @@ pub enum RopeEnd {
 
 impl RopeEnd {
     /// Every kind.
-    pub const ALL: [Self; 5] = [Self::Broken, Self::Bare, Self::Buoy, Self::Trap, Self::Anchor];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Broken => "broken",
-            Self::Bare => "bare",
-            Self::Buoy => "buoy",
-            Self::Trap => "trap",
-            Self::Anchor => "anchor",
-        }
+        self.into()
     }
 
     /// The end in words: `at a buoy`.
@@ -201,9 +209,10 @@ impl RopeEnd {
 
 /// Reads a `[[site]]`.
 fn site(fields: &Fields<'_>) -> Option<SeenSite> {
-    let names = Site::ALL.map(Site::name);
+    let sites: Vec<_> = Site::ALL.iter().map(|site| (site.name(), *site)).collect();
+    let names: Vec<_> = Site::ALL.iter().map(|site| site.name()).collect();
     fields.require("part", format!("write one of {}", names.join(", ")));
-    let part = fields.choice("part", &Site::ALL.map(|site| (site.name(), site)));
+    let part = fields.choice("part", &sites);
     let present = fields.value("present", Quantity::Ratio, Range::Between(0.0, 1.0));
     let wraps = rising(fields, "wraps", Quantity::Ratio, "such as wraps = [0.5, 1.5]");
     let tight = fields.flag("tight");
@@ -246,7 +255,7 @@ fn trailing(table: &Fields<'_>) -> Option<Trailing> {
         rising(table, "length", Quantity::Length, "such as length = [\"30 m\", \"50 m\"]");
     let names = || RopeEnd::ALL.iter().map(|end| end.name());
     let end = |text: At<String>| {
-        let found = RopeEnd::ALL.into_iter().find(|end| end.name() == text.value);
+        let found = RopeEnd::ALL.iter().copied().find(|end| end.name() == text.value);
         if found.is_none() {
             let message = format!("`{}` is not an end of rope", text.value);
             table.problems().push(text.place.error(message, hint(&text.value, names())));

@@ -2,9 +2,23 @@
 
 use endline_sdk::{BodyPart, Region, Side};
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 /// A site of rope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Serialize,
+    Deserialize,
+    IntoStaticStr,
+    VariantArray,
+)]
+#[strum(serialize_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum Site {
     /// In the mouth: rope that is lodged there.
@@ -31,18 +45,7 @@ pub enum Site {
 
 impl Site {
     /// Every site, from the snout to the tail.
-    pub const ALL: [Self; 10] = [
-        Self::Mouth,
-        Self::Head,
-        Self::Body,
-        Self::LeftFlipper,
-        Self::RightFlipper,
-        Self::Flipper,
-        Self::Peduncle,
-        Self::LeftFluke,
-        Self::RightFluke,
-        Self::Fluke,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Sites that are a single place.
     pub const SINGLE: [Self; 8] = [
@@ -58,23 +61,12 @@ impl Site {
 
     /// Its name in files, such as `left_flipper`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Mouth => "mouth",
-            Self::Head => "head",
-            Self::Body => "body",
-            Self::LeftFlipper => "left_flipper",
-            Self::RightFlipper => "right_flipper",
-            Self::Flipper => "flipper",
-            Self::Peduncle => "peduncle",
-            Self::LeftFluke => "left_fluke",
-            Self::RightFluke => "right_fluke",
-            Self::Fluke => "fluke",
-        }
+        self.into()
     }
 
     /// A site by its name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|site| site.name() == name)
+        Self::ALL.iter().copied().find(|site| site.name() == name)
     }
 
     /// Its single sites: itself, or both of a pair.

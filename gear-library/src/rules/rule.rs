@@ -295,7 +295,8 @@ fn measured_in(node: &Node) -> (Quantity, Option<&'static Unit>) {
     let is_number = |letter: char| letter.is_ascii_digit() || " .,/+-".contains(letter);
     let unit = text.trim_start_matches(is_number).trim();
     let found = Quantity::ALL
-        .into_iter()
+        .iter()
+        .copied()
         .find_map(|quantity| units::find(unit, quantity).map(|unit| (quantity, Some(unit))));
     found.unwrap_or((Quantity::Length, None))
 }

@@ -513,6 +513,7 @@ fn two(values: &[f64], node: &Node, fields: &Fields<'_>) -> Option<[f64; 2]> {
 /// Quantity and value of a text with a unit.
 fn quantity_of(text: &str) -> Option<(Quantity, f64)> {
     Quantity::ALL
-        .into_iter()
+        .iter()
+        .copied()
         .find_map(|quantity| Some((quantity, units::parse(text, quantity).ok()?)))
 }

@@ -7,12 +7,14 @@ mod table;
 
 use std::fmt;
 
+use strum::VariantArray;
+
 use crate::diagnostic::nearest;
 
 pub use table::Unit;
 
 /// The physical quantity of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, VariantArray)]
 pub enum Quantity {
     /// A pure number: a ratio or a coefficient; may be written in percent.
     Ratio,
@@ -73,27 +75,7 @@ impl std::error::Error for UnitError {}
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 19] = [
-        Self::Ratio,
-        Self::Length,
-        Self::Area,
-        Self::Volume,
-        Self::Mass,
-        Self::Time,
-        Self::Speed,
-        Self::Acceleration,
-        Self::Force,
-        Self::ForceByLength,
-        Self::Pressure,
-        Self::MassByLength,
-        Self::Density,
-        Self::Damping,
-        Self::BendingStiffness,
-        Self::Inertia,
-        Self::Angle,
-        Self::TurnRate,
-        Self::Frequency,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its name with an article, for messages: `a length`.
     pub fn noun(self) -> &'static str {
@@ -118,7 +100,8 @@ impl Quantity {
     /// The quantity of an SI unit in a plugin, such as `m/s`, `rad` or `1`.
     pub fn from_si_unit(unit: &str) -> Option<Self> {
         Self::ALL
-            .into_iter()
+            .iter()
+            .copied()
             .find(|quantity| table::plain(quantity.si_unit()) == table::plain(unit))
     }
 
@@ -317,7 +300,7 @@ fn read_unit(text: &str, unit: &str, quantity: Quantity) -> Result<f64, UnitErro
     if let Some(found) = table::find(unit, quantity) {
         return Ok(found.factor());
     }
-    let other = Quantity::ALL.into_iter().find(|other| table::find(unit, *other).is_some());
+    let other = Quantity::ALL.iter().copied().find(|other| table::find(unit, *other).is_some());
     let message = match other {
         Some(other) => {
             format!("`{unit}` is a unit of {}, not of {}", other.noun(), quantity.noun())

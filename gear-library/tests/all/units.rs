@@ -92,7 +92,8 @@ fn what_does_not_read_says_what_was_expected() {
 
 fn every_unit() -> impl Iterator<Item = (Q, &'static Unit)> {
     Q::ALL
-        .into_iter()
+        .iter()
+        .copied()
         .flat_map(|quantity| quantity.units().iter().map(move |unit| (quantity, unit)))
 }
 

@@ -25,7 +25,7 @@ const WALLS: [Wall; 10] = [
     Wall {
         folder: "app/sim",
         ours: &["endline-sdk"],
-        outside: Some(&["glam", "libm", "parry3d", "pulp"]),
+        outside: Some(&["glam", "libm", "parry3d", "pulp", "strum"]),
     },
     Wall {
         folder: "gear-library",
@@ -40,6 +40,7 @@ const WALLS: [Wall; 10] = [
             "serde",
             "serde_json",
             "strsim",
+            "strum",
             "toml",
             "toml_edit",
         ]),

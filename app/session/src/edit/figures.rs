@@ -37,7 +37,8 @@ pub(super) fn with_unit_before(typed: &str, before: &str) -> Option<String> {
     let typed = typed.trim();
     let is_number = |letter: char| letter.is_ascii_digit() || "+-.,/ ".contains(letter);
     let bare = !typed.is_empty() && typed.chars().all(is_number);
-    let mut measures = Quantity::ALL.into_iter().filter(|quantity| *quantity != Quantity::Ratio);
+    let mut measures =
+        Quantity::ALL.iter().copied().filter(|quantity| *quantity != Quantity::Ratio);
     let measured = bare && measures.any(|quantity| units::parse(before, quantity).is_ok());
     let unit = before.trim().trim_start_matches(is_number);
     measured.then(|| format!("{typed} {unit}"))

@@ -25,6 +25,7 @@ pub(crate) mod source_forces;
 use core::ops::{Add, Mul};
 
 use glam::DVec3;
+use strum::IntoStaticStr;
 
 use crate::forces::bending::bending_energy;
 use crate::metrics::energy;
@@ -32,7 +33,8 @@ use crate::model::{EnergyForm, Model};
 use crate::state::State;
 
 /// Source of momentum and energy of the gear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum Source {
     /// Weight of rope and bodies.
     Weight,
@@ -58,14 +60,7 @@ impl Source {
 
     /// Name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Weight => "weight",
-            Self::Water => "water",
-            Self::Skin => "skin",
-            Self::Seabed => "seabed",
-            Self::Obstacles => "obstacles",
-            Self::Fixtures => "fixtures",
-        }
+        self.into()
     }
 }
 

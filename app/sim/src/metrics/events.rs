@@ -3,6 +3,7 @@
 //! The outcome depends on contact, its loss, and partings, with hysteresis.
 
 use endline_sdk::BodyPart;
+use strum::IntoStaticStr;
 
 use super::pressure::{Load, Loads};
 use super::summary::Outcome;
@@ -22,7 +23,8 @@ pub struct Event {
 }
 
 /// Kinds of events.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum EventKind {
     /// Rope touched a body part; value: sum of normal forces [N].
     Contact,
@@ -65,52 +67,9 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// All kinds.
-    pub const ALL: [Self; 19] = [
-        Self::Contact,
-        Self::ContactLost,
-        Self::Slip,
-        Self::Wrap,
-        Self::WrapUndone,
-        Self::Hooked,
-        Self::Lodged,
-        Self::Dislodged,
-        Self::Shed,
-        Self::LinkParted,
-        Self::LineParted,
-        Self::Dragged,
-        Self::BodyTouched,
-        Self::CaughtBuoy,
-        Self::CaughtTrap,
-        Self::JammedKnot,
-        Self::PulledUnder,
-        Self::AtSeabed,
-        Self::AtSurface,
-    ];
-
     /// Name in results, such as `link_parted`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Contact => "contact",
-            Self::ContactLost => "contact_lost",
-            Self::Slip => "slip",
-            Self::Wrap => "wrap",
-            Self::WrapUndone => "wrap_undone",
-            Self::Hooked => "hooked",
-            Self::Lodged => "lodged",
-            Self::Dislodged => "dislodged",
-            Self::Shed => "shed",
-            Self::LinkParted => "link_parted",
-            Self::LineParted => "line_parted",
-            Self::Dragged => "dragged",
-            Self::BodyTouched => "body_touched",
-            Self::CaughtBuoy => "caught_buoy",
-            Self::CaughtTrap => "caught_trap",
-            Self::JammedKnot => "jammed_knot",
-            Self::PulledUnder => "pulled_under",
-            Self::AtSeabed => "at_seabed",
-            Self::AtSurface => "at_surface",
-        }
+        self.into()
     }
 
     /// Unit of its value: `N`, `s`, `m`, `m/s` or `turns`.

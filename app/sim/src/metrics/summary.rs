@@ -5,6 +5,7 @@
 
 use endline_sdk::{BodyPart, Region};
 use glam::DVec3;
+use strum::{IntoStaticStr, VariantArray};
 
 use super::whale_momentum::MomentumBalance;
 
@@ -268,7 +269,8 @@ pub struct PatchSummary {
 }
 
 /// Outcome of an encounter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub enum Outcome {
     /// Rope never touched the whale.
     NoContact,
@@ -284,17 +286,10 @@ pub enum Outcome {
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 5] =
-        [Self::NoContact, Self::Shed, Self::Entangled, Self::PartedFree, Self::PartedEntangled];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Name in results, such as `parted_free`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::NoContact => "no_contact",
-            Self::Shed => "shed",
-            Self::Entangled => "entangled",
-            Self::PartedFree => "parted_free",
-            Self::PartedEntangled => "parted_entangled",
-        }
+        self.into()
     }
 }

@@ -153,7 +153,7 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
         return;
     };
     let named = |outcome: &Outcome| kept.outcome.as_deref() == Some(outcome.name());
-    if let Some(outcome) = Outcome::ALL.into_iter().find(named) {
+    if let Some(outcome) = Outcome::ALL.iter().copied().find(named) {
         let (words, help, colour) = words::outcome(outcome, palette);
         ui.label(RichText::new(words).color(colour)).on_hover_text(help);
     }

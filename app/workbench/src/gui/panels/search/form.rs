@@ -220,7 +220,7 @@ fn path(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
 
 /// All places that a path can contain, from snout to tail.
 fn every_place() -> impl Iterator<Item = PathPlace> {
-    Site::ALL.into_iter().flat_map(|site| {
+    Site::ALL.iter().copied().flat_map(|site| {
         let sides = [None, Some(Side::Left), Some(Side::Right)];
         let may = move |side: &Option<Side>| side.is_none() || site.is_in_midplane();
         sides.into_iter().filter(may).map(move |side| PathPlace { site, side })
@@ -249,7 +249,7 @@ fn rope_ends(ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
         }
         let combo = ComboBox::from_id_salt("add end").width(90.0).selected_text("Add an end");
         combo.show_ui(ui, |ui| {
-            for end in RopeEnd::ALL {
+            for end in RopeEnd::ALL.iter().copied() {
                 if ui.selectable_label(false, end.name()).on_hover_text(end.words()).clicked() {
                     edits.push(Box::new(move |document| observation::add_end(document, end)));
                 }
