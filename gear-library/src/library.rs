@@ -92,42 +92,34 @@ impl Library {
             Ok(node) => node,
             Err(problem) => return problems.push(*problem),
         };
-        let mut fresh = Self::default();
-        fresh.read_item(&node, kind, id, problems);
-        if !problems.any_error() {
-            self.append(fresh);
-        }
+        self.read_item(&node, kind, id, problems);
     }
 
+    /// Adds an item if its file has no error.
     fn read_item(&mut self, node: &tree::Node, kind: Kind, id: &str, problems: &Problems) {
+        fn add<T>(items: &mut Vec<T>, item: Option<T>, problems: &Problems) {
+            items.extend(item.filter(|_| !problems.any_error()));
+        }
         let entry = || entry::read(node, kind, id, problems);
         match kind {
-            Kind::Rope => self.ropes.extend(Rope::from_entry(entry(), problems)),
-            Kind::Trap => self.traps.extend(BoxGear::from_entry(entry(), problems)),
-            Kind::Anchor => self.anchors.extend(BoxGear::from_entry(entry(), problems)),
-            Kind::Buoy => self.buoys.extend(Buoy::from_entry(entry(), problems)),
-            Kind::WeakLink => self.weak_links.extend(WeakLink::from_entry(entry())),
-            Kind::Knot => self.knots.extend(Knot::from_entry(entry())),
-            Kind::Site => self.sites.extend(SeaSite::from_entry(entry(), problems)),
-            Kind::Friction => self.frictions.extend(RopeFriction::read(node, id, problems)),
-            Kind::Whale => self.whales.extend(WhaleItem::read(node, id, problems)),
-            Kind::Act => self.acts.extend(ActItem::read(node, id, problems)),
-            Kind::Assembly => self.assemblies.extend(Assembly::read(node, id, problems)),
+            Kind::Rope => add(&mut self.ropes, Rope::from_entry(entry(), problems), problems),
+            Kind::Trap => add(&mut self.traps, BoxGear::from_entry(entry(), problems), problems),
+            Kind::Anchor => {
+                add(&mut self.anchors, BoxGear::from_entry(entry(), problems), problems)
+            }
+            Kind::Buoy => add(&mut self.buoys, Buoy::from_entry(entry(), problems), problems),
+            Kind::WeakLink => add(&mut self.weak_links, WeakLink::from_entry(entry()), problems),
+            Kind::Knot => add(&mut self.knots, Knot::from_entry(entry()), problems),
+            Kind::Site => add(&mut self.sites, SeaSite::from_entry(entry(), problems), problems),
+            Kind::Friction => {
+                add(&mut self.frictions, RopeFriction::read(node, id, problems), problems)
+            }
+            Kind::Whale => add(&mut self.whales, WhaleItem::read(node, id, problems), problems),
+            Kind::Act => add(&mut self.acts, ActItem::read(node, id, problems), problems),
+            Kind::Assembly => {
+                add(&mut self.assemblies, Assembly::read(node, id, problems), problems)
+            }
         }
-    }
-
-    fn append(&mut self, mut fresh: Self) {
-        self.ropes.append(&mut fresh.ropes);
-        self.traps.append(&mut fresh.traps);
-        self.buoys.append(&mut fresh.buoys);
-        self.weak_links.append(&mut fresh.weak_links);
-        self.knots.append(&mut fresh.knots);
-        self.anchors.append(&mut fresh.anchors);
-        self.sites.append(&mut fresh.sites);
-        self.frictions.append(&mut fresh.frictions);
-        self.whales.append(&mut fresh.whales);
-        self.acts.append(&mut fresh.acts);
-        self.assemblies.append(&mut fresh.assemblies);
     }
 
     /// Checks that the materials of ropes are items of `friction/`.

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use endline_sdk::SPINE_JOINTS;
 use endline_sim::whale::Skin;
+use serde::de::DeserializeOwned;
+use serde::de::value::MapDeserializer;
 
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
@@ -14,7 +16,7 @@ use crate::schema::Kind;
 use crate::sources::Sources;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
-use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm, gltf, scaled, skin_of};
+use crate::whale::{Station, WhaleForm, gltf, scaled, skin_of};
 
 use super::{Joints, gltf_beside};
 
@@ -205,52 +207,20 @@ fn form(
         stations: sections.iter().map(station).collect(),
         breadth_scale: value("breadth_scale").unwrap_or(1.0),
         girth: vec![[0.0, 1.0]],
-        head: HeadForm {
-            share: value("head.share")?,
-            mouth: value("head.mouth")?,
-            rostrum_width: value("head.rostrum_width")?,
-            lip_arch: value("head.lip_arch")?,
-            baleen: value("head.baleen")?,
-            callosity_m: value("head.callosities").unwrap_or(0.0),
-        },
+        head: table(entry, "head")?,
         peduncle_start: value("peduncle_start")?,
         spine_joints,
-        flippers: flippers(entry)?,
-        flukes: flukes(entry)?,
+        flippers: table(entry, "flippers")?,
+        flukes: table(entry, "flukes")?,
     })
 }
 
-fn flippers(entry: &Entry) -> Option<FlipperForm> {
-    let value = |key| entry.value(key);
-    Some(FlipperForm {
-        insertion: value("flippers.insertion")?,
-        insertion_height: value("flippers.insertion_height")?,
-        span: value("flippers.span")?,
-        root_chord: value("flippers.root_chord")?,
-        max_chord: value("flippers.max_chord")?,
-        max_chord_at: value("flippers.max_chord_at")?,
-        tip_chord: value("flippers.tip_chord")?,
-        thickness: value("flippers.thickness")?,
-        tip_thickness: value("flippers.tip_thickness")?,
-        sweep: value("flippers.sweep")?,
-        droop: value("flippers.droop")?,
-        edge_radius_m: value("flippers.edge_radius")?,
-    })
-}
-
-fn flukes(entry: &Entry) -> Option<FlukesForm> {
-    let value = |key| entry.value(key);
-    Some(FlukesForm {
-        span: value("flukes.span")?,
-        root_chord: value("flukes.root_chord")?,
-        tip_chord: value("flukes.tip_chord")?,
-        sweep: value("flukes.sweep")?,
-        thickness: value("flukes.thickness")?,
-        tip_thickness: value("flukes.tip_thickness")?,
-        notch: value("flukes.notch")?,
-        height: value("flukes.height")?,
-        edge_radius_m: value("flukes.edge_radius")?,
-    })
+/// The figures of a table of the file, such as `flippers.span`, as the fields of a type.
+fn table<T: DeserializeOwned>(entry: &Entry, name: &str) -> Option<T> {
+    let key = |key: &'static str| key.strip_prefix(name)?.strip_prefix('.');
+    let figures = entry.figures.iter();
+    let fields = figures.filter_map(|(field, figure)| Some((key(field.key)?, figure.value)));
+    T::deserialize(MapDeserializer::<_, serde::de::value::Error>::new(fields)).ok()
 }
 
 /// Laws of growth of a whale of the library.

@@ -1,6 +1,7 @@
 //! Events that a study counts: an outcome, or rope on a part of the whale.
 
 use endline_sdk::{BodyPart, Limb};
+use strum::IntoStaticStr;
 
 use crate::diagnostic::{At, hint};
 use crate::fields::Fields;
@@ -11,7 +12,8 @@ use super::option::texts;
 pub const HOOKED_TURNS: f64 = 0.5;
 
 /// An event of an encounter.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum StudyEvent {
     /// Rope touched the whale.
     Contact,
@@ -89,111 +91,73 @@ pub const INJURY_PA: f64 = 4.4e5;
 /// Declaration of an event of the whole whale.
 struct Declared {
     event: StudyEvent,
-    /// Name in files and tables.
-    name: &'static str,
     /// Name as shown to the user.
     words: &'static str,
     counted: Counted<'static>,
-    /// Whether it is in the chart at the head of a report.
-    in_chart: bool,
 }
 
 /// Events of the whole whale, in the order of a report.
 static WHOLE: [Declared; 13] = [
     Declared {
         event: StudyEvent::Contact,
-        name: "contact",
         words: "rope touches",
         counted: Counted::Present("first_contact_s"),
-        in_chart: true,
     },
-    Declared {
-        event: StudyEvent::Shed,
-        name: "shed",
-        words: "shed",
-        counted: Counted::Outcome(&["shed"]),
-        in_chart: false,
-    },
-    Declared {
-        event: StudyEvent::Entangled,
-        name: "entangled",
-        words: "entangled at the end",
-        counted: HELD,
-        in_chart: true,
-    },
+    Declared { event: StudyEvent::Shed, words: "shed", counted: Counted::Outcome(&["shed"]) },
+    Declared { event: StudyEvent::Entangled, words: "entangled at the end", counted: HELD },
     Declared {
         event: StudyEvent::Parted,
-        name: "parted",
         words: "something parted",
         counted: Counted::Outcome(&["parted_free", "parted_entangled"]),
-        in_chart: true,
     },
     Declared {
         event: StudyEvent::PartedFree,
-        name: "parted_free",
         words: "parted and free",
         counted: Counted::Outcome(&["parted_free"]),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::PartedEntangled,
-        name: "parted_entangled",
         words: "parted, still entangled",
         counted: Counted::Outcome(&["parted_entangled"]),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::Lodged,
-        name: "lodged",
         words: "lodged in the mouth",
         counted: Counted::Flag("was_lodged_in_mouth"),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::Caught,
-        name: "caught",
         words: "buoy or trap caught on the whale",
         counted: Counted::Flag("was_body_caught"),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::HeldFast,
-        name: "held_fast",
         words: "held: lodged or a whole turn",
         counted: Counted::All(&[HELD, Counted::Any(&[LODGED, TURN])]),
-        in_chart: true,
     },
     Declared {
         event: StudyEvent::HeldLodged,
-        name: "held_lodged",
         words: "held, lodged in the mouth",
         counted: Counted::All(&[HELD, LODGED]),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::HeldTurn,
-        name: "held_turn",
         words: "held with a whole turn",
         counted: Counted::All(&[HELD, TURN]),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::Anchored,
-        name: "anchored",
         words: "held at anchor",
         counted: Counted::All(&[
             HELD,
             Counted::Above("tethered_m", 0.0),
             Counted::NotAbove("speed_made_good_m_s", ANCHORED_M_S),
         ]),
-        in_chart: false,
     },
     Declared {
         event: StudyEvent::Towing,
-        name: "towing",
         words: "held, towing",
         counted: Counted::All(&[HELD, Counted::Above("speed_made_good_m_s", ANCHORED_M_S)]),
-        in_chart: false,
     },
 ];
 
@@ -225,9 +189,8 @@ impl StudyEvent {
     }
 
     /// Events of the chart at the head of a report.
-    pub fn of_the_chart() -> Vec<Self> {
-        let charted = WHOLE.iter().filter(|declared| declared.in_chart);
-        charted.map(|declared| declared.event.clone()).collect()
+    pub fn of_the_chart() -> [Self; 4] {
+        [Self::Contact, Self::Entangled, Self::Parted, Self::HeldFast]
     }
 
     /// Names of places on the whale in names of events, in the order of a report: parts of the trunk and pairs of limbs.
@@ -247,7 +210,7 @@ impl StudyEvent {
             Self::On(RegionEvent::Contact, parts) => format!("contact_{}", place(parts)),
             Self::On(RegionEvent::Wrap, parts) => format!("wrap_{}", place(parts)),
             Self::On(RegionEvent::Injury, parts) => format!("injury_{}", place(parts)),
-            whole => whole.declared().map_or("", |declared| declared.name).to_owned(),
+            whole => <&str>::from(whole).to_owned(),
         }
     }
 

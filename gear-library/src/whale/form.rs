@@ -11,6 +11,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Deserialize;
+
 use crate::items::{Growth, MassLaw};
 
 use super::trunk::MonotoneCubic;
@@ -53,7 +55,7 @@ pub struct Station {
 }
 
 /// Head and mouth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct HeadForm {
     /// Length of the head [share of length].
     pub share: f64,
@@ -66,11 +68,12 @@ pub struct HeadForm {
     /// Length of the longest baleen plate [share of length].
     pub baleen: f64,
     /// Relief of the highest callosity, the bonnet; 0 without callosities [m].
+    #[serde(rename = "callosities", default)]
     pub callosity_m: f64,
 }
 
 /// A pair of flippers: paddles with a blunt, nearly square tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct FlipperForm {
     /// Middle of the insertion along the body [share of length from the snout].
     pub insertion: f64,
@@ -95,11 +98,12 @@ pub struct FlipperForm {
     /// Droop of the tip below the horizontal at rest [rad].
     pub droop: f64,
     /// Radius of the edges [m].
+    #[serde(rename = "edge_radius")]
     pub edge_radius_m: f64,
 }
 
 /// A pair of flukes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct FlukesForm {
     /// Tip to tip [share of length].
     pub span: f64,
@@ -118,6 +122,7 @@ pub struct FlukesForm {
     /// Height of the flukes [share of length above the snout].
     pub height: f64,
     /// Radius of the edges [m].
+    #[serde(rename = "edge_radius")]
     pub edge_radius_m: f64,
 }
 
