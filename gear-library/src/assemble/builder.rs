@@ -5,6 +5,7 @@ use endline_sim::model::{ModelSpec, Settings};
 use endline_sim::water::{Current, Water};
 
 use crate::diagnostic::{At, Diagnostic, Place, hint};
+use crate::entry::Entry;
 use crate::fields::Problems;
 use crate::items::{Condition, Rope};
 use crate::library::Library;
@@ -177,6 +178,22 @@ impl<'a> Builder<'a> {
                 hint(id, self.library.ids(kind)),
             ),
         );
+    }
+
+    /// An item of the library, whose file is used; a missing one is reported.
+    pub fn item<T>(
+        &mut self,
+        kind: Kind,
+        id: &At<String>,
+        items: &'a [T],
+        entry: fn(&T) -> &Entry,
+    ) -> Option<&'a T> {
+        let found = items.iter().find(|item| entry(item).id == id.value);
+        match found {
+            Some(item) => self.uses(&entry(item).path),
+            None => self.no_item(kind, &id.value, &id.place),
+        }
+        found
     }
 
     /// Records a library file as used.

@@ -20,18 +20,11 @@ impl Builder<'_> {
     /// Adds the assemblies that the scenario places.
     pub fn add_gear(&mut self) {
         for gear in &self.scenario.gear {
-            let Some(assembly) = self
-                .library
-                .assemblies
-                .iter()
-                .find(|assembly| assembly.entry.id == gear.assembly.value)
-            else {
-                self.no_item(Kind::Assembly, &gear.assembly.value, &gear.assembly.place);
-                self.incomplete = true;
-                continue;
-            };
-            self.uses(&assembly.entry.path);
-            self.add_assembly(gear, assembly);
+            let all = &self.library.assemblies;
+            match self.item(Kind::Assembly, &gear.assembly, all, |assembly| &assembly.entry) {
+                Some(assembly) => self.add_assembly(gear, assembly),
+                None => self.incomplete = true,
+            }
         }
     }
 
@@ -351,12 +344,8 @@ impl Builder<'_> {
 
     /// Rating of a weak link of the library, drawn for a link id.
     pub fn rating(&mut self, item: &At<String>, id: &str) -> Option<Rated> {
-        let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value)
-        else {
-            self.no_item(Kind::WeakLink, &item.value, &item.place);
-            return None;
-        };
-        self.uses(&found.entry.path);
+        let links = &self.library.weak_links;
+        let found = self.item(Kind::WeakLink, item, links, |link| &link.entry)?;
         let rating_n = self.link_strength(found, id);
         Some(Rated { rating_n, breadth_m: found.breadth_m })
     }

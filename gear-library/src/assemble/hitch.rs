@@ -31,42 +31,28 @@ const PORT: DVec3 = DVec3::Y;
 const STARBOARD: DVec3 = DVec3::NEG_Y;
 const UP: DVec3 = DVec3::Z;
 
+const MOUTH: &[Region] = &[Region::Lips, Region::Baleen, Region::Head];
+
+const fn spot(
+    name: &'static str,
+    regions: &'static [Region],
+    toward: DVec3,
+    at: fn(&WhaleForm) -> Option<f64>,
+) -> Spot {
+    Spot { name, regions, toward, at }
+}
+
 /// Every spot.
 const SPOTS: [Spot; 9] = [
-    Spot { name: "peduncle", regions: &[Region::Peduncle], toward: UP, at: |_| Some(0.86) },
-    Spot {
-        name: "mouth-left",
-        regions: &[Region::Lips, Region::Baleen, Region::Head],
-        toward: PORT,
-        at: |form| Some(form.head.mouth),
-    },
-    Spot {
-        name: "mouth-right",
-        regions: &[Region::Lips, Region::Baleen, Region::Head],
-        toward: STARBOARD,
-        at: |form| Some(form.head.mouth),
-    },
-    Spot { name: "flipper-left", regions: &[Region::LeftFlipperLeading], toward: UP, at: |_| None },
-    Spot {
-        name: "flipper-right",
-        regions: &[Region::RightFlipperLeading],
-        toward: UP,
-        at: |_| None,
-    },
-    Spot {
-        name: "fluke-left",
-        regions: &[Region::LeftFlukeLeading],
-        toward: DVec3::X,
-        at: |_| None,
-    },
-    Spot {
-        name: "fluke-right",
-        regions: &[Region::RightFlukeLeading],
-        toward: DVec3::X,
-        at: |_| None,
-    },
-    Spot { name: "back", regions: &[Region::Body], toward: UP, at: |_| Some(0.5) },
-    Spot { name: "belly", regions: &[Region::Body], toward: DVec3::NEG_Z, at: |_| Some(0.5) },
+    spot("peduncle", &[Region::Peduncle], UP, |_| Some(0.86)),
+    spot("mouth-left", MOUTH, PORT, |form| Some(form.head.mouth)),
+    spot("mouth-right", MOUTH, STARBOARD, |form| Some(form.head.mouth)),
+    spot("flipper-left", &[Region::LeftFlipperLeading], UP, |_| None),
+    spot("flipper-right", &[Region::RightFlipperLeading], UP, |_| None),
+    spot("fluke-left", &[Region::LeftFlukeLeading], DVec3::X, |_| None),
+    spot("fluke-right", &[Region::RightFlukeLeading], DVec3::X, |_| None),
+    spot("back", &[Region::Body], UP, |_| Some(0.5)),
+    spot("belly", &[Region::Body], DVec3::NEG_Z, |_| Some(0.5)),
 ];
 
 impl Builder<'_> {

@@ -24,16 +24,9 @@ impl Builder<'_> {
     /// Adds water and seabed; the scenario overrides its site.
     pub fn add_sea(&mut self) {
         let sea = &self.scenario.sea;
-        let site = sea.item.as_ref().and_then(|item| {
-            let site = self.library.sites.iter().find(|site| site.entry.id == item.value);
-            if site.is_none() {
-                self.no_item(Kind::Site, &item.value, &item.place);
-            }
-            site
-        });
-        if let Some(site) = site {
-            self.uses(&site.entry.path);
-        }
+        let sites = &self.library.sites;
+        let site = sea.item.as_ref();
+        let site = site.and_then(|id| self.item(Kind::Site, id, sites, |site| &site.entry));
         let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| {
             own.unwrap_or_else(|| site.map_or(usual, of))
         };

@@ -16,6 +16,7 @@ use crate::entry::Entry;
 use crate::fields::Problems;
 use crate::items::{Condition, Rope, WeakLink};
 use crate::line::LineMake;
+use crate::schema::Kind;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 
 use super::builder::{Builder, Scale};
@@ -103,11 +104,7 @@ impl Builder<'_> {
 
     /// A knot or splice of the library.
     pub fn knot(&mut self, id: &At<String>) -> Option<Tied> {
-        let Some(knot) = self.library.knots.iter().find(|known| known.entry.id == id.value) else {
-            self.no_item(crate::schema::Kind::Knot, &id.value, &id.place);
-            return None;
-        };
-        self.uses(&knot.entry.path);
+        let knot = self.item(Kind::Knot, id, &self.library.knots, |knot| &knot.entry)?;
         let source = StrengthFigure::of(&knot.entry, "strength_left");
         Some(Tied {
             strength_left: knot.strength_left,

@@ -30,13 +30,10 @@ impl Builder<'_> {
         let Some(placed) = &self.scenario.whale else {
             return;
         };
-        let Some(item) =
-            self.library.whales.iter().find(|whale| whale.entry.id == placed.item.value)
-        else {
-            self.no_item(Kind::Whale, &placed.item.value, &placed.item.place);
+        let whales = &self.library.whales;
+        let Some(item) = self.item(Kind::Whale, &placed.item, whales, |whale| &whale.entry) else {
             return;
         };
-        self.uses(&item.entry.path);
         item.mesh.iter().for_each(|mesh| self.uses(&mesh.file.value));
         let Some(motion) = self.motion(&placed.motion) else { return };
         let motion = self.with_acts(motion, placed, item);

@@ -9,33 +9,26 @@ use crate::hook::{Act, Attribute, AttributeKind, Descriptor};
 
 /// The identity of a plugin, and the table of its functions; the plugin itself is never freed.
 pub(super) fn plugin(plugin: Exported) -> AbiPlugin {
+    /// A plugin that is never freed, and its address.
+    fn leaked<T>(plugin: T) -> (&'static T, *const c_void) {
+        let plugin = &*Box::leak(Box::new(plugin));
+        (plugin, (&raw const *plugin).cast())
+    }
     match plugin {
         Exported::Motion(plugin) => {
-            let plugin = Box::leak(Box::new(plugin));
-            describe(
-                KIND_MOTION,
-                plugin.descriptor(),
-                (&raw const *plugin).cast(),
-                (&raw const super::motion::TABLE).cast(),
-            )
+            let (plugin, context) = leaked(plugin);
+            let table = (&raw const super::motion::TABLE).cast();
+            describe(KIND_MOTION, plugin.descriptor(), context, table)
         }
         Exported::Friction(plugin) => {
-            let plugin = Box::leak(Box::new(plugin));
-            describe(
-                KIND_FRICTION,
-                plugin.descriptor(),
-                (&raw const *plugin).cast(),
-                (&raw const super::friction::TABLE).cast(),
-            )
+            let (plugin, context) = leaked(plugin);
+            let table = (&raw const super::friction::TABLE).cast();
+            describe(KIND_FRICTION, plugin.descriptor(), context, table)
         }
         Exported::Gear(plugin) => {
-            let plugin = Box::leak(Box::new(plugin));
-            describe(
-                KIND_GEAR,
-                plugin.descriptor(),
-                (&raw const *plugin).cast(),
-                (&raw const super::gear::TABLE).cast(),
-            )
+            let (plugin, context) = leaked(plugin);
+            let table = (&raw const super::gear::TABLE).cast();
+            describe(KIND_GEAR, plugin.descriptor(), context, table)
         }
     }
 }
