@@ -75,7 +75,7 @@ impl LineMake {
             keeps_stiffness: fields.flag("keeps_stiffness"),
             from_knot: fields.text("from_knot"),
             to_knot: fields.text("to_knot"),
-            inserts: fields.table("inserts").and_then(|table| inserts(&table)),
+            inserts: fields.inside("inserts", inserts).flatten(),
         }
     }
 
@@ -114,7 +114,6 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
     let within = fields.value("within", Quantity::Ratio, Range::Between(0.0, 1.0));
     let end = fields.choice("counted_from", &ENDS);
     let knot = fields.text("knot");
-    fields.finish();
     let (what, every) = (what?, every?);
     if let Insert::Rope { length_m, .. } = &what
         && every.value < *length_m + 0.01

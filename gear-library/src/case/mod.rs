@@ -90,7 +90,7 @@ impl Case {
         let table = fields.text("table");
         let samples = samples(&fields, table.is_some());
         check_halving(samples.as_ref(), &halve, problems);
-        let haul = fields.table("haul").map(|haul| read_haul(&haul));
+        let haul = fields.inside("haul", read_haul);
         if haul.is_some() && !matches!(samples, Some(Samples::Every(_)) | None) {
             fields.missing("every", "a [haul] is sampled at intervals: write every = \"0.1 s\"");
         }
@@ -146,7 +146,7 @@ fn check_halving(samples: Option<&Samples>, halve: &[At<String>], problems: &Pro
 fn samples(fields: &Fields<'_>, has_table: bool) -> Option<Samples> {
     let at = fields.word("at", &["rest", "table"]);
     let every = fields.value("every", Quantity::Time, Range::Positive);
-    let rows = fields.table("rows").map(|rows| read_rows(&rows));
+    let rows = fields.inside("rows", read_rows);
     match (at.as_ref().map(|at| at.value.as_str()), every, rows) {
         (Some("rest"), None, None) => Some(Samples::Rest),
         (Some(_), None, None) if has_table => Some(Samples::Table),
@@ -232,13 +232,11 @@ pub struct CaseHaul {
 /// Reads `[haul]`.
 fn read_haul(fields: &Fields<'_>) -> CaseHaul {
     let value = |key, quantity, range| fields.value(key, quantity, range).map(|value| value.value);
-    let haul = CaseHaul {
+    CaseHaul {
         speed_m_s: value("speed", Quantity::Speed, Range::Between(0.01, 5.0)),
         block_m: value("height", Quantity::Length, Range::Between(0.0, 20.0)),
         aboard: fields.count("aboard", &limits::TRAPS).map(|count| count.value),
-    };
-    fields.finish();
-    haul
+    }
 }
 
 /// The rows of a table, the fields that each sets, and the compared values.
@@ -270,7 +268,6 @@ fn read_rows(fields: &Fields<'_>) -> Option<Rows> {
     let mean_from = fields.value("mean_from", Quantity::Time, Range::NotNegative);
     let measured = fields.need_text("measured", "write the column of the measurements");
     let set = choices(fields, "set");
-    fields.finish();
     let least = least_of.zip(least.map(|least| least.value));
     let mean_from_s = mean_from.map(|from| from.value);
     Some(Rows {

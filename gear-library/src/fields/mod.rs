@@ -288,6 +288,14 @@ impl<'a> Fields<'a> {
         self.get(key).map(|node| Fields::of(node, self.problems))
     }
 
+    /// Reads a table, if present, and reports its unknown keys.
+    pub fn inside<T>(&self, key: &'a str, read: impl FnOnce(&Fields<'a>) -> T) -> Option<T> {
+        let table = self.table(key)?;
+        let value = read(&table);
+        table.finish();
+        Some(value)
+    }
+
     /// Reports every key that was not requested; called last.
     pub fn finish(&self) {
         let requested = self.requested.borrow();

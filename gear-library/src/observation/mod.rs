@@ -82,9 +82,11 @@ impl Observation {
         let mirrored = fields.flag("mirrored").unwrap_or(false);
         let sites = fields.each("site", site);
         let path_of_rope = rope_path(&fields);
-        let trailing = fields.table("trailing").and_then(|table| trailing(&table));
-        let twist = fields.table("twist").and_then(|table| twist(&table));
-        let hidden = fields.table("hidden").map(|table| hidden(&table)).unwrap_or_default();
+        let trailing = fields.inside("trailing", trailing);
+        let example = "such as turns = [1, 3]";
+        let turns = |table: &Fields<'_>| rising(table, "turns", Quantity::Ratio, example);
+        let twist = fields.inside("twist", turns).flatten();
+        let hidden = fields.inside("hidden", hidden).unwrap_or_default();
         fields.finish();
         check_once(&sites, &hidden, problems);
         if fields.tables("site").is_empty() {
@@ -119,13 +121,6 @@ fn size(fields: &Fields<'_>) -> Option<Size> {
         fields.problems().push(length.place.error("both `age` and `length` are present", help));
     }
     age.map(|age| Size::Age(age.value)).or(length.map(|length| Size::Length(length.value)))
-}
-
-/// `[twist]`: turns of the rope's two legs about each other.
-fn twist(table: &Fields<'_>) -> Option<[f64; 2]> {
-    let turns = rising(table, "turns", Quantity::Ratio, "such as turns = [1, 3]");
-    table.finish();
-    turns
 }
 
 /// Default probability of rope at a site.
@@ -230,9 +225,8 @@ fn site(fields: &Fields<'_>) -> Option<SeenSite> {
 
 /// Reads `[path]`: places in the order in which rope passes them.
 fn rope_path(fields: &Fields<'_>) -> Vec<PathPlace> {
-    let Some(table) = fields.table("path") else { return Vec::new() };
-    let places = texts(&table, "order");
-    table.finish();
+    let order = |table: &Fields<'_>| texts(table, "order");
+    let places = fields.inside("path", order).unwrap_or_default();
     let names = || Site::ALL.iter().map(|site| site.name());
     let place = |text: At<String>| {
         PathPlace::named(&text.value).or_else(|| {
@@ -243,14 +237,14 @@ fn rope_path(fields: &Fields<'_>) -> Vec<PathPlace> {
             } else {
                 hint(site, names())
             };
-            table.refuse(text.place.error(message, help))
+            fields.refuse(text.place.error(message, help))
         })
     };
     places.into_iter().filter_map(place).collect()
 }
 
 /// Reads `[trailing]`.
-fn trailing(table: &Fields<'_>) -> Option<Trailing> {
+fn trailing(table: &Fields<'_>) -> Trailing {
     let length_m =
         rising(table, "length", Quantity::Length, "such as length = [\"30 m\", \"50 m\"]");
     let names = || RopeEnd::ALL.iter().map(|end| end.name());
@@ -263,8 +257,7 @@ fn trailing(table: &Fields<'_>) -> Option<Trailing> {
         found
     };
     let ends = texts(table, "ends").into_iter().filter_map(end).collect();
-    table.finish();
-    Some(Trailing { length_m, ends })
+    Trailing { length_m, ends }
 }
 
 /// Reads `[hidden]`: sites that were not visible.
@@ -277,9 +270,7 @@ fn hidden(table: &Fields<'_>) -> Vec<At<Site>> {
             table.refuse(text.place.error(message, hint(&text.value, names())))
         }
     };
-    let sites = texts(table, "parts").into_iter().filter_map(site).collect();
-    table.finish();
-    sites
+    texts(table, "parts").into_iter().filter_map(site).collect()
 }
 
 /// Reports sites that occur more than once.

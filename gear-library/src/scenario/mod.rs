@@ -123,9 +123,11 @@ impl Scenario {
             step_s: step(&fields),
             auto_step: is_auto(&fields),
             contact_step_s: seconds(&fields, "contact_step"),
-            contact_tolerance: contact_tolerance(&fields),
+            contact_tolerance: fields
+                .value("contact_tolerance", Quantity::Ratio, Range::Between(1e-4, 0.2))
+                .map(|tolerance| tolerance.value),
             rope_nodes: fields.count("rope_nodes", &limits::ROPE_NODES),
-            segment_m: segment(&fields),
+            segment_m: fields.value("segment", Quantity::Length, Range::Within(&limits::SEGMENT)),
             line_segments: fields.each("segments", LineSegments::read),
             weak_links: flag("weak_links", true),
             rope_on_bodies: flag("rope_on_bodies", true),
@@ -133,7 +135,7 @@ impl Scenario {
             bodies_on_bodies: flag("bodies_on_bodies", true),
             rope_on_rope: flag("rope_on_rope", true),
             balance: fields.flag("balance"),
-            rope_friction: rope_friction(&fields),
+            rope_friction: fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0)),
             as_placed: start.is_some_and(|start| start.value),
             rope_condition: fields
                 .choice("rope_condition", &Condition::WORDS)
@@ -144,7 +146,7 @@ impl Scenario {
             gear: fields.each("gear", gear::placed_gear),
             resolution: resolution.map(|table| gear::resolution(&table, whale.is_some())),
             whale: whale.as_ref().and_then(PlacedWhale::read),
-            friction: fields.table("friction").as_ref().and_then(whale::friction),
+            friction: fields.inside("friction", whale::friction).flatten(),
             ropes: parts::ropes(&fields, &file),
             fixtures: fields.each("fixture", parts::fixture),
             joints: fields.each("joint", parts::joint),
@@ -203,22 +205,6 @@ fn step(fields: &Fields<'_>) -> Option<f64> {
 /// A time step [s].
 fn seconds<'a>(fields: &Fields<'a>, key: &'a str) -> Option<f64> {
     fields.value(key, Quantity::Time, Range::Within(&limits::STEP)).map(|step| step.value)
-}
-
-/// `contact_tolerance`, a share of the greatest contact force.
-fn contact_tolerance(fields: &Fields<'_>) -> Option<f64> {
-    let tolerance = fields.value("contact_tolerance", Quantity::Ratio, Range::Between(1e-4, 0.2));
-    tolerance.map(|tolerance| tolerance.value)
-}
-
-/// `segment`: the longest segment [m].
-fn segment(fields: &Fields<'_>) -> Option<At<f64>> {
-    fields.value("segment", Quantity::Length, Range::Within(&limits::SEGMENT))
-}
-
-/// `rope_friction`: the coefficient of rope on rope.
-fn rope_friction(fields: &Fields<'_>) -> Option<At<f64>> {
-    fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0))
 }
 
 /// A place as east, north, up [m].

@@ -54,8 +54,7 @@ pub struct Bed {
 /// `[site]`, `[current]` and `[waves]`.
 pub(super) fn read(fields: &Fields<'_>) -> Sea {
     let site = fields.table("site");
-    let current = fields.table("current");
-    let waves = fields.table("waves").as_ref().and_then(read_waves);
+    let waves = fields.inside("waves", read_waves).flatten();
     let mut sea = Sea {
         item: None,
         depth_m: None,
@@ -63,7 +62,9 @@ pub(super) fn read(fields: &Fields<'_>) -> Sea {
         gravity_m_s2: None,
         rope_dries: true,
         seabed: Some(Bed::default()),
-        current: current.as_ref().map_or_else(|| CurrentOf::of_site(fields.place), read_current),
+        current: fields
+            .inside("current", read_current)
+            .unwrap_or_else(|| CurrentOf::of_site(fields.place)),
         waves,
         place: site.as_ref().map_or_else(|| fields.place.clone(), |site| site.place.clone()),
     };
@@ -181,7 +182,7 @@ pub(super) fn read_current(fields: &Fields<'_>) -> CurrentOf {
     let roughness = fields.value("roughness", Quantity::Length, Range::Between(1e-6, 1.0));
     let rows = fields.each("profile", |table| row(table, toward_rad));
     let table = times(fields, toward_rad);
-    let tide = fields.table("tide").as_ref().and_then(constituent);
+    let tide = fields.inside("tide", constituent).flatten();
     check_law(fields, [&speed, &speed_height, &exponent, &roughness], !rows.is_empty());
     if let (false, Some(lone)) = (table.is_empty(), &speed) {
         let help = "the rows of [[current.at]] contain the speed: remove this, or the rows";
@@ -191,7 +192,6 @@ pub(super) fn read_current(fields: &Fields<'_>) -> CurrentOf {
         let help = "keep [current.tide] for a tidal constituent, or [[current.at]] for a table";
         fields.problems().push(place.error("both `tide` and `at` are present", help));
     }
-    fields.finish();
     CurrentOf {
         speed_m_s: speed.map(|speed| speed.value),
         speed_height_m: speed_height,
@@ -306,7 +306,6 @@ fn constituent(fields: &Fields<'_>) -> Option<(Tide, Place)> {
         let help = "keep the time of the greatest speed, or that of the slack water before";
         fields.problems().push(slack.place.error("both `peak` and `slack` are present", help));
     }
-    fields.finish();
     let period_s = period?.value;
     let peak_s = peak.map_or_else(
         || slack.map_or(0.0, |slack| slack.value + 0.25 * period_s),
@@ -344,7 +343,6 @@ pub(super) fn read_waves(fields: &Fields<'_>) -> Option<At<Waves>> {
         phase.as_ref(),
         gamma_or_components(&gamma, &components),
     );
-    fields.finish();
     let (height, period_s) = (height?, period?.value);
     let kind = match spectrum {
         None => WaveKind::Regular {

@@ -415,7 +415,6 @@ pub(super) fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
     );
     let attributes = Attributes::read(fields, "attributes");
     let on = fields.each("on", friction_on);
-    fields.finish();
     Some(FrictionChoice { model: model?, attributes, on })
 }
 

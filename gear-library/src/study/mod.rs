@@ -133,7 +133,7 @@ impl Study {
         let registered = event::list(&fields, "registered");
         let split = fields.text("split");
         let run = run_rule(&fields);
-        let enough = fields.table("enough").and_then(|fields| enough(&fields));
+        let enough = fields.inside("enough", enough).flatten();
         let options = option::read_options(&fields);
         let (aim, priors, from_priors) = encounter(&fields);
         let claims = comparison::read_claims(&fields, &options);
@@ -235,7 +235,6 @@ fn enough(table: &Fields<'_>) -> Option<Enough> {
     let event = event::need(table, "event");
     let width = table.need_value("narrower", Quantity::Ratio, Range::Between(1e-4, 1.0));
     let least = table.count("least", &limits::ENCOUNTERS);
-    table.finish();
     Some(Enough {
         event: event?,
         width: width?.value,

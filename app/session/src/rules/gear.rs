@@ -15,7 +15,7 @@
 
 use endline_gear::{Assembled, Library, StrengthBudget};
 use endline_sdk::LineEnd;
-use endline_sim::model::{BodyRole, JointKind, Line, Link, Rope};
+use endline_sim::model::{BodyRole, JointKind, Line, Link};
 
 /// Gear as rules see it.
 #[derive(Clone, Debug, Default)]
@@ -245,7 +245,7 @@ impl Reader<'_> {
             line: whole(&spec.lines[line].id),
             length_m: self.length_m(line),
             diameter_m: rope.diameter_m,
-            density_kg_m3: density_kg_m3(rope),
+            density_kg_m3: rope.mass_kg_m / rope.displaced_m3_m,
             ..Piece::default()
         };
         self.with_strength(piece, rope.strength_n)
@@ -297,10 +297,6 @@ fn rated_n(budget: &StrengthBudget) -> f64 {
 
 fn new_n(budget: &StrengthBudget) -> f64 {
     with_factors(budget, &["made to deliver", "mean of new pieces"])
-}
-
-fn density_kg_m3(rope: &Rope) -> f64 {
-    rope.mass_kg_m / rope.displaced_m3_m
 }
 
 fn has_reflector(library: &Library, item: &str) -> bool {

@@ -226,10 +226,9 @@ pub fn usual_inserts_of_own(
 
 /// A file of gear with the usual inserts.
 fn put_into(text: &str, gear: &Gear) -> Result<Edited, Error> {
-    let failed = |error: String| Error::Message(error);
-    let mut document = Document::parse(text).map_err(|error| failed(error.to_string()))?;
+    let mut document = super::parsed(text)?;
     let edit = propose::usual_inserts(&document, gear)
-        .ok_or_else(|| failed("the gear has no endline that takes inserts".to_owned()))?;
-    edit.apply(&mut document).map_err(failed)?;
+        .ok_or_else(|| Error::Message("the gear has no endline that takes inserts".to_owned()))?;
+    edit.apply(&mut document).map_err(Error::Message)?;
     Ok(Edited { says: edit.says, text: document.text() })
 }

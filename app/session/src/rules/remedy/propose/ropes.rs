@@ -62,13 +62,8 @@ pub(super) fn thin(scene: &Scene<'_>, most_m: f64) -> Lever {
 /// Rope of at least a density that sinks.
 pub(super) fn sinking(scene: &Scene<'_>, least_kg_m3: f64) -> Lever {
     let least_kg_m3 = least_kg_m3.max(SEA_WATER_KG_M3);
-    let fits = |rope: &Rope| density_kg_m3(rope) > least_kg_m3 * (1.0 + 1e-6);
+    let fits = |rope: &Rope| rope.density_kg_m3 > least_kg_m3 * (1.0 + 1e-6);
     swapped(scene, &fits, &fits, &UNLIKE_DENSITY)
-}
-
-/// Density of the rope as it displaces water [kg/m³].
-fn density_kg_m3(rope: &Rope) -> f64 {
-    rope.density_kg_m3
 }
 
 /// Ropes that fail replaced by the most similar that meets the rule: one of them, two together, and so on.
@@ -81,6 +76,8 @@ fn swapped(
     let ropes = &scene.library.ropes;
     let swap = |named: Named| {
         let old = ropes.iter().find(|rope| rope.entry.id == named.rope)?;
+        // Rope of nets is no rope for lines.
+        let is_of_net = |rope: &Rope| rope.entry.id.starts_with("gillnet-");
         let others = ropes.iter().filter(|rope| serves(rope) && !is_of_net(rope));
         let away = |rope: &Rope| distance(old, rope, counts);
         let new = others.min_by(|one, other| away(one).total_cmp(&away(other)))?;
@@ -94,11 +91,6 @@ fn swapped(
         lever.push(vec![edit(&swaps, &all)]);
     }
     lever
-}
-
-/// Rope of nets is no rope for lines.
-fn is_of_net(rope: &Rope) -> bool {
-    rope.entry.id.starts_with("gillnet-")
 }
 
 /// Every edit with this number of swaps.
