@@ -18,27 +18,13 @@ use super::{ComplianceSheet, drawing};
 /// Height above the seabed of rope that a whale near the seabed meets [m].
 const CLEAR_M: f64 = 1.0;
 
-/// All that the page shows. The template escapes texts; `style` and figures are markup.
+/// All that the page shows: the template takes tables and words from these, and escapes texts; figures are markup.
 #[derive(Template)]
 #[template(path = "comparison.html")]
 struct Page<'a> {
-    style: &'static str,
+    sheets: &'a [ComplianceSheet],
     title: String,
     where_and_when: String,
-    gears: Vec<Gear<'a>>,
-    table: Table,
-    sources: Vec<String>,
-    unknown: Vec<String>,
-    version: &'static str,
-}
-
-/// A column of the page.
-struct Gear<'a> {
-    name: &'a str,
-    notes: &'a str,
-    shape_figure: String,
-    command: String,
-    hash: String,
 }
 
 /// The page that compares gears, in their order.
@@ -47,28 +33,9 @@ pub fn comparison(sheets: &[ComplianceSheet]) -> Result<String, Error> {
         return Err(Error::Message("a comparison needs two gears or more".to_owned()));
     };
     let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
-    Page {
-        style: STYLE,
-        title: names.join("; "),
-        where_and_when: where_and_when(first),
-        gears: sheets.iter().map(gear).collect(),
-        table: table(sheets),
-        sources: sources(sheets),
-        unknown: not_known(sheets),
-        version: crate::VERSION,
-    }
-    .render()
-    .map_err(|error| Error::Message(format!("the comparison: {error}")))
-}
-
-fn gear(sheet: &ComplianceSheet) -> Gear<'_> {
-    Gear {
-        name: &sheet.name,
-        notes: &sheet.notes,
-        shape_figure: drawing::side_view(sheet),
-        command: command(sheet),
-        hash: sheet.hash(),
-    }
+    Page { sheets, title: names.join("; "), where_and_when: where_and_when(first) }
+        .render()
+        .map_err(|error| Error::Message(format!("the comparison: {error}")))
 }
 
 /// The answer of a row for a gear.

@@ -19,32 +19,15 @@ const MOST_PARTS: usize = 14;
 /// Tension below which a line is slack [N].
 const SLACK_N: f64 = 0.5;
 
-/// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
+/// All that the page shows: the template takes tables and words from these, and escapes texts; figures are markup.
 #[derive(Template)]
 #[template(path = "compliance.html")]
 struct Page<'a> {
-    style: &'static str,
-    name: &'a str,
-    notes: &'a str,
-    where_and_when: String,
-    verdict: String,
-    shape_figure: String,
-    tensions: Table,
-    slack_lines: String,
-    bodies: String,
+    sheet: &'a ComplianceSheet,
     rules: Table,
     not_checked: Vec<(String, String)>,
-    not_applicable: String,
     strength: Table,
-    strength_left_out: String,
-    haul: String,
-    haul_source: String,
-    threat: Option<Threat>,
-    unknown: Vec<String>,
     citations: Vec<String>,
-    command: String,
-    version: &'static str,
-    hash: String,
 }
 
 /// A threat in words.
@@ -54,36 +37,11 @@ pub(super) struct Threat {
 }
 
 pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
-    let strengths = &sheet.rest[1].shape.strengths;
     let mut citations = Citations::default();
     let rules = rules(sheet, &mut citations);
     let not_checked = not_checked(sheet, &mut citations);
-    let strength = strength(strengths, &mut citations);
-    Page {
-        style: STYLE,
-        name: &sheet.name,
-        notes: &sheet.notes,
-        where_and_when: where_and_when(sheet),
-        verdict: verdict(sheet),
-        shape_figure: drawing::side_view(sheet),
-        tensions: tensions(sheet),
-        slack_lines: slack_lines(sheet),
-        bodies: bodies(sheet),
-        rules,
-        not_checked,
-        not_applicable: not_applicable(sheet),
-        strength,
-        strength_left_out: left_out(strengths),
-        haul: haul(sheet),
-        haul_source: haul_source(sheet),
-        threat: sheet.threat.as_ref().map(threat),
-        unknown: unknown(sheet),
-        citations: citations.listed(),
-        command: command(sheet),
-        version: crate::VERSION,
-        hash: sheet.hash(),
-    }
-    .render()
+    let strength = strength(&sheet.rest[1].shape.strengths, &mut citations);
+    Page { sheet, rules, not_checked, strength, citations: citations.listed() }.render()
 }
 
 pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {

@@ -20,26 +20,14 @@ use super::stories::{Stories, Story};
 /// Stories with a section of their own.
 const WITH_SECTION: usize = 6;
 
-/// All that the page shows. The template escapes texts.
+/// All that the page shows: the template takes tables and words from these, and escapes texts.
 #[derive(Template)]
 #[template(path = "search.html")]
 struct Page<'a> {
-    style: &'static str,
-    name: &'a str,
-    notes: &'a str,
-    source: &'a str,
-    answer: String,
-    like: f64,
-    seen: Table,
-    stories: Table,
+    observation: &'a Observation,
+    stories: &'a Stories,
     sections: Vec<Section>,
-    common: Option<Table>,
-    posterior: Option<Table>,
-    trials: usize,
-    encounters: &'a str,
-    net: usize,
-    net_like: usize,
-    version: &'static str,
+    /// The head of the search's hash.
     hash: &'a str,
 }
 
@@ -60,36 +48,16 @@ pub fn write(
 ) -> Result<std::path::PathBuf, Error> {
     let file = folder.path.join("report.html");
     let failed = |error: String| Error::at(&file, format!("cannot be written: {error}"));
-    let html =
-        Page::of(question, folder, stories).render().map_err(|error| failed(error.to_string()))?;
+    let sections = stories.stories.iter().enumerate().take(WITH_SECTION);
+    let page = Page {
+        observation: &question.observation,
+        stories,
+        sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
+        hash: &question.hash[..16],
+    };
+    let html = page.render().map_err(|error| failed(error.to_string()))?;
     save::atomically(&file, html.as_bytes()).map_err(|error| failed(error.to_string()))?;
     Ok(file)
-}
-
-impl<'a> Page<'a> {
-    fn of(question: &'a Question, folder: &Folder, stories: &'a Stories) -> Self {
-        let observation = &question.observation;
-        let sections = stories.stories.iter().enumerate().take(WITH_SECTION);
-        Self {
-            style: STYLE,
-            name: &observation.name,
-            notes: &observation.notes,
-            source: &observation.source,
-            answer: stories.answer(),
-            like: LIKE,
-            seen: seen(observation),
-            stories: table_of(stories),
-            sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
-            common: common(stories),
-            posterior: posterior(stories),
-            trials: stories.trials,
-            encounters: &stories.encounters,
-            net: stories.net,
-            net_like: stories.net_like,
-            version: crate::VERSION,
-            hash: &question.hash[..16],
-        }
-    }
 }
 
 /// The observation, site by site, then of the rope as a whole.
