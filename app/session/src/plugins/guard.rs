@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use endline_sdk::{
     Attribute, AttributeKind, AttributeValue, Contacts, Descriptor, FrictionModel,
-    FrictionResponse, GearAction, GearStep, GearType, HookError, MotionInput, MotionOutput,
-    Posture, Rig, RigEnd, RigLine, Site, WhaleMotion,
+    FrictionResponse, GearAction, GearStep, GearType, HookError, MotionInput, MotionOutput, Rig,
+    RigEnd, RigLine, Site, WhaleMotion,
 };
 
 use super::info::Hook;
@@ -24,9 +24,12 @@ pub(super) fn guarded(hook: Hook) -> Hook {
     }
 }
 
-/// The error with the plugin's id in front.
-fn named(id: &str) -> impl Fn(HookError) -> HookError {
-    move |error| HookError::new(format!("plugin `{id}`: {}", error.message))
+/// Runs a guarded call; its error has the plugin's id in front.
+fn named<T>(
+    plugin: &Descriptor,
+    call: impl FnOnce() -> Result<T, HookError>,
+) -> Result<T, HookError> {
+    call().map_err(|error| HookError::new(format!("plugin `{}`: {}", plugin.id, error.message)))
 }
 
 fn fault<T>(message: impl Into<String>) -> Result<T, HookError> {
@@ -69,7 +72,28 @@ impl FrictionModel for GuardedFriction {
         contacts: &Contacts<'_>,
         out: &mut [FrictionResponse],
     ) -> Result<(), HookError> {
-        self.watched_respond(attributes, contacts, out).map_err(named(&self.descriptor().id))
+        named(self.descriptor(), || {
+            self.check_input(attributes, contacts)?;
+            expect_len("places for answers", out.len(), contacts.len())?;
+            out.fill(UNWRITTEN);
+            self.0.respond(attributes, contacts, out)?;
+            if out.iter().any(is_unwritten) {
+                return fault(format!(
+                    "it wrote fewer answers than the {} contacts it was asked about",
+                    contacts.len()
+                ));
+            }
+            let floats = self.descriptor().state_len;
+            for (index, answer) in out.iter().enumerate() {
+                let fresh = contacts.state[floats * index..floats * (index + 1)]
+                    .iter()
+                    .all(|float| *float == 0.0);
+                check_answer(answer, contacts, index, fresh).map_err(|error| {
+                    HookError::new(format!("contact {index}: {}", error.message))
+                })?;
+            }
+            Ok(())
+        })
     }
 
     fn advance(
@@ -78,54 +102,27 @@ impl FrictionModel for GuardedFriction {
         contacts: &Contacts<'_>,
         out: &mut [f64],
     ) -> Result<(), HookError> {
-        self.watched_advance(attributes, contacts, out).map_err(named(&self.descriptor().id))
+        named(self.descriptor(), || {
+            self.check_input(attributes, contacts)?;
+            expect_len(
+                "places for floats",
+                out.len(),
+                contacts.len() * self.descriptor().state_len,
+            )?;
+            out.fill(BLANK);
+            self.0.advance(attributes, contacts, out)?;
+            if out.iter().any(|float| float.to_bits() == BLANK.to_bits()) {
+                return fault(format!(
+                    "it wrote fewer than the {} floats of its contacts",
+                    out.len()
+                ));
+            }
+            expect_finite("a float of its state", out)
+        })
     }
 }
 
 impl GuardedFriction {
-    fn watched_respond(
-        &self,
-        attributes: &[f64],
-        contacts: &Contacts<'_>,
-        out: &mut [FrictionResponse],
-    ) -> Result<(), HookError> {
-        self.check_input(attributes, contacts)?;
-        expect_len("places for answers", out.len(), contacts.len())?;
-        out.fill(UNWRITTEN);
-        self.0.respond(attributes, contacts, out)?;
-        if out.iter().any(is_unwritten) {
-            return fault(format!(
-                "it wrote fewer answers than the {} contacts it was asked about",
-                contacts.len()
-            ));
-        }
-        let floats = self.descriptor().state_len;
-        for (index, answer) in out.iter().enumerate() {
-            let fresh = contacts.state[floats * index..floats * (index + 1)]
-                .iter()
-                .all(|float| *float == 0.0);
-            check_answer(answer, contacts, index, fresh)
-                .map_err(|error| HookError::new(format!("contact {index}: {}", error.message)))?;
-        }
-        Ok(())
-    }
-
-    fn watched_advance(
-        &self,
-        attributes: &[f64],
-        contacts: &Contacts<'_>,
-        out: &mut [f64],
-    ) -> Result<(), HookError> {
-        self.check_input(attributes, contacts)?;
-        expect_len("places for floats", out.len(), contacts.len() * self.descriptor().state_len)?;
-        out.fill(BLANK);
-        self.0.advance(attributes, contacts, out)?;
-        if out.iter().any(|float| float.to_bits() == BLANK.to_bits()) {
-            return fault(format!("it wrote fewer than the {} floats of its contacts", out.len()));
-        }
-        expect_finite("a float of its state", out)
-    }
-
     fn check_input(&self, attributes: &[f64], contacts: &Contacts<'_>) -> Result<(), HookError> {
         expect_len("attribute values", attributes.len(), self.descriptor().attributes.len())?;
         let count = contacts.len();
@@ -193,7 +190,12 @@ impl GearType for GuardedGear {
     }
 
     fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        self.watched_build(attributes, site).map_err(named(&self.descriptor().id))
+        named(self.descriptor(), || {
+            check_values(&self.descriptor().attributes, attributes)?;
+            let rig = self.0.build(attributes, site)?;
+            check_rig(&rig)?;
+            Ok(rig)
+        })
     }
 
     fn step(
@@ -203,41 +205,24 @@ impl GearType for GuardedGear {
         state: &mut [f64],
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
-        self.watched_step(attributes, input, state, actions).map_err(named(&self.descriptor().id))
-    }
-}
-
-impl GuardedGear {
-    fn watched_build(&self, values: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        check_values(&self.descriptor().attributes, values)?;
-        let rig = self.0.build(values, site)?;
-        check_rig(&rig)?;
-        Ok(rig)
-    }
-
-    fn watched_step(
-        &self,
-        values: &[AttributeValue],
-        input: &GearStep<'_>,
-        state: &mut [f64],
-        actions: &mut Vec<GearAction>,
-    ) -> Result<(), HookError> {
-        check_values(&self.descriptor().attributes, values)?;
-        expect_len("floats of state", state.len(), self.descriptor().state_len)?;
-        let before = actions.len();
-        self.0.step(values, input, state, actions)?;
-        expect_finite("a float of its state", state)?;
-        let lines = input.end_tension_n.len();
-        for action in actions.iter().skip(before) {
-            if let GearAction::CutLine { line, .. } = action
-                && *line as usize >= lines
-            {
-                return fault(format!(
-                    "it cuts line {line}, but its rig has {lines} lines, counted from 0"
-                ));
+        named(self.descriptor(), || {
+            check_values(&self.descriptor().attributes, attributes)?;
+            expect_len("floats of state", state.len(), self.descriptor().state_len)?;
+            let before = actions.len();
+            self.0.step(attributes, input, state, actions)?;
+            expect_finite("a float of its state", state)?;
+            let lines = input.end_tension_n.len();
+            for action in actions.iter().skip(before) {
+                if let GearAction::CutLine { line, .. } = action
+                    && *line as usize >= lines
+                {
+                    return fault(format!(
+                        "it cuts line {line}, but its rig has {lines} lines, counted from 0"
+                    ));
+                }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 
@@ -251,14 +236,13 @@ fn check_values(attributes: &[Attribute], values: &[AttributeValue]) -> Result<(
             )
             | (AttributeKind::Choice { .. }, AttributeValue::Choice(_))
             | (AttributeKind::Item { .. }, AttributeValue::Item(_)) => {}
-            (AttributeKind::Choice { .. }, _) => {
-                return fault(format!("attribute `{}`: expected one of its words", attribute.key));
-            }
-            (AttributeKind::Number { .. } | AttributeKind::Count { .. }, _) => {
-                return fault(format!("attribute `{}`: expected a number", attribute.key));
-            }
-            (AttributeKind::Item { .. }, _) => {
-                return fault(format!("attribute `{}`: expected a library item", attribute.key));
+            (kind, _) => {
+                let expected = match kind {
+                    AttributeKind::Choice { .. } => "one of its words",
+                    AttributeKind::Number { .. } | AttributeKind::Count { .. } => "a number",
+                    AttributeKind::Item { .. } => "a library item",
+                };
+                return fault(format!("attribute `{}`: expected {expected}", attribute.key));
             }
         }
     }
@@ -353,33 +337,19 @@ impl WhaleMotion for GuardedMotion {
         input: &MotionInput<'_>,
         state: &mut [f64],
     ) -> Result<MotionOutput, HookError> {
-        self.watched(attributes, input, state).map_err(named(&self.descriptor().id))
+        named(self.descriptor(), || {
+            expect_len("attribute values", attributes.len(), self.descriptor().attributes.len())?;
+            expect_len("floats of state", state.len(), self.descriptor().state_len)?;
+            let out = self.0.step(attributes, input, state)?;
+            expect_finite("a float of its state", state)?;
+            expect_within("the speed", &[out.speed_m_s], GREATEST_SPEED_M_S, "m/s")?;
+            expect_within("a turn rate", &out.turn_rate_rad_s, GREATEST_TURN_RAD_S, "rad/s")?;
+            for (what, angles) in out.posture.groups() {
+                expect_within(what, angles, PI, "rad")?;
+            }
+            Ok(out)
+        })
     }
-}
-
-impl GuardedMotion {
-    fn watched(
-        &self,
-        attributes: &[f64],
-        input: &MotionInput<'_>,
-        state: &mut [f64],
-    ) -> Result<MotionOutput, HookError> {
-        expect_len("attribute values", attributes.len(), self.descriptor().attributes.len())?;
-        expect_len("floats of state", state.len(), self.descriptor().state_len)?;
-        let out = self.0.step(attributes, input, state)?;
-        expect_finite("a float of its state", state)?;
-        expect_within("the speed", &[out.speed_m_s], GREATEST_SPEED_M_S, "m/s")?;
-        expect_within("a turn rate", &out.turn_rate_rad_s, GREATEST_TURN_RAD_S, "rad/s")?;
-        check_posture(&out.posture)?;
-        Ok(out)
-    }
-}
-
-fn check_posture(posture: &Posture) -> Result<(), HookError> {
-    for (what, angles) in posture.groups() {
-        expect_within(what, angles, PI, "rad")?;
-    }
-    Ok(())
 }
 
 fn expect_within(what: &str, values: &[f64], most: f64, unit: &str) -> Result<(), HookError> {

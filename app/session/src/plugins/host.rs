@@ -157,18 +157,16 @@ impl PluginHost {
         choices: &Choices,
     ) -> Result<(), Refusal> {
         let text = |text: &String| text.clone().into();
-        let (id, version, name, help) =
-            (text(&plugin.id), text(&plugin.version), text(&plugin.name), text(&plugin.help));
-        let acts = plugin.acts.clone();
-        info::check(&Descriptor {
-            id,
-            version,
-            name,
-            help,
+        let clips = Descriptor {
+            id: text(&plugin.id),
+            version: text(&plugin.version),
+            name: text(&plugin.name),
+            help: text(&plugin.help),
             attributes: Vec::new(),
             state_len: 0,
-            acts,
-        })?;
+            acts: plugin.acts.clone(),
+        };
+        info::check(&clips)?;
         let taken = |id: &str| {
             self.infos.iter().find(|info| {
                 info.kind == PluginKind::Clips && info.acts.iter().any(|act| act.id == id)
@@ -183,7 +181,7 @@ impl PluginHost {
                 "name the act otherwise, or switch one of the two off",
             ));
         }
-        if self.admit(PluginInfo::of_clips(plugin, from), choices)? {
+        if self.admit(PluginInfo::of(PluginKind::Clips, &clips, Some(from)), choices)? {
             self.clips = std::mem::take(&mut self.clips)
                 .overlay(plugin.clips.under(&format!("plugins/{}", plugin.id)));
         }
@@ -198,7 +196,7 @@ impl PluginHost {
     ) -> Result<(), Refusal> {
         info::check(hook.descriptor())?;
         let id = hook.descriptor().id.to_string();
-        if self.admit(PluginInfo::of(&hook, from), choices)? {
+        if self.admit(PluginInfo::of(hook.kind(), hook.descriptor(), from), choices)? {
             self.hooks.insert(id, guard::guarded(hook));
         }
         Ok(())

@@ -5,7 +5,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::TextPlugin;
 use endline_sdk::{
     Act, Attribute, AttributeKind, Controls, Descriptor, FrictionModel, GearType, WhaleMotion,
 };
@@ -115,32 +114,14 @@ pub(super) struct Origin {
 }
 
 impl PluginInfo {
-    /// Motion clips of a folder, as lists name them.
-    pub(super) fn of_clips(plugin: &TextPlugin, from: Origin) -> Self {
-        Self {
-            id: plugin.id.clone(),
-            version: plugin.version.clone(),
-            kind: PluginKind::Clips,
-            name: plugin.name.clone(),
-            help: plugin.help.clone(),
-            attributes: Vec::new(),
-            acts: plugin.acts.clone(),
-            file: Some(from.file),
-            hash: Some(from.hash),
-            about: from.about,
-            out_of_process: false,
-        }
-    }
-
-    pub(super) fn of(hook: &Hook, from: Option<Origin>) -> Self {
-        let descriptor = hook.descriptor();
+    pub(super) fn of(kind: PluginKind, descriptor: &Descriptor, from: Option<Origin>) -> Self {
         let about = from.as_ref().map(|from| from.about.clone()).unwrap_or_default();
         let out_of_process = from.as_ref().is_some_and(|from| from.out_of_process);
         let (file, hash) = from.map(|Origin { file, hash, .. }| (file, hash)).unzip();
         Self {
             id: descriptor.id.to_string(),
             version: descriptor.version.to_string(),
-            kind: hook.kind(),
+            kind,
             name: descriptor.name.to_string(),
             help: descriptor.help.to_string(),
             attributes: descriptor.attributes.clone(),

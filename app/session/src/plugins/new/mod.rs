@@ -31,11 +31,8 @@ pub struct Project {
     pub library: PathBuf,
 }
 
-/// A file of a project.
-struct Written {
-    path: &'static str,
-    text: String,
-}
+/// Path and text of a file of a project.
+type Written = (&'static str, String);
 
 /// Writes a project into a new folder; the folder's name becomes the plugin's. `sdk` is the folder of `endline-sdk`.
 pub fn write_project(
@@ -59,12 +56,10 @@ pub fn write_project(
         Language::Rust => in_rust(kind, &name, &id, &find_sdk(sdk)?),
         Language::C => in_c(kind, &name, &id),
     };
-    for file in &files {
-        let path = folder.join(file.path);
-        let written = path
-            .parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&path, &file.text));
+    for (path, text) in &files {
+        let path = folder.join(path);
+        let written =
+            path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, text));
         written.map_err(|error| format!("{}: {error}", path.display()))?;
     }
     let library = if language == Language::Text {
@@ -143,9 +138,9 @@ fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
     let manifest = include_str!("templates/Cargo.toml.txt")
         .replace("@sdk@", &sdk.display().to_string().replace('\\', "/"));
     vec![
-        Written { path: "Cargo.toml", text: manifest.replace("@name@", name) },
-        Written { path: "src/lib.rs", text: named(source, name, id) },
-        Written { path: ".gitignore", text: "/target\n".to_owned() },
+        ("Cargo.toml", manifest.replace("@name@", name)),
+        ("src/lib.rs", named(source, name, id)),
+        (".gitignore", "/target\n".to_owned()),
     ]
 }
 
@@ -155,15 +150,12 @@ fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
         PluginKind::Friction => include_str!("templates/friction.c"),
         PluginKind::Gear => include_str!("templates/gear.c"),
     };
+    let makefile = include_str!("templates/Makefile.txt");
     let whole = source.replace("@entry@", include_str!("templates/entry.c").trim_end());
     vec![
-        Written { path: "plugin.c", text: named(&whole, name, id) },
-        Written { path: "endline_plugin.h", text: HEADER.to_owned() },
-        Written {
-            path: "Makefile",
-            text: include_str!("templates/Makefile.txt")
-                .replace("@library@", &library(Language::C, name)),
-        },
+        ("plugin.c", named(&whole, name, id)),
+        ("endline_plugin.h", HEADER.to_owned()),
+        ("Makefile", makefile.replace("@library@", &library(Language::C, name))),
     ]
 }
 
@@ -179,10 +171,7 @@ fn in_text(kind: PluginKind, name: &str, id: &str) -> Result<Vec<Written>, Strin
     };
     // The folder's own id must differ from that of a gear type in it.
     let plugin = include_str!("templates/plugin.toml").replace("@id@", &id.replace(".gear.", "."));
-    Ok(vec![
-        Written { path: "plugin.toml", text: named(&plugin, name, id) },
-        Written { path, text: named(text, name, id) },
-    ])
+    Ok(vec![("plugin.toml", named(&plugin, name, id)), (path, named(text, name, id))])
 }
 
 /// A source with the plugin's id and its name in menus.
