@@ -122,17 +122,13 @@ fn nodes(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let at = of_lines(model, &model.line_nodes);
     let places = || frames.iter().flat_map(|frame| frame.nodes.iter().copied());
     let [x, y, z] = axes(places);
+    let node = wholes(frames, &at, |(_, place)| *place);
     RunTable {
         name: "nodes",
         columns: vec![
             time(frames, |_| at.len()),
             ("line", "", "id of the line", texts(frames, &at, |(line, _)| line.clone())),
-            (
-                "node",
-                "",
-                "place along the line, 0 at its beginning",
-                wholes(frames, &at, |(_, place)| *place),
-            ),
+            ("node", "", "place along the line, 0 at its beginning", node),
             ("x_m", "m", "east", x),
             ("y_m", "m", "north", y),
             ("z_m", "m", "up, from the mean sea surface", z),
@@ -142,36 +138,20 @@ fn nodes(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
 
 fn segments(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let at = of_lines(model, &model.line_segments);
-    let all = || frames.iter();
+    let meaning = "place along the line, from node of the same number to the next";
+    let segment = wholes(frames, &at, |(_, place)| *place);
+    let tension = reals(frames.iter().flat_map(|frame| frame.tension_n.iter().copied()));
+    let length = reals(frames.iter().flat_map(|frame| frame.segment_length_m.iter().copied()));
+    let is_cut = Column::Flag(frames.iter().flat_map(|frame| frame.cut.iter().copied()).collect());
     RunTable {
         name: "segments",
         columns: vec![
             time(frames, |_| at.len()),
             ("line", "", "id of the line", texts(frames, &at, |(line, _)| line.clone())),
-            (
-                "segment",
-                "",
-                "place along the line, from node of the same number to the next",
-                wholes(frames, &at, |(_, place)| *place),
-            ),
-            (
-                "tension_N",
-                "N",
-                "tension; none in slack rope",
-                reals(all().flat_map(|frame| frame.tension_n.iter().copied())),
-            ),
-            (
-                "length_m",
-                "m",
-                "unstretched length",
-                reals(all().flat_map(|frame| frame.segment_length_m.iter().copied())),
-            ),
-            (
-                "is_cut",
-                "",
-                "whether it has parted",
-                Column::Flag(all().flat_map(|frame| frame.cut.iter().copied()).collect()),
-            ),
+            ("segment", "", meaning, segment),
+            ("tension_N", "N", "tension; none in slack rope", tension),
+            ("length_m", "m", "unstretched length", length),
+            ("is_cut", "", "whether it has parted", is_cut),
         ],
     }
 }
@@ -214,44 +194,28 @@ fn contacts(model: &Model, frames: &[Arc<Frame>]) -> RunTable {
     let [fx, fy, fz] = axes(|| all().map(|at| at.friction_n));
     let line = |at: &ContactPoint| model.spec.lines[at.line].id.clone();
     let place = |at: &ContactPoint| whole(at.segment - model.line_segments[at.line].start);
+    let segment = Column::Whole(all().map(place).collect());
+    let region = Column::Text(all().map(|at| at.region.name().to_owned()).collect());
+    let [force, length] =
+        [reals(all().map(|at| at.normal_force_n)), reals(all().map(|at| at.length_m))];
     RunTable {
         name: "contacts",
         columns: vec![
             time(frames, |frame| frame.contacts.len()),
             ("line", "", "id of the line", Column::Text(all().map(line).collect())),
-            (
-                "segment",
-                "",
-                "place of the segment along the line",
-                Column::Whole(all().map(place).collect()),
-            ),
-            (
-                "region",
-                "",
-                "region of the skin",
-                Column::Text(all().map(|at| at.region.name().to_owned()).collect()),
-            ),
+            ("segment", "", "place of the segment along the line", segment),
+            ("region", "", "region of the skin", region),
             ("x_m", "m", "east", x),
             ("y_m", "m", "north", y),
             ("z_m", "m", "up, from the mean sea surface", z),
             ("normal_x", "", "unit vector from skin to rope", nx),
             ("normal_y", "", "unit vector from skin to rope", ny),
             ("normal_z", "", "unit vector from skin to rope", nz),
-            (
-                "normal_force_N",
-                "N",
-                "force of skin on rope along the normal",
-                reals(all().map(|at| at.normal_force_n)),
-            ),
+            ("normal_force_N", "N", "force of skin on rope along the normal", force),
             ("friction_x_N", "N", "friction force of skin on rope", fx),
             ("friction_y_N", "N", "friction force of skin on rope", fy),
             ("friction_z_N", "N", "friction force of skin on rope", fz),
-            (
-                "length_m",
-                "m",
-                "length of rope that it stands for",
-                reals(all().map(|at| at.length_m)),
-            ),
+            ("length_m", "m", "length of rope that it stands for", length),
         ],
     }
 }
