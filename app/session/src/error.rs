@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use endline_gear::Diagnostic;
+use endline_gear::{Diagnostic, EditError};
 use endline_sim::Stop;
 
 /// Why a session could not do a request.
@@ -32,15 +32,32 @@ pub enum Error {
 }
 
 impl Error {
+    /// The error of an attempt at a file, such as `cannot be read`, with its cause.
+    pub fn on<E: fmt::Display>(file: &Path, failed: &str) -> impl Fn(E) -> Self {
+        move |cause| Self::at(file, format!("{failed}: {cause}"))
+    }
+
     /// An error about a file.
     pub fn at(file: &Path, message: impl Into<String>) -> Self {
         Self::File { file: file.display().to_string(), message: message.into() }
     }
 }
 
+impl From<Diagnostic> for Error {
+    fn from(problem: Diagnostic) -> Self {
+        Self::Diagnostics(vec![problem])
+    }
+}
+
 impl From<Box<Diagnostic>> for Error {
     fn from(problem: Box<Diagnostic>) -> Self {
-        Self::Diagnostics(vec![*problem])
+        (*problem).into()
+    }
+}
+
+impl From<EditError> for Error {
+    fn from(error: EditError) -> Self {
+        Self::Message(error.message)
     }
 }
 

@@ -92,7 +92,7 @@ fn write(file: &Path, bytes: &[u8]) -> Result<(), Error> {
     let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
     folder
         .and_then(|()| save::atomically(file, bytes))
-        .map_err(|error| Error::at(file, format!("cannot be written: {error}")))
+        .map_err(Error::on(file, "cannot be written"))
 }
 
 /// The list of files as `.shipped` keeps it: a line each, hash and path.

@@ -20,12 +20,7 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
     for check in &case.checks {
         for name in probes(&check.measure) {
             if !model.spec.probes.iter().any(|probe| probe.id == name.value) {
-                let known: Vec<&str> =
-                    model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
-                let help = format!("its probes are {}", known.join(", "));
-                problems.push(
-                    name.place.error(format!("the scenario has no probe `{}`", name.value), help),
-                );
+                problems.push(rows::no_probe(name, model));
             }
             if let (true, Some(table)) = (of_table(&check.measure), table) {
                 problems.extend(table.column(&name.value).err().map(|problem| *problem));

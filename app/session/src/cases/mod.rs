@@ -59,8 +59,7 @@ impl Cases {
     /// Ids of all cases, in order.
     pub fn ids(&self) -> Result<Vec<String>, Error> {
         let folder = self.root.join("cases");
-        let entries = std::fs::read_dir(&folder)
-            .map_err(|error| Error::at(&folder, format!("cannot be read: {error}")))?;
+        let entries = std::fs::read_dir(&folder).map_err(Error::on(&folder, "cannot be read"))?;
         let files = entries
             .flatten()
             .map(|entry| entry.path())
@@ -166,9 +165,6 @@ impl Finer {
 
 fn no_table(case: &Case) -> Error {
     let help = "write table = \"name\" for the file cases/tables/name.csv";
-    Error::Diagnostics(vec![Diagnostic::of_file(
-        case.place.source.path.clone(),
-        "there are [rows] without a `table`",
-        help,
-    )])
+    let path = case.place.source.path.clone();
+    Diagnostic::of_file(path, "there are [rows] without a `table`", help).into()
 }

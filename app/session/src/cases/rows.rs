@@ -1,6 +1,6 @@
 //! References of cases: tables, curves and rows of measurements, each compared with readings.
 
-use endline_gear::{At, Case, Check, Measure, Rows, Table};
+use endline_gear::{At, Case, Check, Diagnostic, Measure, Rows, Table};
 use endline_sim::Model;
 use endline_sim::metrics::{reading, unit};
 use endline_sim::model::Probe;
@@ -59,9 +59,11 @@ pub(super) fn run(
     }
     let Some(setup) = last else {
         let help = "correct `groups`, `by` or `least`";
-        return Err(Error::Diagnostics(vec![
-            rows.by.place.error("no row of the table belongs to these groups", help),
-        ]));
+        return Err(rows
+            .by
+            .place
+            .error("no row of the table belongs to these groups", help)
+            .into());
     };
     let mut verdicts = Vec::new();
     for check in &case.checks {
@@ -90,9 +92,7 @@ pub(super) fn check(
     for name in &rows.groups {
         let Some(row) = rows.of_group(table, name)?.first().copied() else {
             let message = format!("no row of the table has {} {name}", rows.by.value);
-            return Err(Error::Diagnostics(vec![
-                rows.by.place.error(message, "correct `groups`, `by` or `least`"),
-            ]));
+            return Err(rows.by.place.error(message, "correct `groups`, `by` or `least`").into());
         };
         let setup = Setup::new(cases, case, &rows.fields(table, row)?, host)?;
         probe(&setup, rows)?;
@@ -103,14 +103,15 @@ pub(super) fn check(
 
 /// The probe that is read.
 fn probe<'a>(setup: &'a Setup, rows: &Rows) -> Result<&'a Probe, Error> {
-    setup.model.spec.probes.iter().find(|probe| probe.id == rows.read.value).ok_or_else(|| {
-        let known: Vec<&str> =
-            setup.model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
-        let help = format!("its probes are {}", known.join(", "));
-        Error::Diagnostics(vec![
-            rows.read.place.error(format!("the scenario has no probe `{}`", rows.read.value), help),
-        ])
-    })
+    let found = setup.model.spec.probes.iter().find(|probe| probe.id == rows.read.value);
+    found.ok_or_else(|| no_probe(&rows.read, &setup.model).into())
+}
+
+/// The problem of a probe that the scenario does not have.
+pub(super) fn no_probe(name: &At<String>, model: &Model) -> Diagnostic {
+    let known: Vec<&str> = model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
+    let help = format!("its probes are {}", known.join(", "));
+    name.place.error(format!("the scenario has no probe `{}`", name.value), help)
 }
 
 /// The probe's reading of the gear at rest, or its mean late in the run; or why there is none.
@@ -192,7 +193,7 @@ fn judge(
         _ => {
             let help = "cases with [rows] measure sums, slope or fall";
             let message = format!("`{}` cannot be measured of rows", check.name);
-            Err(Error::Diagnostics(vec![rows.by.place.error(message, help)]))
+            Err(rows.by.place.error(message, help).into())
         }
     }
 }

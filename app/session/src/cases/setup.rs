@@ -12,7 +12,7 @@ use super::outcome::Observed;
 use crate::error::Error;
 use crate::haul::HaulRequest;
 use crate::plugins::PluginHost;
-use crate::source::{Overrides, Prepared, Source};
+use crate::source::{Prepared, Source};
 
 /// A case ready to run.
 pub(super) struct Setup {
@@ -31,32 +31,20 @@ impl Setup {
         let path = cases.root.join("scenarios").join(format!("{}.toml", case.scenario.value));
         let text = endline_gear::read::text(&path).map_err(|error| {
             let message = format!("the scenario `{}` cannot be read: {error}", case.scenario.value);
-            Error::Diagnostics(vec![
-                case.scenario
-                    .place
-                    .error(message, "write the name of a file of scenarios/ without .toml"),
-            ])
+            let help = "write the name of a file of scenarios/ without .toml";
+            Error::from(case.scenario.place.error(message, help))
         })?;
-        let fault = |message: String| Error::at(&path, format!("cannot be set: {message}"));
-        let mut document = Document::parse(&text).map_err(|error| fault(error.message))?;
+        let mut document = Document::parse(&text).map_err(Error::on(&path, "cannot be set"))?;
         for (field, value) in &case.set {
-            let as_error = |error: endline_gear::EditError| {
-                Error::Diagnostics(vec![
-                    field.place.error(error.message, "name a field of the scenario"),
-                ])
-            };
-            document.set(&field.value, value).map_err(as_error)?;
+            document.set(&field.value, value).map_err(|error| {
+                field.place.error(error.message, "name a field of the scenario")
+            })?;
         }
         for (field, value) in more {
-            document.set(field, value).map_err(|error| fault(error.message))?;
+            document.set(field, value).map_err(Error::on(&path, "cannot be set"))?;
         }
-        let source = Source {
-            scenario_name: path.display().to_string(),
-            scenario: document.text(),
-            library: cases.sources.clone(),
-            overrides: Overrides::default(),
-        };
-        let prepared = source.prepare(host)?;
+        let prepared =
+            Source::new(path.display(), document.text(), cases.sources.clone()).prepare(host)?;
         let model = Arc::clone(&prepared.model);
         Ok(Self { prepared, model })
     }
@@ -115,11 +103,7 @@ pub(super) fn check(case: &Case, model: &Model) -> Result<(), Error> {
     } else {
         return Ok(());
     };
-    Err(Error::Diagnostics(vec![Diagnostic::of_file(
-        case.place.source.path.clone(),
-        message,
-        help,
-    )]))
+    Err(Diagnostic::of_file(case.place.source.path.clone(), message, help).into())
 }
 
 /// Hauls the gear; the greatest pull at the hauler since the last sample, at each. The reason where it does not get to its end.

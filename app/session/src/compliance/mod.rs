@@ -25,7 +25,7 @@ use crate::plugins::PluginHost;
 use crate::rules::{Fishing, Packs, RuleGear, RuleSheet, check, of_library};
 use crate::settled::SettledShape;
 use crate::source::library_of;
-use crate::source::{Overrides, Prepared, Source};
+use crate::source::{Prepared, Source};
 use crate::statics::{TrialGear, TrialSea, alone};
 use crate::study::threat::at_line;
 use crate::units::{METRES_PER_INCH, N_PER_LBF};
@@ -88,13 +88,8 @@ impl ComplianceSheet {
                 depth: Some(format!("{} m", gear.depth_m)),
                 current_m_s: Some(current_m_s),
             };
-            let source = Source {
-                scenario_name: (*id).to_owned(),
-                scenario: alone(SEA, &TrialGear::Assembly((*id).to_owned()), &sea, &library)?,
-                library: (*sources).clone(),
-                overrides: Overrides::default(),
-            };
-            AtRest::of(source.prepare(host)?)
+            let scenario = alone(SEA, &TrialGear::Assembly((*id).to_owned()), &sea, &library)?;
+            AtRest::of(Source::new(id, scenario, (*sources).clone()).prepare(host)?)
         };
         let haul = HaulRequest {
             depth_m: Some(gear.depth_m),
@@ -155,8 +150,7 @@ fn named(id: &str, library: &Library) -> (String, String) {
 
 fn threat_of(file: Option<&Path>, gear: &RuleGear) -> Result<Option<ThreatOfGear>, Error> {
     let Some(file) = file else { return Ok(None) };
-    let text = endline_gear::read::text(file)
-        .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+    let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
     ThreatOfGear::find(&file.display().to_string(), &text, gear).map(Some)
 }
 
@@ -283,8 +277,7 @@ impl ThreatOfGear {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let rows: Result<Vec<Row>, csv::Error> = reader.deserialize().collect();
         let help = "give the file with bands that `endline study threat STUDY --to FILE.csv` writes: FILE-bands.csv";
-        let rows =
-            rows.map_err(|error| Error::from(Box::new(at_line(file, text, &error, help))))?;
+        let rows = rows.map_err(|error| at_line(file, text, &error, help))?;
         let failed = |message: String| Error::Message(format!("{file}: {message}"));
         let endline = gear.endline().ok_or_else(|| {
             failed(format!("{} has no endline to find in the table", gear.assembly))

@@ -24,7 +24,7 @@ pub(crate) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec
         lines.extend(found.map(|(line, _)| line));
         if lines.len() == before {
             let message = format!("the baseline's gear has no line `{}`", id.value);
-            return Err(Error::Diagnostics(vec![id.place.error(message, hint(&id.value, ids()))]));
+            return Err(id.place.error(message, hint(&id.value, ids())).into());
         }
     }
     Ok(lines)

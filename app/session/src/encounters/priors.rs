@@ -54,7 +54,7 @@ pub(crate) fn put_drawn<'a>(
 ) -> Result<(), Error> {
     for (prior, drawn) in drawn.filter(|(prior, _)| !own.contains(&path_of(prior))) {
         put_one(scenario, sources, prior, drawn)
-            .map_err(|error| Error::Diagnostics(vec![prior.name.place.error(error.message, "")]))?;
+            .map_err(|error| prior.name.place.error(error.message, ""))?;
     }
     Ok(())
 }

@@ -55,10 +55,9 @@ impl Kept {
     /// Writes it beside a recording.
     pub fn save(&self, recording: &Path) -> Result<(), Error> {
         let place = place(recording);
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|error| Error::at(&place, format!("cannot be written: {error}")))?;
-        save::atomically(&place, text.as_bytes())
-            .map_err(|error| Error::at(&place, format!("cannot be written: {error}")))
+        let failed = "cannot be written";
+        let text = serde_json::to_string_pretty(self).map_err(Error::on(&place, failed))?;
+        save::atomically(&place, text.as_bytes()).map_err(Error::on(&place, failed))
     }
 }
 
@@ -81,8 +80,7 @@ pub fn rename(recording: &Path, name: &str) -> Result<PathBuf, Error> {
 /// Moves a recording and the files beside it to the folder of deleted ones; returns its path there.
 pub fn delete(recording: &Path) -> Result<PathBuf, Error> {
     let folder = recording.with_file_name(DELETED);
-    fs::create_dir_all(&folder)
-        .map_err(|error| Error::at(&folder, format!("cannot be made: {error}")))?;
+    fs::create_dir_all(&folder).map_err(Error::on(&folder, "cannot be made"))?;
     let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
     let named = |number: u32| match number {
         0 => folder.join(format!("{stem}.{EXTENSION}")),
@@ -101,7 +99,7 @@ fn relocate(from: &Path, to: &Path) -> Result<(), Error> {
     if to.exists() {
         return Err(Error::at(to, "is there already; choose another name"));
     }
-    fs::rename(from, to).map_err(|error| Error::at(from, format!("cannot be moved: {error}")))?;
+    fs::rename(from, to).map_err(Error::on(from, "cannot be moved"))?;
     // A recording without them is as good.
     let _ = fs::rename(place(from), place(to));
     let _ = fs::rename(picture(from), picture(to));

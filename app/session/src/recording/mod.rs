@@ -84,8 +84,7 @@ impl Recording {
     /// Loads a recording. Changed inputs do not hinder it: they are reported in `damage`, and
     /// [`replay::verify`] names the first step they change.
     pub fn load(path: &Path) -> Result<Self, Error> {
-        let bytes = endline_gear::read::bytes(path)
-            .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        let bytes = endline_gear::read::bytes(path).map_err(Error::on(path, "cannot be read"))?;
         file::read(&bytes).map_err(|message| Error::at(path, message))
     }
 }
@@ -106,6 +105,5 @@ pub(crate) fn words(controls: &Controls) -> [u64; Controls::COUNT] {
 }
 
 fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
-    crate::save::atomically_with(path, write)
-        .map_err(|error| Error::at(path, format!("cannot be written: {error}")))
+    crate::save::atomically_with(path, write).map_err(Error::on(path, "cannot be written"))
 }

@@ -122,8 +122,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
 }
 
 fn read(file: &Path) -> Result<RulePack, Error> {
-    let text = endline_gear::read::text(file)
-        .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+    let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
     read_text(&file.display().to_string(), &text).map_err(Error::Diagnostics)
 }
 

@@ -3,7 +3,7 @@
 //! How encounters are drawn, when a run ends and the sea are those of an existing study; its options are replaced by one for
 //! each rule. An option states the changes of its edit in the assembly, so that the study needs no other file.
 
-use endline_gear::{Document, EditError, Rule, Setting};
+use endline_gear::{Document, Rule, Setting};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
@@ -71,25 +71,22 @@ pub fn text(
     like: &str,
     depth_m: Option<f64>,
 ) -> Result<String, Error> {
-    let fault = |error: EditError| Error::Message(error.message);
-    let mut study = Document::parse(like).map_err(fault)?;
+    let mut study = Document::parse(like)?;
     for list in OF_OPTIONS.into_iter().filter(|list| study.has(list)).collect::<Vec<_>>() {
-        study.remove(list).map_err(fault)?;
+        study.remove(list)?;
     }
     let rules: Vec<&str> = options.iter().map(|option| option.rule.as_str()).collect();
     let name = format!("{assembly}, edited for {}", rules.join(" and "));
     let head =
         [("name", name), ("notes", notes(assembly, options)), ("baseline", rules[0].to_owned())];
     for (field, value) in head {
-        study.put(field, &Setting::text(&value)).map_err(fault)?;
+        study.put(field, &Setting::text(&value))?;
     }
     for (index, option) in options.iter().enumerate() {
-        study
-            .push_table("option", &[("id", &option.rule), ("name", &option.asks)])
-            .map_err(fault)?;
+        study.push_table("option", &[("id", &option.rule), ("name", &option.asks)])?;
         let mut set = |field: &str, value: &str| {
             let path = format!("option.{index}.set.\"{field}\"");
-            study.put(&path, &Setting::plain(value)).map_err(fault)
+            study.put(&path, &Setting::plain(value))
         };
         set(GEAR, assembly)?;
         if let Some(depth_m) = depth_m {

@@ -94,7 +94,7 @@ impl Folder {
     pub(super) fn write_stories(&self, stories: &Stories) -> Result<(), Error> {
         let file = self.path.join("stories.json");
         save::atomically(&file, (stories.json() + "\n").as_bytes())
-            .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))
+            .map_err(Error::on(&file, "cannot be written"))
     }
 }
 
@@ -152,8 +152,7 @@ impl Store {
     }
 
     fn part(&self, file: &Path) -> Result<BTreeMap<u32, RunEnding>, Error> {
-        let bytes = endline_gear::read::bytes(file)
-            .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+        let bytes = endline_gear::read::bytes(file).map_err(Error::on(file, "cannot be read"))?;
         let damaged =
             |why: &str| Error::at(file, format!("is damaged: {why}; delete it and search again"));
         let (runs, hash) = bytes.split_last_chunk().ok_or_else(|| damaged("it is cut off"))?;
@@ -179,8 +178,8 @@ impl Store {
         let Range { start, end } = numbers;
         let file = self.path.join(format!("{name}.{start}-{end}.{}of{}", shard.part, shard.of));
         let part = Part { hash: self.hash.clone(), runs };
-        let mut bytes = postcard::to_allocvec(&part)
-            .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+        let mut bytes =
+            postcard::to_allocvec(&part).map_err(Error::on(&file, "cannot be put together"))?;
         let hash = blake3::hash(&bytes);
         bytes.extend(hash.as_bytes());
         save::atomically(&file, &bytes).map_err(|error| {

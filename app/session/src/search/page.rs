@@ -47,7 +47,6 @@ pub fn write(
     stories: &Stories,
 ) -> Result<std::path::PathBuf, Error> {
     let file = folder.path.join("report.html");
-    let failed = |error: String| Error::at(&file, format!("cannot be written: {error}"));
     let sections = stories.stories.iter().enumerate().take(WITH_SECTION);
     let page = Page {
         observation: &question.observation,
@@ -55,8 +54,8 @@ pub fn write(
         sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
         hash: &question.hash[..16],
     };
-    let html = page.render().map_err(|error| failed(error.to_string()))?;
-    save::atomically(&file, html.as_bytes()).map_err(|error| failed(error.to_string()))?;
+    let html = page.render().map_err(Error::on(&file, "cannot be written"))?;
+    save::atomically(&file, html.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
     Ok(file)
 }
 

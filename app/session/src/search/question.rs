@@ -47,8 +47,7 @@ impl Question {
         host: &PluginHost,
     ) -> Result<Self, Error> {
         let path = locate::named(named, "observations", library).map_err(Error::Message)?;
-        let text = endline_gear::read::text(&path)
-            .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+        let text = endline_gear::read::text(&path).map_err(Error::on(&path, "cannot be read"))?;
         let root = locate::library(Some(&path), library).map_err(Error::Message)?;
         Self::of_text(&path, &text, encounters, &root, host)
     }
@@ -81,8 +80,9 @@ impl Question {
         let study = study_of(&observation, encounters, &files.root)?;
         let study_text = match open_study.filter(|(open, _)| *open == study) {
             Some((_, text)) => text.clone(),
-            None => endline_gear::read::text(&study)
-                .map_err(|error| Error::at(&study, format!("cannot be read: {error}")))?,
+            None => {
+                endline_gear::read::text(&study).map_err(Error::on(&study, "cannot be read"))?
+            }
         };
         let opened = opened(&observation, (&study, &study_text), files, host)?;
         if opened.options.len() != 1 {
@@ -97,9 +97,7 @@ impl Question {
         let net_hash = hash_of("endline net 1", &[&opened.hash]);
         Ok(Self { observation, opened, seed, hash, net_hash })
     }
-}
 
-impl Question {
     /// The model of a story.
     /// Errors: where its scenario cannot be assembled.
     pub fn prepare(
@@ -118,21 +116,20 @@ impl Question {
     /// A story as the text of a scenario, with the paths of its files that differ from those of the library.
     /// Errors: where its scenario cannot be assembled.
     pub fn scenario(&self, story: &Story) -> Result<(String, Vec<String>), Error> {
-        let failed = |error: EditError| Error::Message(error.message);
         let prepared = self.encounter(story)?;
-        let mut scenario = Document::parse(&prepared.source.scenario).map_err(failed)?;
+        let mut scenario = Document::parse(&prepared.source.scenario)?;
         let acts = story.acts_in_words();
         let name = format!(
             "{}: first the {}, {acts}",
             self.observation.name,
             story.first_part.replace('_', " ")
         );
-        scenario.put("name", &Setting::text(&name)).map_err(failed)?;
+        scenario.put("name", &Setting::text(&name))?;
         let notes = format!(
             "An encounter that a search found among those of {}. Its ending is {:.2} away from what was seen.",
             self.opened.study.name, story.distance
         );
-        scenario.put("notes", &Setting::text(&notes)).map_err(failed)?;
+        scenario.put("notes", &Setting::text(&notes))?;
         let other = prepared.source.library.iter().filter(|(path, text)| {
             self.opened.library_text(path).is_some_and(|shipped| shipped != *text)
         });
@@ -159,11 +156,12 @@ fn study_of(observation: &Observation, given: Option<&str>, root: &Path) -> Resu
     let find = |name: &str| locate::named(name, "studies", Some(root));
     match (given, &observation.encounters) {
         (Some(given), _) => find(given).map_err(Error::Message),
-        (None, Some(named)) => find(&named.value)
-            .map_err(|message| Error::Diagnostics(vec![named.place.error(message, "")])),
+        (None, Some(named)) => {
+            find(&named.value).map_err(|message| named.place.error(message, "").into())
+        }
         (None, None) => {
             let help = "write the id of a study with one option, such as encounters = \"met-single\", or give --encounters";
-            Err(Error::Diagnostics(vec![observation.place.error("`encounters` is missing", help)]))
+            Err(observation.place.error("`encounters` is missing", help).into())
         }
     }
 }

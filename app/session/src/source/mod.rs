@@ -9,8 +9,8 @@ use std::sync::Arc;
 use endline_gear::limits::{Beyond, STEP, amount};
 use endline_gear::units::Quantity;
 use endline_gear::{
-    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, Sources, StrengthBudget,
-    assemble_traced,
+    Assembled, Diagnostic, Document, EditError, Library, Options, Scenario, Setting, Sources,
+    StrengthBudget, assemble_traced,
 };
 use endline_sdk::Descriptor;
 use endline_sim::Model;
@@ -109,6 +109,12 @@ fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, 
 }
 
 impl Source {
+    /// The texts of a scenario and its library, without overrides; `name` is the scenario's in messages.
+    pub fn new(name: impl ToString, scenario: String, library: Sources) -> Self {
+        let (scenario_name, overrides) = (name.to_string(), Overrides::default());
+        Self { scenario_name, scenario, library, overrides }
+    }
+
     /// Reads the files.
     pub fn read(
         scenario: &Path,
@@ -123,8 +129,8 @@ impl Source {
             }
         };
         let scenario = by_id.as_deref().unwrap_or(scenario);
-        let text = endline_gear::read::text(scenario)
-            .map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
+        let text =
+            endline_gear::read::text(scenario).map_err(Error::on(scenario, "cannot be read"))?;
         let library = library_at(Some(scenario), library)?;
         Ok(Self {
             scenario_name: scenario.display().to_string(),
@@ -205,7 +211,7 @@ impl Source {
             let whole = scenario.place.clone();
             amount(Quantity::Force)
                 .check("rating", rating_n)
-                .map_err(|beyond| Error::Diagnostics(vec![beyond.at(&whole)]))?;
+                .map_err(|beyond| beyond.at(&whole))?;
             spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
             // A rating that is given has no budget.
             strengths.retain(|budget| spec.links.iter().all(|link| link.id != budget.part));
@@ -265,8 +271,7 @@ impl AssemblyFile {
         let path = locate::named(named, "assemblies", library).map_err(Error::Message)?;
         let root = locate::library(Some(&path), library).map_err(Error::Message)?;
         let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-        let text = endline_gear::read::text(&path)
-            .map_err(|error| Error::at(&path, format!("cannot be read: {error}")))?;
+        let text = endline_gear::read::text(&path).map_err(Error::on(&path, "cannot be read"))?;
         let id =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         sources.set(format!("assemblies/{id}.toml"), text.clone());
@@ -290,11 +295,10 @@ pub(crate) fn library_of(id: &str, sources: &Sources) -> Result<Library, Error> 
 
 /// The text of a scenario: a head, with settings put into it by field.
 pub(crate) fn written(head: &str, settings: &[(&str, Setting)]) -> Result<String, Error> {
-    let failed =
-        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
-    let mut document = Document::parse(head).map_err(|error| failed(error.to_string()))?;
+    let failed = |error: EditError| Diagnostic::of_file("scenario", error.message, "");
+    let mut document = Document::parse(head).map_err(failed)?;
     for (field, value) in settings {
-        document.put(field, value).map_err(|error| failed(error.to_string()))?;
+        document.put(field, value).map_err(failed)?;
     }
     Ok(document.text())
 }

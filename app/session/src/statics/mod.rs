@@ -15,7 +15,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use endline_gear::{
-    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, assemble_traced,
+    Assembled, Diagnostic, Document, EditError, Library, Options, Scenario, Setting,
+    assemble_traced,
 };
 use endline_sim::model::ModelError;
 use endline_sim::{Frame, Model, settle};
@@ -91,9 +92,8 @@ pub fn alone(
     sea: &TrialSea,
     library: &Library,
 ) -> Result<String, Error> {
-    let failed =
-        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
-    let mut document = Document::parse(scenario).map_err(|error| failed(error.to_string()))?;
+    let failed = |error: EditError| Diagnostic::of_file("scenario", error.message, "");
+    let mut document = Document::parse(scenario).map_err(failed)?;
     let toward = document.get("current.toward").unwrap_or_else(|| "90 deg".to_owned());
     let strip = |document: &mut Document, key: &str| {
         // A key that is missing needs no removing.
@@ -123,7 +123,7 @@ pub fn alone(
     }
     for (field, text) in settings {
         let put = document.put(field, &Setting::text(&text));
-        put.map_err(|error| failed(error.to_string()))?;
+        put.map_err(failed)?;
     }
     Ok(document.text())
 }

@@ -133,7 +133,7 @@ impl Folder {
                 Ok(())
             })
         });
-        read.map_err(|error| Error::at(&self.path, format!("cannot be read: {error}")))?;
+        read.map_err(Error::on(&self.path, "cannot be read"))?;
         Ok(written)
     }
 
@@ -145,8 +145,8 @@ impl Folder {
             .map_err(|wrong| Error::at(&file, format!("cannot be written: {wrong}")))?;
         let tags =
             [("study".to_owned(), self.hash.clone()), ("block".to_owned(), block.to_string())];
-        let bytes = parquet::write(&table, &tags)
-            .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+        let bytes =
+            parquet::write(&table, &tags).map_err(Error::on(&file, "cannot be put together"))?;
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,
@@ -170,8 +170,7 @@ impl Folder {
     /// Errors: a file that is not there, is damaged, or belongs to another study.
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
-        let bytes = read::bytes(&file)
-            .map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
+        let bytes = read::bytes(&file).map_err(Error::on(&file, "cannot be read"))?;
         let (table, tags) = parquet::read(bytes).map_err(|error| {
             Error::at(&file, format!("is damaged: {error}; delete it and run the study again"))
         })?;

@@ -37,12 +37,10 @@ pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), 
     let table = runs.table();
     let file = folder.path.join("table.parquet");
     let tags = [("study".to_owned(), opened.hash.clone())];
-    let bytes = parquet::write(table, &tags)
-        .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+    let bytes = parquet::write(table, &tags).map_err(Error::on(&file, "cannot be put together"))?;
     for (file, bytes) in [(file, bytes), (folder.path.join("table.csv"), table.csv().into_bytes())]
     {
-        save::atomically(&file, &bytes)
-            .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+        save::atomically(&file, &bytes).map_err(Error::on(&file, "cannot be written"))?;
     }
     leases::clear(&folder.path);
     Ok(())

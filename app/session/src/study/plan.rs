@@ -6,7 +6,7 @@ use endline_gear::{
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::{Overrides, Prepared, Source};
+use crate::source::{Prepared, Source};
 
 use crate::encounters::draw::{self, Drawn};
 use crate::encounters::priors::{field_of, put_drawn};
@@ -118,7 +118,7 @@ impl Base<'_> {
         sources: &mut Sources,
     ) -> Result<(), Error> {
         let located = |field: &endline_gear::At<String>, error: EditError, help: &str| {
-            Error::Diagnostics(vec![field.place.error(error.message, help)])
+            field.place.error(error.message, help)
         };
         for field in &option.removes {
             scenario
@@ -135,12 +135,8 @@ impl Base<'_> {
             };
             let Some(text) = sources.get(&file) else {
                 let known: Vec<&str> = sources.iter().map(|(path, _)| path).collect();
-                return Err(Error::Diagnostics(vec![
-                    setting
-                        .field
-                        .place
-                        .error(format!("the library has no file {file}"), hint(&file, known)),
-                ]));
+                let message = format!("the library has no file {file}");
+                return Err(setting.field.place.error(message, hint(&file, known)).into());
             };
             let mut item =
                 Document::parse(text).map_err(|error| located(&setting.field, error, ""))?;
@@ -164,12 +160,7 @@ impl Base<'_> {
         let drawn = draw::draw(self.study, 0).values;
         let mut sources = sources.clone();
         put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(&drawn), &own(option))?;
-        let source = Source {
-            scenario_name: self.name.clone(),
-            scenario: text.text(),
-            library: sources,
-            overrides: Overrides::default(),
-        };
+        let source = Source::new(&self.name, text.text(), sources);
         source.prepare_for_study(self.host).map_err(|error| match error {
             Error::Diagnostics(problems) => Error::Diagnostics(
                 problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use endline_gear::{Document, EditError, Setting, units};
+use endline_gear::{Document, Setting, units};
 
 use crate::encounters::Encounter;
 use crate::encounters::aim::{lines_aimed_at, rope_at, start_m};
 use crate::encounters::equilibria::{Equilibrium, is_drawn_for_gear, moves_gear};
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::{Overrides, Prepared, Source};
+use crate::source::{Prepared, Source};
 
 use super::plan::OptionPlan;
 use super::play::Played;
@@ -36,16 +36,11 @@ impl PreparedStudy {
         let (mut scenario, sources) = plan.edited(drawn, |_| true)?;
         self.place_whale(option, encounter, &mut scenario)
             .map_err(|error| self.of_encounter(plan, encounter, error))?;
-        let source = Source {
-            scenario_name: format!(
-                "{} ({} {} of {})",
-                plan.scenario_name, plan.id, encounter.index, self.study.id
-            ),
-            scenario: scenario.text(),
-            library: sources,
-            overrides: Overrides::default(),
-        };
-        source
+        let name = format!(
+            "{} ({} {} of {})",
+            plan.scenario_name, plan.id, encounter.index, self.study.id
+        );
+        Source::new(name, scenario.text(), sources)
             .prepare_for_study(&self.host)
             .map_err(|error| self.of_encounter(plan, encounter, error))
     }
@@ -64,10 +59,7 @@ impl PreparedStudy {
         encounter: &Encounter,
         scenario: &mut Document,
     ) -> Result<(), Error> {
-        let fault = |error: EditError| Error::Message(error.message);
-        scenario
-            .put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))
-            .map_err(fault)?;
+        scenario.put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))?;
         if !self
             .study
             .priors
@@ -90,10 +82,9 @@ impl PreparedStudy {
         let back_m = self.study.aim.gap_m + 0.5 * self.length_m(scenario);
         let aside_m = encounter.number("offset").unwrap_or_default();
         let position = start_m(aim_m, bearing, [back_m, aside_m]);
-        scenario.put("whale.heading", &Setting::text(&format!("{bearing} rad"))).map_err(fault)?;
-        scenario
-            .put("whale.position", &Setting::texts(&position.map(|metres| format!("{metres} m"))))
-            .map_err(fault)
+        scenario.put("whale.heading", &Setting::text(&format!("{bearing} rad")))?;
+        let position = Setting::texts(&position.map(|metres| format!("{metres} m")));
+        Ok(scenario.put("whale.position", &position)?)
     }
 
     /// Length of the scenario's whale [m].
@@ -106,9 +97,7 @@ impl PreparedStudy {
         let named = value(scenario, "whale.length", units::Quantity::Length);
         named.or(by_age).or(item.map(|item| item.form.length_m)).unwrap_or(USUAL_LENGTH_M)
     }
-}
 
-impl PreparedStudy {
     /// The gear of an option in equilibrium in the sea of an encounter.
     pub(super) fn equilibrium(
         &self,
@@ -124,12 +113,7 @@ impl PreparedStudy {
         let drawn = self.study.priors.iter().zip(&encounter.drawn);
         let for_gear = drawn.filter(|(prior, _)| is_drawn_for_gear(prior));
         let (scenario, library) = plan.edited(for_gear, moves_gear)?;
-        Ok(Source {
-            scenario_name: plan.scenario_name.clone(),
-            scenario: scenario.text(),
-            library,
-            overrides: Overrides::default(),
-        })
+        Ok(Source::new(&plan.scenario_name, scenario.text(), library))
     }
 
     /// East and north of rope at rest at a depth [m].
@@ -158,10 +142,9 @@ impl PreparedStudy {
 /// A prepared run for a window, with a duration of `end_s` [s].
 /// Errors: where the scenario cannot be assembled.
 pub(crate) fn until(prepared: &Prepared, end_s: f64, host: &PluginHost) -> Result<Prepared, Error> {
-    let failed = |error: EditError| Error::Message(error.message);
     let mut source = (*prepared.source).clone();
-    let mut scenario = Document::parse(&source.scenario).map_err(failed)?;
-    scenario.put("duration", &Setting::text(&format!("{end_s} s"))).map_err(failed)?;
+    let mut scenario = Document::parse(&source.scenario)?;
+    scenario.put("duration", &Setting::text(&format!("{end_s} s")))?;
     source.scenario = scenario.text();
     source.prepare(host)
 }
@@ -179,19 +162,18 @@ impl PreparedStudy {
 
 /// The scenario with twice the nodes, half the lengths and half the steps.
 fn finer(prepared: &Prepared) -> Result<String, Error> {
-    let fault = |error: EditError| Error::Message(error.message);
-    let mut scenario = Document::parse(&prepared.source.scenario).map_err(fault)?;
+    let mut scenario = Document::parse(&prepared.source.scenario)?;
     for (field, quantity) in HALVED {
         if let Some(now) = value(&scenario, field, quantity) {
             let unit = if quantity == units::Quantity::Time { "s" } else { "m" };
-            scenario.put(field, &Setting::text(&format!("{} {unit}", 0.5 * now))).map_err(fault)?;
+            scenario.put(field, &Setting::text(&format!("{} {unit}", 0.5 * now)))?;
         }
     }
     if let Some(nodes) = scenario.get("rope_nodes").and_then(|nodes| nodes.parse::<u64>().ok()) {
-        scenario.put("rope_nodes", &Setting::plain(&(2 * nodes).to_string())).map_err(fault)?;
+        scenario.put("rope_nodes", &Setting::plain(&(2 * nodes).to_string()))?;
     }
     let step_s = 0.5 * prepared.model.spec.settings.contact_step_s;
-    scenario.put("contact_step", &Setting::text(&format!("{step_s} s"))).map_err(fault)?;
+    scenario.put("contact_step", &Setting::text(&format!("{step_s} s")))?;
     Ok(scenario.text())
 }
 

@@ -53,8 +53,7 @@ impl PreparedStudy {
     /// Reads a study, its scenario and library, and checks every option by assembling it.
     /// Errors: a file that cannot be read, or every located error of study, scenario and library.
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
-        let text = endline_gear::read::text(path)
-            .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        let text = endline_gear::read::text(path).map_err(Error::on(path, "cannot be read"))?;
         Self::of_text(text, path, library, host)
     }
 
@@ -192,12 +191,8 @@ fn scenario(study: &Study, file: PathBuf, root: &Path) -> Result<(PathBuf, Strin
             .collect();
         ids.sort();
         let help = hint(named, ids.iter().map(String::as_str));
-        Error::Diagnostics(vec![
-            study
-                .scenario
-                .place
-                .error(format!("the scenario {} cannot be read: {error}", file.display()), help),
-        ])
+        let message = format!("the scenario {} cannot be read: {error}", file.display());
+        Error::from(study.scenario.place.error(message, help))
     })?;
     Ok((file, text))
 }

@@ -119,9 +119,8 @@ fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs,
 fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<PreparedStudy, Error> {
     let file = folder.join("study.json");
     let text = endline_gear::read::text(&file)
-        .map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
-    let label: Label = serde_json::from_str(&text)
-        .map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
+        .map_err(Error::on(&file, "no results of a study are here"))?;
+    let label: Label = serde_json::from_str(&text).map_err(Error::on(&file, "is damaged"))?;
     let bundle = folder.join("bundle/study.toml");
     if bundle.is_file() {
         return PreparedStudy::open(&bundle, Some(&folder.join("bundle/gear-library")), host);

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::live::RunCommand;
 use crate::plugins::PluginUsed;
 use crate::recording::replay::check_plugins;
-use crate::source::{Overrides, Prepared, Source};
+use crate::source::{Prepared, Source};
 
 /// Texts by path.
 pub(super) type Texts = BTreeMap<String, String>;
@@ -119,12 +119,11 @@ impl Workbench {
             self.run.pending.then = Then::Stay;
             return Err("the gear has errors; see Problems".to_owned());
         }
-        let source = Source {
-            scenario_name: documents.shown_name(Documents::SCENARIO),
-            scenario: documents.text(Documents::SCENARIO).unwrap_or_default().to_owned(),
-            library: self.plugins.host.with_clips(documents.sources()),
-            overrides: Overrides::default(),
-        };
+        let source = Source::new(
+            documents.shown_name(Documents::SCENARIO),
+            documents.text(Documents::SCENARIO).unwrap_or_default().to_owned(),
+            self.plugins.host.with_clips(documents.sources()),
+        );
         self.run.pending = Pending {
             texts: documents.texts_of_run(),
             then,

@@ -35,8 +35,7 @@ pub(super) fn mill(args: &MillArgs) -> Result<ExitCode, Failure> {
         None => (args.breaks.clone(), "breaks given on the command line".to_owned()),
         Some(file) => {
             let name = file.display().to_string();
-            let text = endline_gear::read::text(file)
-                .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+            let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
             (read_breaks(&name, &text).map_err(Error::Diagnostics)?, name)
         }
     };
@@ -44,8 +43,7 @@ pub(super) fn mill(args: &MillArgs) -> Result<ExitCode, Failure> {
     if let (Some(out), Some(name)) = (&args.out, &args.name) {
         let text =
             weak_link(&law, name, &source).map_err(|error| Failure::failed(error.message))?;
-        fs::write(out, text)
-            .map_err(|error| Error::at(out, format!("cannot be written: {error}")))?;
+        fs::write(out, text).map_err(Error::on(out, "cannot be written"))?;
         output::note(&format!("wrote {}", out.display()));
     }
     let json = || serde_json::to_string_pretty(&law).map_err(Failure::failed);

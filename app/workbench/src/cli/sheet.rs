@@ -47,8 +47,7 @@ pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode
     };
     let usual = || PathBuf::from(format!("{}-{name}.html", sheets[0].id()));
     let page = args.to.clone().unwrap_or_else(usual);
-    save::atomically(&page, html.as_bytes())
-        .map_err(|error| Error::at(&page, format!("cannot be written: {error}")))?;
+    save::atomically(&page, html.as_bytes()).map_err(Error::on(&page, "cannot be written"))?;
     output::note(&format!("the {name} is {}", page.display()));
     if let Some(file) = &args.pdf {
         print_pdf(&page, file)?;

@@ -98,8 +98,7 @@ impl Leases {
 
     /// Leases one of the wanted blocks: one without a lease, else one whose process has ended.
     pub(crate) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
-        self.take(wanted)
-            .map_err(|error| Error::at(&self.folder, format!("cannot be used: {error}")))
+        self.take(wanted).map_err(Error::on(&self.folder, "cannot be used"))
     }
 
     fn take(&self, wanted: &[u32]) -> io::Result<Next<'_>> {
@@ -234,7 +233,7 @@ pub fn workers(results: &Path) -> Result<Vec<Worker>, Error> {
     };
     match read() {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-        read => read.map_err(|error| Error::at(&folder, format!("cannot be read: {error}"))),
+        read => read.map_err(Error::on(&folder, "cannot be read")),
     }
 }
 

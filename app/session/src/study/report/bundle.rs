@@ -24,8 +24,7 @@ pub(super) fn write(opened: &PreparedStudy, folder: &Path) -> Result<(), Error> 
     // A library is known by these two folders, whatever is in them.
     for needed in ["ropes", "scenarios"] {
         let path = library.join(needed);
-        fs::create_dir_all(&path)
-            .map_err(|error| Error::at(&path, format!("cannot be made: {error}")))?;
+        fs::create_dir_all(&path).map_err(Error::on(&path, "cannot be made"))?;
     }
     put(&folder.join("study.toml"), opened.text.as_bytes())?;
     // Reading a study makes sure of it; nothing is ever written elsewhere than here.
@@ -54,7 +53,6 @@ fn readme(opened: &PreparedStudy) -> String {
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let parent = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(parent)
-        .map_err(|error| Error::at(parent, format!("cannot be made: {error}")))?;
-    atomically(path, bytes).map_err(|error| Error::at(path, format!("cannot be written: {error}")))
+    fs::create_dir_all(parent).map_err(Error::on(parent, "cannot be made"))?;
+    atomically(path, bytes).map_err(Error::on(path, "cannot be written"))
 }

@@ -61,8 +61,7 @@ impl HauledLoad {
     /// Reads what `endline haul --json` printed.
     /// Errors: a file that cannot be read, or holds something else.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = endline_gear::read::text(file)
-            .map_err(|error| Error::at(file, format!("cannot be read: {error}")))?;
+        let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
         let expected = "expected what `endline haul ASSEMBLY --json` prints";
         let sheet: Sheet = serde_json::from_str(&text)
             .map_err(|error| Error::at(file, format!("is no haul: {error}; {expected}")))?;

@@ -33,16 +33,14 @@ pub fn write(
     hauls: &[HauledLoad],
 ) -> Result<PathBuf, Error> {
     let page = folder.path.join("report.html");
-    let html = page::html(opened, findings, hauls)
-        .map_err(|error| Error::at(&page, format!("cannot be made: {error}")))?;
+    let html = page::html(opened, findings, hauls).map_err(Error::on(&page, "cannot be made"))?;
     let files = [
         (page.clone(), html),
         (folder.path.join("report.csv"), numbers(findings).csv()),
         (folder.path.join("findings.json"), findings.json() + "\n"),
     ];
     for (file, text) in files {
-        atomically(&file, text.as_bytes())
-            .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+        atomically(&file, text.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
     }
     bundle::write(opened, &folder.path.join("bundle"))?;
     Ok(page)

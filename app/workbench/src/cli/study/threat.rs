@@ -37,8 +37,7 @@ fn read_poll(args: &ThreatArgs, library: Option<&Path>) -> Result<Poll, Failure>
         Some(file) => file.clone(),
         None => locate::library(None, library).map_err(Failure::failed)?.join(POLL),
     };
-    let text = endline_gear::read::text(&file)
-        .map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
+    let text = endline_gear::read::text(&file).map_err(Error::on(&file, "cannot be read"))?;
     let poll = Poll::read(&file.display().to_string(), &text);
     Ok(poll.map_err(Error::Diagnostics)?)
 }
@@ -58,8 +57,7 @@ fn write(to: &Path, rows: &[Filled<'_>], of: usize) -> Result<(), Failure> {
     let beside: PathBuf = to.with_file_name(format!("{stem}-bands.csv"));
     let [own, bands] = [as_own(rows), with_bands(rows)].map(|table| table.map_err(Failure::failed));
     for (file, table) in [(to, own?), (&beside, bands?)] {
-        save::atomically(file, &table)
-            .map_err(|error| Error::at(file, format!("cannot be written: {error}")))?;
+        save::atomically(file, &table).map_err(Error::on(file, "cannot be written"))?;
     }
     let simulated = rows.iter().filter(|row| row.how == How::Simulated).count();
     output::note(&format!(
