@@ -16,11 +16,14 @@ use endline_sdk::{
 
 use super::info::Hook;
 
+/// A plugin that is watched over.
+struct Guarded<P: ?Sized>(Arc<P>);
+
 pub(super) fn guarded(hook: Hook) -> Hook {
     match hook {
-        Hook::Motion(motion) => Hook::Motion(Arc::new(GuardedMotion(motion))),
-        Hook::Friction(friction) => Hook::Friction(Arc::new(GuardedFriction(friction))),
-        Hook::Gear(gear) => Hook::Gear(Arc::new(GuardedGear(gear))),
+        Hook::Motion(motion) => Hook::Motion(Arc::new(Guarded(motion))),
+        Hook::Friction(friction) => Hook::Friction(Arc::new(Guarded(friction))),
+        Hook::Gear(gear) => Hook::Gear(Arc::new(Guarded(gear))),
     }
 }
 
@@ -59,9 +62,7 @@ pub(in crate::plugins) const BLANK: f64 = f64::from_bits(0x7ff8_5eed_0e4d_11e5);
 pub(in crate::plugins) const UNWRITTEN: FrictionResponse =
     FrictionResponse { force_n: [BLANK; 3], by_slip: [[BLANK; 3]; 3], by_normal_force: [BLANK; 3] };
 
-struct GuardedFriction(pub Arc<dyn FrictionModel>);
-
-impl FrictionModel for GuardedFriction {
+impl FrictionModel for Guarded<dyn FrictionModel> {
     fn descriptor(&self) -> &Descriptor {
         self.0.descriptor()
     }
@@ -77,7 +78,8 @@ impl FrictionModel for GuardedFriction {
             expect_len("places for answers", out.len(), contacts.len())?;
             out.fill(UNWRITTEN);
             self.0.respond(attributes, contacts, out)?;
-            if out.iter().any(is_unwritten) {
+            let is_blank = |number: &f64| number.to_bits() == BLANK.to_bits();
+            if out.iter().any(|answer| answer.force_n.iter().all(is_blank)) {
                 return fault(format!(
                     "it wrote fewer answers than the {} contacts it was asked about",
                     contacts.len()
@@ -122,7 +124,7 @@ impl FrictionModel for GuardedFriction {
     }
 }
 
-impl GuardedFriction {
+impl Guarded<dyn FrictionModel> {
     fn check_input(&self, attributes: &[f64], contacts: &Contacts<'_>) -> Result<(), HookError> {
         expect_len("attribute values", attributes.len(), self.descriptor().attributes.len())?;
         let count = contacts.len();
@@ -140,10 +142,6 @@ impl GuardedFriction {
         }
         expect_len("floats of state", contacts.state.len(), count * self.descriptor().state_len)
     }
-}
-
-fn is_unwritten(answer: &FrictionResponse) -> bool {
-    answer.force_n.iter().all(|force| force.to_bits() == BLANK.to_bits())
 }
 
 fn check_answer(
@@ -182,9 +180,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-struct GuardedGear(pub Arc<dyn GearType>);
-
-impl GearType for GuardedGear {
+impl GearType for Guarded<dyn GearType> {
     fn descriptor(&self) -> &Descriptor {
         self.0.descriptor()
     }
@@ -324,9 +320,7 @@ const GREATEST_SPEED_M_S: f64 = 30.0;
 /// No whale turns faster than this [rad/s].
 const GREATEST_TURN_RAD_S: f64 = 10.0;
 
-struct GuardedMotion(pub Arc<dyn WhaleMotion>);
-
-impl WhaleMotion for GuardedMotion {
+impl WhaleMotion for Guarded<dyn WhaleMotion> {
     fn descriptor(&self) -> &Descriptor {
         self.0.descriptor()
     }

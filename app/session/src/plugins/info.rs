@@ -176,12 +176,11 @@ pub(super) struct Refusal {
     pub id: Option<String>,
     pub reason: String,
     pub help: String,
-    pub standing: Standing,
 }
 
 impl Refusal {
     pub(super) fn new(reason: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { id: None, reason: reason.into(), help: help.into(), standing: Standing::Unusable }
+        Self { id: None, reason: reason.into(), help: help.into() }
     }
 
     pub(super) fn of(id: &str, reason: impl Into<String>, help: impl Into<String>) -> Self {
@@ -189,13 +188,8 @@ impl Refusal {
     }
 
     pub(super) fn at(self, file: impl Into<PathBuf>) -> PluginProblem {
-        PluginProblem {
-            file: file.into(),
-            id: self.id,
-            reason: self.reason,
-            help: self.help,
-            standing: self.standing,
-        }
+        let Self { id, reason, help } = self;
+        PluginProblem { file: file.into(), id, reason, help, standing: Standing::Unusable }
     }
 }
 

@@ -17,9 +17,9 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::{env, fs};
 
+use endline_gear::TextPlugin;
 use endline_gear::limits::LIBRARY_BYTES;
 use endline_gear::read::at_most;
-use endline_gear::{Diagnostic, TextPlugin};
 
 use super::choices::{Change, Choices};
 use super::host::PluginHost;
@@ -68,16 +68,13 @@ impl Loader {
                     used.insert((file.clone(), hash.clone(), opened.out_of_process));
                     host.add_loaded(&file, &hash, opened, &self.choices, &mut problems)
                 }
-                Err(refusal) => problems.push(refusal.at(file)),
+                Err(problem) => problems.push(problem),
             }
         }
         // A process ends once no run has its library any more; one that is mapped here stays.
         self.opened.retain(|key, opened| !opened.out_of_process || used.contains(key));
         for folder in text_plugins(&self.folders) {
-            match TextPlugin::from_folder(&folder) {
-                Ok(plugin) => host.add_text(&folder, &plugin, &self.choices, &mut problems),
-                Err(found) => problems.push(refusal(&found).at(folder)),
-            }
+            open_folder(&folder, &mut host, &self.choices, &mut problems);
         }
         host.add_linked(&self.linked, &self.choices, &mut problems);
         (host, problems)
@@ -87,8 +84,9 @@ impl Loader {
         &mut self,
         file: &Path,
         checker: &Checker<'_>,
-    ) -> Result<(String, LoadedLibrary), Refusal> {
-        let (hash, bytes) = read(file)?;
+    ) -> Result<(String, LoadedLibrary), PluginProblem> {
+        let unusable = |refusal: Refusal| refusal.at(file);
+        let (hash, bytes) = read(file).map_err(unusable)?;
         let serves = self.serves.as_ref().filter(|_| !self.choices.is_trusted(file));
         let key = (file.to_path_buf(), hash.clone(), serves.is_some());
         if let Some(ask) = self.choices.ask(file, &hash) {
@@ -101,25 +99,22 @@ impl Loader {
                 "a plugin runs with your rights; if you trust it: endline plugins allow {}",
                 file.display()
             );
-            return Err(Refusal {
-                standing: Standing::Waiting(Box::new(ask)),
-                ..Refusal::new(what, help)
-            });
+            let standing = Standing::Waiting(Box::new(ask));
+            return Err(PluginProblem { standing, ..unusable(Refusal::new(what, help)) });
         }
         if let Some(opened) = self.opened.get(&key) {
             return Ok((hash, opened.clone()));
         }
         checker(file, &hash).map_err(|reason| {
             let reason = format!("set aside, because it failed the check before loading: {reason}");
-            Refusal {
-                standing: Standing::SetAside,
-                ..Refusal::new(reason, "remove the file or fix the plugin")
-            }
+            let refusal = Refusal::new(reason, "remove the file or fix the plugin");
+            PluginProblem { standing: Standing::SetAside, ..unusable(refusal) }
         })?;
         let opened = match serves {
             Some(program) => open_out_of_process(program, file, bytes),
             None => open_copy(file, &bytes),
-        }?;
+        };
+        let opened = opened.map_err(unusable)?;
         self.opened.insert(key, opened.clone());
         Ok((hash, opened))
     }
@@ -181,21 +176,21 @@ pub(super) fn open_here(file: &Path, wanted: &str) -> Result<(String, LoadedLibr
     Ok((hash, open_copy(file, &bytes)?))
 }
 
-/// A plugin without code, as the check of its author reads it.
-pub(super) fn open_folder(folder: &Path, host: &mut PluginHost, problems: &mut Vec<PluginProblem>) {
+/// Adds a plugin without code, or every problem of its files as one.
+pub(super) fn open_folder(
+    folder: &Path,
+    host: &mut PluginHost,
+    choices: &Choices,
+    problems: &mut Vec<PluginProblem>,
+) {
     match TextPlugin::from_folder(folder) {
-        Ok(plugin) => host.add_text(folder, &plugin, &Choices::everything(), problems),
-        Err(found) => problems.push(refusal(&found).at(folder)),
+        Ok(plugin) => host.add_text(folder, &plugin, choices, problems),
+        Err(found) => {
+            let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+            let reason = format!("this plugin without code cannot be used:\n{}", found.join("\n"));
+            problems.push(Refusal::new(reason, "fix the files").at(folder));
+        }
     }
-}
-
-/// Every problem of a folder's files, as one.
-fn refusal(problems: &[Diagnostic]) -> Refusal {
-    let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    Refusal::new(
-        format!("this plugin without code cannot be used:\n{}", problems.join("\n")),
-        "fix the files",
-    )
 }
 
 /// BLAKE3 of a file, hexadecimal, as [`Choices::allow`] takes it.
@@ -294,7 +289,7 @@ mod in_memory {
 }
 
 mod on_disk {
-    use std::fs::{self, File, OpenOptions};
+    use std::fs::{self, OpenOptions};
     use std::io::Write;
     use std::path::{Path, PathBuf};
     use std::sync::atomic::{AtomicU64, Ordering};
@@ -335,8 +330,7 @@ mod on_disk {
         clear(folder);
         // A copy of that name was left by a program of the same number, or is a link that somebody put there.
         let _ = fs::remove_file(&copy);
-        let mut out = new_file(&copy)?;
-        out.write_all(bytes)?;
+        OpenOptions::new().write(true).create_new(true).open(&copy)?.write_all(bytes)?;
         Ok(copy)
     }
 
@@ -347,10 +341,6 @@ mod on_disk {
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder.create(folder)
-    }
-
-    fn new_file(copy: &Path) -> std::io::Result<File> {
-        OpenOptions::new().write(true).create_new(true).open(copy)
     }
 
     /// Removes copies that earlier programs could not remove.

@@ -52,7 +52,7 @@ fn try_file(
     let mut host = PluginHost::empty();
     let mut problems = Vec::new();
     if file.is_dir() {
-        open_folder(file, &mut host, &mut problems);
+        open_folder(file, &mut host, &Choices::everything(), &mut problems);
     } else {
         let (hash, opened) =
             open_here(file, hash).map_err(|refusal| refusal.at(file).to_string())?;

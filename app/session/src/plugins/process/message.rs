@@ -16,6 +16,7 @@ use endline_sdk::{
     GearStep, MotionInput, MotionOutput, Rig, Site,
 };
 
+use super::super::info::Refusal;
 use super::wire::Wire;
 
 /// The library that a process opens.
@@ -38,7 +39,7 @@ pub(super) enum Opening {
         plugins: Vec<Declared>,
     },
     /// Why it cannot be used.
-    Refused(Refused),
+    Refused(Refusal),
 }
 
 /// One plugin of a library.
@@ -50,14 +51,7 @@ pub(super) enum Declared {
     /// A gear type.
     Gear(Descriptor),
     /// One that cannot be used.
-    Refused(Refused),
-}
-
-/// Why a library or one of its plugins cannot be used.
-pub(super) struct Refused {
-    pub id: Option<String>,
-    pub reason: String,
-    pub help: String,
+    Refused(Refusal),
 }
 
 /// A call of a plugin.

@@ -25,7 +25,7 @@ use endline_sdk::{Descriptor, HookError};
 
 use super::info::{Hook, Refusal};
 use super::library::LoadedLibrary;
-use message::{Answer, Call, Declared, Opening, Question, Refused};
+use message::{Answer, Call, Declared, Opening, Question};
 use worker::{Served, Worker};
 
 pub use serve::serve_here;
@@ -37,16 +37,12 @@ pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<Loaded
         .map_err(|reason| Refusal::new(reason, "tell the plugin's author"))?;
     let processes = Arc::new(Processes { served, idle: Mutex::new(vec![worker]) });
     match opening {
-        Opening::Refused(why) => Err(refusal(why)),
+        Opening::Refused(refusal) => Err(refusal),
         Opening::Opened { about, plugins } => {
             let hooks = (0..).zip(plugins).map(|(place, plugin)| hook(plugin, place, &processes));
             Ok(LoadedLibrary { about, out_of_process: true, hooks: hooks.collect() })
         }
     }
-}
-
-fn refusal(Refused { id, reason, help }: Refused) -> Refusal {
-    Refusal { id, ..Refusal::new(reason, help) }
 }
 
 fn hook(plugin: Declared, place: u32, processes: &Arc<Processes>) -> Result<Hook, Refusal> {
@@ -55,7 +51,7 @@ fn hook(plugin: Declared, place: u32, processes: &Arc<Processes>) -> Result<Hook
         Declared::Motion(descriptor) => Ok(Hook::Motion(Arc::new(proxy(descriptor)))),
         Declared::Friction(descriptor) => Ok(Hook::Friction(Arc::new(proxy(descriptor)))),
         Declared::Gear(descriptor) => Ok(Hook::Gear(Arc::new(proxy(descriptor)))),
-        Declared::Refused(why) => Err(refusal(why)),
+        Declared::Refused(refusal) => Err(refusal),
     }
 }
 

@@ -16,7 +16,7 @@ use super::super::guard::{BLANK, UNWRITTEN};
 use super::super::info::{Hook, Refusal};
 use super::super::library::LoadedLibrary;
 use super::super::loader::open_copy;
-use super::message::{Answer, Call, Declared, Opening, Orders, Question, Refused};
+use super::message::{Answer, Call, Declared, Opening, Orders, Question};
 use super::message::{receive, send};
 use super::pipe::Pipe;
 use super::sandbox;
@@ -91,7 +91,7 @@ fn opening(opened: Result<LoadedLibrary, Refusal>) -> Opening {
         Ok(LoadedLibrary { about, hooks, .. }) => {
             Opening::Opened { about, plugins: hooks.into_iter().map(declared).collect() }
         }
-        Err(refusal) => Opening::Refused(refused(refusal)),
+        Err(refusal) => Opening::Refused(refusal),
     }
 }
 
@@ -100,12 +100,8 @@ fn declared(hook: Result<Hook, Refusal>) -> Declared {
         Ok(Hook::Motion(motion)) => Declared::Motion(motion.descriptor().clone()),
         Ok(Hook::Friction(friction)) => Declared::Friction(friction.descriptor().clone()),
         Ok(Hook::Gear(gear)) => Declared::Gear(gear.descriptor().clone()),
-        Err(refusal) => Declared::Refused(refused(refusal)),
+        Err(refusal) => Declared::Refused(refusal),
     }
-}
-
-fn refused(Refusal { id, reason, help, .. }: Refusal) -> Refused {
-    Refused { id, reason, help }
 }
 
 fn answer(hooks: &[Option<Hook>], Question { plugin, call }: Question) -> Answer {

@@ -8,8 +8,9 @@ use endline_sdk::{
     RigLine, RigLink, Site,
 };
 
+use super::super::info::Refusal;
 use super::message::{
-    Answer, Call, ContactArrays, Declared, GearNow, MotionNow, Opening, Orders, Question, Refused,
+    Answer, Call, ContactArrays, Declared, GearNow, MotionNow, Opening, Orders, Question,
 };
 
 /// A value that is sent through a pipe.
@@ -211,7 +212,7 @@ impl Wire for Cow<'static, str> {
 
 fields! {
     Orders { version, file, bytes }
-    Refused { id, reason, help }
+    Refusal { id, reason, help }
     Question { plugin, call }
     MotionNow {
         time_s, dt_s, length_m, speed_m_s, position_m, orientation, controls, contact_force_n, contact_port_m,

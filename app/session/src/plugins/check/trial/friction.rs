@@ -2,7 +2,7 @@
 
 use endline_sdk::{Contacts, FrictionModel, FrictionResponse, HookError, Region};
 
-use super::{Bits, Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
+use super::{Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
 use super::{Random, across, dot};
 
 /// Sets of attributes, steps with each, and contacts in a call.
@@ -30,12 +30,7 @@ pub(super) fn run(friction: &dyn FrictionModel, trial: &mut Trial<'_>) {
         ))
     });
     let (true, Some(first)) = (tried, first) else { return };
-    plays_again(
-        trial,
-        &first,
-        || play(friction, 0, None, 1),
-        |floats| play(friction, 0, Some(floats), 1),
-    );
+    plays_again(trial, &first, |restored| play(friction, 0, restored, 1));
     trial.check("pure", || pure(friction, &first));
     trial.check("energy", || energy(friction));
     trial.check("threads", || on_threads(&first, || play(friction, 0, None, 1)));
@@ -73,30 +68,24 @@ fn play(
     let mut random = Random(set);
     let attributes = numbers(&drawn(&friction.descriptor().attributes, &mut random));
     let draws: Vec<_> = (0..STEPS).map(|_| Draw::new(&mut random)).collect();
-    let mut state = restored
-        .map_or_else(|| vec![0.0; CONTACTS * friction.descriptor().state_len], <[f64]>::to_vec);
-    let mut half_way = state.clone();
-    let mut answers = Vec::with_capacity(STEPS);
-    for (step, draw) in
-        draws.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
-    {
-        if step == STEPS / 2 {
-            half_way.clone_from(&state);
-        }
+    let floats = CONTACTS * friction.descriptor().state_len;
+    Play::of(&draws, floats, restored, |step, draw, state| {
         for extra in 1..asked {
             // Other slips, as a solver tries them on its way to a balance.
             let other = &draws[(step + extra) % STEPS];
             friction.respond(
                 &attributes,
-                &Contacts { slip_m: &other.slip_m, ..draw.contacts(&state) },
+                &Contacts { slip_m: &other.slip_m, ..draw.contacts(state) },
                 &mut [FrictionResponse::default(); CONTACTS],
             )?;
         }
-        let (out, ends) = ask_watched(friction, &attributes, &draw.contacts(&state))?;
-        state = ends;
-        answers.push(answer_bits(&out, &state));
-    }
-    Ok(Play { answers, half_way })
+        let (out, ends) = ask_watched(friction, &attributes, &draw.contacts(state))?;
+        *state = ends;
+        let of = |a: &FrictionResponse| {
+            a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force)
+        };
+        Ok(bits(out.iter().flat_map(of).chain(state.iter().copied())).collect())
+    })
 }
 
 /// Answers and floats at the end of a step, with more room behind them than the plugin may use: the plugin must not change it.
@@ -120,13 +109,6 @@ fn ask_watched(
     out.truncate(answers);
     ends.truncate(floats);
     Ok((out, ends))
-}
-
-fn answer_bits(out: &[FrictionResponse], state: &[f64]) -> Bits {
-    let of = |a: &FrictionResponse| {
-        a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force)
-    };
-    bits(out.iter().flat_map(of).chain(state.iter().copied())).collect()
 }
 
 /// Asked four times a step instead of once, it answers and ends with the same bits.

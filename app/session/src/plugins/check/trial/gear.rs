@@ -36,12 +36,7 @@ pub(super) fn run(gear: &dyn GearType, trial: &mut Trial<'_>) {
     });
     let lines = rig.lines.len();
     let Ok(first) = act(gear, &values, lines, None) else { return };
-    plays_again(
-        trial,
-        &first,
-        || act(gear, &values, lines, None),
-        |floats| act(gear, &values, lines, Some(floats)),
-    );
+    plays_again(trial, &first, |restored| act(gear, &values, lines, restored));
     trial.check("threads", || on_threads(&first, || act(gear, &values, lines, None)));
     trial.time("a step", STEPS, || act(gear, &values, lines, None).map(drop));
 }
@@ -109,27 +104,12 @@ fn act(
                 .collect()
         })
         .collect();
-    let mut state =
-        restored.map_or_else(|| vec![0.0; gear.descriptor().state_len], <[f64]>::to_vec);
-    let mut half_way = state.clone();
-    let mut answers = Vec::with_capacity(STEPS);
-    for (step, end_tension_n) in
-        tensions.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
-    {
-        if step == STEPS / 2 {
-            half_way.clone_from(&state);
-        }
+    Play::of(&tensions, gear.descriptor().state_len, restored, |step, end_tension_n, state| {
         let mut actions = Vec::new();
-        gear.step(
-            values,
-            &GearStep { time_s: step as f64, dt_s: 1.0, end_tension_n },
-            &mut state,
-            &mut actions,
-        )?;
-        answers
-            .push(bits(state.iter().copied()).chain(actions.iter().flat_map(numbers_of)).collect());
-    }
-    Ok(Play { answers, half_way })
+        let input = GearStep { time_s: step as f64, dt_s: 1.0, end_tension_n };
+        gear.step(values, &input, state, &mut actions)?;
+        Ok(bits(state.iter().copied()).chain(actions.iter().flat_map(numbers_of)).collect())
+    })
 }
 
 fn numbers_of(action: &GearAction) -> [u64; 3] {

@@ -95,15 +95,14 @@ fn bits(values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
     values.into_iter().map(f64::to_bits)
 }
 
-/// Repeats the same calls, and continues from floats saved half way; returns the first difference.
+/// Repeats the same calls, and continues from floats saved half way, which `play` takes; records the first difference.
 fn plays_again(
     trial: &mut Trial<'_>,
     first: &Play,
-    from_start: impl FnOnce() -> Result<Play, HookError>,
-    from_half: impl FnOnce(&[f64]) -> Result<Play, HookError>,
+    play: impl Fn(Option<&[f64]>) -> Result<Play, HookError>,
 ) {
     trial.check("same bits", || {
-        let again = from_start().map_err(|error| error.message)?;
+        let again = play(None).map_err(|error| error.message)?;
         match first_difference(&first.answers, &again.answers) {
             None => Ok(format!("the same {} calls again", first.answers.len())),
             Some(call) => {
@@ -112,7 +111,7 @@ fn plays_again(
         }
     });
     trial.check("restore", || {
-        let rest = from_half(&first.half_way).map_err(|error| error.message)?;
+        let rest = play(Some(&first.half_way)).map_err(|error| error.message)?;
         match first_difference(&first.answers[first.answers.len() - rest.answers.len()..], &rest.answers) {
             None => Ok(format!("taken up again from {} floats saved on the way", first.half_way.len())),
             Some(call) => {
@@ -126,6 +125,29 @@ fn plays_again(
 struct Play {
     answers: Vec<Bits>,
     half_way: Vec<f64>,
+}
+
+impl Play {
+    /// Calls `step` with each of these steps and the state, `floats` long, whose answer it returns; begins half way where floats that
+    /// were saved there are given.
+    fn of<S>(
+        steps: &[S],
+        floats: usize,
+        restored: Option<&[f64]>,
+        mut step: impl FnMut(usize, &S, &mut Vec<f64>) -> Result<Bits, HookError>,
+    ) -> Result<Self, HookError> {
+        let middle = steps.len() / 2;
+        let mut state = restored.map_or_else(|| vec![0.0; floats], <[f64]>::to_vec);
+        let mut half_way = state.clone();
+        let mut answers = Vec::with_capacity(steps.len());
+        for (number, one) in steps.iter().enumerate().skip(restored.map_or(0, |_| middle)) {
+            if number == middle {
+                half_way.clone_from(&state);
+            }
+            answers.push(step(number, one, &mut state)?);
+        }
+        Ok(Self { answers, half_way })
+    }
 }
 
 fn first_difference(one: &[Bits], other: &[Bits]) -> Option<usize> {

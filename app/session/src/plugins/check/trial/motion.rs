@@ -1,9 +1,9 @@
 //! A whale motion, tried out.
 
-use endline_sdk::{BodyPart, Controls, HookError, MotionInput, MotionOutput, WhaleMotion};
+use endline_sdk::{BodyPart, Controls, HookError, MotionInput, WhaleMotion};
 
 use super::Random;
-use super::{Bits, Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
+use super::{Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
 
 /// Sets of attributes, and steps with each.
 const SETS: u64 = 24;
@@ -15,24 +15,16 @@ pub(super) fn run(motion: &dyn WhaleMotion, trial: &mut Trial<'_>) {
     {
         return;
     }
-    let plays: Result<Vec<_>, _> = {
-        let mut took = None;
-        trial.check("ranges", || {
-            let plays: Result<Vec<Play>, HookError> =
-                (0..SETS).map(|set| play(motion, set, None)).collect();
-            let range = plays.as_ref().map(|_| {
-                format!("{} steps at attributes drawn within their ranges", SETS as usize * STEPS)
-            });
-            let range = range.map_err(|error| error.message.clone());
-            took = Some(plays);
-            range
-        });
-        took.unwrap_or_else(|| Ok(Vec::new()))
-    };
-    let Ok(plays) = plays else { return };
-    let Some(first) = plays.first() else { return };
-    plays_again(trial, first, || play(motion, 0, None), |floats| play(motion, 0, Some(floats)));
-    trial.check("threads", || on_threads(first, || play(motion, 0, None)));
+    let mut first = None;
+    let tried = trial.check("ranges", || {
+        for set in 0..SETS {
+            first.get_or_insert(play(motion, set, None).map_err(|error| error.message)?);
+        }
+        Ok(format!("{} steps at attributes drawn within their ranges", SETS as usize * STEPS))
+    });
+    let (true, Some(first)) = (tried, first) else { return };
+    plays_again(trial, &first, |restored| play(motion, 0, restored));
+    trial.check("threads", || on_threads(&first, || play(motion, 0, None)));
     trial.time("a step", STEPS, || play(motion, 0, None).map(drop));
 }
 
@@ -53,19 +45,11 @@ fn play(motion: &dyn WhaleMotion, set: u64, restored: Option<&[f64]>) -> Result<
     let attributes = numbers(&drawn(&descriptor.attributes, &mut random));
     let drawings: Vec<_> =
         (0..STEPS).map(|_| Drawing::new(&mut random, descriptor.acts.len())).collect();
-    let mut state = restored.map_or_else(|| vec![0.0; descriptor.state_len], <[f64]>::to_vec);
-    let mut half_way = state.clone();
-    let mut answers = Vec::with_capacity(STEPS);
-    for (step, drawing) in
-        drawings.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
-    {
-        if step == STEPS / 2 {
-            half_way.clone_from(&state);
-        }
-        let out = motion.step(&attributes, &drawing.input(step), &mut state)?;
-        answers.push(output_bits(&out, &state));
-    }
-    Ok(Play { answers, half_way })
+    Play::of(&drawings, descriptor.state_len, restored, |step, drawing, state| {
+        let out = motion.step(&attributes, &drawing.input(step), state)?;
+        let rest = [out.speed_m_s].into_iter().chain(out.turn_rate_rad_s);
+        Ok(bits(out.posture.angles().chain(rest).chain(state.iter().copied())).collect())
+    })
 }
 
 /// The input of one step.
@@ -119,9 +103,4 @@ impl Drawing {
             contact_port_m: &self.contact_port_m,
         }
     }
-}
-
-fn output_bits(out: &MotionOutput, state: &[f64]) -> Bits {
-    let rest = [out.speed_m_s].into_iter().chain(out.turn_rate_rad_s);
-    bits(out.posture.angles().chain(rest).chain(state.iter().copied())).collect()
 }
