@@ -232,12 +232,11 @@ pub(super) fn observe(
         Err(error @ Error::Unsettled { .. }) => return Ok(Err(error.to_string())),
         Err(error) => return Err(error),
     };
+    let mut observed = Observed::default();
     let Some(times) = times else {
-        let mut observed = Observed::default();
         observed.sample(&run, 0.0);
         return Ok(Ok(observed));
     };
-    let mut observed = Observed::default();
     let between = run.model().spec.settings.duration_s / TRACE_POINTS;
     for time in times {
         while run.state().time_s < time - 1e-9 {

@@ -56,7 +56,8 @@ pub struct Request<'a> {
 
 /// A gear's sheet.
 pub struct ComplianceSheet {
-    id: String,
+    /// Id of the assembly.
+    pub id: String,
     name: String,
     notes: String,
     /// Name of the area.
@@ -110,11 +111,6 @@ impl ComplianceSheet {
             name,
             notes,
         })
-    }
-
-    /// Id of the assembly.
-    pub fn id(&self) -> &str {
-        &self.id
     }
 
     /// The page.

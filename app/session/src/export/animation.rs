@@ -31,7 +31,9 @@ const ROPE: Colour = [0.85, 0.72, 0.25, 1.0];
 /// The animation of frames, which are of one run and at even steps of `step_s`.
 pub fn glb(model: &Model, frames: &[Arc<Frame>], step_s: f64) -> Result<Vec<u8>, String> {
     let first = frames.first().ok_or("there is no frame to write")?;
-    let vertices = vertices_of(model);
+    // Vertices that move in every frame, about.
+    let skin = model.spec.whale.as_ref().map_or(0, |whale| whale.skin.vertices.len());
+    let vertices = skin + model.spec.lines.len() * Piece::MOST_VERTICES;
     let bytes = 12 * vertices * frames.len() + 4 * frames.len() * frames.len();
     if bytes > MOST_BYTES {
         return Err(format!(
@@ -50,12 +52,6 @@ pub fn glb(model: &Model, frames: &[Arc<Frame>], step_s: f64) -> Result<Vec<u8>,
     }
     clip.knots(model, frames, first);
     Ok(clip.written())
-}
-
-/// Vertices that move in every frame, about.
-fn vertices_of(model: &Model) -> usize {
-    let skin = model.spec.whale.as_ref().map_or(0, |whale| whale.skin.vertices.len());
-    skin + model.spec.lines.len() * Piece::MOST_VERTICES
 }
 
 type Pose = (DVec3, DQuat);

@@ -42,24 +42,17 @@ impl Svg {
             Side::Middle => "middle",
             Side::End => "end",
         };
-        let _ = write!(
-            self.body,
-            r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{}</text>"#,
-            at[0],
-            at[1],
-            escape(text)
-        );
+        self.text_with(at, &format!(r#"text-anchor="{anchor}""#), text);
     }
 
     /// Text that heads what follows.
     pub(crate) fn heading(&mut self, at: [f64; 2], text: &str) {
-        let _ = write!(
-            self.body,
-            r#"<text x="{:.1}" y="{:.1}" font-weight="600">{}</text>"#,
-            at[0],
-            at[1],
-            escape(text)
-        );
+        self.text_with(at, r#"font-weight="600""#, text);
+    }
+
+    fn text_with(&mut self, [x, y]: [f64; 2], attribute: &str, text: &str) {
+        let text = escape(text);
+        let _ = write!(self.body, r#"<text x="{x:.1}" y="{y:.1}" {attribute}>{text}</text>"#);
     }
 
     /// A filled box.

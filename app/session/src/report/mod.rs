@@ -96,9 +96,7 @@ impl Report {
             _ => Some(next),
         })
     }
-}
 
-impl Report {
     /// The summary of a run so far.
     pub fn from_run(run: &Run) -> Self {
         let model = run.model();

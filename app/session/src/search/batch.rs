@@ -49,19 +49,6 @@ pub(super) fn run(
     all
 }
 
-/// Runs the numbers of one part; `None` if the control ended the search before.
-/// Errors: as [`run`].
-pub(super) fn run_one(
-    part: Part<'_>,
-    effort: &Effort,
-    control: &Control,
-    one: impl Fn(u32) -> RunEnding + Sync,
-) -> Result<Option<Vec<RunEnding>>, Error> {
-    let mut runs = None;
-    run(&[part], effort, control, |_, number| one(number), |_, all| runs = Some(all))?;
-    Ok(runs)
-}
-
 /// Waits for each part in order and passes it on; false if the control or a failure ended the runs before.
 fn collect(
     parts: &[Part<'_>],

@@ -4,9 +4,7 @@
 
 use endline_gear::{PathPlace, RopeEnd, Site};
 use endline_sdk::{BodyPart, Region};
-use endline_sim::metrics::{
-    EventKind, LeadsTo, Outcome, RegionSummary, Route, Station, WhaleSummary, routes,
-};
+use endline_sim::metrics::{EventKind, LeadsTo, Outcome, Route, Station, WhaleSummary, routes};
 use endline_sim::model::BodyRole;
 use serde::{Deserialize, Serialize};
 
@@ -112,7 +110,8 @@ impl Ending {
 fn at_site(site: Site, whale: &WhaleSummary, routes: &[Route]) -> Option<AtSite> {
     let own = BodyPart::ALL.into_iter().find(|part| Site::of_part(*part) == site);
     let region = whale.regions.get(own.unwrap_or(BodyPart::Head) as usize)?;
-    let wraps = most_wraps(region);
+    // Along the centre line, or from contact to contact where they are more.
+    let wraps = region.wraps.abs().max(region.touching_wraps.abs());
     let is_there = match site {
         Site::Mouth => whale.lodged_in_mouth,
         Site::Head => passes(routes, |station| station.part == BodyPart::Head && !station.in_mouth),
@@ -123,11 +122,6 @@ fn at_site(site: Site, whale: &WhaleSummary, routes: &[Route]) -> Option<AtSite>
         wraps,
         tight: tension_n(site, whale) > TIGHT_N,
     })
-}
-
-/// Turns about a part: along the centre line, or from contact to contact where they are more.
-fn most_wraps(region: &RegionSummary) -> f64 {
-    region.wraps.abs().max(region.touching_wraps.abs())
 }
 
 fn passes(routes: &[Route], is_it: impl Fn(&Station) -> bool) -> bool {

@@ -23,7 +23,6 @@ use crate::save;
 
 use super::ending::RunEnding;
 use super::question::Question;
-use super::stories::Stories;
 
 /// Name of the schema of `search.json`.
 const SCHEMA: &str = "endline.search/1";
@@ -87,14 +86,6 @@ impl Folder {
             rounds: Store::open(path, question.hash.clone())?,
             net: Store::open(&net, question.net_hash.clone())?,
         })
-    }
-
-    /// Writes `stories.json`.
-    /// Errors: where it cannot be written.
-    pub(super) fn write_stories(&self, stories: &Stories) -> Result<(), Error> {
-        let file = self.path.join("stories.json");
-        save::atomically(&file, (stories.json() + "\n").as_bytes())
-            .map_err(Error::on(&file, "cannot be written"))
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::campaign::{Control, Count};
 use crate::encounters::Encounter;
 use crate::error::Error;
+use crate::save;
 
 use super::Effort;
 use super::distance::LIKE;
@@ -21,17 +22,9 @@ const MOST_STORIES: usize = 12;
 const TESTED: usize = 6;
 
 /// The kinds of the draws that are like the observation.
-struct LikeDraws(Vec<Kind>);
-
-impl LikeDraws {
-    fn of(rounds: &Rounds<'_>) -> Self {
-        let like = rounds.prior_sample.iter().filter(|(_, trial)| trial.distance <= LIKE);
-        Self(like.map(|(point, trial)| Kind::of(rounds.question, point, trial)).collect())
-    }
-
-    fn of_kind(&self, kind: &Kind) -> usize {
-        self.0.iter().filter(|other| *other == kind).count()
-    }
+fn like_draws(rounds: &Rounds<'_>) -> Vec<Kind> {
+    let like = rounds.prior_sample.iter().filter(|(_, trial)| trial.distance <= LIKE);
+    like.map(|(point, trial)| Kind::of(rounds.question, point, trial)).collect()
 }
 
 /// The stories of a search, with the neighbours of those that are like the observation; stored in its folder.
@@ -44,7 +37,7 @@ pub(super) fn stories(
     rounds: &Rounds<'_>,
 ) -> Result<Stories, Error> {
     let mut found = so_far(rounds);
-    let draws = LikeDraws::of(rounds);
+    let draws = like_draws(rounds);
     let like = found.stories.iter().filter(|story| story.is_like()).count();
     let tried = if effort.neighbours == 0 { 0 } else { like.min(TESTED) };
     control.begin(Count::of(tried * robust::most_runs(effort)), Count::default());
@@ -53,7 +46,9 @@ pub(super) fn stories(
         let Some(tried) = most_robust(question, folder, effort, control, &like)? else { break };
         found.stories[place] = story(rounds, kind, tried.elite, &draws, Some(&tried));
     }
-    folder.write_stories(&found)?;
+    let file = folder.path.join("stories.json");
+    save::atomically(&file, (found.json() + "\n").as_bytes())
+        .map_err(Error::on(&file, "cannot be written"))?;
     Ok(found)
 }
 
@@ -67,7 +62,7 @@ fn nearest<'a>(rounds: &'a Rounds<'_>) -> Vec<(&'a Kind, &'a Elite)> {
 /// The stories of the rounds so far, without their neighbours.
 pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
     let question = rounds.question;
-    let draws = LikeDraws::of(rounds);
+    let draws = like_draws(rounds);
     let nearest = nearest(rounds).into_iter().take(MOST_STORIES);
     let stories = nearest.map(|(kind, elite)| story(rounds, kind, elite, &draws, None)).collect();
     let net = &rounds.prior_sample;
@@ -78,10 +73,10 @@ pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
         observation: question.observation.id.clone(),
         encounters: question.opened.study.id.clone(),
         stories,
-        trials: rounds.trials(),
+        trials: rounds.trials,
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),
-        net_like: draws.0.len(),
+        net_like: draws.len(),
         posterior: quantities(rounds),
     }
 }
@@ -90,7 +85,7 @@ fn story(
     rounds: &Rounds<'_>,
     kind: &Kind,
     elite: &Elite,
-    draws: &LikeDraws,
+    draws: &[Kind],
     tried: Option<&Tried<'_>>,
 ) -> Story {
     let question = rounds.question;
@@ -105,7 +100,7 @@ fn story(
         mirrored,
         alike: tried.map(|tried| tried.alike),
         finer: tried.map(|tried| tried.finer),
-        draws_like: draws.of_kind(kind),
+        draws_like: draws.iter().filter(|other| *other == kind).count(),
         simulated_s,
         drawn: drawn.into_iter().map(|drawn| (drawn.name, drawn.text)).collect(),
         state_hash,

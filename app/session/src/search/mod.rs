@@ -117,64 +117,38 @@ fn rounds_of<'a>(
     control.begin(Count::of(effort.trials), Count::default());
     let mut report = |rounds: &Rounds<'_>| {
         progress(Progress {
-            trials: rounds.trials(),
+            trials: rounds.trials,
             of: effort.trials,
             best: rounds.best(),
             stories: found::so_far(rounds),
         });
     };
-    let mut is_complete = first_draws(&mut rounds, folder, effort, &run, control, &mut report)?;
-    while is_complete && rounds.trials() < effort.trials {
-        is_complete = round_of(&mut rounds, folder, effort, &run, control)?;
+    let points = rounds.sobol_points();
+    let net = |numbers| Part { store: &folder.net, name: "net", numbers };
+    // The draws before the first local search, in parts.
+    let parts: Vec<Part<'_>> = rounds.first_draws(effort.trials).map(net).collect();
+    let one = |_, number| run(&points.at(number));
+    let mut is_complete = batch::run(&parts, effort, control, one, |_, draws| {
+        rounds.take_draws(&draws);
+        report(&rounds);
+    })?;
+    // Rounds of local searches, variations and a few more draws.
+    while is_complete && rounds.trials < effort.trials {
+        let round = rounds.next();
+        let numbers = 0..u32::try_from(round.local.len()).unwrap_or(u32::MAX);
+        let local = Part { store: &folder.rounds, name: &round.name, numbers };
+        let one = |place, number: u32| match place {
+            0 => run(&round.local[number as usize]),
+            _ => run(&points.at(number)),
+        };
+        let (parts, mut runs) = ([local, net(round.draws.clone())], Vec::new());
+        is_complete = batch::run(&parts, effort, control, one, |_, part| runs.push(part))?;
+        if let [local, draws] = &runs[..] {
+            rounds.take(&round, local, draws);
+        }
         if is_complete {
             report(&rounds);
         }
     }
     Ok(rounds)
-}
-
-/// The draws before the first local search, in parts; false if the control cancelled them.
-fn first_draws(
-    rounds: &mut Rounds<'_>,
-    folder: &Folder,
-    effort: &Effort,
-    run: &(impl Fn(&[f64]) -> RunEnding + Sync),
-    control: &Control,
-    report: &mut impl FnMut(&Rounds<'_>),
-) -> Result<bool, Error> {
-    let part = |numbers| Part { store: &folder.net, name: "net", numbers };
-    let parts: Vec<Part<'_>> = rounds.first_draws(effort.trials).map(part).collect();
-    let points = rounds.sobol_points();
-    let one = |_, number| run(&points.at(number));
-    batch::run(&parts, effort, control, one, |_, draws| {
-        rounds.take_draws(&draws);
-        report(rounds);
-    })
-}
-
-/// A round of local searches, variations and a few more draws; false if the control cancelled it.
-fn round_of(
-    rounds: &mut Rounds<'_>,
-    folder: &Folder,
-    effort: &Effort,
-    run: &(impl Fn(&[f64]) -> RunEnding + Sync),
-    control: &Control,
-) -> Result<bool, Error> {
-    let round = rounds.next();
-    let count = u32::try_from(round.local.len()).unwrap_or(u32::MAX);
-    let parts = [
-        Part { store: &folder.rounds, name: &round.name, numbers: 0..count },
-        Part { store: &folder.net, name: "net", numbers: round.draws.clone() },
-    ];
-    let points = rounds.sobol_points();
-    let one = |place, number: u32| match place {
-        0 => run(&round.local[number as usize]),
-        _ => run(&points.at(number)),
-    };
-    let mut runs = Vec::new();
-    let all = batch::run(&parts, effort, control, one, |_, part| runs.push(part))?;
-    if let [local, draws] = &runs[..] {
-        rounds.take(&round, local, draws);
-    }
-    Ok(all)
 }

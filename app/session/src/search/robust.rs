@@ -126,9 +126,10 @@ impl Runs<'_> {
     ) -> Result<Option<Vec<Trial>>, Error> {
         let Self { question, folder, effort, control } = self;
         let part = Part { store: &folder.rounds, name, numbers: 0..count };
-        let ended = batch::run_one(part, effort, control, one)?;
+        let mut ended = None;
+        batch::run(&[part], effort, control, |_, number| one(number), |_, all| ended = Some(all))?;
         let trial = |ended: &RunEnding| Trial::of(&question.observation, ended);
-        Ok(ended.map(|ended| ended.iter().map(trial).collect()))
+        Ok(ended.map(|ended: Vec<RunEnding>| ended.iter().map(trial).collect()))
     }
 }
 

@@ -65,7 +65,8 @@ pub(super) struct Rounds<'a> {
     /// Number of points of each local search in the current round.
     shares: Vec<usize>,
     begun: u64,
-    done: usize,
+    /// Number of trials so far.
+    pub(super) trials: usize,
 }
 
 impl<'a> Rounds<'a> {
@@ -84,13 +85,8 @@ impl<'a> Rounds<'a> {
             climbs: Vec::new(),
             shares: Vec::new(),
             begun: 0,
-            done: 0,
+            trials: 0,
         }
-    }
-
-    /// Number of trials so far.
-    pub(super) fn trials(&self) -> usize {
-        self.done
     }
 
     /// The points of draws.
@@ -158,7 +154,7 @@ impl<'a> Rounds<'a> {
             climb.take(own);
             rest = others;
         }
-        self.done += local.len();
+        self.trials += local.len();
         self.take_draws(draws);
     }
 
@@ -172,7 +168,7 @@ impl<'a> Rounds<'a> {
             self.elites.take(self.question, &point, &trial);
             self.prior_sample.push((point, trial));
         }
-        self.done += draws.len();
+        self.trials += draws.len();
         self.round += 1;
     }
 

@@ -190,7 +190,7 @@ fn a_search_cancelled_between_trials_continues_from_them() {
     let part = rounds_of(&question, &folder, &effort, counted, &control, |_| rounds += 1).unwrap();
     let run = count.load(Ordering::Relaxed);
     assert!((180..=181).contains(&run), "each thread finishes its trial: {run}");
-    assert!(part.trials() <= run && rounds > 3, "{} of {run}", part.trials());
+    assert!(part.trials <= run && rounds > 3, "{} of {run}", part.trials);
     assert_eq!(usize::try_from(control.progress().encounters.done).unwrap(), run);
 
     let again = Control::default();
@@ -199,7 +199,7 @@ fn a_search_cancelled_between_trials_continues_from_them() {
         made_up(point)
     };
     let rest = rounds_of(&question, &folder, &effort, counted, &again, |_| {}).unwrap();
-    assert_eq!(count.load(Ordering::Relaxed), rest.trials(), "no trial is run twice");
+    assert_eq!(count.load(Ordering::Relaxed), rest.trials, "no trial is run twice");
     assert_eq!(usize::try_from(again.progress().encounters.found).unwrap(), run);
     let elites = rest.elites.best.values();
     let elites: Vec<_> = elites.map(|elite| (elite.point.clone(), elite.trial.distance)).collect();

@@ -142,6 +142,11 @@ fn differ_only_in_strength(one: &ModelSpec, other: &ModelSpec) -> bool {
         probes: _,
         settings,
     } = one;
+    let same_rope = |one: &Rope, other: &Rope| {
+        *one == Rope { id: one.id.clone(), strength_n: one.strength_n, ..other.clone() }
+    };
+    let same_line =
+        |one: &Line, other: &Line| *one == Line { strength: one.strength, ..other.clone() };
     all(ropes, &other.ropes, same_rope)
         && all(lines, &other.lines, same_line)
         && all(links, &other.links, same_link)
@@ -168,14 +173,6 @@ fn both<T>(one: Option<&T>, other: Option<&T>, same: fn(&T, &T) -> bool) -> bool
         (None, None) => true,
         _ => false,
     }
-}
-
-fn same_rope(one: &Rope, other: &Rope) -> bool {
-    *one == Rope { id: one.id.clone(), strength_n: one.strength_n, ..other.clone() }
-}
-
-fn same_line(one: &Line, other: &Line) -> bool {
-    *one == Line { strength: one.strength, ..other.clone() }
 }
 
 fn same_link(one: &Link, other: &Link) -> bool {

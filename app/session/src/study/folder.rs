@@ -171,9 +171,10 @@ impl Folder {
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
         let bytes = read::bytes(&file).map_err(Error::on(&file, "cannot be read"))?;
-        let (table, tags) = parquet::read(bytes).map_err(|error| {
-            Error::at(&file, format!("is damaged: {error}; delete it and run the study again"))
-        })?;
+        let wrong =
+            |what: &str| Error::at(&file, format!("{what}; delete it and run the study again"));
+        let (table, tags) =
+            parquet::read(bytes).map_err(|error| wrong(&format!("is damaged: {error}")))?;
         let tag = |key: &str| {
             tags.iter()
                 .find(|(known, _)| known == key)
@@ -181,23 +182,15 @@ impl Folder {
                 .unwrap_or_default()
         };
         if tag("study") != self.hash || tag("block") != block.to_string() {
-            return Err(Error::at(
-                &file,
-                "holds rows of another study or block; delete it and run the study again",
-            ));
+            return Err(wrong("holds rows of another study or block"));
         }
         let own = self.encounters_of(block);
         let own = i64::from(own.start)..i64::from(own.end);
         let Some(Column::Whole(encounters)) = table.column("encounter") else {
-            return Err(Error::at(
-                &file,
-                "has no column `encounter`; delete it and run the study again",
-            ));
+            return Err(wrong("has no column `encounter`"));
         };
         if !encounters.iter().all(|encounter| own.contains(encounter)) {
-            let message =
-                "has rows of encounters of another block; delete it and run the study again";
-            return Err(Error::at(&file, message));
+            return Err(wrong("has rows of encounters of another block"));
         }
         Ok(table)
     }

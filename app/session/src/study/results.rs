@@ -228,16 +228,12 @@ impl ResultsReader {
         let answer = self.reading.poll()?.unwrap_or_else(|Fault| {
             Err("reading the results ended by a fault inside the program".into())
         });
-        Some(
-            answer
-                .map(|shown| {
-                    if let Some(shown) = shown {
-                        self.folder = Some(shown.folder.clone());
-                        self.shown = Some(shown);
-                    }
-                    self.problem = None;
-                })
-                .inspect_err(|error| self.problem = Some(error.clone())),
-        )
+        self.problem = answer.as_ref().err().cloned();
+        Some(answer.map(|shown| {
+            if let Some(shown) = shown {
+                self.folder = Some(shown.folder.clone());
+                self.shown = Some(shown);
+            }
+        }))
     }
 }

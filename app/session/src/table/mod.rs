@@ -193,9 +193,10 @@ impl Table {
                 }
             }
         }
-        let one_more =
-            more.next().map(|(name, _)| WrongCell::new(&name, row, "no such column", "a cell"));
-        one_more.map_or(Ok(()), Err)
+        match more.next() {
+            None => Ok(()),
+            Some((name, _)) => Err(WrongCell::new(&name, row, "no such column", "a cell")),
+        }
     }
 
     /// The table as comma-separated values with a line of names.

@@ -45,7 +45,7 @@ pub(super) fn sheet(args: &SheetArgs, library: Option<&Path>) -> Result<ExitCode
         [one] => (one.html()?, "sheet"),
         several => (comparison(several)?, "comparison"),
     };
-    let usual = || PathBuf::from(format!("{}-{name}.html", sheets[0].id()));
+    let usual = || PathBuf::from(format!("{}-{name}.html", sheets[0].id));
     let page = args.to.clone().unwrap_or_else(usual);
     save::atomically(&page, html.as_bytes()).map_err(Error::on(&page, "cannot be written"))?;
     output::note(&format!("the {name} is {}", page.display()));

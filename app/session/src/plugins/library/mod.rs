@@ -194,6 +194,9 @@ fn read(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
         return Err(Refusal::new(format!("it declares {} acts", plugin.act_count), TELL_AUTHOR));
     }
     let (attributes, acts) = declarations(plugin);
+    let act = |raw: &AbiAct| -> Result<Act, Refusal> {
+        Ok(Act { id: text(raw.id)?, name: text(raw.name)?, help: text(raw.help)? })
+    };
     Ok(Descriptor {
         id: text(plugin.id)?,
         version: text(plugin.version)?,
@@ -201,12 +204,8 @@ fn read(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
         help: text(plugin.help)?,
         attributes: attributes.iter().map(read_attribute).collect::<Result<_, _>>()?,
         state_len: plugin.state_len,
-        acts: acts.iter().map(read_act).collect::<Result<_, _>>()?,
+        acts: acts.iter().map(act).collect::<Result<_, _>>()?,
     })
-}
-
-fn read_act(raw: &AbiAct) -> Result<Act, Refusal> {
-    Ok(Act { id: text(raw.id)?, name: text(raw.name)?, help: text(raw.help)? })
 }
 
 fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {

@@ -25,14 +25,16 @@ use endline_sdk::{Descriptor, HookError};
 
 use super::info::{Hook, Refusal};
 use super::library::LoadedLibrary;
-use message::{Answer, Call, Declared, Opening, Question};
+use message::{Answer, Call, Declared, Opening, Orders, Question};
 use worker::{Served, Worker};
 
 pub use serve::serve_here;
 
 /// Opens a library in a process of its own, which `program plugins serve` is, and gives its plugins.
 pub(super) fn open(program: &Path, file: &Path, bytes: Vec<u8>) -> Result<LoadedLibrary, Refusal> {
-    let served = Served { program: program.to_path_buf(), file: file.to_path_buf(), bytes };
+    let (version, name) = (crate::VERSION.to_owned(), file.display().to_string());
+    let orders = Orders { version, file: name, bytes };
+    let served = Served { program: program.to_path_buf(), orders };
     let (worker, opening) = Worker::start(&served)
         .map_err(|reason| Refusal::new(reason, "tell the plugin's author"))?;
     let processes = Arc::new(Processes { served, idle: Mutex::new(vec![worker]) });
@@ -70,7 +72,7 @@ impl Processes {
             Some(worker) => worker,
             None => Worker::start(&self.served).map_err(HookError::new)?.0,
         };
-        let answer = worker.ask(question).map_err(HookError::new)?;
+        let answer = worker.exchange(question).map_err(HookError::new)?;
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
         match answer {
             Answer::Fault(message) => Err(HookError::new(message)),

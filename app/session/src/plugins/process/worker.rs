@@ -13,7 +13,7 @@ use endline_sdk::{
 use rustix::process::{Pid, Signal, kill_process_group};
 
 use super::Proxy;
-use super::message::{Answer, Call, Opening, Orders, Question, receive, send};
+use super::message::{Answer, Call, Opening, Orders, receive, send};
 use super::pipe::Pipe;
 use super::wire::Wire;
 
@@ -26,10 +26,8 @@ const GRACE: Duration = Duration::from_millis(500);
 pub(super) struct Served {
     /// The program `endline`.
     pub program: PathBuf,
-    /// The library's path, as the library receives it.
-    pub file: PathBuf,
-    /// Its bytes, which were hashed and allowed.
-    pub bytes: Vec<u8>,
+    /// What a process is told to open.
+    pub orders: Orders,
 }
 
 /// A process that serves a library.
@@ -54,20 +52,12 @@ impl Worker {
         let (input, output) = pipes.map_err(|error| format!("its pipes fail: {error}"))?;
         let output = BufReader::with_capacity(1 << 16, output);
         let mut worker = Self { child, input, output, room: Vec::new() };
-        let opening = worker.exchange(&Orders {
-            version: crate::VERSION.to_owned(),
-            file: served.file.display().to_string(),
-            bytes: served.bytes.clone(),
-        })?;
+        let opening = worker.exchange(&served.orders)?;
         Ok((worker, opening))
     }
 
-    /// Calls a plugin.
-    pub fn ask(&mut self, question: &Question) -> Result<Answer, String> {
-        self.exchange(question)
-    }
-
-    fn exchange<A: Wire>(&mut self, question: &impl Wire) -> Result<A, String> {
+    /// Sends a message and receives its answer.
+    pub fn exchange<A: Wire>(&mut self, question: &impl Wire) -> Result<A, String> {
         self.input.begin();
         self.output.get_mut().begin();
         let answer = send(question, &mut self.input, &mut self.room)

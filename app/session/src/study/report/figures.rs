@@ -2,7 +2,7 @@
 
 use endline_gear::StudyEvent;
 
-use crate::study::stats::{Findings, Interval, LevelFinding, OptionFinding, Rate};
+use crate::study::stats::{Findings, Interval, LevelFinding, OptionFinding};
 
 use crate::page::svg::{Axis, Side, Svg};
 use crate::units::N_PER_LBF;
@@ -36,7 +36,9 @@ pub(super) fn rates(findings: &Findings) -> String {
         svg.text([names - 10.0, y + 4.0], Side::End, &option.name);
         let rate = |(kind, event): (usize, &StudyEvent)| Some((kind, option.rate(&event.name())?));
         for (kind, rate) in events.iter().enumerate().filter_map(rate) {
-            whisker(&mut svg, &axis, y + 8.0 * (kind as f64 - 1.0), rate, kind);
+            let Interval { low, high } = rate.interval;
+            let places = [low, rate.rate, high].map(|share| axis.at(share));
+            svg.whisker(y + 8.0 * (kind as f64 - 1.0), places, kind);
         }
     }
     svg.done()
@@ -46,11 +48,6 @@ pub(super) fn rates(findings: &Findings) -> String {
 fn room(findings: &Findings) -> f64 {
     let letters = findings.options.iter().map(|option| option.name.chars().count()).max();
     (LETTER * letters.unwrap_or(0) as f64 + 20.0).clamp(90.0, 0.5 * WIDE)
-}
-
-fn whisker(svg: &mut Svg, axis: &Axis, y: f64, rate: &Rate, kind: usize) {
-    let Interval { low, high } = rate.interval;
-    svg.whisker(y, [axis.at(low), axis.at(rate.rate), axis.at(high)], kind);
 }
 
 /// Differences from the baseline of the rate that options are ranked by: all together, then by level.

@@ -7,9 +7,7 @@ use crate::study::stats::{
     SegmentBand,
 };
 
-use super::words::{
-    event_words, force, lowest, outcome_words, percent_interval, points, rate, ratio, short_rate,
-};
+use super::words::{event_words, force, lowest, percent_interval, points, rate, ratio, short_rate};
 use crate::page::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
@@ -230,9 +228,7 @@ fn changes_of(option: &OptionFinding) -> Vec<Cell> {
 fn kinds(option: &OptionFinding) -> Cell {
     let changed = option.changes.counts.iter().filter(|(one, other, _)| one != other);
     let lines: Vec<String> = changed
-        .map(|(one, other, count)| {
-            format!("{} to {}: {count}", outcome_words(one), outcome_words(other))
-        })
+        .map(|(one, other, count)| format!("{one} to {other}: {count}").replace('_', " "))
         .collect();
     if lines.is_empty() { "equal in all encounters".into() } else { Cell::lines(lines) }
 }

@@ -63,8 +63,3 @@ pub fn lowest(Lowest { alone, tied }: Lowest) -> String {
 pub(super) fn event_words(name: &str) -> String {
     StudyEvent::find(name).map_or_else(|| name.to_owned(), |event| event.words())
 }
-
-/// An outcome in words, by its name in tables.
-pub(super) fn outcome_words(name: &str) -> String {
-    name.replace('_', " ")
-}

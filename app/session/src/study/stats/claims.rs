@@ -144,8 +144,7 @@ fn rate(label: &str, indicators: &[EventIndicators]) -> Rate {
 
 /// Share of the options in which the event occurred, by encounter with a valid run; with its weight.
 fn shares(indicators: &[EventIndicators]) -> Vec<(f64, f64)> {
-    let encounters =
-        indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default();
+    let encounters = EventIndicators::longest(indicators);
     (0..encounters).filter_map(|encounter| share(indicators, encounter)).collect()
 }
 
@@ -168,9 +167,7 @@ fn mean(values: &[(f64, f64)], indices: &[usize]) -> Option<f64> {
 
 /// Several options together: the difference of shares within each encounter, encounters drawn again for the interval.
 fn pooled(label: &str, more: &[EventIndicators], less: &[EventIndicators]) -> (f64, Interval) {
-    let encounters =
-        more.iter().chain(less).map(|indicators| indicators.0.len()).max().unwrap_or_default();
-    let differences: Vec<(f64, f64)> = (0..encounters)
+    let differences: Vec<(f64, f64)> = (0..EventIndicators::longest(more.iter().chain(less)))
         .filter_map(|encounter| {
             let ((more, weight), (less, _)) = (share(more, encounter)?, share(less, encounter)?);
             Some((more - less, weight))

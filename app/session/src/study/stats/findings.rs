@@ -266,11 +266,7 @@ fn levels(
         .map(|option| EventIndicators::of(runs, &option.id, &StudyEvent::Parted))
         .collect();
     let finding = |level_name: String| {
-        let mut keep =
-            vec![
-                false;
-                indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default()
-            ];
+        let mut keep = vec![false; EventIndicators::longest(indicators)];
         let rows = runs.rows().iter().enumerate();
         rows.filter(|(row, _)| level(column, *row) == level_name)
             .for_each(|(_, run)| keep[run.index()] = true);

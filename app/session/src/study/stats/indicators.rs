@@ -48,6 +48,11 @@ impl EventIndicators {
         self.0.iter().map(|indicator| indicator.is_some_and(occurred)).collect()
     }
 
+    /// Number of encounters in the longest of several lists.
+    pub(super) fn longest<'a>(lists: impl IntoIterator<Item = &'a Self>) -> usize {
+        lists.into_iter().map(|list| list.0.len()).max().unwrap_or_default()
+    }
+
     /// Only the indicators of some encounters.
     pub fn within(&self, keep: &[bool]) -> Self {
         let kept = self.0.iter().zip(keep);

@@ -55,7 +55,7 @@ pub(super) fn of_inputs(
     baseline: usize,
 ) -> Vec<InputFinding> {
     let of = |prior: &Prior| {
-        let (column, parts) = (column_of(prior, runs)?, parts_of(prior, runs)?);
+        let (column, parts) = (runs.drawn(&prior.name.value)?, parts_of(prior, runs)?);
         let sobol = index(&prior.name.value, runs, column, &indicators[baseline]);
         input(prior, parts, sobol, indicators, baseline)
     };
@@ -147,14 +147,9 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
     order
 }
 
-/// The drawn values of an input.
-fn column_of<'a>(prior: &Prior, runs: &'a Runs) -> Option<&'a Column> {
-    runs.drawn(&prior.name.value)
-}
-
 /// The encounters of each part of an input: its levels, or the lower and upper half of its range.
 pub(super) fn parts_of(prior: &Prior, runs: &Runs) -> Option<Vec<(String, Vec<bool>)>> {
-    let column = column_of(prior, runs)?;
+    let column = runs.drawn(&prior.name.value)?;
     Some(parts(runs, column, &|number| prior.law.written(number)))
 }
 
@@ -177,36 +172,23 @@ fn parts(runs: &Runs, column: &Column, words: &dyn Fn(f64) -> String) -> Vec<(St
                 .collect()
         }
         Column::Real(values) => {
+            let keep_if = |is_in: &dyn Fn(f64) -> bool| keep(&|row| values[row].is_some_and(is_in));
             let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
             sorted.sort_by(f64::total_cmp);
             let mut levels = sorted.clone();
             levels.dedup();
             if (2..=6).contains(&levels.len()) {
-                return levels
-                    .into_iter()
-                    .map(|level| {
-                        (
-                            words(level),
-                            keep(&|row| {
-                                values[row].is_some_and(|value| value.total_cmp(&level).is_eq())
-                            }),
-                        )
-                    })
-                    .collect();
+                let part =
+                    |level: f64| (words(level), keep_if(&|value| value.total_cmp(&level).is_eq()));
+                return levels.into_iter().map(part).collect();
             }
             let (Some(middle), true) = (sorted.get(sorted.len() / 2).copied(), levels.len() > 6)
             else {
                 return Vec::new();
             };
             vec![
-                (
-                    format!("below {}", words(middle)),
-                    keep(&|row| values[row].is_some_and(|value| value < middle)),
-                ),
-                (
-                    format!("from {} on", words(middle)),
-                    keep(&|row| values[row].is_some_and(|value| value >= middle)),
-                ),
+                (format!("below {}", words(middle)), keep_if(&|value| value < middle)),
+                (format!("from {} on", words(middle)), keep_if(&|value| value >= middle)),
             ]
         }
         _ => Vec::new(),
@@ -224,7 +206,7 @@ pub struct Lowest {
 
 /// Share of resamples in which each option has the lowest rate.
 pub(super) fn lowest(indicators: &[EventIndicators]) -> Vec<Lowest> {
-    let count = indicators.iter().map(|indicators| indicators.0.len()).max().unwrap_or_default();
+    let count = EventIndicators::longest(indicators);
     let mut draws = Draws::of("ranking");
     let mut counts = vec![[0_u32; 2]; indicators.len()];
     let mut indices = vec![0; count];

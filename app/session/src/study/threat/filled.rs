@@ -190,7 +190,7 @@ mod tests {
             row("1/2in", 0.5, 3, "NA", 30),
             row("1/2in", 0.5, 12, "NA", 48),
         ];
-        rows.sort_by(|one, other| one.place().total_cmp(&other.place()));
+        rows.sort_by(|one, other| one.total_cmp(other));
         Threats {
             schema: super::super::SCHEMA,
             study: "s".into(),

@@ -85,7 +85,7 @@ impl Threats {
                 opened.study.id
             ));
         }
-        rows.sort_by(|(one, _), (other, _)| one.place().total_cmp(&other.place()));
+        rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let same = |pair: &&[(Threat, EventIndicators)]| pair[0].0.key() == pair[1].0.key();
         if let Some([(one, _), (other, _)]) = rows.windows(2).find(same) {
             return Err(format!(
@@ -135,26 +135,17 @@ impl Threat {
         (&self.rope, &self.device, self.traps)
     }
 
-    /// Its place among the rows.
-    fn place(&self) -> Place<'_> {
-        Place(&self.device, self.diameter_in, &self.rope, self.traps)
+    /// The order of rows: by device, diameter, rope and traps.
+    fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let by_diameter = self.diameter_in.total_cmp(&other.diameter_in);
+        let by_rope = (&self.rope, self.traps).cmp(&(&other.rope, other.traps));
+        self.device.cmp(&other.device).then(by_diameter).then(by_rope)
     }
 
     /// Least and greatest rate at the levels of the assumed inputs; the rate itself where none varies.
     pub fn by_priors(&self) -> Interval {
         let rate = self.rate.rate;
         self.priors.as_ref().map_or(Interval { low: rate, high: rate }, AssumedBand::rates)
-    }
-}
-
-/// Device, diameter, rope and traps.
-struct Place<'a>(&'a str, f64, &'a str, u64);
-
-impl Place<'_> {
-    fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let by_diameter = self.1.total_cmp(&other.1);
-        let by_rope = self.2.cmp(other.2).then(self.3.cmp(&other.3));
-        self.0.cmp(other.0).then(by_diameter).then(by_rope)
     }
 }
 
