@@ -15,7 +15,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use endline_gear::{Library, Sources};
+use endline_gear::Sources;
 use endline_sim::settle;
 use serde::Deserialize;
 
@@ -98,12 +98,19 @@ impl ComplianceSheet {
             traps: fishing.traps,
             ..HaulRequest::default()
         };
-        let (name, notes) = named(id, &library);
+        let entry = library.assemblies.iter().find(|assembly| assembly.entry.id == *id);
+        let (name, notes) = entry.map_or(((*id).to_owned(), String::new()), |assembly| {
+            (assembly.entry.name.clone(), assembly.entry.notes.clone())
+        });
+        let threat = threat.as_deref().map(|file| -> Result<ThreatOfGear, Error> {
+            let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
+            ThreatOfGear::find(&file.display().to_string(), &text, &gear)
+        });
         Ok(Self {
             rules: check(&gear, packs, fishing)?,
             rest: [at_rest(0.0)?, at_rest(*tide_m_s)?],
             haul: haul_of(id, &haul, &library, host),
-            threat: threat_of(threat.as_deref(), &gear)?,
+            threat: threat.transpose()?,
             area: packs.area_name(&fishing.area),
             fishing: fishing.clone(),
             tide_m_s: *tide_m_s,
@@ -134,20 +141,6 @@ impl AtRest {
         let shape = SettledShape::of(&prepared, &settled, 0.0);
         Ok(Self { prepared, shape })
     }
-}
-
-/// Name and notes of an assembly.
-fn named(id: &str, library: &Library) -> (String, String) {
-    let found = library.assemblies.iter().find(|assembly| assembly.entry.id == id);
-    found.map_or((id.to_owned(), String::new()), |assembly| {
-        (assembly.entry.name.clone(), assembly.entry.notes.clone())
-    })
-}
-
-fn threat_of(file: Option<&Path>, gear: &RuleGear) -> Result<Option<ThreatOfGear>, Error> {
-    let Some(file) = file else { return Ok(None) };
-    let text = endline_gear::read::text(file).map_err(Error::on(file, "cannot be read"))?;
-    ThreatOfGear::find(&file.display().to_string(), &text, gear).map(Some)
 }
 
 /// Names under which browsers are installed, in the order of search.

@@ -42,7 +42,10 @@ pub fn glb(model: &Model, frames: &[Arc<Frame>], step_s: f64) -> Result<Vec<u8>,
         ));
     }
     let mut clip = Clip::of(frames.len(), step_s);
-    clip.still("obstacles", &obstacles::obstacles(model));
+    let obstacles = obstacles::obstacles(model);
+    if !obstacles.triangles.is_empty() {
+        clip.mesh("obstacles", &obstacles, &[]);
+    }
     clip.whale(model, frames);
     clip.lines(model, frames);
     for (index, body) in model.spec.bodies.iter().enumerate() {
@@ -94,12 +97,6 @@ impl Clip {
         self.nodes.push(json!({ "name": name, "mesh": self.meshes.len() }));
         self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
         self.nodes.len() - 1
-    }
-
-    fn still(&mut self, name: &str, mesh: &Mesh) {
-        if !mesh.triangles.is_empty() {
-            self.mesh(name, mesh, &[]);
-        }
     }
 
     fn moves(&mut self, node: usize, path: &str, output: usize) {

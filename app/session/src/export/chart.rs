@@ -135,7 +135,7 @@ impl Chart {
             end_x: duration_s,
         };
         let force = units.force();
-        let made = match kind {
+        let mut made = match kind {
             Kind::Tension => {
                 let lines = view.model.spec.lines.iter().enumerate();
                 let curves = lines
@@ -161,13 +161,11 @@ impl Chart {
                 whale(view, Channel::Speed, |value| units.of_m_s(value)),
             ),
         };
-        if kind == Kind::Along { made } else { made.coloured() }
-    }
-
-    /// Each curve in a colour of its own.
-    fn coloured(mut self) -> Self {
-        self.curves.iter_mut().enumerate().for_each(|(index, curve)| curve.colour = index);
-        self
+        if kind != Kind::Along {
+            // Each curve has a colour of its own.
+            made.curves.iter_mut().enumerate().for_each(|(index, curve)| curve.colour = index);
+        }
+        made
     }
 
     /// With the curves of another run beside its own: dashed, in the colour of the curve of the same name.

@@ -270,10 +270,14 @@ fn arrow(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>, ArrowError
         let array = array(column)?;
         let may_lack = matches!(column, Column::Real(_));
         let field = Field::new(name, array.data_type().clone(), may_lack);
-        fields.push(field.with_metadata(of_column(name, tags)));
+        let own =
+            |(key, text): &(String, String)| Some((about(name, key)?.to_owned(), text.clone()));
+        fields.push(field.with_metadata(tags.iter().filter_map(own).collect::<HashMap<_, _>>()));
         arrays.push(array);
     }
-    let schema = Arc::new(Schema::new_with_metadata(fields, of_table(table, tags)));
+    let of_one = |key: &str| table.columns.iter().any(|(name, _)| about(name, key).is_some());
+    let of_table: HashMap<_, _> = tags.iter().filter(|(key, _)| !of_one(key)).cloned().collect();
+    let schema = Arc::new(Schema::new_with_metadata(fields, of_table));
     let batch = RecordBatch::try_new(Arc::clone(&schema), arrays)?;
     let mut file = FileWriter::try_new(Vec::new(), &schema)?;
     file.write(&batch)?;
@@ -299,18 +303,6 @@ fn array(column: &Column) -> Result<ArrayRef, ArrowError> {
 /// What a tag describes of a column, as `unit` of `x_m.unit`; none where it describes something else.
 fn about<'a>(name: &str, key: &'a str) -> Option<&'a str> {
     key.strip_prefix(name)?.strip_prefix('.')
-}
-
-/// What the tags describe of a column.
-fn of_column(name: &str, tags: &[(String, String)]) -> HashMap<String, String> {
-    let own = |(key, text): &(String, String)| Some((about(name, key)?.to_owned(), text.clone()));
-    tags.iter().filter_map(own).collect()
-}
-
-/// What the tags describe of the table as a whole.
-fn of_table(table: &Table, tags: &[(String, String)]) -> HashMap<String, String> {
-    let of_one = |key: &str| table.columns.iter().any(|(name, _)| about(name, key).is_some());
-    tags.iter().filter(|(key, _)| !of_one(key)).cloned().collect()
 }
 
 #[cfg(test)]

@@ -15,29 +15,16 @@ pub const MOST_BEYOND_ROPE: f64 = 0.05;
 /// The reasons why a run is invalid; empty where it is valid.
 pub fn reasons(stopped: Option<&str>, audit: &Audit, whale: Option<&WhaleSummary>) -> Vec<String> {
     let times = |count: u64| if count == 1 { "once".to_owned() } else { format!("{count} times") };
-    let stopped = stopped.map(|why| format!("it did not run to its end: {why}"));
-    let crossed = (audit.tunnelled > 0)
-        .then(|| format!("rope passed through skin {}", times(audit.tunnelled)));
-    let broken = (audit.non_finite > 0)
-        .then(|| format!("numbers were not finite {}", times(audit.non_finite)));
-    let body = (audit.bodies_crossed > 0)
-        .then(|| format!("a body passed through skin {}", times(audit.bodies_crossed)));
-    let through = (audit.ropes_crossed > 0)
-        .then(|| format!("rope passed through rope {}", times(audit.ropes_crossed)));
-    let parted = (audit.unconverged_parted > 0).then(|| {
-        format!(
-            "something parted {} in a solver step that did not converge",
-            times(audit.unconverged_parted)
-        )
-    });
+    let counted = |count: u64, what: &str| (count > 0).then(|| format!("{what} {}", times(count)));
+    let parted = counted(audit.unconverged_parted, "something parted");
     [
-        stopped,
-        crossed,
-        body,
-        through,
-        broken,
+        stopped.map(|why| format!("it did not run to its end: {why}")),
+        counted(audit.tunnelled, "rope passed through skin"),
+        counted(audit.bodies_crossed, "a body passed through skin"),
+        counted(audit.ropes_crossed, "rope passed through rope"),
+        counted(audit.non_finite, "numbers were not finite"),
         unconverged(audit),
-        parted,
+        parted.map(|parted| parted + " in a solver step that did not converge"),
         spikes(audit),
         pressed(whale),
     ]

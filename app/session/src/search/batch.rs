@@ -45,7 +45,10 @@ pub(super) fn run(
     let threads = effort.threads.clamp(1, runs.missing.len().max(1));
     let collect = |failure: &Failure| collect(parts, control, failure, &news, &mut take);
     let all = pool::run(&runs, threads, control, collect);
-    runs.store_unfinished()?;
+    // The runs of unfinished parts are stored too.
+    (0..parts.len())
+        .filter(|place| lock(&runs.own[*place]).is_fresh)
+        .try_for_each(|place| runs.store(place))?;
     all
 }
 
@@ -131,13 +134,6 @@ impl<'a, R> Runs<'a, R> {
         };
         let Part { store, name, numbers } = &self.parts[place];
         store.write(name, numbers, self.shard, runs)
-    }
-
-    /// Stores the runs of unfinished parts.
-    fn store_unfinished(&self) -> Result<(), Error> {
-        (0..self.parts.len())
-            .filter(|place| lock(&self.own[*place]).is_fresh)
-            .try_for_each(|place| self.store(place))
     }
 }
 

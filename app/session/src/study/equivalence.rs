@@ -147,6 +147,10 @@ fn differ_only_in_strength(one: &ModelSpec, other: &ModelSpec) -> bool {
     };
     let same_line =
         |one: &Line, other: &Line| *one == Line { strength: one.strength, ..other.clone() };
+    let same_link = |one: &Link, other: &Link| {
+        let Link { id, line, end, rating_n: _, enabled: _ } = one;
+        (id, *line, *end) == (&other.id, other.line, other.end)
+    };
     all(ropes, &other.ropes, same_rope)
         && all(lines, &other.lines, same_line)
         && all(links, &other.links, same_link)
@@ -175,11 +179,6 @@ fn both<T>(one: Option<&T>, other: Option<&T>, same: fn(&T, &T) -> bool) -> bool
     }
 }
 
-fn same_link(one: &Link, other: &Link) -> bool {
-    let Link { id, line, end, rating_n: _, enabled: _ } = one;
-    (id, *line, *end) == (&other.id, other.line, other.end)
-}
-
 /// Gear types without a state that differ in items alone: what an item changes in the gear shows elsewhere in the model.
 fn same_gear_type(one: &GearHook, other: &GearHook) -> bool {
     let GearHook { gear, attributes, lines, links } = one;
@@ -195,17 +194,16 @@ fn same_gear_type(one: &GearHook, other: &GearHook) -> bool {
 }
 
 fn same_friction(one: &Friction, other: &Friction) -> bool {
+    let same_law = |one: &FrictionLaw, other: &FrictionLaw| {
+        let FrictionLaw { model, attributes } = one;
+        model.descriptor().id == other.model.descriptor().id && *attributes == other.attributes
+    };
     let Friction { laws, law_of, coefficients, law_of_bodies, coefficients_of_bodies } = one;
     all(laws, &other.laws, same_law)
         && *law_of == other.law_of
         && *coefficients == other.coefficients
         && *law_of_bodies == other.law_of_bodies
         && coefficients_of_bodies[..] == other.coefficients_of_bodies[..]
-}
-
-fn same_law(one: &FrictionLaw, other: &FrictionLaw) -> bool {
-    let FrictionLaw { model, attributes } = one;
-    model.descriptor().id == other.model.descriptor().id && *attributes == other.attributes
 }
 
 fn same_whale(one: &Whale, other: &Whale) -> bool {

@@ -104,16 +104,13 @@ impl PreparedStudy {
         option: usize,
         encounter: &Encounter,
     ) -> Result<Arc<Equilibrium>, Error> {
-        self.equilibria.of(self.still_source(option, encounter)?, &self.host)
-    }
-
-    /// The option's gear in the encounter's sea, with the whale of the baseline scenario.
-    fn still_source(&self, option: usize, encounter: &Encounter) -> Result<Source, Error> {
+        // The option's gear in the encounter's sea, with the whale of the baseline scenario.
         let plan = &self.options[option];
         let drawn = self.study.priors.iter().zip(&encounter.drawn);
         let for_gear = drawn.filter(|(prior, _)| is_drawn_for_gear(prior));
         let (scenario, library) = plan.edited(for_gear, moves_gear)?;
-        Ok(Source::new(&plan.scenario_name, scenario.text(), library))
+        let source = Source::new(&plan.scenario_name, scenario.text(), library);
+        self.equilibria.of(source, &self.host)
     }
 
     /// East and north of rope at rest at a depth [m].

@@ -61,34 +61,20 @@ fn hook(plugin: AbiPlugin) -> Result<Hook, Refusal> {
 }
 
 /// A struct of a library. A later minor version of the ABI may have made it longer.
-trait SizedStruct {
+trait SizedStruct: Sized {
     /// The bytes of it that every plugin of this major version has: those of its first minor version.
-    const LEAST: usize;
-}
-
-impl SizedStruct for AbiEntry {
     const LEAST: usize = size_of::<Self>();
 }
+
+impl SizedStruct for AbiEntry {}
+impl SizedStruct for AbiPlugin {}
+impl SizedStruct for AbiMotion {}
+impl SizedStruct for AbiFriction {}
+impl SizedStruct for AbiGear {}
 
 impl SizedStruct for AbiFactory {
     // `about` was added in 3.1.
     const LEAST: usize = std::mem::offset_of!(Self, about);
-}
-
-impl SizedStruct for AbiPlugin {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl SizedStruct for AbiMotion {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl SizedStruct for AbiFriction {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl SizedStruct for AbiGear {
-    const LEAST: usize = size_of::<Self>();
 }
 
 /// The input of a motion in a step, in C; the arrays stay with their owner.

@@ -13,7 +13,7 @@ use std::io::{self, Read, Write};
 
 use endline_sdk::{
     AttributeValue, BodyPart, Contacts, Controls, Descriptor, FrictionResponse, GearAction,
-    GearStep, MotionInput, MotionOutput, Rig, Site,
+    MotionInput, MotionOutput, Rig, Site,
 };
 
 use super::super::info::Refusal;
@@ -73,7 +73,13 @@ pub(super) enum Call {
     /// Gear type: parts and connections.
     Build { attributes: Vec<AttributeValue>, site: Site },
     /// Gear type: a step.
-    Step { attributes: Vec<AttributeValue>, input: GearNow, state: Vec<f64> },
+    Step {
+        attributes: Vec<AttributeValue>,
+        time_s: f64,
+        dt_s: f64,
+        end_tension_n: Vec<[f64; 2]>,
+        state: Vec<f64>,
+    },
 }
 
 /// The result of a call.
@@ -119,13 +125,6 @@ pub(super) struct ContactArrays {
     pub region: Vec<u32>,
     pub rope: Vec<u32>,
     pub state: Vec<f64>,
-}
-
-/// [`GearStep`] with an array of its own.
-pub(super) struct GearNow {
-    pub time_s: f64,
-    pub dt_s: f64,
-    pub end_tension_n: Vec<[f64; 2]>,
 }
 
 impl From<&MotionInput<'_>> for MotionNow {
@@ -195,20 +194,6 @@ impl ContactArrays {
             rope: &self.rope,
             state: &self.state,
         }
-    }
-}
-
-impl From<&GearStep<'_>> for GearNow {
-    fn from(input: &GearStep<'_>) -> Self {
-        let (time_s, dt_s) = (input.time_s, input.dt_s);
-        Self { time_s, dt_s, end_tension_n: input.end_tension_n.to_vec() }
-    }
-}
-
-impl GearNow {
-    /// As a gear type takes it.
-    pub fn lent(&self) -> GearStep<'_> {
-        GearStep { time_s: self.time_s, dt_s: self.dt_s, end_tension_n: &self.end_tension_n }
     }
 }
 

@@ -8,7 +8,7 @@ use std::io::{self, BufReader, IsTerminal};
 use std::path::Path;
 use std::time::Duration;
 
-use endline_sdk::HookError;
+use endline_sdk::{GearStep, HookError};
 use rustix::process::getppid;
 
 use super::super::check::limit_memory;
@@ -129,9 +129,13 @@ fn called(hook: Option<&Hook>, call: Call) -> Result<Answer, HookError> {
         (Some(Hook::Gear(gear)), Call::Build { attributes, site }) => {
             gear.build(&attributes, &site).map(Answer::Built)
         }
-        (Some(Hook::Gear(gear)), Call::Step { attributes, input, mut state }) => {
+        (
+            Some(Hook::Gear(gear)),
+            Call::Step { attributes, time_s, dt_s, end_tension_n, mut state },
+        ) => {
+            let input = GearStep { time_s, dt_s, end_tension_n: &end_tension_n };
             let mut actions = Vec::new();
-            gear.step(&attributes, &input.lent(), &mut state, &mut actions)?;
+            gear.step(&attributes, &input, &mut state, &mut actions)?;
             Ok(Answer::Acted { actions, state })
         }
         _ => Err(HookError::new("it has no such function")),

@@ -9,9 +9,7 @@ use endline_sdk::{
 };
 
 use super::super::info::Refusal;
-use super::message::{
-    Answer, Call, ContactArrays, Declared, GearNow, MotionNow, Opening, Orders, Question,
-};
+use super::message::{Answer, Call, ContactArrays, Declared, MotionNow, Opening, Orders, Question};
 
 /// A value that is sent through a pipe.
 pub(super) trait Wire: Sized {
@@ -192,10 +190,7 @@ impl Wire for String {
     }
 
     fn decode(from: &mut &[u8]) -> Option<Self> {
-        let length = usize::decode(from)?;
-        let (text, rest) = from.split_at_checked(length)?;
-        *from = rest;
-        Self::from_utf8(text.to_vec()).ok()
+        Self::from_utf8(Vec::decode(from)?).ok()
     }
 }
 
@@ -220,7 +215,6 @@ fields! {
     ContactArrays {
         dt_s, normal_force_n, normal, grain, along, slip_m, length_m, coefficient, region, rope, state,
     }
-    GearNow { time_s, dt_s, end_tension_n }
     Descriptor { id, version, name, help, attributes, state_len, acts }
     Attribute { key, unit, help, kind }
     Act { id, name, help }
@@ -257,7 +251,9 @@ variants! {
         1 => Respond { attributes: attributes, contacts: contacts },
         2 => Advance { attributes: attributes, contacts: contacts },
         3 => Build { attributes: attributes, site: site },
-        4 => Step { attributes: attributes, input: input, state: state },
+        4 => Step {
+            attributes: attributes, time_s: time_s, dt_s: dt_s, end_tension_n: tensions, state: state
+        },
     }
     Answer {
         0 => Moved { output: output, state: state },

@@ -187,8 +187,9 @@ impl GearType for Proxy {
         state: &mut [f64],
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
-        let attributes = attributes.to_vec();
-        let call = Call::Step { attributes, input: input.into(), state: state.to_vec() };
+        let GearStep { time_s, dt_s, end_tension_n } = *input;
+        let (attributes, end_tension_n) = (attributes.to_vec(), end_tension_n.to_vec());
+        let call = Call::Step { attributes, time_s, dt_s, end_tension_n, state: state.to_vec() };
         let Answer::Acted { actions: taken, state: floats } = self.ask(call)? else {
             return unasked();
         };

@@ -25,16 +25,6 @@ pub enum How {
     Held,
 }
 
-impl How {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Simulated => "simulated",
-            Self::Between => "between",
-            Self::Held => "held",
-        }
-    }
-}
-
 /// A row of the tool's table with a simulated risk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filled<'a> {
@@ -146,9 +136,8 @@ pub fn with_bands(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     let names: Vec<&str> = COLUMNS.iter().chain(&WITH_BANDS).copied().collect();
     let row = |filled: &Filled<'_>| {
         let Risk { chance, priors, runs, .. } = filled.risk;
-        let bands = chance.into_iter().chain(priors).map(number);
-        let rest = [runs.to_string(), filled.how.word().to_owned()];
-        columns(filled).into_iter().chain(bands).chain(rest).collect()
+        let bands: Vec<String> = chance.into_iter().chain(priors).map(number).collect();
+        (columns(filled), bands, runs, filled.how)
     };
     written(&names, rows.iter().map(row))
 }
@@ -168,12 +157,12 @@ fn number(value: f64) -> String {
     format!("{value:.6}")
 }
 
-fn written(names: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>, String> {
+fn written<R: Serialize>(names: &[&str], rows: impl Iterator<Item = R>) -> Result<Vec<u8>, String> {
     let fault = |error: csv::Error| format!("the threat table: {error}");
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     writer.write_record(names).map_err(fault)?;
     for row in rows {
-        writer.write_record(&row).map_err(fault)?;
+        writer.serialize(row).map_err(fault)?;
     }
     writer.into_inner().map_err(|error| format!("the threat table: {error}"))
 }
