@@ -1,6 +1,5 @@
 //! Pause, cancellation and progress of a study or a search, from any thread.
 
-use std::fmt;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -83,16 +82,6 @@ pub struct Control {
 impl Default for Control {
     fn default() -> Self {
         Self::new(|_| {})
-    }
-}
-
-impl fmt::Debug for Control {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("Control")
-            .field("wish", &self.wish)
-            .field("progress", &self.progress)
-            .finish_non_exhaustive()
     }
 }
 

@@ -12,7 +12,7 @@
 
 use std::sync::Arc;
 
-use endline_gear::whale::gltf::pack::{self, Pack};
+use endline_gear::whale::gltf::pack::Pack;
 use endline_sim::{DQuat, DVec3, Frame, Model};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -220,22 +220,10 @@ impl Clip {
     }
 
     fn written(self) -> Vec<u8> {
-        let of_scene: Vec<usize> = (0..self.nodes.len()).collect();
-        let mut document = json!({
-            "asset": { "version": "2.0", "generator": "Endline" },
-            "scene": 0,
-            "scenes": [{ "nodes": of_scene }],
-            "nodes": self.nodes,
-            "meshes": self.meshes,
-            "materials": [model::material()],
-            "accessors": self.pack.accessors,
-            "bufferViews": self.pack.views,
-        });
-        if !self.channels.is_empty() {
-            document["animations"] =
-                json!([{ "name": "run", "samplers": self.samplers, "channels": self.channels }]);
-        }
-        pack::binary(document, self.pack.bytes)
+        let animation = (!self.channels.is_empty()).then(
+            || json!({ "name": "run", "samplers": self.samplers, "channels": self.channels }),
+        );
+        model::file(self.pack, self.nodes, self.meshes, animation)
     }
 }
 

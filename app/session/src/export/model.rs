@@ -61,8 +61,18 @@ pub fn glb(scene: &Scene) -> Vec<u8> {
         let primitive = primitive(&mut pack, mesh);
         meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
+    file(pack, nodes, meshes, None)
+}
+
+/// The bytes of a file: nodes, all of one scene, with their meshes, and how they move.
+pub(super) fn file(
+    pack: Pack,
+    nodes: Vec<Value>,
+    meshes: Vec<Value>,
+    animation: Option<Value>,
+) -> Vec<u8> {
     let of_scene: Vec<usize> = (0..nodes.len()).collect();
-    let document = json!({
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": "Endline" },
         "scene": 0,
         "scenes": [{ "nodes": of_scene }],
@@ -72,6 +82,9 @@ pub fn glb(scene: &Scene) -> Vec<u8> {
         "accessors": pack.accessors,
         "bufferViews": pack.views,
     });
+    if let Some(animation) = animation {
+        document["animations"] = json!([animation]);
+    }
     pack::binary(document, pack.bytes)
 }
 

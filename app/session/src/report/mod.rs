@@ -77,6 +77,12 @@ impl Report {
         self.invalid_because.is_empty()
     }
 
+    /// Why the run does not count: where it stopped, else why it is invalid; empty where it is valid.
+    pub fn fault(&self) -> String {
+        let stopped = self.stopped.clone().filter(|_| !self.is_valid());
+        stopped.unwrap_or_else(|| self.invalid_because.join("; "))
+    }
+
     /// The line with the greatest tension, the first of them where several have it.
     pub fn greatest(&self) -> Option<&LineSummary> {
         self.summary.lines.iter().fold(None, |most: Option<&LineSummary>, line| match most {
@@ -120,19 +126,14 @@ impl Report {
             balance: run.balance(),
             summary,
             settled_tension_n: by_line(model, &run.settled().state.rope.tension),
-            settled: settled(run),
+            settled: SettledReport {
+                converged: run.settled().converged,
+                outcome: run.settled().outcome.to_string(),
+                residual_n: run.settled().residual_n,
+            },
             events: run.metrics().events().to_vec(),
             model_hash: prepared.source.hash(),
             plugins: prepared.plugins.clone(),
         }
-    }
-}
-
-fn settled(run: &Run) -> SettledReport {
-    let settled = run.settled();
-    SettledReport {
-        converged: settled.converged,
-        outcome: settled.outcome.to_string(),
-        residual_n: settled.residual_n,
     }
 }

@@ -207,12 +207,11 @@ impl RunEnding {
         let report = &played.report;
         let events = played.run.metrics().events();
         let first = events.iter().find(|event| event.kind == EventKind::Contact);
-        let fault = || report.stopped.clone().unwrap_or_else(|| report.invalid_because.join("; "));
         Self {
             ending: Ending::of(&played.run),
             on_the_way: Vec::new(),
             first_part: first.map(|event| event.subject.clone()).unwrap_or_default(),
-            fault: if report.is_valid() { String::new() } else { fault() },
+            fault: report.fault(),
             simulated_s: report.simulated_s,
             state_hash: report.state_hash.clone(),
         }

@@ -49,21 +49,9 @@ impl Question {
         let path = locate::named(named, "observations", library).map_err(Error::Message)?;
         let text = endline_gear::read::text(&path).map_err(Error::on(&path, "cannot be read"))?;
         let root = locate::library(Some(&path), library).map_err(Error::Message)?;
-        Self::of_text(&path, &text, encounters, &root, host)
-    }
-
-    /// Opens an observation from a text that may differ from its file.
-    /// Errors: as [`open`](Self::open).
-    pub fn of_text(
-        path: &Path,
-        text: &str,
-        encounters: Option<&str>,
-        root: &Path,
-        host: &PluginHost,
-    ) -> Result<Self, Error> {
-        let sources = Sources::from_folder(root).map_err(Error::Diagnostics)?;
-        let files = Files { root: root.to_owned(), sources, scenario: None };
-        Self::of_sources((path, text), encounters, files, None, host)
+        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let files = Files { root, sources, scenario: None };
+        Self::of_sources((&path, &text), encounters, files, None, host)
     }
 
     /// The question with the library and the open scenario and study as they are edited.

@@ -8,8 +8,8 @@
 //! | `leases` | which process runs which block, while some do |
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use endline_gear::read;
 use serde::{Deserialize, Serialize};
@@ -126,15 +126,12 @@ impl Folder {
     pub fn written(&self) -> Result<BTreeSet<u32>, Error> {
         let number =
             |name: &str| name.strip_prefix("block-")?.strip_suffix(".parquet")?.parse::<u32>().ok();
-        let mut written = BTreeSet::new();
-        let read = fs::read_dir(&self.path).and_then(|mut entries| {
-            entries.try_for_each(|entry| {
-                written.extend(number(&entry?.file_name().to_string_lossy()));
-                Ok(())
-            })
-        });
-        read.map_err(Error::on(&self.path, "cannot be read"))?;
-        Ok(written)
+        let entries = fs::read_dir(&self.path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+        let entries = entries.map_err(Error::on(&self.path, "cannot be read"))?;
+        Ok(entries
+            .iter()
+            .filter_map(|entry| number(&entry.file_name().to_string_lossy()))
+            .collect())
     }
 
     /// Writes the rows of a block, whole or not at all.

@@ -108,23 +108,14 @@ fn missing(opened: &PreparedStudy, folder: &Folder) -> Error {
 
 /// Shards, of common numbers of them, that hold the missing blocks.
 fn shards(blocks: &[u32]) -> String {
-    let of = |of: u32| {
+    for of in [2, 3, 4, 7, 8, 16, 32, 64] {
         let parts: Vec<String> = (0..of)
             .filter(|part| blocks.iter().any(|block| Shard { part: *part, of }.holds(*block)))
             .map(|part| format!("{}/{of}", part + 1))
             .collect();
-        parts
-    };
-    [2, 3, 4, 7, 8, 16, 32, 64]
-        .into_iter()
-        .map(of)
-        .find(|parts| parts.len() <= 2 && !parts.is_empty())
-        .map(|parts| {
-            format!(
-                "; of {} shards it is --shard {}",
-                parts[0].split('/').nth(1).unwrap_or_default(),
-                parts.join(" and ")
-            )
-        })
-        .unwrap_or_default()
+        if (1..=2).contains(&parts.len()) {
+            return format!("; of {of} shards it is --shard {}", parts.join(" and "));
+        }
+    }
+    String::new()
 }

@@ -54,17 +54,6 @@ impl PreparedStudy {
     /// Errors: a file that cannot be read, or every located error of study, scenario and library.
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
         let text = endline_gear::read::text(path).map_err(Error::on(path, "cannot be read"))?;
-        Self::of_text(text, path, library, host)
-    }
-
-    /// Reads a study from a text that may differ from its file.
-    /// Errors: as [`open`](Self::open).
-    pub fn of_text(
-        text: String,
-        path: &Path,
-        library: Option<&Path>,
-        host: &PluginHost,
-    ) -> Result<Self, Error> {
         let root = locate::library(Some(path), library).map_err(Error::Message)?;
         let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
         Self::of_sources(text, path, Files { root, sources, scenario: None }, host)

@@ -28,7 +28,7 @@ pub(super) fn row(
         option: id.clone(),
         weight: encounter.weight,
         replay_key: format!("{}/{}/{id}", &opened.hash[..16], encounter.index),
-        fault: fault(came_to),
+        fault: came_to.map_or_else(str::to_owned, Report::fault),
     };
     let mut row = cells(&attempt, came_to.ok());
     for drawn in &encounter.drawn {
@@ -81,15 +81,6 @@ fn cell(quantity: Quantity, value: Value) -> Cell {
         (_, Quantity::Name) => Cell::Text("none".to_owned()),
         (_, Quantity::Id) => Cell::Text(String::new()),
         _ => Cell::Real(None),
-    }
-}
-
-/// Why there is no run or why it is not valid; empty where it is.
-fn fault(came_to: Result<&Report, &str>) -> String {
-    match came_to {
-        Err(why) => why.to_owned(),
-        Ok(report) if report.is_valid() => String::new(),
-        Ok(report) => report.stopped.clone().unwrap_or_else(|| report.invalid_because.join("; ")),
     }
 }
 

@@ -268,6 +268,17 @@ impl Runs {
         self.rows.iter().filter(move |run| run.valid && run.option == option)
     }
 
+    /// By encounter: a value of an option's run there; `None` if the run does not count or is missing.
+    pub(super) fn by_encounter<T: Clone>(
+        &self,
+        option: &str,
+        of: impl Fn(&RunRow) -> Option<T>,
+    ) -> Vec<Option<T>> {
+        let mut found = vec![None; self.encounters()];
+        self.valid_of(option).for_each(|run| found[run.index()] = of(run));
+        found
+    }
+
     /// The run of an option in an encounter.
     pub fn find(&self, option: &str, encounter: u32) -> Option<&RunRow> {
         let is_it = |run: &&RunRow| run.encounter == u64::from(encounter) && run.option == option;

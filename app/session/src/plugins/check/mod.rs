@@ -114,16 +114,6 @@ fn sound(file: &Path, tried: &[Tried]) -> Result<(), String> {
     tried.iter().find_map(fault).map_or(Ok(()), |fault| Err(format!("{}: {fault}", file.display())))
 }
 
-/// The findings for a plugin without code, which cannot crash this process.
-fn report_of_folder(folder: &Path) -> (String, Result<(), String>) {
-    match try_here(folder, &|_, _| ()) {
-        Ok(tried) => {
-            (lines(&tried).iter().map(|line| format!("{line}\n")).collect(), sound(folder, &tried))
-        }
-        Err(problem) => (String::new(), Err(problem)),
-    }
-}
-
 /// Start of a line that announces a check.
 const BEGINS: &str = "trying the check `";
 
@@ -143,7 +133,13 @@ pub fn report_of_child(
     limit: Duration,
 ) -> (String, Result<(), String>) {
     if file.is_dir() {
-        return report_of_folder(file);
+        return match try_here(file, &|_, _| ()) {
+            Ok(tried) => (
+                lines(&tried).iter().map(|line| format!("{line}\n")).collect(),
+                sound(file, &tried),
+            ),
+            Err(problem) => (String::new(), Err(problem)),
+        };
     }
     reported_by_child(program, file, "", limit)
 }

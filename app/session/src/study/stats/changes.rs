@@ -102,13 +102,10 @@ fn sums(pairs: &[[End; 2]], indices: &[usize]) -> Option<[f64; 2]> {
 
 /// By encounter: the end of an option's run, if it is valid.
 fn ends(runs: &Runs, option: &str) -> Vec<Option<End>> {
-    let mut found = vec![None; runs.encounters()];
-    for run in runs.valid_of(option) {
-        let outcome = OUTCOMES.iter().position(|known| *known == run.outcome);
-        let end = |(outcome, tension_n)| End { outcome, tension_n, weight: run.weight };
-        found[run.index()] = outcome.zip(run.peak_tension_n).map(end);
-    }
-    found
+    runs.by_encounter(option, |run| {
+        let outcome = OUTCOMES.iter().position(|known| *known == run.outcome)?;
+        Some(End { outcome, tension_n: run.peak_tension_n?, weight: run.weight })
+    })
 }
 
 #[cfg(test)]

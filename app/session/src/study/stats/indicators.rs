@@ -21,12 +21,9 @@ impl EventIndicators {
     /// The indicators of an event in the runs of an option.
     pub fn of(runs: &Runs, option: &str, event: &StudyEvent) -> Self {
         let counted = event.counted();
-        let mut indicators = vec![None; runs.encounters()];
-        for run in runs.valid_of(option) {
-            let occurred = occurred(run, &counted);
-            indicators[run.index()] = Some(EventIndicator { occurred, weight: run.weight });
-        }
-        Self(indicators)
+        Self(runs.by_encounter(option, |run| {
+            Some(EventIndicator { occurred: occurred(run, &counted), weight: run.weight })
+        }))
     }
 
     /// The indicators of encounters of equal weight.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::study::runs::Runs;
+use crate::study::runs::{RunRow, Runs};
 
 use super::bootstrap;
 use super::interval::Interval;
@@ -23,7 +23,8 @@ pub struct Tensions {
 impl Tensions {
     /// The tensions of an option, compared with another's.
     pub fn of(runs: &Runs, option: &str, baseline: &str) -> Self {
-        let (own, other) = (by_encounter(runs, option), by_encounter(runs, baseline));
+        let tension = |run: &RunRow| Some((run.peak_tension_n?, run.weight));
+        let [own, other] = [option, baseline].map(|option| runs.by_encounter(option, tension));
         let mut sorted_n: Vec<(f64, f64)> = own.iter().flatten().copied().collect();
         sort(&mut sorted_n);
         let differences: Vec<(f64, f64)> = own
@@ -61,15 +62,6 @@ impl Tensions {
         let all = weight(f64::NEG_INFINITY);
         if all > 0.0 { weight(strength_n) / all } else { 0.0 }
     }
-}
-
-/// By encounter: the greatest tension and the weight.
-fn by_encounter(runs: &Runs, option: &str) -> Vec<Option<(f64, f64)>> {
-    let mut found = vec![None; runs.encounters()];
-    for run in runs.valid_of(option) {
-        found[run.index()] = run.peak_tension_n.map(|tension| (tension, run.weight));
-    }
-    found
 }
 
 fn sort(values: &mut [(f64, f64)]) {
