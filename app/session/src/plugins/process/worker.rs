@@ -26,7 +26,7 @@ const GRACE: Duration = Duration::from_millis(500);
 pub(super) struct Served {
     /// The program `endline`.
     pub program: PathBuf,
-    /// What a process is told to open.
+    /// The library that a process opens.
     pub orders: Orders,
 }
 
