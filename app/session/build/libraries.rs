@@ -36,6 +36,7 @@ pub const REPORTING: &[&str] = &[
     "schemars",
     "serde",
     "serde_json",
+    "strum",
     "tempfile",
 ];
 

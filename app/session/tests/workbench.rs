@@ -199,12 +199,12 @@ fn a_command_that_does_nothing_gives_the_reason_it_is_declared_with() {
     status(&mut workbench, &Status::Paused);
     let mut refused = 0;
     for info in declared() {
-        let (Err(reason), endline_session::command::Make::Plain(make)) =
+        let (Err(reason), endline_session::command::Make::Plain(command)) =
             ((info.enabled)(&workbench), &info.make)
         else {
             continue;
         };
-        assert_eq!(workbench.perform(make()), Err(reason.clone()), "{}", info.id);
+        assert_eq!(workbench.perform(command.clone()), Err(reason.clone()), "{}", info.id);
         let notice = workbench.notice().unwrap();
         assert_eq!((&notice.text, notice.kind), (&reason, NoticeKind::Hint), "{}", info.id);
         refused += 1;

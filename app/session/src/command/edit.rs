@@ -5,8 +5,9 @@
 use std::path::PathBuf;
 
 use endline_gear::Kind;
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{Choice, FileQuestion, Make, Shortcut, When};
+use super::info::{Choice, FileQuestion, Make, When};
 use super::info::{can_redo, can_undo, has_moments, has_whale, unsaved};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
@@ -16,9 +17,12 @@ use crate::statics::TrialGear;
 use crate::workbench::Workbench;
 
 /// An action on texts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(EditVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "edit.", serialize_all = "kebab-case"))]
 pub enum EditAction {
-    /// Set a field of a text.
+    /// Sets a field of a file or of the scenario to a value with its unit.
+    #[strum_discriminants(strum(message = "Set a field"))]
     Set {
         /// The text: a path in the library such as `ropes/x.toml`, or the scenario's key.
         path: String,
@@ -27,7 +31,8 @@ pub enum EditAction {
         /// Its value as it is typed, with its unit.
         value: String,
     },
-    /// Set a field while a slider is moved: all values of one movement are one edit.
+    /// Sets a field as a slider is moved; all values of one movement are one edit.
+    #[strum_discriminants(strum(message = "Set a field while a slider is moved"))]
     SetHeld {
         /// The text, as for [`Set`](Self::Set).
         path: String,
@@ -36,16 +41,19 @@ pub enum EditAction {
         /// Its value, with its unit.
         value: String,
     },
-    /// End the movement of a slider: its next value is an edit of its own.
+    /// Ends the movement of a slider; its next value is an edit of its own.
+    #[strum_discriminants(strum(message = "End the movement of a slider"))]
     LetGo,
-    /// Replace a text by an edited one.
+    /// Replaces a text by an edited one; one undo takes it back.
+    #[strum_discriminants(strum(message = "Replace a text"))]
     Replace {
         /// The text, as for [`Set`](Self::Set).
         path: String,
         /// The edited text.
         text: String,
     },
-    /// Put cells of the clipboard into the table of a kind.
+    /// Puts cells of the clipboard into a library table, from a cell on or by their head row.
+    #[strum_discriminants(strum(message = "Paste cells"))]
     Paste {
         /// The kind of the table.
         kind: Kind,
@@ -54,243 +62,126 @@ pub enum EditAction {
         /// Entries and fields from the chosen cell on; without, the cells have a head row.
         at: Option<(Vec<String>, Vec<&'static str>)>,
     },
-    /// Add an assembly of a gear type, by its id, to the library.
+    /// Adds an assembly of a gear type to the library, with the usual values of its attributes.
+    #[strum_discriminants(strum(message = "New gear"))]
     NewAssembly(String),
-    /// Take the last edit back.
+    /// Takes the last edit back.
+    #[strum_discriminants(strum(message = "Undo"))]
     Undo,
-    /// Do it again.
+    /// Does again what was taken back last.
+    #[strum_discriminants(strum(message = "Redo"))]
     Redo,
-    /// Save every changed text.
+    /// Writes every changed file. Comments stay. A file that came with Endline is saved as a copy of your own.
+    #[strum_discriminants(strum(message = "Save all"))]
     Save,
-    /// Decide between a file that was changed on disk and the edits of it here.
+    /// Keeps the edits made here, what someone else wrote to the file since, or both.
+    #[strum_discriminants(strum(message = "Decide about a file changed on disk"))]
     Reconcile {
         /// The text, as for [`Set`](Self::Set).
         path: String,
         /// What is kept.
         keep: Keep,
     },
-    /// Save the scenario to another file, which is open from then on.
+    /// Writes the scenario to another file, which is open from then on.
+    #[strum_discriminants(strum(message = "Save the scenario as"))]
     SaveScenarioAs(PathBuf),
-    /// Open a scenario.
+    /// Opens a scenario of the library.
+    #[strum_discriminants(strum(message = "Open", serialize = "open"))]
     OpenScenario(PathBuf),
-    /// Take edits back that a crash left.
+    /// Takes up the edits that a program which ended by a fault had not saved.
+    #[strum_discriminants(strum(message = "Recover unsaved edits"))]
     Recover(UnsavedEdits),
-    /// Weak links on or off, in the scenario.
+    /// Changes the scenario so that weak links part, or do not, and makes the model again.
+    #[strum_discriminants(strum(message = "Weak links on or off", serialize = "weak-links"))]
     ToggleWeakLinks,
-    /// Put the usual weak inserts along the endlines of an assembly, or of the scenario's own parts.
+    /// Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly, or of the scenario's own parts.
+    #[strum_discriminants(strum(message = "Put in weak inserts"))]
     AddInserts(TrialGear),
-    /// Copy an entry of the library, by its path, to a file of its own.
+    /// Copies an entry of the library to a file of its own.
+    #[strum_discriminants(strum(message = "Duplicate an entry"))]
     Duplicate(String),
-    /// Delete an entry of the library, by its path. The file goes with the next save.
+    /// Deletes an entry of the library that the open scenario does not use; its file goes with the next save.
+    #[strum_discriminants(strum(message = "Delete an entry"))]
     Remove(String),
-    /// Take a table of a kind into the library.
+    /// Changes the entries of a library table that a CSV file names, and adds those that it does not know.
+    #[strum_discriminants(strum(message = "Import a table"))]
     ImportTable {
         /// The kind of its rows.
         kind: Kind,
         /// The file: CSV, or text with tabs.
         file: PathBuf,
     },
-    /// Add an entry to the pilot program at the moment shown.
+    /// Adds an entry that begins at the moment shown.
+    #[strum_discriminants(strum(message = "Add an entry to the pilot program"))]
     AddEntry,
-    /// Take an entry out of the pilot program, by its place.
+    /// Takes an entry out of the pilot program.
+    #[strum_discriminants(strum(message = "Delete an entry of the pilot program"))]
     DeleteEntry(usize),
-    /// Make the inputs of the run shown the scenario's pilot program.
+    /// Makes what was flown or steered in the run shown the scenario's pilot program.
+    #[strum_discriminants(strum(message = "Edit the inputs of this run", serialize = "inputs"))]
     EditInputs,
 }
 
-impl EditAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Set { .. } => "edit.set",
-            Self::SetHeld { .. } => "edit.set-held",
-            Self::LetGo => "edit.let-go",
-            Self::Replace { .. } => "edit.replace",
-            Self::Paste { .. } => "edit.paste",
-            Self::NewAssembly(_) => "edit.new-assembly",
-            Self::Undo => "edit.undo",
-            Self::Redo => "edit.redo",
-            Self::Save => "edit.save",
-            Self::Reconcile { .. } => "edit.reconcile",
-            Self::SaveScenarioAs(_) => "edit.save-scenario-as",
-            Self::OpenScenario(_) => "edit.open",
-            Self::Recover(_) => "edit.recover",
-            Self::ToggleWeakLinks => "edit.weak-links",
-            Self::AddInserts(_) => "edit.add-inserts",
-            Self::Duplicate(_) => "edit.duplicate",
-            Self::Remove(_) => "edit.remove",
-            Self::ImportTable { .. } => "edit.import-table",
-            Self::AddEntry => "edit.add-entry",
-            Self::DeleteEntry(_) => "edit.delete-entry",
-            Self::EditInputs => "edit.inputs",
-        }
-    }
-}
-
 /// The actions on texts, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "edit.undo",
-        "Undo",
-        "Takes the last edit back.",
-        Make::Plain(|| Command::Edit(EditAction::Undo)),
-    )
-    // A text being typed has an undo of its own.
-    .with_keys(&[Shortcut::new("Ctrl+Z", When::Idle)])
-    .only_if(can_undo),
-    Info::new(
-        "edit.redo",
-        "Redo",
-        "Does again what was taken back last.",
-        Make::Plain(|| Command::Edit(EditAction::Redo)),
-    )
-    .with_keys(&[Shortcut::new("Ctrl+Shift+Z", When::Idle)])
-    .only_if(can_redo),
-    Info::new(
-        "edit.save",
-        "Save all",
-        "Writes every changed file. Comments stay. A file that came with Endline is saved as a copy of your own.",
-        Make::Plain(|| Command::Edit(EditAction::Save)),
-    )
-    .with_keys(&[Shortcut::new("Ctrl+S", When::Always)])
-    .only_if(unsaved),
-    Info::new(
-        "edit.save-scenario-as",
-        "Save the scenario as",
-        "Writes the scenario to another file, which is open from then on.",
-        Make::File {
-            question: |workbench| {
-                let path = workbench.project.documents.scenario_path();
-                let name = format!("{}-2.toml", workbench.scenario_stem());
-                let question = FileQuestion::write("scenario", &["toml"], name);
-                path.parent().map_or(question.clone(), |folder| question.within(folder))
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::plain(EditAction::Undo)
+            // A text being typed has an undo of its own.
+            .with_key("Ctrl+Z", When::Idle)
+            .only_if(can_undo),
+        Info::plain(EditAction::Redo).with_key("Ctrl+Shift+Z", When::Idle).only_if(can_redo),
+        Info::plain(EditAction::Save).with_key("Ctrl+S", When::Always).only_if(unsaved),
+        Info::of(
+            EditVerb::SaveScenarioAs,
+            Make::File {
+                question: |workbench| {
+                    let path = workbench.project.documents.scenario_path();
+                    let name = format!("{}-2.toml", workbench.scenario_stem());
+                    let question = FileQuestion::write("scenario", &["toml"], name);
+                    path.parent().map_or(question.clone(), |folder| question.within(folder))
+                },
+                command: |_, file| Command::Edit(EditAction::SaveScenarioAs(file)),
             },
-            command: |_, file| Command::Edit(EditAction::SaveScenarioAs(file)),
-        },
-    ),
-    Info::new(
-        "edit.open",
-        "Open",
-        "Opens a scenario of the library.",
-        Make::Choices(|workbench| {
-            locate::scenarios(workbench.project.documents.root())
-                .into_iter()
-                .map(|path| Choice::new(stem(&path), open(path)))
-                .collect()
-        }),
-    ),
-    Info::new(
-        "edit.open-file",
-        "Open another scenario",
-        "Opens a scenario from any folder.",
-        Make::File {
-            question: |workbench| {
-                FileQuestion::read("scenario", &["toml"]).within(workbench.project.documents.root())
+        ),
+        Info::of(
+            EditVerb::OpenScenario,
+            Make::Choices(|workbench| {
+                locate::scenarios(workbench.project.documents.root())
+                    .into_iter()
+                    .map(|path| Choice::new(stem(&path), open(path)))
+                    .collect()
+            }),
+        ),
+        Info::new(
+            "edit.open-file",
+            "Open another scenario",
+            "Opens a scenario from any folder.",
+            Make::File {
+                question: |workbench| {
+                    FileQuestion::read("scenario", &["toml"])
+                        .within(workbench.project.documents.root())
+                },
+                command: |_, file| open(file),
             },
-            command: |_, file| open(file),
-        },
-    ),
-    Info::new(
-        "edit.weak-links",
-        "Weak links on or off",
-        "Changes the scenario so that weak links part, or do not, and makes the model again.",
-        Make::Plain(|| Command::Edit(EditAction::ToggleWeakLinks)),
-    )
-    .with_keys(&[Shortcut::with_pad("K", When::Idle, "Y")]),
-    Info::new(
-        "edit.add-entry",
-        "Add an entry to the pilot program",
-        "Adds an entry that begins at the moment shown.",
-        Make::Plain(|| Command::Edit(EditAction::AddEntry)),
-    )
-    .only_if(has_whale),
-    Info::new(
-        "edit.inputs",
-        "Edit the inputs of this run",
-        "Makes what was flown or steered in the run shown the scenario's pilot program.",
-        Make::Plain(|| Command::Edit(EditAction::EditInputs)),
-    )
-    .only_if(has_moments),
-    Info::new(
-        "edit.set",
-        "Set a field",
-        "Sets a field of a file or of the scenario to a value with its unit.",
-        Make::Values("path, field, value"),
-    ),
-    Info::new(
-        "edit.set-held",
-        "Set a field while a slider is moved",
-        "Sets a field as a slider is moved; all values of one movement are one edit.",
-        Make::Values("path, field, value"),
-    ),
-    Info::new(
-        "edit.let-go",
-        "End the movement of a slider",
-        "Ends the movement of a slider; its next value is an edit of its own.",
-        Make::Values("nothing"),
-    ),
-    Info::new(
-        "edit.replace",
-        "Replace a text",
-        "Replaces a text by an edited one; one undo takes it back.",
-        Make::Values("path, text"),
-    ),
-    Info::new(
-        "edit.paste",
-        "Paste cells",
-        "Puts cells of the clipboard into a library table, from a cell on or by their head row.",
-        Make::Values("kind, cells, place"),
-    ),
-    Info::new(
-        "edit.new-assembly",
-        "New gear",
-        "Adds an assembly of a gear type to the library, with the usual values of its attributes.",
-        Make::Values("gear type"),
-    ),
-    Info::new(
-        "edit.recover",
-        "Recover unsaved edits",
-        "Takes up the edits that a program which ended by a fault had not saved.",
-        Make::Values("the edits kept"),
-    ),
-    Info::new(
-        "edit.reconcile",
-        "Decide about a file changed on disk",
-        "Keeps the edits made here, what someone else wrote to the file since, or both.",
-        Make::Values("path, what is kept"),
-    ),
-    Info::new(
-        "edit.add-inserts",
-        "Put in weak inserts",
-        "Puts 3 ft of weak rope every 60 ft into the top three quarters of each endline of an assembly, or of the scenario's own parts.",
-        Make::Values("gear"),
-    ),
-    Info::new(
-        "edit.duplicate",
-        "Duplicate an entry",
-        "Copies an entry of the library to a file of its own.",
-        Make::Values("path"),
-    ),
-    Info::new(
-        "edit.remove",
-        "Delete an entry",
-        "Deletes an entry of the library that the open scenario does not use; its file goes with the next save.",
-        Make::Values("path"),
-    ),
-    Info::new(
-        "edit.import-table",
-        "Import a table",
-        "Changes the entries of a library table that a CSV file names, and adds those that it does not know.",
-        Make::Values("kind, file"),
-    ),
-    Info::new(
-        "edit.delete-entry",
-        "Delete an entry of the pilot program",
-        "Takes an entry out of the pilot program.",
-        Make::Values("its place"),
-    )
-    .only_if(has_whale),
-];
+        ),
+        Info::plain(EditAction::ToggleWeakLinks).with_key_and_pad("K", When::Idle, "Y"),
+        Info::plain(EditAction::AddEntry).only_if(has_whale),
+        Info::plain(EditAction::EditInputs).only_if(has_moments),
+        Info::values(EditVerb::Set, "path, field, value"),
+        Info::values(EditVerb::SetHeld, "path, field, value"),
+        Info::values(EditVerb::LetGo, "nothing"),
+        Info::values(EditVerb::Replace, "path, text"),
+        Info::values(EditVerb::Paste, "kind, cells, place"),
+        Info::values(EditVerb::NewAssembly, "gear type"),
+        Info::values(EditVerb::Recover, "the edits kept"),
+        Info::values(EditVerb::Reconcile, "path, what is kept"),
+        Info::values(EditVerb::AddInserts, "gear"),
+        Info::values(EditVerb::Duplicate, "path"),
+        Info::values(EditVerb::Remove, "path"),
+        Info::values(EditVerb::ImportTable, "kind, file"),
+        Info::values(EditVerb::DeleteEntry, "its place").only_if(has_whale),
+    ]
+}
 
 fn open(path: PathBuf) -> Command {
     Command::Edit(EditAction::OpenScenario(path))

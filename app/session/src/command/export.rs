@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use endline_gear::Kind;
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::info::ready;
 use super::info::{FileQuestion, Make};
@@ -13,9 +14,12 @@ use crate::export::chart;
 use crate::workbench::Workbench;
 
 /// A file to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, EnumDiscriminants)]
+#[strum_discriminants(name(ExportVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "export.", serialize_all = "kebab-case"))]
 pub enum ExportAction {
-    /// The run so far as a recording.
+    /// Writes the run so far as a recording, which runs again to the same bits.
+    #[strum_discriminants(strum(message = "Save the recording"))]
     Recording(PathBuf),
     /// A table of the library as CSV.
     Table {
@@ -35,31 +39,22 @@ pub enum ExportAction {
     },
 }
 
-impl ExportAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Recording(_) => "export.recording",
-            Self::Table { .. } => "export.table",
-            Self::Plots { .. } => "export.plots",
-        }
-    }
-}
-
 /// The files to be written, declared.
-pub static COMMANDS: &[Info] = &[Info::new(
-    "export.recording",
-    "Save the recording",
-    "Writes the run so far as a recording, which runs again to the same bits.",
-    Make::File {
-        question: |workbench| {
-            let name = format!("{}.endline", workbench.scenario_stem());
-            FileQuestion::write("recording", &["endline"], name)
-        },
-        command: |_, file| Command::Export(ExportAction::Recording(file)),
-    },
-)
-.only_if(ready)];
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::of(
+            ExportVerb::Recording,
+            Make::File {
+                question: |workbench| {
+                    let name = format!("{}.endline", workbench.scenario_stem());
+                    FileQuestion::write("recording", &["endline"], name)
+                },
+                command: |_, file| Command::Export(ExportAction::Recording(file)),
+            },
+        )
+        .only_if(ready),
+    ]
+}
 
 /// Dispatches an action.
 pub(super) fn perform(workbench: &mut Workbench, action: ExportAction) -> Result<(), String> {

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use strum::{EnumMessage, IntoDiscriminant};
+
 use crate::workbench::{Direction, Workbench};
 
 /// When a shortcut holds.
@@ -46,18 +48,6 @@ pub struct Shortcut {
     pub when: When,
     /// The button of a game controller that gives the same command; empty where none does.
     pub pad: &'static str,
-}
-
-impl Shortcut {
-    /// Keys without a button of the game controller.
-    pub const fn new(keys: &'static str, when: When) -> Self {
-        Self { keys, when, pad: "" }
-    }
-
-    /// Keys that a button of the game controller stands for too.
-    pub const fn with_pad(keys: &'static str, when: When, pad: &'static str) -> Self {
-        Self { keys, when, pad }
-    }
 }
 
 /// Whether a file is to be read or written, or a folder to be read.
@@ -127,7 +117,7 @@ impl<Command> Choice<Command> {
 /// How a declared command is made.
 pub enum Make<Context, Command> {
     /// It needs no value.
-    Plain(fn() -> Command),
+    Plain(Command),
     /// One is made for each thing that can be chosen.
     Choices(fn(&Context) -> Vec<Choice<Command>>),
     /// It needs a file or folder.
@@ -150,7 +140,7 @@ pub struct CommandInfo<Context, Command> {
     /// Its effect, in a sentence.
     pub help: &'static str,
     /// Keys that give it.
-    pub keys: &'static [Shortcut],
+    pub keys: Vec<Shortcut>,
     /// Whether it does something now; where not, the reason.
     pub enabled: fn(&Context) -> Result<(), String>,
     /// How it is made.
@@ -164,37 +154,63 @@ pub fn always<Context>(_: &Context) -> Result<(), String> {
 
 impl<Context, Command> CommandInfo<Context, Command> {
     /// A command without keys that is always enabled.
-    pub const fn new(
+    pub fn new(
         id: &'static str,
         name: &'static str,
         help: &'static str,
         make: Make<Context, Command>,
     ) -> Self {
-        Self { id, name, help, keys: &[], enabled: always::<Context>, make }
+        Self { id, name, help, keys: Vec::new(), enabled: always::<Context>, make }
     }
 
-    /// The command with keys.
-    pub const fn with_keys(mut self, keys: &'static [Shortcut]) -> Self {
-        self.keys = keys;
+    /// The command of a kind of action: its help is the documentation there, its name the message.
+    pub fn of(kind: impl EnumMessage + Into<&'static str>, make: Make<Context, Command>) -> Self {
+        let name = kind.get_message().unwrap_or_default();
+        let help = kind.get_documentation().unwrap_or_default();
+        Self::new(kind.into(), name, help, make)
+    }
+
+    /// The command of an action that needs no value.
+    pub fn plain<Action>(action: Action) -> Self
+    where
+        Action: IntoDiscriminant<Discriminant: EnumMessage + Into<&'static str>> + Into<Command>,
+    {
+        Self::of(action.discriminant(), Make::Plain(action.into()))
+    }
+
+    /// The command of a kind of action whose values, named here, the caller has.
+    pub fn values(kind: impl EnumMessage + Into<&'static str>, values: &'static str) -> Self {
+        Self::of(kind, Make::Values(values))
+    }
+
+    /// The command with a key, or one more.
+    pub fn with_key(self, keys: &'static str, when: When) -> Self {
+        self.with_key_and_pad(keys, when, "")
+    }
+
+    /// The command with a key that a button of the game controller stands for too.
+    pub fn with_key_and_pad(mut self, keys: &'static str, when: When, pad: &'static str) -> Self {
+        self.keys.push(Shortcut { keys, when, pad });
         self
     }
 
     /// The command, enabled under a condition.
-    pub const fn only_if(mut self, enabled: fn(&Context) -> Result<(), String>) -> Self {
+    pub fn only_if(mut self, enabled: fn(&Context) -> Result<(), String>) -> Self {
         self.enabled = enabled;
         self
     }
 }
 
-type Condition = Result<(), String>;
+/// Nothing where a command is enabled, else the reason.
+pub type Condition = Result<(), String>;
 
 /// A reason where something is not so.
-fn require(so: bool, reason: &str) -> Condition {
+pub fn require(so: bool, reason: &str) -> Condition {
     if so { Ok(()) } else { Err(reason.to_owned()) }
 }
 
 /// A run exists.
-pub(super) fn ready(workbench: &Workbench) -> Condition {
+pub fn ready(workbench: &Workbench) -> Condition {
     require(workbench.view().is_some(), "no run is there yet")
 }
 
@@ -311,7 +327,7 @@ pub(super) fn has_whale(workbench: &Workbench) -> Condition {
 }
 
 /// A study is open.
-pub(super) fn study_opened(workbench: &Workbench) -> Condition {
+pub fn study_opened(workbench: &Workbench) -> Condition {
     let opened = workbench.project.documents.study_path().is_some();
     require(opened, "open a study first")
 }
@@ -328,7 +344,7 @@ pub(super) fn study_at_work(workbench: &Workbench) -> Condition {
 }
 
 /// An observation is open.
-pub(super) fn observation_opened(workbench: &Workbench) -> Condition {
+pub fn observation_opened(workbench: &Workbench) -> Condition {
     let opened = workbench.project.documents.observation_path().is_some();
     require(opened, "open an observation first")
 }

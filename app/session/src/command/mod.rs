@@ -20,6 +20,10 @@ pub mod study;
 mod tests;
 pub mod time;
 
+use std::sync::LazyLock;
+
+use strum::IntoDiscriminant;
+
 use crate::workbench::{Notice, Workbench};
 pub use edit::EditAction;
 pub use export::ExportAction;
@@ -81,24 +85,26 @@ pub struct Group {
     /// Its title.
     pub title: &'static str,
     /// Its commands.
-    pub commands: &'static [Info],
+    pub commands: Vec<Info>,
 }
 
 /// Every command, by group.
-pub static COMMANDS: [Group; 8] = [
-    Group { title: "Run", commands: run::COMMANDS },
-    Group { title: "Time", commands: time::COMMANDS },
-    Group { title: "Edit", commands: edit::COMMANDS },
-    Group { title: "Study", commands: study::COMMANDS },
-    Group { title: "Search", commands: search::COMMANDS },
-    Group { title: "Rules", commands: rules::COMMANDS },
-    Group { title: "Export", commands: export::COMMANDS },
-    Group { title: "Plugins", commands: plugin::COMMANDS },
-];
+pub static COMMANDS: LazyLock<[Group; 8]> = LazyLock::new(|| {
+    [
+        Group { title: "Run", commands: run::commands() },
+        Group { title: "Time", commands: time::commands() },
+        Group { title: "Edit", commands: edit::commands() },
+        Group { title: "Study", commands: study::commands() },
+        Group { title: "Search", commands: search::commands() },
+        Group { title: "Rules", commands: rules::commands() },
+        Group { title: "Export", commands: export::commands() },
+        Group { title: "Plugins", commands: plugin::commands() },
+    ]
+});
 
 /// Every declared command.
 pub fn declared() -> impl Iterator<Item = &'static Info> {
-    COMMANDS.iter().flat_map(|group| group.commands)
+    COMMANDS.iter().flat_map(|group| &group.commands)
 }
 
 /// The declaration of an identity such as `run.start`.
@@ -110,14 +116,14 @@ impl Command {
     /// The identity it is declared by, such as `run.start`.
     pub fn id(&self) -> &'static str {
         match self {
-            Self::Run(action) => action.id(),
-            Self::Time(action) => action.id(),
-            Self::Edit(action) => action.id(),
-            Self::Study(action) => action.id(),
-            Self::Search(action) => action.id(),
-            Self::Rules(action) => action.id(),
-            Self::Export(action) => action.id(),
-            Self::Plugin(action) => action.id(),
+            Self::Run(action) => action.discriminant().into(),
+            Self::Time(action) => action.discriminant().into(),
+            Self::Edit(action) => action.discriminant().into(),
+            Self::Study(action) => action.discriminant().into(),
+            Self::Search(action) => action.discriminant().into(),
+            Self::Rules(action) => action.discriminant().into(),
+            Self::Export(action) => action.discriminant().into(),
+            Self::Plugin(action) => action.discriminant().into(),
         }
     }
 }

@@ -4,81 +4,55 @@
 
 use std::path::PathBuf;
 
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
+
 use super::info::{Choice, Make};
 use super::info::{loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 
 /// An action on plugins.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, EnumDiscriminants)]
+#[strum_discriminants(name(PluginVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "plugin.", serialize_all = "kebab-case"))]
 pub enum PluginAction {
-    /// Load the plugins again: rebuilt ones count from the next run on.
+    /// Loads the plugins again. A plugin that was rebuilt counts from the next run on.
+    #[strum_discriminants(strum(message = "Reload plugins"))]
     Reload,
-    /// Let a library be opened that has the bytes of a hash.
+    /// Lets a plugin library be opened that is new, or has changed since it was allowed.
+    #[strum_discriminants(strum(message = "Allow plugin"))]
     Allow {
         /// The library.
         file: PathBuf,
         /// The hash, hexadecimal.
         hash: String,
     },
-    /// Switch a plugin on or off.
+    /// Switches a plugin on or off.
+    #[strum_discriminants(strum(message = "Switch"))]
     Switch {
         /// Its id.
         id: String,
         /// Whether it is on from now.
         on: bool,
     },
-    /// Try a plugin file in a child process.
+    /// Tries a plugin file in a process of its own and reports what is wrong with it.
+    #[strum_discriminants(strum(message = "Check a plugin file"))]
     Check(PathBuf),
-    /// Put a motion or a law of friction, by its id, into the scenario.
+    /// Puts a motion or a law of friction into the scenario.
+    #[strum_discriminants(strum(message = "Use plugin"))]
     Use(String),
 }
 
-impl PluginAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Reload => "plugin.reload",
-            Self::Allow { .. } => "plugin.allow",
-            Self::Switch { .. } => "plugin.switch",
-            Self::Check(_) => "plugin.check",
-            Self::Use(_) => "plugin.use",
-        }
-    }
-}
-
 /// The actions on plugins, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "plugin.reload",
-        "Reload plugins",
-        "Loads the plugins again. A plugin that was rebuilt counts from the next run on.",
-        Make::Plain(|| Command::Plugin(PluginAction::Reload)),
-    )
-    .only_if(loads_plugins),
-    Info::new(
-        "plugin.allow",
-        "Allow plugin",
-        "Lets a plugin library be opened that is new, or has changed since it was allowed.",
-        Make::Choices(waiting),
-    )
-    .only_if(plugins_waiting),
-    Info::new("plugin.switch", "Switch", "Switches a plugin on or off.", Make::Choices(switches))
-        .only_if(plugins_to_switch),
-    Info::new(
-        "plugin.use",
-        "Use plugin",
-        "Puts a motion or a law of friction into the scenario.",
-        Make::Choices(usable),
-    )
-    .only_if(plugins_to_use),
-    Info::new(
-        "plugin.check",
-        "Check a plugin file",
-        "Tries a plugin file in a process of its own and reports what is wrong with it.",
-        Make::Values("file"),
-    ),
-];
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::plain(PluginAction::Reload).only_if(loads_plugins),
+        Info::of(PluginVerb::Allow, Make::Choices(waiting)).only_if(plugins_waiting),
+        Info::of(PluginVerb::Switch, Make::Choices(switches)).only_if(plugins_to_switch),
+        Info::of(PluginVerb::Use, Make::Choices(usable)).only_if(plugins_to_use),
+        Info::values(PluginVerb::Check, "file"),
+    ]
+}
 
 fn waiting(workbench: &Workbench) -> Vec<Choice<Command>> {
     let choice = |(file, ask): (&PathBuf, &crate::plugins::Ask)| {

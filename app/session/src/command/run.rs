@@ -5,8 +5,9 @@
 use std::path::PathBuf;
 
 use endline_sdk::Controls;
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{Choice, FileQuestion, Make, Shortcut, When};
+use super::info::{Choice, FileQuestion, Make, When};
 use super::info::{
     can_apply, can_rerun, compares, earlier_moment, faster, has_moments, is_still, no_errors,
     ready, running, slower,
@@ -15,240 +16,131 @@ use super::{Command, Info};
 use crate::workbench::{Direction, SPEEDS, Workbench};
 
 /// An action on the run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(RunVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "run.", serialize_all = "kebab-case"))]
 pub enum RunAction {
-    /// Run on; first takes over edited gear.
+    /// Runs on from the newest moment. Makes the model first where gear or scenario have changed.
+    #[strum_discriminants(strum(message = "Run"))]
     Start,
-    /// Stand still.
+    /// Stops the run where it is.
+    #[strum_discriminants(strum(message = "Pause"))]
     Pause,
-    /// Run where it stands still, pause where it runs, play or stop where an earlier moment is shown.
+    /// Runs on from the newest moment, or pauses; where an earlier moment is shown, plays on from there, or stops.
+    #[strum_discriminants(strum(message = "Run or pause"))]
     Toggle,
-    /// Take one step.
+    /// Takes one step of the solver.
+    #[strum_discriminants(strum(message = "Step"))]
     Step,
-    /// Back to the settled gear.
+    /// Goes back to the settled gear. The run so far is kept as a recording.
+    #[strum_discriminants(strum(message = "Reset"))]
     Reset,
-    /// Make the model of the texts as they stand.
+    /// Makes the model of gear and scenario as they are edited now, and goes back to its start.
+    #[strum_discriminants(strum(message = "Apply changes"))]
     Apply,
-    /// Simulated seconds for each real one; infinite for as fast as the solver runs.
+    // Infinite for as fast as the solver runs.
+    /// Sets how many simulated seconds pass in a real one.
+    #[strum_discriminants(strum(message = "Speed"))]
     Speed(f64),
-    /// The next slower speed.
+    /// Chooses the next slower speed.
+    #[strum_discriminants(strum(message = "Slower"))]
     Slower,
-    /// The next faster speed.
+    /// Chooses the next faster speed.
+    #[strum_discriminants(strum(message = "Faster"))]
     Faster,
-    /// Run again up to the moment shown.
+    /// Runs the same inputs again up to the moment shown and pauses, so that the run can continue in another way.
+    #[strum_discriminants(strum(message = "Continue from the moment shown"))]
     Branch,
-    /// Run the inputs up to the moment shown in a new model; then its pilot program steers.
+    /// Makes the model again, runs the same inputs up to the moment shown, then lets the pilot program steer.
+    #[strum_discriminants(strum(message = "Rerun from the moment shown"))]
     Rerun,
-    /// Keep the run shown to compare with; the texts make a new one.
+    /// Keeps the run shown as B; gear and scenario make a new run A.
+    #[strum_discriminants(strum(message = "Hold this run to compare with"))]
     Hold,
-    /// Run a recording again to compare with.
+    /// Runs a recording again as B beside the run shown.
+    #[strum_discriminants(strum(message = "Compare with a recording", serialize = "compare"))]
     CompareWith(PathBuf),
-    /// Compare no more.
+    /// Drops the run that the one shown is compared with.
+    #[strum_discriminants(strum(message = "End the comparison"))]
     EndComparison,
-    /// Run a recording again and show it.
+    /// Makes the model of a recording and runs its inputs again.
+    #[strum_discriminants(strum(message = "Open a recording"))]
     OpenRecording(PathBuf),
-    /// Give a kept recording another name.
+    /// Gives the file of a kept recording another name.
+    #[strum_discriminants(strum(message = "Rename a recording"))]
     RenameRecording {
         /// Its file.
         file: PathBuf,
         /// The name without its ending.
         name: String,
     },
-    /// Say something of a kept recording.
+    /// Writes what you say of a recording beside it.
+    #[strum_discriminants(strum(message = "Note on a recording"))]
     NoteRecording {
         /// Its file.
         file: PathBuf,
         /// What is said.
         note: String,
     },
-    /// Take a kept recording out of the list.
+    /// Moves a kept recording to the folder `deleted` beside it.
+    #[strum_discriminants(strum(message = "Delete a recording"))]
     DeleteRecording(PathBuf),
-    /// Steer the whale: these controls hold until the next.
+    /// Sets the controls of the whale until the next are set.
+    #[strum_discriminants(strum(message = "Steer the whale"))]
     Steer(Controls),
-    /// Let the scenario's pilot program steer.
+    /// Gives the controls of the whale back to the scenario's pilot program.
+    #[strum_discriminants(strum(message = "Let the pilot program steer"))]
     Autopilot,
 }
 
-impl RunAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Start => "run.start",
-            Self::Pause => "run.pause",
-            Self::Toggle => "run.toggle",
-            Self::Step => "run.step",
-            Self::Reset => "run.reset",
-            Self::Apply => "run.apply",
-            Self::Speed(_) => "run.speed",
-            Self::Slower => "run.slower",
-            Self::Faster => "run.faster",
-            Self::Branch => "run.branch",
-            Self::Rerun => "run.rerun",
-            Self::Hold => "run.hold",
-            Self::CompareWith(_) => "run.compare",
-            Self::EndComparison => "run.end-comparison",
-            Self::OpenRecording(_) => "run.open-recording",
-            Self::RenameRecording { .. } => "run.rename-recording",
-            Self::NoteRecording { .. } => "run.note-recording",
-            Self::DeleteRecording(_) => "run.delete-recording",
-            Self::Steer(_) => "run.steer",
-            Self::Autopilot => "run.autopilot",
-        }
-    }
-}
-
 /// The actions on the run, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "run.toggle",
-        "Run or pause",
-        "Runs on from the newest moment, or pauses; where an earlier moment is shown, plays on from there, or stops.",
-        Make::Plain(|| Command::Run(RunAction::Toggle)),
-    )
-    .with_keys(&[Shortcut::with_pad("Space", When::Idle, "Back")])
-    .only_if(ready),
-    Info::new(
-        "run.start",
-        "Run",
-        "Runs on from the newest moment. Makes the model first where gear or scenario have changed.",
-        Make::Plain(|| Command::Run(RunAction::Start)),
-    )
-    .only_if(ready),
-    Info::new(
-        "run.pause",
-        "Pause",
-        "Stops the run where it is.",
-        Make::Plain(|| Command::Run(RunAction::Pause)),
-    )
-    .only_if(running),
-    Info::new(
-        "run.step",
-        "Step",
-        "Takes one step of the solver.",
-        Make::Plain(|| Command::Run(RunAction::Step)),
-    )
-    .with_keys(&[Shortcut::new(".", When::Idle)])
-    .only_if(is_still),
-    Info::new(
-        "run.reset",
-        "Reset",
-        "Goes back to the settled gear. The run so far is kept as a recording.",
-        Make::Plain(|| Command::Run(RunAction::Reset)),
-    )
-    .with_keys(&[Shortcut::with_pad("Backspace", When::Idle, "Start")])
-    .only_if(ready),
-    Info::new(
-        "run.apply",
-        "Apply changes",
-        "Makes the model of gear and scenario as they are edited now, and goes back to its start.",
-        Make::Plain(|| Command::Run(RunAction::Apply)),
-    )
-    .with_keys(&[Shortcut::new("Ctrl+Enter", When::Always)])
-    .only_if(can_apply),
-    Info::new(
-        "run.speed",
-        "Speed",
-        "Sets how many simulated seconds pass in a real one.",
-        Make::Choices(|_| {
-            SPEEDS.iter().map(|speed| Choice::new(speed.name, set_speed(speed.factor))).collect()
-        }),
-    )
-    .only_if(ready),
-    Info::new(
-        "run.slower",
-        "Slower",
-        "Chooses the next slower speed.",
-        Make::Plain(|| Command::Run(RunAction::Slower)),
-    )
-    .with_keys(&[Shortcut::new("-", When::Idle)])
-    .only_if(slower),
-    Info::new(
-        "run.faster",
-        "Faster",
-        "Chooses the next faster speed.",
-        Make::Plain(|| Command::Run(RunAction::Faster)),
-    )
-    .with_keys(&[Shortcut::new("=", When::Idle)])
-    .only_if(faster),
-    Info::new(
-        "run.branch",
-        "Continue from the moment shown",
-        "Runs the same inputs again up to the moment shown and pauses, so that the run can continue in another way.",
-        Make::Plain(|| Command::Run(RunAction::Branch)),
-    )
-    .only_if(earlier_moment),
-    Info::new(
-        "run.rerun",
-        "Rerun from the moment shown",
-        "Makes the model again, runs the same inputs up to the moment shown, then lets the pilot program steer.",
-        Make::Plain(|| Command::Run(RunAction::Rerun)),
-    )
-    .only_if(can_rerun),
-    Info::new(
-        "run.hold",
-        "Hold this run to compare with",
-        "Keeps the run shown as B; gear and scenario make a new run A.",
-        Make::Plain(|| Command::Run(RunAction::Hold)),
-    )
-    .only_if(can_hold),
-    Info::new(
-        "run.compare",
-        "Compare with a recording",
-        "Runs a recording again as B beside the run shown.",
-        Make::File {
-            question: recording,
-            command: |_, file| Command::Run(RunAction::CompareWith(file)),
-        },
-    ),
-    Info::new(
-        "run.end-comparison",
-        "End the comparison",
-        "Drops the run that the one shown is compared with.",
-        Make::Plain(|| Command::Run(RunAction::EndComparison)),
-    )
-    .only_if(compares),
-    Info::new(
-        "run.open-recording",
-        "Open a recording",
-        "Makes the model of a recording and runs its inputs again.",
-        Make::File {
-            question: recording,
-            command: |_, file| Command::Run(RunAction::OpenRecording(file)),
-        },
-    ),
-    Info::new(
-        "run.rename-recording",
-        "Rename a recording",
-        "Gives the file of a kept recording another name.",
-        Make::Values("its file and the name"),
-    ),
-    Info::new(
-        "run.note-recording",
-        "Note on a recording",
-        "Writes what you say of a recording beside it.",
-        Make::Values("its file and the note"),
-    ),
-    Info::new(
-        "run.delete-recording",
-        "Delete a recording",
-        "Moves a kept recording to the folder `deleted` beside it.",
-        Make::Values("its file"),
-    ),
-    Info::new(
-        "run.steer",
-        "Steer the whale",
-        "Sets the controls of the whale until the next are set.",
-        Make::Values("controls"),
-    )
-    .only_if(ready),
-    Info::new(
-        "run.autopilot",
-        "Let the pilot program steer",
-        "Gives the controls of the whale back to the scenario's pilot program.",
-        Make::Plain(|| Command::Run(RunAction::Autopilot)),
-    )
-    .only_if(ready),
-];
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::plain(RunAction::Toggle).with_key_and_pad("Space", When::Idle, "Back").only_if(ready),
+        Info::plain(RunAction::Start).only_if(ready),
+        Info::plain(RunAction::Pause).only_if(running),
+        Info::plain(RunAction::Step).with_key(".", When::Idle).only_if(is_still),
+        Info::plain(RunAction::Reset)
+            .with_key_and_pad("Backspace", When::Idle, "Start")
+            .only_if(ready),
+        Info::plain(RunAction::Apply).with_key("Ctrl+Enter", When::Always).only_if(can_apply),
+        Info::of(
+            RunVerb::Speed,
+            Make::Choices(|_| {
+                SPEEDS
+                    .iter()
+                    .map(|speed| Choice::new(speed.name, set_speed(speed.factor)))
+                    .collect()
+            }),
+        )
+        .only_if(ready),
+        Info::plain(RunAction::Slower).with_key("-", When::Idle).only_if(slower),
+        Info::plain(RunAction::Faster).with_key("=", When::Idle).only_if(faster),
+        Info::plain(RunAction::Branch).only_if(earlier_moment),
+        Info::plain(RunAction::Rerun).only_if(can_rerun),
+        Info::plain(RunAction::Hold).only_if(can_hold),
+        Info::of(
+            RunVerb::CompareWith,
+            Make::File {
+                question: recording,
+                command: |_, file| Command::Run(RunAction::CompareWith(file)),
+            },
+        ),
+        Info::plain(RunAction::EndComparison).only_if(compares),
+        Info::of(
+            RunVerb::OpenRecording,
+            Make::File {
+                question: recording,
+                command: |_, file| Command::Run(RunAction::OpenRecording(file)),
+            },
+        ),
+        Info::values(RunVerb::RenameRecording, "its file and the name"),
+        Info::values(RunVerb::NoteRecording, "its file and the note"),
+        Info::values(RunVerb::DeleteRecording, "its file"),
+        Info::values(RunVerb::Steer, "controls").only_if(ready),
+        Info::plain(RunAction::Autopilot).only_if(ready),
+    ]
+}
 
 fn set_speed(factor: f64) -> Command {
     Command::Run(RunAction::Speed(factor))

@@ -4,6 +4,8 @@
 
 use std::path::PathBuf;
 
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
+
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::info::{has_stories, observation_opened, search_at_work, search_runs};
@@ -13,135 +15,77 @@ use crate::search::question::Length;
 use crate::workbench::{SearchEffort, Workbench};
 
 /// An action on searches. A story is named by its place, 0 for the nearest.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, EnumDiscriminants)]
+#[strum_discriminants(name(SearchVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "search.", serialize_all = "kebab-case"))]
 pub enum SearchAction {
-    /// Open an observation and the stories found for it.
+    /// Opens an observation of the library for editing, and the stories found for it.
+    #[strum_discriminants(strum(message = "Open observation"))]
     Open(PathBuf),
-    /// Begin a new observation.
+    /// Begins an observation in a file of its own, with nothing described yet.
+    #[strum_discriminants(strum(message = "New observation"))]
     New,
-    /// Open a copy of the open observation.
+    /// Copies the open observation to a file of its own and opens the copy.
+    #[strum_discriminants(strum(message = "Duplicate the observation"))]
     Duplicate,
-    /// How long to search, and with what.
+    /// Sets how many runs the search makes at most, on how many threads, with how many neighbours, and at which priority.
+    #[strum_discriminants(strum(message = "Effort of the search"))]
     Effort(SearchEffort),
-    /// Search for the open observation, or continue its search.
+    /// Searches for encounters that end like the open observation as it stands in the window, from where an earlier search stopped. Saves nothing.
+    #[strum_discriminants(strum(message = "Run the search"))]
     Run,
-    /// Pause the running search, or resume it.
+    /// Pauses the search after the runs in progress, or resumes it.
+    #[strum_discriminants(strum(message = "Pause or resume the search"))]
     Pause,
-    /// End the search at work.
+    /// Ends the search after the runs in progress. Completed runs stay, and a later search continues from them.
+    #[strum_discriminants(strum(message = "Cancel the search"))]
     Cancel,
-    /// Run a story up to its ending.
+    /// Runs a story again, up to the moment at which the search held it against the observation.
+    #[strum_discriminants(strum(message = "Run a story"))]
     Replay(usize),
-    /// Run a story to the end of its scenario.
+    /// Runs a story to the end of its scenario, to be followed further or flown by hand.
+    #[strum_discriminants(strum(message = "Run a story on"))]
     FlyOn(usize),
-    /// Write a story as a scenario of the library.
+    /// Writes a story as a scenario of the library.
+    #[strum_discriminants(strum(message = "Keep a story as a scenario"))]
     Keep(usize),
 }
 
-impl SearchAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Open(_) => "search.open",
-            Self::New => "search.new",
-            Self::Duplicate => "search.duplicate",
-            Self::Effort(_) => "search.effort",
-            Self::Run => "search.run",
-            Self::Pause => "search.pause",
-            Self::Cancel => "search.cancel",
-            Self::Replay(_) => "search.replay",
-            Self::FlyOn(_) => "search.fly-on",
-            Self::Keep(_) => "search.keep",
-        }
-    }
-}
-
 /// The actions on searches, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "search.open",
-        "Open observation",
-        "Opens an observation of the library for editing, and the stories found for it.",
-        Make::Choices(|workbench| {
-            locate::observations(workbench.project.documents.root())
-                .into_iter()
-                .map(|path| Choice::new(stem(&path), open(path)))
-                .collect()
-        }),
-    ),
-    Info::new(
-        "search.open-file",
-        "Open an observation's file",
-        "Opens an observation from any folder.",
-        Make::File {
-            question: |workbench| {
-                let folder = workbench.project.documents.root().join("observations");
-                FileQuestion::read("observation", &["toml"]).within(&folder)
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::of(
+            SearchVerb::Open,
+            Make::Choices(|workbench| {
+                locate::observations(workbench.project.documents.root())
+                    .into_iter()
+                    .map(|path| Choice::new(stem(&path), open(path)))
+                    .collect()
+            }),
+        ),
+        Info::new(
+            "search.open-file",
+            "Open an observation's file",
+            "Opens an observation from any folder.",
+            Make::File {
+                question: |workbench| {
+                    let folder = workbench.project.documents.root().join("observations");
+                    FileQuestion::read("observation", &["toml"]).within(&folder)
+                },
+                command: |_, file| open(file),
             },
-            command: |_, file| open(file),
-        },
-    ),
-    Info::new(
-        "search.new",
-        "New observation",
-        "Begins an observation in a file of its own, with nothing described yet.",
-        Make::Plain(|| Command::Search(SearchAction::New)),
-    ),
-    Info::new(
-        "search.duplicate",
-        "Duplicate the observation",
-        "Copies the open observation to a file of its own and opens the copy.",
-        Make::Plain(|| Command::Search(SearchAction::Duplicate)),
-    )
-    .only_if(observation_opened),
-    Info::new(
-        "search.run",
-        "Run the search",
-        "Searches for encounters that end like the open observation as it stands in the window, from where an earlier search stopped. Saves nothing.",
-        Make::Plain(|| Command::Search(SearchAction::Run)),
-    )
-    .only_if(search_runs),
-    Info::new(
-        "search.pause",
-        "Pause or resume the search",
-        "Pauses the search after the runs in progress, or resumes it.",
-        Make::Plain(|| Command::Search(SearchAction::Pause)),
-    )
-    .only_if(search_at_work),
-    Info::new(
-        "search.cancel",
-        "Cancel the search",
-        "Ends the search after the runs in progress. Completed runs stay, and a later search continues from them.",
-        Make::Plain(|| Command::Search(SearchAction::Cancel)),
-    )
-    .only_if(search_at_work),
-    Info::new(
-        "search.effort",
-        "Effort of the search",
-        "Sets how many runs the search makes at most, on how many threads, with how many neighbours, and at which priority.",
-        Make::Values("runs, threads, neighbours, priority"),
-    ),
-    Info::new(
-        "search.replay",
-        "Run a story",
-        "Runs a story again, up to the moment at which the search held it against the observation.",
-        Make::Values("its place"),
-    )
-    .only_if(has_stories),
-    Info::new(
-        "search.fly-on",
-        "Run a story on",
-        "Runs a story to the end of its scenario, to be followed further or flown by hand.",
-        Make::Values("its place"),
-    )
-    .only_if(has_stories),
-    Info::new(
-        "search.keep",
-        "Keep a story as a scenario",
-        "Writes a story as a scenario of the library.",
-        Make::Values("its place"),
-    )
-    .only_if(has_stories),
-];
+        ),
+        Info::plain(SearchAction::New),
+        Info::plain(SearchAction::Duplicate).only_if(observation_opened),
+        Info::plain(SearchAction::Run).only_if(search_runs),
+        Info::plain(SearchAction::Pause).only_if(search_at_work),
+        Info::plain(SearchAction::Cancel).only_if(search_at_work),
+        Info::values(SearchVerb::Effort, "runs, threads, neighbours, priority"),
+        Info::values(SearchVerb::Replay, "its place").only_if(has_stories),
+        Info::values(SearchVerb::FlyOn, "its place").only_if(has_stories),
+        Info::values(SearchVerb::Keep, "its place").only_if(has_stories),
+    ]
+}
 
 fn open(path: PathBuf) -> Command {
     Command::Search(SearchAction::Open(path))

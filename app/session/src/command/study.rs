@@ -4,6 +4,8 @@
 
 use std::path::PathBuf;
 
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
+
 use super::edit::stem;
 use super::info::{Choice, FileQuestion, Make};
 use super::info::{has_report, has_results, study_at_work, study_opened, study_runs};
@@ -14,35 +16,51 @@ use crate::locate;
 use crate::workbench::Workbench;
 
 /// An action on studies.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, EnumDiscriminants)]
+#[strum_discriminants(name(StudyVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "study.", serialize_all = "kebab-case"))]
 pub enum StudyAction {
-    /// Open a study and the results it already has.
+    /// Opens a study of the library for editing, and the results it already has.
+    #[strum_discriminants(strum(message = "Open study"))]
     Open(PathBuf),
-    /// Open a copy of the open study.
+    /// Copies the open study to a file of its own and opens the copy.
+    #[strum_discriminants(strum(message = "Duplicate the study"))]
     Duplicate,
-    /// Make the unsaved edits of scenario and gear an option of the open study.
+    /// Makes the unsaved edits of the scenario and its gear an option of the open study; scenario and gear go back to their files.
+    #[strum_discriminants(strum(message = "Add an option from unsaved edits"))]
     OptionFromEdits,
-    /// Add an option of the open study with another assembly, by its id.
+    /// Adds an option to the open study whose gear is another assembly.
+    #[strum_discriminants(strum(message = "Add an option with the assembly"))]
     OptionWithAssembly(String),
-    /// Run the open study, or continue it.
+    /// Runs what is missing of the open study behind everything else on the machine, on the texts as they stand in the window. Saves nothing.
+    #[strum_discriminants(strum(message = "Run the study"))]
     Run,
-    /// Pause the running study, or resume it.
+    /// Pauses the study after the encounters in progress, or resumes it.
+    #[strum_discriminants(strum(message = "Pause or resume the study"))]
     Pause,
-    /// Take the study at work out of the queue.
+    /// Takes the study at work out of the queue. Encounters that were run stay.
+    #[strum_discriminants(strum(message = "Cancel the study"))]
     Cancel,
-    /// Pause a study of the queue, by its file, or continue it.
+    /// Pauses a study of the queue after the encounters in progress, or continues it.
+    #[strum_discriminants(strum(message = "Pause or continue a study of the queue"))]
     PauseJob(PathBuf),
-    /// Take a study out of the queue, by its file; what was run stays.
+    /// Takes a study out of the queue. Encounters that were run stay.
+    #[strum_discriminants(strum(message = "Cancel a study of the queue"))]
     CancelJob(PathBuf),
-    /// Remove a study that has ended from the list, by its file.
+    /// Removes a study that has ended from the list of the queue. Its results stay.
+    #[strum_discriminants(strum(message = "Remove a study from the list"))]
     ForgetJob(PathBuf),
-    /// Run studies at ordinary priority, or behind everything else.
+    /// Runs studies at ordinary priority, or behind everything else on the machine.
+    #[strum_discriminants(strum(message = "Studies at full speed"))]
     FullSpeed(bool),
-    /// Show the results in a folder.
+    /// Shows the results in a folder.
+    #[strum_discriminants(strum(message = "Open a study's results", serialize = "results"))]
     ShowResults(PathBuf),
-    /// Write the files that reproduce the results shown, and their report, into a folder.
+    /// Writes a folder with the report of the results shown, their numbers, and the study, scenario and library that reproduce them.
+    #[strum_discriminants(strum(message = "Save the study's bundle"))]
     SaveBundle(PathBuf),
-    /// Run an encounter of the results shown again.
+    /// Runs an encounter of the results shown again, up to where it ended in the study.
+    #[strum_discriminants(strum(message = "Run an encounter again"))]
     Replay {
         /// Index of the option.
         option: usize,
@@ -51,154 +69,70 @@ pub enum StudyAction {
     },
 }
 
-impl StudyAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::Open(_) => "study.open",
-            Self::Duplicate => "study.duplicate",
-            Self::OptionFromEdits => "study.option-from-edits",
-            Self::OptionWithAssembly(_) => "study.option-with-assembly",
-            Self::Run => "study.run",
-            Self::Pause => "study.pause",
-            Self::Cancel => "study.cancel",
-            Self::PauseJob(_) => "study.pause-job",
-            Self::CancelJob(_) => "study.cancel-job",
-            Self::ForgetJob(_) => "study.forget-job",
-            Self::FullSpeed(_) => "study.full-speed",
-            Self::ShowResults(_) => "study.results",
-            Self::SaveBundle(_) => "study.save-bundle",
-            Self::Replay { .. } => "study.replay",
-        }
-    }
-}
-
 /// The actions on studies, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "study.open",
-        "Open study",
-        "Opens a study of the library for editing, and the results it already has.",
-        Make::Choices(|workbench| {
-            locate::studies(workbench.project.documents.root())
-                .into_iter()
-                .map(|path| Choice::new(stem(&path), open(path)))
-                .collect()
-        }),
-    ),
-    Info::new(
-        "study.open-file",
-        "Open a study's file",
-        "Opens a study from any folder.",
-        Make::File {
-            question: |workbench| {
-                let folder = workbench.project.documents.root().join("studies");
-                FileQuestion::read("study", &["toml"]).within(&folder)
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::of(
+            StudyVerb::Open,
+            Make::Choices(|workbench| {
+                locate::studies(workbench.project.documents.root())
+                    .into_iter()
+                    .map(|path| Choice::new(stem(&path), open(path)))
+                    .collect()
+            }),
+        ),
+        Info::new(
+            "study.open-file",
+            "Open a study's file",
+            "Opens a study from any folder.",
+            Make::File {
+                question: |workbench| {
+                    let folder = workbench.project.documents.root().join("studies");
+                    FileQuestion::read("study", &["toml"]).within(&folder)
+                },
+                command: |_, file| open(file),
             },
-            command: |_, file| open(file),
-        },
-    ),
-    Info::new(
-        "study.duplicate",
-        "Duplicate the study",
-        "Copies the open study to a file of its own and opens the copy.",
-        Make::Plain(|| Command::Study(StudyAction::Duplicate)),
-    )
-    .only_if(study_opened),
-    Info::new(
-        "study.option-from-edits",
-        "Add an option from unsaved edits",
-        "Makes the unsaved edits of the scenario and its gear an option of the open study; scenario and gear go back to their files.",
-        Make::Plain(|| Command::Study(StudyAction::OptionFromEdits)),
-    )
-    .only_if(study_opened),
-    Info::new(
-        "study.option-with-assembly",
-        "Add an option with the assembly",
-        "Adds an option to the open study whose gear is another assembly.",
-        Make::Choices(|workbench| {
-            let files = workbench.project.documents.files("assemblies");
-            let choice = |id: &str| {
-                Choice::new(id, Command::Study(StudyAction::OptionWithAssembly(id.to_owned())))
-            };
-            files.map(|file| choice(id_of(file))).collect()
-        }),
-    )
-    .only_if(study_opened),
-    Info::new(
-        "study.run",
-        "Run the study",
-        "Runs what is missing of the open study behind everything else on the machine, on the texts as they stand in the window. Saves nothing.",
-        Make::Plain(|| Command::Study(StudyAction::Run)),
-    )
-    .only_if(study_runs),
-    Info::new(
-        "study.pause",
-        "Pause or resume the study",
-        "Pauses the study after the encounters in progress, or resumes it.",
-        Make::Plain(|| Command::Study(StudyAction::Pause)),
-    )
-    .only_if(study_at_work),
-    Info::new(
-        "study.cancel",
-        "Cancel the study",
-        "Takes the study at work out of the queue. Encounters that were run stay.",
-        Make::Plain(|| Command::Study(StudyAction::Cancel)),
-    )
-    .only_if(study_at_work),
-    Info::new(
-        "study.pause-job",
-        "Pause or continue a study of the queue",
-        "Pauses a study of the queue after the encounters in progress, or continues it.",
-        Make::Values("its file"),
-    ),
-    Info::new(
-        "study.cancel-job",
-        "Cancel a study of the queue",
-        "Takes a study out of the queue. Encounters that were run stay.",
-        Make::Values("its file"),
-    ),
-    Info::new(
-        "study.forget-job",
-        "Remove a study from the list",
-        "Removes a study that has ended from the list of the queue. Its results stay.",
-        Make::Values("its file"),
-    ),
-    Info::new(
-        "study.full-speed",
-        "Studies at full speed",
-        "Runs studies at ordinary priority, or behind everything else on the machine.",
-        Make::Values("on or off"),
-    ),
-    Info::new(
-        "study.results",
-        "Open a study's results",
-        "Shows the results in a folder.",
-        Make::File {
-            question: |workbench| {
-                FileQuestion::folder("results of a study").within(&workbench.studies.root())
+        ),
+        Info::plain(StudyAction::Duplicate).only_if(study_opened),
+        Info::plain(StudyAction::OptionFromEdits).only_if(study_opened),
+        Info::of(
+            StudyVerb::OptionWithAssembly,
+            Make::Choices(|workbench| {
+                let files = workbench.project.documents.files("assemblies");
+                let choice = |id: &str| {
+                    Choice::new(id, Command::Study(StudyAction::OptionWithAssembly(id.to_owned())))
+                };
+                files.map(|file| choice(id_of(file))).collect()
+            }),
+        )
+        .only_if(study_opened),
+        Info::plain(StudyAction::Run).only_if(study_runs),
+        Info::plain(StudyAction::Pause).only_if(study_at_work),
+        Info::plain(StudyAction::Cancel).only_if(study_at_work),
+        Info::values(StudyVerb::PauseJob, "its file"),
+        Info::values(StudyVerb::CancelJob, "its file"),
+        Info::values(StudyVerb::ForgetJob, "its file"),
+        Info::values(StudyVerb::FullSpeed, "on or off"),
+        Info::of(
+            StudyVerb::ShowResults,
+            Make::File {
+                question: |workbench| {
+                    FileQuestion::folder("results of a study").within(&workbench.studies.root())
+                },
+                command: |_, folder| Command::Study(StudyAction::ShowResults(folder)),
             },
-            command: |_, folder| Command::Study(StudyAction::ShowResults(folder)),
-        },
-    ),
-    Info::new(
-        "study.save-bundle",
-        "Save the study's bundle",
-        "Writes a folder with the report of the results shown, their numbers, and the study, scenario and library that reproduce them.",
-        Make::File {
-            question: |_| FileQuestion::folder("folder for the bundle"),
-            command: |_, folder| Command::Study(StudyAction::SaveBundle(folder)),
-        },
-    )
-    .only_if(has_report),
-    Info::new(
-        "study.replay",
-        "Run an encounter again",
-        "Runs an encounter of the results shown again, up to where it ended in the study.",
-        Make::Values("option, encounter"),
-    )
-    .only_if(has_results),
-];
+        ),
+        Info::of(
+            StudyVerb::SaveBundle,
+            Make::File {
+                question: |_| FileQuestion::folder("folder for the bundle"),
+                command: |_, folder| Command::Study(StudyAction::SaveBundle(folder)),
+            },
+        )
+        .only_if(has_report),
+        Info::values(StudyVerb::Replay, "option, encounter").only_if(has_results),
+    ]
+}
 
 fn open(path: PathBuf) -> Command {
     Command::Study(StudyAction::Open(path))

@@ -9,8 +9,8 @@ fn every_command_is_declared_once_under_a_name_of_its_own() {
         assert!(ids.insert(info.id), "{} is declared twice", info.id);
         assert!(names.insert(info.name), "two commands are called {}", info.name);
         assert!(info.help.ends_with('.'), "{}: {}", info.id, info.help);
-        if let Make::Plain(make) = &info.make {
-            assert_eq!(make().id(), info.id, "the command made is the one declared");
+        if let Make::Plain(command) = &info.make {
+            assert_eq!(command.id(), info.id, "the command made is the one declared");
         }
     }
 }

@@ -2,92 +2,49 @@
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
-use super::info::{Make, Shortcut, When};
+use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
+
+use super::Info;
+use super::info::When;
 use super::info::{can_replay, earlier_moment, has_moments};
-use super::{Command, Info};
 use crate::workbench::Workbench;
 
 /// An action on the moment shown.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(TimeVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "time.", serialize_all = "kebab-case"))]
 pub enum TimeAction {
-    /// Show the first moment.
+    /// Shows the start of the run.
+    #[strum_discriminants(strum(message = "First moment"))]
     First,
-    /// Show the newest moment.
+    /// Shows the end of the run so far.
+    #[strum_discriminants(strum(message = "Newest moment"))]
     Newest,
-    /// Show the kept moment before the one shown.
+    /// Shows the kept moment before the one shown.
+    #[strum_discriminants(strum(message = "One moment back"))]
     Back,
-    /// Show the kept moment after the one shown.
+    /// Shows the kept moment after the one shown.
+    #[strum_discriminants(strum(message = "One moment on"))]
     Forward,
-    /// Show the kept moment nearest to a time [s].
+    /// Shows the kept moment nearest to a time.
+    #[strum_discriminants(strum(message = "Show a moment"))]
     Seek(f64),
-    /// Play from the moment shown on, or stop.
+    /// Plays from the moment shown on at the chosen speed, from the start where that is the newest; or stops.
+    #[strum_discriminants(strum(message = "Play what was run"))]
     Replay,
 }
 
-impl TimeAction {
-    /// The identity it is declared by.
-    pub fn id(&self) -> &'static str {
-        match self {
-            Self::First => "time.first",
-            Self::Newest => "time.newest",
-            Self::Back => "time.back",
-            Self::Forward => "time.forward",
-            Self::Seek(_) => "time.seek",
-            Self::Replay => "time.replay",
-        }
-    }
-}
-
 /// The actions on the moment shown, declared.
-pub static COMMANDS: &[Info] = &[
-    Info::new(
-        "time.first",
-        "First moment",
-        "Shows the start of the run.",
-        Make::Plain(|| Command::Time(TimeAction::First)),
-    )
-    .with_keys(&[Shortcut::new("Home", When::Idle)])
-    .only_if(has_moments),
-    Info::new(
-        "time.newest",
-        "Newest moment",
-        "Shows the end of the run so far.",
-        Make::Plain(|| Command::Time(TimeAction::Newest)),
-    )
-    .with_keys(&[Shortcut::new("End", When::Idle)])
-    .only_if(earlier_moment),
-    Info::new(
-        "time.back",
-        "One moment back",
-        "Shows the kept moment before the one shown.",
-        Make::Plain(|| Command::Time(TimeAction::Back)),
-    )
-    .with_keys(&[Shortcut::new("Left", When::NotFlying)])
-    .only_if(has_moments),
-    Info::new(
-        "time.forward",
-        "One moment on",
-        "Shows the kept moment after the one shown.",
-        Make::Plain(|| Command::Time(TimeAction::Forward)),
-    )
-    .with_keys(&[Shortcut::new("Right", When::NotFlying)])
-    .only_if(earlier_moment),
-    Info::new(
-        "time.seek",
-        "Show a moment",
-        "Shows the kept moment nearest to a time.",
-        Make::Values("time in seconds"),
-    )
-    .only_if(has_moments),
-    Info::new(
-        "time.replay",
-        "Play what was run",
-        "Plays from the moment shown on at the chosen speed, from the start where that is the newest; or stops.",
-        Make::Plain(|| Command::Time(TimeAction::Replay)),
-    )
-    .with_keys(&[Shortcut::new("P", When::Idle)])
-    .only_if(can_replay),
-];
+pub(super) fn commands() -> Vec<Info> {
+    vec![
+        Info::plain(TimeAction::First).with_key("Home", When::Idle).only_if(has_moments),
+        Info::plain(TimeAction::Newest).with_key("End", When::Idle).only_if(earlier_moment),
+        Info::plain(TimeAction::Back).with_key("Left", When::NotFlying).only_if(has_moments),
+        Info::plain(TimeAction::Forward).with_key("Right", When::NotFlying).only_if(earlier_moment),
+        Info::values(TimeVerb::Seek, "time in seconds").only_if(has_moments),
+        Info::plain(TimeAction::Replay).with_key("P", When::Idle).only_if(can_replay),
+    ]
+}
 
 /// Dispatches an action.
 pub(super) fn perform(workbench: &mut Workbench, action: TimeAction) -> Result<(), String> {

@@ -8,6 +8,7 @@ use endline_session::command::{
     StudyAction, TimeAction,
 };
 use endline_session::units::Units;
+use strum::{EnumDiscriminants, EnumMessage, IntoDiscriminant, IntoStaticStr};
 
 use crate::documents::Document;
 use crate::gui::layout::Layout;
@@ -31,73 +32,107 @@ pub enum WindowCommand {
 }
 
 /// An action in the 3-D view.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(ViewVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "view.", serialize_all = "kebab-case"))]
 pub enum ViewAction {
-    /// Look from a named place.
+    /// Looks at the whale, or from it, and goes with it.
+    #[strum_discriminants(strum(message = "View"))]
     Look(View),
-    /// Bring everything into sight.
+    /// Brings the gear and the whale into sight.
+    #[strum_discriminants(strum(message = "See everything"))]
     Frame,
-    /// Shows a number of views at once, one to four.
+    /// Shows this number of views of the same moment side by side.
+    #[strum_discriminants(strum(message = "Views at once:"))]
     Split(usize),
-    /// Show or hide the handles that drag the whale's start.
+    /// Shows handles that move where the whale starts, how deep, and where it heads; or hides them.
+    #[strum_discriminants(strum(message = "Drag the whale's start"))]
     Pose,
-    /// Clicks measure, or inspect again.
+    /// Lets two clicks measure between two places, straight and along the rope; or lets a click inspect again.
+    #[strum_discriminants(strum(message = "Ruler"))]
     Ruler,
-    /// Show the figures of a thing.
+    /// Shows the properties of a body, or of a line where its tension is greatest.
+    #[strum_discriminants(strum(message = "Read"))]
     Inspect(Picked),
-    /// Inspect and measure nothing any more.
+    /// Takes the properties and the measure away.
+    #[strum_discriminants(strum(message = "Clear the inspector and the ruler"))]
     LetGo,
-    /// Write what the chosen pane shows as a PNG file.
+    /// Draws what the chosen view shows at full size, 1920 by 1080, into a PNG file.
+    #[strum_discriminants(strum(message = "Save a picture of the view"))]
     SavePicture(PathBuf),
-    /// Write the run as the chosen pane shows it as a film: GIF, MP4 or WebM by the file's extension.
+    /// Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window can be used meanwhile.
+    #[strum_discriminants(strum(message = "Save a film of the run"))]
     SaveFilm(PathBuf),
-    /// End the film that is being made.
+    /// Ends the film that is being made; the pictures drawn so far stay.
+    #[strum_discriminants(strum(message = "Cancel the film"))]
     CancelFilm,
-    /// Set a key of the camera: what the chosen pane shows, at the moment shown.
+    /// Notes what the chosen view shows at this moment: a film goes from key to key.
+    #[strum_discriminants(strum(message = "Set a camera key"))]
     SetKey,
-    /// Take the keys of the camera away.
+    /// Takes the keys of the camera away: a film is seen as the view is now.
+    #[strum_discriminants(strum(message = "Clear the camera keys"))]
     ClearKeys,
 }
 
 /// An action of the pilot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumDiscriminants)]
+#[strum_discriminants(name(FlightVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "flight.", serialize_all = "kebab-case"))]
 pub enum FlightAction {
-    /// Take the controls of the whale, or leave them to the pilot program.
+    /// Gives the controls of the whale to keys and game controller, or back to the pilot program.
+    #[strum_discriminants(strum(message = "Fly the whale, or stop"))]
     Toggle,
-    /// First or third person.
+    /// Looks through the whale's eyes, or from behind it.
+    #[strum_discriminants(strum(message = "First or third person"))]
     Person,
-    /// Choose the next act of the whale's motion.
+    /// Chooses the next act of the whale's motion.
+    #[strum_discriminants(strum(message = "Next act of the whale"))]
     NextAct,
-    /// Choose the act of this index.
+    /// Chooses an act of the whale's motion.
+    #[strum_discriminants(strum(message = "Act", serialize = "act"))]
     ChooseAct(usize),
-    /// Open the mouth, or shut it.
+    /// Opens the mouth of the whale that is flown, or shuts it.
+    #[strum_discriminants(strum(message = "Open or close the mouth"))]
     Mouth,
 }
 
 /// An action on what panels show and have chosen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(PanelVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "panel.", serialize_all = "kebab-case"))]
 pub enum PanelAction {
-    /// Bring a panel to the front.
+    /// Brings a panel to the front.
+    #[strum_discriminants(strum(message = "Show"))]
     Show(PanelId),
-    /// Take a panel away.
+    /// Takes a panel away.
+    #[strum_discriminants(strum(message = "Close"))]
     Close(PanelId),
-    /// Put the panels in the places of a named layout.
+    /// Puts the panels in their places for a kind of work.
+    #[strum_discriminants(strum(message = "Layout", serialize = "layout"))]
     Arrange(Layout),
-    /// Show a table of the library.
+    /// Shows a table of the library.
+    #[strum_discriminants(strum(message = "Table of"))]
     Table(Kind),
-    /// Show an entry of the library in its table, by its path.
+    /// Shows an entry in its table.
+    #[strum_discriminants(strum(message = "Show an entry of the library"))]
     Entry(String),
-    /// Show an assembly by its id.
+    /// Shows an assembly and settles it.
+    #[strum_discriminants(strum(message = "Show an assembly"))]
     Assembly(String),
-    /// Copy the entry chosen in the library.
+    /// Copies the row chosen in the library to a file of its own.
+    #[strum_discriminants(strum(message = "Duplicate the chosen entry"))]
     Duplicate,
-    /// Delete the entry chosen in the library.
+    /// Deletes the row chosen in the library; its file goes with the next save, and Undo brings it back.
+    #[strum_discriminants(strum(message = "Delete the chosen entry of the library"))]
     Remove,
-    /// Delete the entry chosen in the pilot program.
+    /// Takes the entry chosen on the timeline out of the pilot program.
+    #[strum_discriminants(strum(message = "Delete the chosen entry of the pilot program"))]
     DeleteEntry,
-    /// Write the table shown, as it is sorted and searched.
+    /// Writes the table shown, with its search and order.
+    #[strum_discriminants(strum(message = "Save the library's table as CSV"))]
     ExportTable(PathBuf),
-    /// Take a table of the kind shown into the library.
+    /// Changes the entries of the table shown that a CSV names, and adds those that it does not know.
+    #[strum_discriminants(strum(message = "Take a CSV into the library"))]
     ImportTable(PathBuf),
     /// Write the plots shown: SVG, PNG or CSV by the file's extension.
     ExportPlots(PathBuf),
@@ -106,33 +141,53 @@ pub enum PanelAction {
 }
 
 /// An action on the window as a whole.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(WindowVerb), derive(EnumMessage, IntoStaticStr))]
+#[strum_discriminants(strum(prefix = "window.", serialize_all = "kebab-case"))]
 pub enum WindowAction {
-    /// Open or close the list of commands.
+    /// Lists every command by its name.
+    #[strum_discriminants(strum(message = "Commands"))]
     Palette,
     /// Dark or light.
     Theme(Theme),
-    /// Units on screen.
+    /// Chooses the units on screen; files keep theirs.
+    #[strum_discriminants(strum(message = "Units"))]
     Units(Units),
-    /// Size of everything on screen, 1 for usual.
+    // 1 for usual.
+    /// Makes everything on screen larger or smaller.
+    #[strum_discriminants(strum(message = "Size"))]
     Size(f32),
-    /// Copy the command line that gives the run.
+    /// Copies the command that gives this run, for a terminal or a script.
+    #[strum_discriminants(strum(message = "Copy as command line", serialize = "copy-run"))]
     CopyCommandLine,
-    /// Copy the command lines that run the open study.
+    /// Copies the commands that run the open study and report it.
+    #[strum_discriminants(strum(
+        message = "Copy the study as command line",
+        serialize = "copy-study"
+    ))]
     CopyStudyLine,
-    /// Copy the command line that searches for the open observation.
+    /// Copies the command that searches for the open observation.
+    #[strum_discriminants(strum(
+        message = "Copy the search as command line",
+        serialize = "copy-search"
+    ))]
     CopySearchLine,
-    /// Open the report of the results shown.
+    /// Opens the report of the results shown with the program that is usual for pages.
+    #[strum_discriminants(strum(message = "Open the study's report"))]
     OpenReport,
-    /// Open a document as a page.
+    /// Opens a document with the program that is usual for pages; it is inside the program.
+    #[strum_discriminants(strum(message = "Read"))]
     Read(Document),
-    /// Show a folder in the system's file manager, or open a file.
+    /// Shows a folder in the system's file manager, or opens a file with its usual program.
+    #[strum_discriminants(strum(message = "Open a folder"))]
     OpenFolder(PathBuf),
     /// Ask for the file of the command of this identity.
     Ask(&'static str),
-    /// The 3-D view alone on the whole screen, in large letters; or back.
+    /// Shows the 3-D view alone on the whole screen, in large letters, for a talk; F11 or Esc goes back.
+    #[strum_discriminants(strum(message = "Present"))]
     Present,
-    /// Close the window.
+    /// Closes the window; unsaved edits are asked about first.
+    #[strum_discriminants(strum(message = "Quit"))]
     Quit,
 }
 
@@ -147,7 +202,7 @@ impl WindowCommand {
         match self {
             Self::Workbench(command) => command.id(),
             Self::View(action) => action.id(),
-            Self::Flight(action) => action.id(),
+            Self::Flight(action) => action.discriminant().into(),
             Self::Panel(action) => action.id(),
             Self::Window(action) => action.id(),
         }
@@ -161,30 +216,7 @@ impl ViewAction {
             Self::Look(View::Side) => "view.side",
             Self::Look(View::Top) => "view.top",
             Self::Look(View::Front) => "view.front",
-            Self::Look(_) => "view.look",
-            Self::Frame => "view.frame",
-            Self::Split(_) => "view.split",
-            Self::Pose => "view.pose",
-            Self::Ruler => "view.ruler",
-            Self::Inspect(_) => "view.inspect",
-            Self::LetGo => "view.let-go",
-            Self::SavePicture(_) => "view.save-picture",
-            Self::SaveFilm(_) => "view.save-film",
-            Self::CancelFilm => "view.cancel-film",
-            Self::SetKey => "view.set-key",
-            Self::ClearKeys => "view.clear-keys",
-        }
-    }
-}
-
-impl FlightAction {
-    fn id(&self) -> &'static str {
-        match self {
-            Self::Toggle => "flight.toggle",
-            Self::Person => "flight.person",
-            Self::NextAct => "flight.next-act",
-            Self::ChooseAct(_) => "flight.act",
-            Self::Mouth => "flight.mouth",
+            other => ViewVerb::from(other).into(),
         }
     }
 }
@@ -193,22 +225,12 @@ impl PanelAction {
     fn id(&self) -> &'static str {
         match self {
             Self::Show(PanelId::HELP) => "panel.help",
-            Self::Show(_) => "panel.show",
-            Self::Close(_) => "panel.close",
-            Self::Arrange(_) => "panel.layout",
-            Self::Table(_) => "panel.table",
-            Self::Entry(_) => "panel.entry",
-            Self::Assembly(_) => "panel.assembly",
-            Self::Duplicate => "panel.duplicate",
-            Self::Remove => "panel.remove",
-            Self::DeleteEntry => "panel.delete-entry",
-            Self::ExportTable(_) => "panel.export-table",
-            Self::ImportTable(_) => "panel.import-table",
             Self::ExportPlots(file) if has_extension(file, "png") => "panel.plots-png",
             Self::ExportPlots(file) if has_extension(file, "csv") => "panel.plots-csv",
-            Self::ExportPlots(_) => "panel.plots-svg",
             Self::ExportModel(file) if has_extension(file, "stl") => "panel.model-stl",
+            Self::ExportPlots(_) => "panel.plots-svg",
             Self::ExportModel(_) => "panel.model-gltf",
+            other => PanelVerb::from(other).into(),
         }
     }
 }
@@ -216,20 +238,10 @@ impl PanelAction {
 impl WindowAction {
     fn id(&self) -> &'static str {
         match self {
-            Self::Palette => "window.palette",
             Self::Theme(Theme::Dark) => "window.dark",
             Self::Theme(Theme::Light) => "window.light",
-            Self::Units(_) => "window.units",
-            Self::Size(_) => "window.size",
-            Self::CopyCommandLine => "window.copy-run",
-            Self::CopyStudyLine => "window.copy-study",
-            Self::CopySearchLine => "window.copy-search",
-            Self::OpenReport => "window.open-report",
-            Self::Read(_) => "window.read",
-            Self::OpenFolder(_) => "window.open-folder",
             Self::Ask(id) => id,
-            Self::Present => "window.present",
-            Self::Quit => "window.quit",
+            other => WindowVerb::from(other).into(),
         }
     }
 }

@@ -11,6 +11,7 @@ mod view;
 mod window;
 
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use endline_session::command::{self, Choice, CommandInfo, FileQuestion, Info, Make, Shortcut};
 
@@ -22,12 +23,14 @@ pub use keys::{spelled, to_egui};
 pub type WindowInfo = CommandInfo<Shared, WindowCommand>;
 
 /// Commands that only a window has, by group.
-pub static WINDOW_COMMANDS: [(&str, &[WindowInfo]); 4] = [
-    ("3-D view", view::COMMANDS),
-    ("Flight", flight::COMMANDS),
-    ("Panels", panel::COMMANDS),
-    ("Window", window::COMMANDS),
-];
+pub static WINDOW_COMMANDS: LazyLock<[(&str, Vec<WindowInfo>); 4]> = LazyLock::new(|| {
+    [
+        ("3-D view", view::commands()),
+        ("Flight", flight::commands()),
+        ("Panels", panel::commands()),
+        ("Window", window::commands()),
+    ]
+});
 
 /// A command of either table.
 #[derive(Clone, Copy)]
@@ -72,7 +75,7 @@ pub fn declared() -> impl Iterator<Item = Declared> {
 /// The declaration of an identity such as `view.frame`.
 pub fn find(id: &str) -> Option<Declared> {
     let window = || {
-        let mut all = WINDOW_COMMANDS.iter().flat_map(|(_, commands)| *commands);
+        let mut all = WINDOW_COMMANDS.iter().flat_map(|(_, commands)| commands);
         all.find(|info| info.id == id).map(Declared::Window)
     };
     command::find(id).map(Declared::Workbench).or_else(window)
@@ -106,8 +109,8 @@ impl Declared {
     /// The keys that give it.
     pub fn keys(self) -> &'static [Shortcut] {
         match self {
-            Self::Workbench(info) => info.keys,
-            Self::Window(info) => info.keys,
+            Self::Workbench(info) => &info.keys,
+            Self::Window(info) => &info.keys,
         }
     }
 
@@ -123,8 +126,10 @@ impl Declared {
     /// The command where it needs nothing more.
     pub fn plain(self) -> Option<WindowCommand> {
         match self {
-            Self::Workbench(Info { make: Make::Plain(make), .. }) => Some(make().into()),
-            Self::Window(WindowInfo { make: Make::Plain(make), .. }) => Some(make()),
+            Self::Workbench(Info { make: Make::Plain(command), .. }) => {
+                Some(command.clone().into())
+            }
+            Self::Window(WindowInfo { make: Make::Plain(command), .. }) => Some(command.clone()),
             Self::Workbench(_) | Self::Window(_) => None,
         }
     }
