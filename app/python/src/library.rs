@@ -6,8 +6,7 @@ use endline_gear::Library as Items;
 use endline_session::check::check_path;
 use endline_session::locate;
 use endline_session::source::AssemblyFile;
-use endline_session::statics::{TrialGear, TrialSea};
-use endline_session::statics::{alone, settled};
+use endline_session::statics::{TrialGear, TrialSea, alone, settled};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -8,8 +8,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use endline_sim::DVec3;
 use endline_sim::water::field::Walk;
-use endline_sim::water::waves::Spectrum;
-use endline_sim::water::waves::{WaveKind, Waves};
+use endline_sim::water::waves::{Spectrum, WaveKind, Waves};
 use endline_sim::water::{Current, Sea, Water, WavesOut};
 
 /// Nodes of the rope.

@@ -7,8 +7,7 @@ use crate::model::{Body, JointKind, Model, Whale};
 use crate::state::{
     BodyGrips, BodyState, FrictionState, PilotMemory, RopeState, State, StepControl, WhaleState,
 };
-use crate::whale::Exertion;
-use crate::whale::pilot;
+use crate::whale::{Exertion, pilot};
 
 impl State {
     /// The initial state of a model before statics: initial guesses, at rest.

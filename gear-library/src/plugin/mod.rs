@@ -17,13 +17,12 @@ use std::sync::Arc;
 use endline_sdk::{Act, GearType};
 
 use crate::diagnostic::Diagnostic;
-use crate::entry;
 use crate::fields::{Fields, Problems};
 use crate::library::Library;
-use crate::read;
 use crate::schema::Kind;
 use crate::sources::Sources;
 use crate::tree::{self, Node};
+use crate::{entry, read};
 
 pub use gear::TextGear;
 

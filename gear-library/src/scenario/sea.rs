@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use endline_sim::DVec3;
 use endline_sim::water::current::Tide;
-use endline_sim::water::waves::Spectrum;
-use endline_sim::water::waves::{WaveKind, Waves};
+use endline_sim::water::waves::{Spectrum, WaveKind, Waves};
 
 use crate::compass::direction;
 use crate::diagnostic::{At, Place};

@@ -4,8 +4,7 @@
 
 use crate::linked::{Linked, library, report, scenario_text, spec_of};
 use endline_gear::{Options, Scenario, assemble};
-use endline_sim::water::current::Profile;
-use endline_sim::water::current::Tide;
+use endline_sim::water::current::{Profile, Tide};
 use endline_sim::water::waves::WaveKind;
 use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, settle, step};
 

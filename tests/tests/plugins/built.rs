@@ -1,11 +1,10 @@
 //! Plugin libraries of the tests, built once in a target folder of their own: with `entry` on they
 //! must not replace what the rest of the workspace links.
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use std::{env, fs};
 
 use endline_tests::root;
 

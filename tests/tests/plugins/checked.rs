@@ -5,11 +5,10 @@
 #![cfg(unix)]
 
 use std::cell::RefCell;
-use std::env;
-use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use std::{env, fs};
 
 use endline_session::plugins::{PluginHost, by_child, remembering, report_here};
 

@@ -1,9 +1,8 @@
 //! What `endline plugins new` writes builds, and passes the check, in each language and of each kind.
 
-use std::env;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::{env, fs};
 
 use endline_session::plugins::{Language, PluginKind, Project, try_here, write_project};
 use endline_tests::root;

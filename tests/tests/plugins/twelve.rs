@@ -1,9 +1,8 @@
 //! Twelve bad plugins: each is tried in a child process and reported with its defect, and the program continues.
 #![cfg(unix)]
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use endline_session::plugins::PluginHost;
 

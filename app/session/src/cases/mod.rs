@@ -20,8 +20,7 @@ use crate::plugins::PluginHost;
 
 pub use outcome::{Convergence, Curve, Outcome, Point, Verdict};
 
-use outcome::Observed;
-use outcome::failed;
+use outcome::{Observed, failed};
 use setup::Setup;
 
 /// The cases of a gear library.

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use endline_gear::Kind;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{Choice, FileQuestion, Make, When};
-use super::info::{can_redo, can_undo, has_moments, has_whale, unsaved};
+use super::info::{
+    Choice, FileQuestion, Make, When, can_redo, can_undo, has_moments, has_whale, unsaved,
+};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::edit::saving::Keep;

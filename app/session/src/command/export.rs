@@ -7,8 +7,7 @@ use std::path::PathBuf;
 use endline_gear::Kind;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::ready;
-use super::info::{FileQuestion, Make};
+use super::info::{FileQuestion, Make, ready};
 use super::{Command, Info};
 use crate::export::chart;
 use crate::workbench::Workbench;

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{Choice, Make};
-use super::info::{loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting};
+use super::info::{
+    Choice, Make, loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting,
+};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 

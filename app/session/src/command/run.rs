@@ -7,10 +7,9 @@ use std::path::PathBuf;
 use endline_sdk::Controls;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{Choice, FileQuestion, Make, When};
 use super::info::{
-    can_apply, can_rerun, compares, earlier_moment, faster, has_moments, is_still, no_errors,
-    ready, running, slower,
+    Choice, FileQuestion, Make, When, can_apply, can_rerun, compares, earlier_moment, faster,
+    has_moments, is_still, no_errors, ready, running, slower,
 };
 use super::{Command, Info};
 use crate::workbench::{Direction, SPEEDS, Workbench};

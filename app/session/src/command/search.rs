@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::edit::stem;
-use super::info::{Choice, FileQuestion, Make};
-use super::info::{has_stories, observation_opened, search_at_work, search_runs};
+use super::info::{
+    Choice, FileQuestion, Make, has_stories, observation_opened, search_at_work, search_runs,
+};
 use super::{Command, Info};
 use crate::locate;
 use crate::search::question::Length;

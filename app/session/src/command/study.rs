@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::edit::stem;
-use super::info::{Choice, FileQuestion, Make};
-use super::info::{has_report, has_results, study_at_work, study_opened, study_runs};
+use super::info::{
+    Choice, FileQuestion, Make, has_report, has_results, study_at_work, study_opened, study_runs,
+};
 use super::{Command, Info};
 use crate::edit::Documents;
 use crate::edit::library_table::id_of;

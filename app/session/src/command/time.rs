@@ -5,8 +5,7 @@
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::Info;
-use super::info::When;
-use super::info::{can_replay, earlier_moment, has_moments};
+use super::info::{When, can_replay, earlier_moment, has_moments};
 use crate::workbench::Workbench;
 
 /// An action on the moment shown.

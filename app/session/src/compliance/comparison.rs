@@ -5,11 +5,9 @@
 use askama::Template;
 
 use crate::error::Error;
-use crate::page::STYLE;
-use crate::page::{Cell, Line, Table};
+use crate::page::{Cell, Line, STYLE, Table};
 use crate::rules::{RuleResult, Verdict};
-use crate::settled::PartStrength;
-use crate::settled::{LineShape, SettledShape};
+use crate::settled::{LineShape, PartStrength, SettledShape};
 use crate::units::N_PER_LBF;
 
 use super::page::{bodies, command, force, probability, threat, unknown, where_and_when};

@@ -3,15 +3,12 @@
 use askama::Template;
 use endline_sim::model::BodyRole;
 
-use crate::page::STYLE;
-use crate::page::{Cell, Line, Table};
+use crate::page::{Cell, Citations, Line, STYLE, Table};
 use crate::rules::{RuleResult, Verdict};
-use crate::settled::LineShape;
-use crate::settled::PartStrength;
+use crate::settled::{LineShape, PartStrength};
 use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
 
 use super::{ComplianceSheet, ThreatOfGear, drawing};
-use crate::page::Citations;
 
 /// Greatest number of parts in a list; a sentence names the others.
 const MOST_PARTS: usize = 14;

@@ -17,8 +17,7 @@ use endline_sim::{DQuat, DVec3, Frame, Model};
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
-use super::model::{self, turned};
-use super::model::{Piece, pieces};
+use super::model::{self, Piece, pieces, turned};
 use crate::scene::mesh::{Colour, Mesh};
 use crate::scene::{bodies, obstacles, whale};
 

@@ -297,8 +297,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::scene::Bounds;
-    use crate::scene::{Look, Part};
+    use crate::scene::{Bounds, Look, Part};
 
     /// A tetrahedron with legs of 1, 2 and 3 m: 1 m³.
     fn scene() -> Scene {

@@ -27,8 +27,7 @@ use arrow_schema::{ArrowError, Field, Schema};
 use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
 
 use crate::save;
-use crate::table::parquet;
-use crate::table::{Column, Table};
+use crate::table::{Column, Table, parquet};
 
 /// Format of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -21,12 +21,10 @@ use endline_sim::{DVec3, Model, settle};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::AssemblyFile;
-use crate::source::written;
+use crate::source::{AssemblyFile, written};
 use loads::Loads;
 
-pub use sheet::{HaulSheet, Stage};
-pub use sheet::{Sweep, SweepRow};
+pub use sheet::{HaulSheet, Stage, Sweep, SweepRow};
 
 /// Hauls longer than this many times their rope over the hauler's speed are given up.
 const MOST_TIMES: f64 = 4.0;

@@ -11,9 +11,8 @@ use std::time::{Duration, Instant};
 use endline_sdk::Controls;
 use endline_sim::{Audit, Cost, Frame, State};
 
-use super::Pace;
 use super::history::{Envelope, FrameHistory, Series, Watch};
-use super::{LiveView, Made, RunCommand, Status};
+use super::{LiveView, Made, Pace, RunCommand, Status};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::recording::program::program;

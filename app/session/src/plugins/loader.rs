@@ -295,8 +295,7 @@ mod on_disk {
     use std::sync::atomic::{AtomicU64, Ordering};
     use std::time::Duration;
 
-    use super::Refusal;
-    use super::copies_folder;
+    use super::{Refusal, copies_folder};
 
     /// Copies made by this program: each has a name that was never used.
     static COPIES: AtomicU64 = AtomicU64::new(0);

@@ -23,11 +23,12 @@ pub use check::trial::Finding;
 pub use check::{Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
 pub use choices::{Ask, Change, Choices};
 pub use host::PluginHost;
-pub use info::PluginUsed;
-pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, Standing};
+pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, PluginUsed, Standing};
 pub(crate) use loader::data_folder;
-pub use loader::{Loader, file_hash};
-pub use loader::{chosen_file, default_folders, known_file, program, program_folder, stands_for};
+pub use loader::{
+    Loader, chosen_file, default_folders, file_hash, known_file, program, program_folder,
+    stands_for,
+};
 pub use new::{Language, Project, write_project};
 #[cfg(unix)]
 pub use process::serve_here;

@@ -5,8 +5,7 @@ use endline_gear::units::Quantity;
 
 use super::gear::{Endline, Gear, Piece};
 use super::sheet::Fishing;
-use super::value::{Kind, Value};
-use super::value::{MadeUp, Stretch};
+use super::value::{Kind, MadeUp, Stretch, Value};
 
 /// The subject of a fact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -26,7 +26,6 @@ pub mod value;
 mod verdict;
 
 pub use packs::Packs;
-pub use sheet::Fishing;
-pub use sheet::{Counts, EndlineMakeUp, RuleGear, RuleSheet, assembly, check, of_library};
+pub use sheet::{Counts, EndlineMakeUp, Fishing, RuleGear, RuleSheet, assembly, check, of_library};
 pub use value::{MadeUp, Places, Stretch};
 pub use verdict::{Measured, RuleResult, Verdict};

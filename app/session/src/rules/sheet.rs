@@ -11,8 +11,7 @@ use super::packs::Packs;
 use super::verdict::{RuleResult, Verdict, of};
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::AssemblyFile;
-use crate::source::written;
+use crate::source::{AssemblyFile, written};
 
 /// Depth in which gear is assembled where none is given: that of the shipped inshore gear [m].
 const USUAL_DEPTH_M: f64 = 25.0;

@@ -5,8 +5,7 @@ use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::facts::of_subject;
-use super::facts::{Part, value};
+use super::facts::{Part, of_subject, value};
 use super::gear::Gear;
 use super::packs::expression;
 use super::sheet::Fishing;

@@ -7,8 +7,7 @@ use endline_gear::{Observation, SeenSite};
 
 use crate::encounters::in_words;
 use crate::error::Error;
-use crate::page::STYLE;
-use crate::page::{Cell, Line, Table};
+use crate::page::{Cell, Line, STYLE, Table};
 use crate::save;
 
 use super::distance::LIKE;

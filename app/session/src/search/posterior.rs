@@ -8,9 +8,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::encounters::Encounter;
 use crate::encounters::draw::Drawn;
-use crate::encounters::in_words;
+use crate::encounters::{Encounter, in_words};
 
 use super::distance::LIKE;
 use super::rounds::Rounds;

@@ -2,17 +2,14 @@
 
 use std::fs;
 
-use super::batch;
 use super::folder::Folder;
-use super::merge;
 use super::results::{ResultsRequest, StudyResults};
 use super::tests::Place;
+use super::{batch, merge};
 use crate::campaign::Shard;
 use crate::campaign::control::Control;
 use crate::plugins::PluginHost;
-use crate::table::Cell;
-use crate::table::parquet;
-use crate::table::seal;
+use crate::table::{Cell, parquet, seal};
 
 /// Numbers without a pattern, the same in every run (Knuth's MMIX).
 struct Numbers(u64);

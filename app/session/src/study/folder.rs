@@ -20,8 +20,7 @@ use crate::save;
 
 use super::prepared::PreparedStudy;
 use super::registration::Registration;
-use crate::table::parquet;
-use crate::table::{Column, Row, Table};
+use crate::table::{Column, Row, Table, parquet};
 
 /// Encounters of a block: what a killed program loses at most, for each thread.
 pub const BLOCK: u32 = 1;

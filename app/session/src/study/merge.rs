@@ -7,10 +7,8 @@ use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::runs::Runs;
 use super::stats::is_narrow;
-use crate::campaign::Shard;
-use crate::campaign::leases;
-use crate::table::Table;
-use crate::table::parquet;
+use crate::campaign::{Shard, leases};
+use crate::table::{Table, parquet};
 
 /// Encounters between two tests of whether the interval is as narrow as the study asks.
 const TEST_EVERY: u32 = 4;

@@ -13,12 +13,10 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;
 
-use super::batch;
 use super::folder::Folder;
-use super::merge;
 use super::prepared::{Files, PreparedStudy};
-use super::report;
 use super::stats::Findings;
+use super::{batch, merge, report};
 
 /// A study to be run.
 #[derive(Clone, Debug)]

@@ -14,11 +14,10 @@ use crate::source::Prepared;
 use crate::task::{Fault, Task, Waker};
 
 use super::folder::{Folder, Label};
-use super::merge;
-use super::prepare;
 use super::prepared::PreparedStudy;
 use super::runs::Runs;
 use super::stats::Findings;
+use super::{merge, prepare};
 use crate::encounters::Encounter;
 use crate::table::Table;
 

@@ -5,19 +5,15 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::batch;
+use super::{ResultsRequest, StudyResults, batch, merge, results};
 use endline_gear::Sources;
 use endline_sim::Model;
 
 use super::folder::Folder;
-use super::merge;
 use super::prepared::{Files, PreparedStudy};
 use super::queue::{Queue, StudyJob, StudyRequest};
-use super::results;
-use super::{ResultsRequest, StudyResults};
-use crate::campaign::Shard;
-use crate::campaign::State;
 use crate::campaign::control::{Control, Count, Progress};
+use crate::campaign::{Shard, State};
 use crate::encounters::Encounter;
 use crate::plugins::PluginHost;
 

@@ -13,8 +13,7 @@ use ::parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::Type;
 
-use super::seal;
-use super::{Column, Table};
+use super::{Column, Table, seal};
 
 /// A table with texts about it.
 pub(crate) type Tagged = (Table, Vec<(String, String)>);

@@ -9,14 +9,12 @@
 use glam::{DQuat, DVec3};
 
 use crate::contact::law::elastic_grip::{Grip, Push};
-use crate::forces::Forces;
-use crate::forces::suction;
+use crate::forces::{Forces, suction};
 use crate::matrix::outer;
 use crate::model::{Body, Model, Seabed};
 use crate::state::State;
 use crate::system::LinearSystem;
-use crate::trial::plan::Attachment;
-use crate::trial::plan::Plan;
+use crate::trial::plan::{Attachment, Plan};
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
 

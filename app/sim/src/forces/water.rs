@@ -10,8 +10,7 @@ use glam::DVec3;
 
 use crate::forces::body::BodyAt;
 use crate::forces::laws::{PerMetre, Shared};
-use crate::forces::rope::Lengths;
-use crate::forces::rope::tangent;
+use crate::forces::rope::{Lengths, tangent};
 use crate::model::Model;
 use crate::system::LinearSystem;
 use crate::trial::{StepContext, Trial};

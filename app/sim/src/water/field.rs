@@ -292,8 +292,7 @@ mod tests {
     use core::f64::consts::{PI, TAU};
 
     use super::*;
-    use crate::water::waves::Spectrum;
-    use crate::water::waves::WaveKind;
+    use crate::water::waves::{Spectrum, WaveKind};
 
     fn regular(height_m: f64, period_s: f64, ramp_s: f64) -> Waves {
         Waves {

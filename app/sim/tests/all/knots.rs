@@ -2,8 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
-use endline_fixtures::gear::coulomb;
-use endline_fixtures::gear::{line, model, obstacle, water};
+use endline_fixtures::gear::{coulomb, line, model, obstacle, water};
 use endline_fixtures::skin::rigid;
 use endline_fixtures::whale::still;
 use endline_sdk::Region;

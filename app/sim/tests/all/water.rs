@@ -7,8 +7,7 @@ use core::f64::consts::{PI, TAU};
 use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Body, Float, Seabed, Settings};
 use endline_sim::water::current::Tide;
-use endline_sim::water::waves::Spectrum;
-use endline_sim::water::waves::{WaveKind, Waves, wave_number};
+use endline_sim::water::waves::{Spectrum, WaveKind, Waves, wave_number};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 

@@ -3,8 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use endline_session::haul::sheet::Place;
-use endline_session::haul::sheet::sweep;
+use endline_session::haul::sheet::{Place, sweep};
 use endline_session::haul::{HaulRequest, HaulSheet, Stage, Sweep, SweepRow, haul};
 use endline_session::units::newtons_and_lbf;
 use endline_sim::DVec3;

@@ -9,8 +9,7 @@ use endline_session::figures::{
     AUDIT, BALANCE, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE,
     PROBE, Quantity, RUN, Value, View, WHALE, lines, parts, shown,
 };
-use endline_session::settled::PartStrength;
-use endline_session::settled::SettledShape;
+use endline_session::settled::{PartStrength, SettledShape};
 use endline_session::units::{Units, newtons_and_lbf};
 use endline_sim::metrics::WhaleSummary;
 

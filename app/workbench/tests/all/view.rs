@@ -11,13 +11,11 @@ use endline_sim::Frame;
 use endline_sim::contact::body_on_skin::BodyContact;
 use endline_sim::metrics::{Event, EventKind};
 use endline_sim::model::BodyRole;
-use endline_workbench::gui::command::action::ViewAction;
-use endline_workbench::gui::command::action::WindowCommand;
+use endline_workbench::gui::command::action::{ViewAction, WindowCommand};
 use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::offers;
 use endline_workbench::gui::panel::PanelId;
-use endline_workbench::scene::Eye;
-use endline_workbench::scene::{Picked, View};
+use endline_workbench::scene::{Eye, Picked, View};
 use glam::{DVec2, DVec3};
 
 use crate::common::{Folder, Reach as _, Window, flown, give, only, real, wait};

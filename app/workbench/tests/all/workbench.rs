@@ -7,8 +7,7 @@ use std::sync::Arc;
 
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
-use endline_session::live::engine;
-use endline_session::live::{LiveView, Status};
+use endline_session::live::{LiveView, Status, engine};
 use endline_session::units::Units;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::layout;

@@ -1,8 +1,7 @@
 //! A new plugin project: a few files that build, and pass the check.
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use super::info::PluginKind;
 

@@ -16,8 +16,7 @@ use super::super::guard::{BLANK, UNWRITTEN};
 use super::super::info::{Hook, Refusal};
 use super::super::library::LoadedLibrary;
 use super::super::loader::open_copy;
-use super::message::{Answer, Call, Declared, Opening, Orders, Question};
-use super::message::{receive, send};
+use super::message::{Answer, Call, Declared, Opening, Orders, Question, receive, send};
 use super::pipe::Pipe;
 use super::sandbox;
 

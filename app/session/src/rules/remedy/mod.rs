@@ -26,15 +26,12 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 
 use super::packs::Packs;
-use super::sheet::Fishing;
-use super::sheet::RuleSheet;
+use super::sheet::{Fishing, RuleSheet};
 use super::verdict::{RuleResult, Verdict};
 use propose::Scene;
-use trials::Candidate;
-use trials::{CandidateTrials, Tried, size};
+use trials::{Candidate, CandidateTrials, Tried, size};
 
-pub use trials::Change;
-pub use trials::{Edited, usual_inserts, usual_inserts_of_own};
+pub use trials::{Change, Edited, usual_inserts, usual_inserts_of_own};
 
 /// Name and version of the JSON.
 const SCHEMA: &str = "endline.rules.fix/1";

@@ -7,8 +7,7 @@ mod mistakes;
 use endline_gear::Date;
 use endline_gear::units::{Quantity, parse};
 
-use super::facts::FACTS;
-use super::facts::{Part, fits, value};
+use super::facts::{FACTS, Part, fits, value};
 use super::gear::Gear;
 use super::{Fishing, Packs, RuleResult, Verdict, check};
 use cases::{TRAPS, UNSAID, federal, others};

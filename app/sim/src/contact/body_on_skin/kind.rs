@@ -14,8 +14,7 @@ use crate::contact::{Accepted, Assembly, ContactError, ContactKind, Order, Repor
 use crate::cost::{CostClock, CostPart};
 use crate::geometry::Pose;
 use crate::model::Friction;
-use crate::state::State;
-use crate::state::{BodyGrip, BodyGrips};
+use crate::state::{BodyGrip, BodyGrips, State};
 use crate::system::LinearSystem;
 use crate::trial::{BodyTrial, StepContext, Trial};
 

@@ -13,8 +13,6 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use crate::contact::ContactError;
-use crate::contact::ContactPoint;
 use crate::contact::law::barrier::PINCHED_SHARE;
 use crate::contact::law::friction_arrays::Failed;
 use crate::contact::law::skin_direction::Grains;
@@ -22,6 +20,7 @@ use crate::contact::rope_on_skin::near::Near;
 use crate::contact::rope_on_skin::points::{SkinContactPoint, SkinContactPoints};
 use crate::contact::rope_on_skin::skin_friction::Touching;
 use crate::contact::rope_on_skin::touch::Touch;
+use crate::contact::{ContactError, ContactPoint};
 use crate::model::{Friction, Model};
 use crate::state::State;
 

@@ -13,9 +13,8 @@ use glam::DVec3;
 use crate::contact::law::capstan_correction::friction_factor;
 use crate::contact::rope_on_skin::crease;
 use crate::contact::rope_on_skin::near::Near;
-use crate::contact::rope_on_skin::stored_faces::{self, KeptFace};
 use crate::contact::rope_on_skin::stored_faces::{
-    FACE_BITS, MOST_POINTS, PIECE_BITS, SEGMENT_BITS,
+    self, FACE_BITS, KeptFace, MOST_POINTS, PIECE_BITS, SEGMENT_BITS,
 };
 use crate::contact::rope_on_skin::touch::Touch;
 use crate::geometry::placed::on_triangle;

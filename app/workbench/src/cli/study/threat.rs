@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use endline_gear::{StudyEvent, hint};
-use endline_session::study::PreparedStudy;
 use endline_session::study::folder::Folder;
-use endline_session::study::merge;
 use endline_session::study::threat::{Filled, How, Poll, Threat, Threats, as_own, with_bands};
+use endline_session::study::{PreparedStudy, merge};
 use endline_session::{Error, locate, save};
 
 use super::args::ThreatArgs;

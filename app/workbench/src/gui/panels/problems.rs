@@ -2,8 +2,7 @@
 
 use crate::gui::command::action::PanelAction;
 use egui::{Label, RichText, ScrollArea, Ui};
-use endline_gear::Diagnostic;
-use endline_gear::Kind;
+use endline_gear::{Diagnostic, Kind};
 use endline_session::edit::Documents;
 
 use crate::gui::files::KINDS;

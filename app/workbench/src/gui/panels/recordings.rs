@@ -1,7 +1,7 @@
 //! The list of recordings, which are stored automatically, with their thumbnails, names and notes.
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::widgets::command;
+use crate::gui::widgets::{self, command, words};
 use endline_session::command::RunAction;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -13,12 +13,10 @@ use egui::{
 use endline_session::recording::{self, kept::Kept};
 use endline_sim::metrics::Outcome;
 
-use crate::gui::files;
 use crate::gui::panel::{Panel, PanelId};
-use crate::gui::pictures;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets::{self, words};
+use crate::gui::{files, pictures};
 
 /// The list of recordings, read again after a run was stored.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! Controls of the run, its validity, and figures of the solver.
 
 use crate::gui::command::action::{FlightAction, WindowAction};
-use crate::gui::widgets::command;
+use crate::gui::widgets::{self, command, words};
 use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
 use endline_session::figures::{Figure, shares};
@@ -14,7 +14,6 @@ use endline_sim::Cost;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::widgets::{self, words};
 
 /// Least share of the computing time of a part that is listed; smaller parts are shown on hover.
 const LEAST_LISTED: f64 = 0.05;

@@ -26,8 +26,7 @@ use endline_gear::Document;
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
 
-use crate::common::Folder;
-use crate::common::add_study;
+use crate::common::{Folder, add_study};
 use crate::search::add_observation;
 use fault::Fault;
 use journal::Journal;

@@ -2,8 +2,9 @@
 
 use endline_sdk::{Contacts, FrictionModel, FrictionResponse, HookError, Region};
 
-use super::{Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
-use super::{Random, across, dot};
+use super::{
+    Play, Random, Trial, across, bits, defaults, dot, drawn, numbers, on_threads, plays_again,
+};
 
 /// Sets of attributes, steps with each, and contacts in a call.
 const SETS: u64 = 40;

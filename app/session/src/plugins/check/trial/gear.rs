@@ -2,8 +2,7 @@
 
 use endline_sdk::{AttributeValue, GearAction, GearStep, GearType, HookError, LineEnd, Rig, Site};
 
-use super::Random;
-use super::{Play, Trial, bits, defaults, drawn, on_threads, plays_again};
+use super::{Play, Random, Trial, bits, defaults, drawn, on_threads, plays_again};
 
 /// Water depths at which a gear type may build itself [m]; one that it takes is enough.
 const DEPTHS_M: [f64; 4] = [25.0, 10.0, 80.0, 200.0];

@@ -2,8 +2,7 @@
 
 use endline_sdk::{BodyPart, Controls, HookError, MotionInput, WhaleMotion};
 
-use super::Random;
-use super::{Play, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
+use super::{Play, Random, Trial, bits, defaults, drawn, numbers, on_threads, plays_again};
 
 /// Sets of attributes, and steps with each.
 const SETS: u64 = 24;

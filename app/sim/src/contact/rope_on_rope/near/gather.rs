@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use crate::broad_phase::knots::on_segments;
 use crate::broad_phase::pieces::Pieces;
-use crate::broad_phase::ropes::Reach;
-use crate::broad_phase::ropes::{Moves, Rope};
+use crate::broad_phase::ropes::{Moves, Reach, Rope};
 use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, TOUCH_M};
 use crate::geometry::segment_pair::{greatest_approach, nearest};
 use crate::model::Model;

@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use crate::bits::unit;
 use crate::broad_phase::pieces::{Piece, Pieces};
-use crate::broad_phase::ropes::Reach;
-use crate::broad_phase::ropes::{Moves, Rope};
+use crate::broad_phase::ropes::{Moves, Reach, Rope};
 use crate::contact::rope_on_rope::near::*;
 use crate::metrics::tests::{model, spec};
 use crate::model::Joint;

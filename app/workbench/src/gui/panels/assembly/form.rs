@@ -8,8 +8,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::statics::TrialGear;
 
-use super::AssemblyPanel;
-use super::{inserts, item};
+use super::{AssemblyPanel, inserts, item};
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;

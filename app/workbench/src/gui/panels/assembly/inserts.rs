@@ -3,16 +3,13 @@
 use egui::{Grid, RichText, Ui};
 use endline_gear::Kind;
 use endline_session::command::EditAction;
-use endline_session::edit::Documents;
-use endline_session::edit::assembly;
+use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
-use super::AssemblyPanel;
-use super::item;
-use crate::gui::fields;
+use super::{AssemblyPanel, item};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets;
+use crate::gui::{fields, widgets};
 
 /// Draws inserts of lines that a gear type builds. They are stored in the scenario if it places the gear, unless the assembly has its
 /// own.

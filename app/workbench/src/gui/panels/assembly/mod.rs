@@ -23,10 +23,9 @@ use endline_session::scene::{Scene, Show};
 use endline_session::statics::worker::Answer;
 use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialGear, TrialSea};
 
-use crate::gui::fields;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
-use crate::gui::widgets;
+use crate::gui::{fields, widgets};
 
 /// The panel of gear and its statics.
 #[derive(Default)]

@@ -3,9 +3,8 @@
 use egui::text::LayoutJob;
 use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::edit::Documents;
-use endline_session::statics::Trial;
 use endline_session::statics::worker::Answer;
-use endline_session::statics::{RigAtRest, TrialGear, TrialSea};
+use endline_session::statics::{RigAtRest, Trial, TrialGear, TrialSea};
 use endline_sim::model::BodyRole;
 use glam::DVec2;
 

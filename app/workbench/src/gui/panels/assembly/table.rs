@@ -7,8 +7,7 @@ use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
 use super::side::{A, B};
-use super::strength;
-use super::{AssemblyPanel, Rig, surface_m_s};
+use super::{AssemblyPanel, Rig, strength, surface_m_s};
 use crate::gui::theme::Theme;
 
 /// Columns; those that are compared come first, so that a narrow panel shows them.

@@ -11,11 +11,10 @@ use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 
 use super::LibraryPanel;
-use crate::gui::fields;
-use crate::gui::files;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
+use crate::gui::{fields, files};
 
 /// What the selected entry is compared with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -11,9 +11,8 @@ use std::sync::Arc;
 use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use endline_gear::StudyEvent;
 use endline_session::shell;
-use endline_session::study::ResultsReader;
-use endline_session::study::StudyResults;
 use endline_session::study::stats::answer;
+use endline_session::study::{ResultsReader, StudyResults};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::panel::{Panel, PanelId};

@@ -10,13 +10,11 @@ use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::problems::message;
 use endline_session::edit::{Documents, scenario};
 
-use crate::gui::fields;
-use crate::gui::files;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::scenario_fields::{FLAGS, Flag, RUN, Row, SEA, SWIMS, TIDE, WAVES, WHALE};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::widgets;
+use crate::gui::{fields, files, widgets};
 
 /// Field of the scenario and its new value.
 type Edit = (String, String);

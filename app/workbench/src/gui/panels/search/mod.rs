@@ -14,12 +14,11 @@ use endline_session::edit::observation::{self, Range};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::fields::{self, Said};
-use crate::gui::files;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::gui::widgets;
 use crate::gui::widgets::command;
+use crate::gui::{files, widgets};
 
 /// Edits of the observation, each one step of undo.
 type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;

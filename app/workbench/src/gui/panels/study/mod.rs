@@ -14,12 +14,11 @@ use endline_gear::{Diagnostic, Document, Setting, StudyEvent};
 use endline_session::edit::Documents;
 
 use crate::gui::fields::{self, Said};
-use crate::gui::files;
 use crate::gui::layout::Layout;
 use crate::gui::panel::{Panel, PanelId};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::widgets;
+use crate::gui::{files, widgets};
 
 /// Edits of the study: dotted path and value as TOML; `None` removes the field.
 type Edits = Vec<(String, Option<Setting>)>;
