@@ -13,7 +13,7 @@ pub struct Section<'a> {
 }
 
 /// All sections, from free rope to rope that touches skin and rope everywhere.
-pub const SECTIONS: [Section<'_>; 10] = [
+pub const SECTIONS: [Section<'_>; 11] = [
     section("far", "hello-endline", &[NODES], [1.0, 9.0], 4.0),
     section("near", "hello-endline", &[NODES], [10.5, 12.0], 1.5),
     section("sliding", "hello-endline", UNIFORM, [15.0, 33.0], 1.0),
@@ -23,6 +23,7 @@ pub const SECTIONS: [Section<'_>; 10] = [
     section("wound-tight", "dead-whale-wraps", TIGHT, [1.0, 2.0], 0.05),
     section("hitches", "hitches", &[], [0.5, 1.5], 0.2),
     section("twisted-bight", "twisted-bight", &[], [4.0, 6.0], 0.5),
+    section("held", "../benches/encounter/held", &[], [14.0, 16.0], 0.5),
     section("trawl-20", "trawl-10", TRAWL, [1.0, 5.0], 2.0),
 ];
 
