@@ -29,6 +29,8 @@ pub(crate) struct Forces {
     /// Factor on the pseudo-mass of each line in anchored iterations of statics.
     pub pseudo_mass_scale: Vec<f64>,
     pub water: WaterAtGear,
+    /// Scratch: nodes at which a change of the segments that pull changed forces.
+    changed: Vec<bool>,
 }
 
 impl Forces {
@@ -40,6 +42,7 @@ impl Forces {
             cut: vec![false; model.segment_count],
             pseudo_mass_scale: vec![1.0; model.spec.lines.len()],
             water: WaterAtGear::new(model.node_count),
+            changed: Vec::new(),
         }
     }
 

@@ -185,14 +185,17 @@ impl Forces {
         system.rope.low[segment] -= block;
     }
 
-    /// After a solution: makes exactly the segments pull that are taut by the linear solution; returns how many changed.
+    /// After a solution: makes exactly the segments pull that are taut by the linear solution; returns the nodes whose forces changed, if
+    /// there are any.
     pub(crate) fn change_taut(
         &mut self,
         model: &Model,
         trial: &Trial,
         system: &mut LinearSystem,
-    ) -> usize {
-        let mut changed = 0;
+    ) -> Option<&[bool]> {
+        self.changed.clear();
+        self.changed.resize(model.node_count, false);
+        let mut any = false;
         for (index, segments) in model.line_segments.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in segments.clone().enumerate() {
@@ -201,7 +204,9 @@ impl Forces {
                 if pull.taut == (tension > 0.0) || self.cut[segment] {
                     continue;
                 }
-                changed += 1;
+                any = true;
+                self.changed[first_node + k] = true;
+                self.changed[first_node + k + 1] = true;
                 if pull.taut {
                     self.add_pull(system, segment, first_node + k, -1.0);
                     self.pull[segment].taut = false;
@@ -214,7 +219,7 @@ impl Forces {
                 }
             }
         }
-        changed
+        any.then_some(&self.changed)
     }
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.

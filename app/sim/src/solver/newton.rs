@@ -210,13 +210,11 @@ impl Solver {
         self.linear_part.interface.copy_values(&self.system.interface);
         self.solve(model);
         for _ in 0..MOST_ACTIVE_SETS {
-            let Self { forces, trial, system, .. } = self;
+            let Self { forces, trial, system, plan, linear_part, .. } = self;
             forces.predict_tension(model, trial, system, 1.0);
-            if forces.change_taut(model, trial, system) == 0 {
-                return;
-            }
-            system.interface.copy_values(&self.linear_part.interface);
-            self.solve(model);
+            let Some(changed) = forces.change_taut(model, trial, system) else { return };
+            system.interface.copy_values(&linear_part.interface);
+            system.solve_changed(model, plan, trial, Some(changed));
         }
     }
 

@@ -30,7 +30,7 @@ pub(crate) struct BlockTridiagonal {
 }
 
 /// Matrix and force of a line reduced to its ends A and B.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ends {
     pub aa: DMat3,
     pub ab: DMat3,

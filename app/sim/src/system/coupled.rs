@@ -13,9 +13,10 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 
 use crate::model::Model;
-use crate::system::block_tridiagonal::BlockTridiagonal;
+use crate::system::block_tridiagonal::{BlockTridiagonal, Ends};
 use crate::system::interface::{InterfaceSystem, parts};
 use crate::system::join;
+use crate::system::sparse::Place;
 use crate::trial::plan::{Attachment, Attachments};
 
 /// A coupling as the linear system sees it.
@@ -52,6 +53,18 @@ struct Span {
     nodes: Range<usize>,
     segments: Range<usize>,
     ends: [SpanEnd; 2],
+    /// Places of its blocks, row after row, if both ends are touched nodes.
+    places: Option<[Place; 4]>,
+    /// What its elimination left.
+    left: Ends,
+}
+
+/// The four nodes of a pair.
+#[derive(Clone, Copy, Debug)]
+struct PairEnds {
+    ends: [SpanEnd; 4],
+    /// Places of their blocks, row after row, if all are touched nodes.
+    places: Option<[Place; 16]>,
 }
 
 /// An end of a span.
@@ -83,8 +96,8 @@ pub(crate) struct CoupledRopes {
     /// Touched nodes that are no ends of lines, in order; the unknowns after those of the interface.
     touched: Vec<usize>,
     spans: Vec<Span>,
-    /// Ends of the four nodes of each pair of the layout.
-    ends: Vec<[SpanEnd; 4]>,
+    /// Where the nodes of each pair of the layout are.
+    ends: Vec<PairEnds>,
     system: InterfaceSystem,
     /// Scratch: coupled unknowns.
     unknowns: Vec<(usize, usize)>,
@@ -102,31 +115,47 @@ impl CoupledRopes {
         self.laid_out.clear();
     }
 
-    /// Solves the assembled system of lines, interface and couplings; the moves are in `rope.step` and `interface.step`.
+    /// Solves the assembled system of lines, interface and couplings; the moves are in `rope.step` and `interface.step`. If only some
+    /// nodes have `changed` since the last solution, spans without them keep their elimination.
     pub fn solve(
         &mut self,
         model: &Model,
         rope: &mut BlockTridiagonal,
         interface: &mut InterfaceSystem,
         attachments: &Attachments,
+        changed: Option<&[bool]>,
     ) {
         self.add_new_pairs();
+        let mut changed = changed;
         if self.pairs != self.laid_out {
             self.lay_out(model, interface, attachments);
+            changed = None;
         }
         let Self { system, spans, .. } = self;
         system.clear();
         system.add_all(interface);
-        for Span { nodes, segments, ends } in &*spans {
+        for Span { nodes, segments, ends, places, left } in spans {
             let at = ends.map(|end| end.at(attachments));
-            let owns_a = matches!(ends[0], SpanEnd::Joint(_));
-            let left = rope.eliminate(nodes, segments, at[0].0 != Attachment::Fixed, owns_a);
-            join(system, at, &left);
+            if changed.is_none_or(|changed| changed[nodes.clone()].contains(&true)) {
+                let owns_a = matches!(ends[0], SpanEnd::Joint(_));
+                *left = rope.eliminate(nodes, segments, at[0].0 != Attachment::Fixed, owns_a);
+            }
+            match (*places, *ends) {
+                (Some(places), [SpanEnd::Touched(a), SpanEnd::Touched(b)]) => {
+                    let blocks = [left.aa, left.ab, left.ba, left.bb];
+                    places.into_iter().zip(blocks).for_each(|(place, block)| {
+                        system.add_at(place, block);
+                    });
+                    system.force[a] += left.force_a;
+                    system.force[b] += left.force_b;
+                }
+                _ => join(system, at, left),
+            }
         }
         self.add_couplings(attachments);
         let Self { system, spans, .. } = self;
         system.solve();
-        for Span { nodes, segments, ends } in &*spans {
+        for Span { nodes, segments, ends, .. } in &*spans {
             let [a, b] = ends.map(|end| end.at(attachments));
             let [step_a, step_b] = [a, b].map(|(at, arm)| system.step_of(at, arm));
             rope.substitute(nodes, segments, a.0 != Attachment::Fixed, step_a, step_b);
@@ -160,13 +189,16 @@ impl CoupledRopes {
         for span in &self.spans {
             couple(span.ends[0], span.ends[1]);
         }
-        for ends in &self.ends {
+        for PairEnds { ends, .. } in &self.ends {
             for (place, one) in ends.iter().enumerate() {
                 ends[place + 1..].iter().for_each(|other| couple(*one, *other));
             }
         }
         let unknowns = interface.blocks() + self.touched.len();
         self.system.lay_out(unknowns, self.unknowns.iter().copied());
+        let Self { system, spans, ends, .. } = self;
+        spans.iter_mut().for_each(|span| span.places = places(system, span.ends));
+        ends.iter_mut().for_each(|pair| pair.places = places(system, pair.ends));
     }
 
     /// Lists touched nodes and spans.
@@ -194,6 +226,8 @@ impl CoupledRopes {
                     nodes: from..to + 1,
                     segments: segment(from)..segment(to),
                     ends: [end, next],
+                    places: None,
+                    left: Ends::default(),
                 });
                 (from, end) = (to, next);
             }
@@ -215,7 +249,11 @@ impl CoupledRopes {
             SpanEnd::Joint(if node == nodes.start { line.from } else { line.to })
         };
         self.ends.clear();
-        self.ends.extend(self.pairs.iter().map(|[a, b]| [*a, a + 1, *b, b + 1].map(end)));
+        self.ends.extend(
+            self.pairs
+                .iter()
+                .map(|[a, b]| PairEnds { ends: [*a, a + 1, *b, b + 1].map(end), places: None }),
+        );
     }
 
     /// Adds `Wᵀ B W` of all couplings.
@@ -225,8 +263,17 @@ impl CoupledRopes {
                 debug_assert!(false, "the layout has no pair {:?}", coupling.nodes);
                 continue;
             };
-            let at = self.ends[pair].map(|end| end.at(attachments));
+            let PairEnds { ends, places } = self.ends[pair];
             let weights = coupling.weights();
+            if let Some(places) = places {
+                for (row, (_, row_weight)) in weights.into_iter().enumerate() {
+                    for (place, (_, weight)) in places[4 * row..].iter().zip(weights) {
+                        self.system.add_at(*place, coupling.block * (row_weight * weight));
+                    }
+                }
+                continue;
+            }
+            let at = ends.map(|end| end.at(attachments));
             for ((row, row_arm), (_, row_weight)) in at.into_iter().zip(weights) {
                 for ((column, arm), (_, weight)) in at.into_iter().zip(weights) {
                     let block = coupling.block * (row_weight * weight);
@@ -236,6 +283,20 @@ impl CoupledRopes {
         }
     }
 }
+/// Places of the blocks of touched nodes with each other, row after row; `None` if one of them is at a joint.
+fn places<const N: usize, const M: usize>(
+    system: &InterfaceSystem,
+    ends: [SpanEnd; N],
+) -> Option<[Place; M]> {
+    debug_assert!(M == N * N, "a place for each pair of {N} nodes");
+    let mut unknowns = [0; N];
+    for (unknown, end) in unknowns.iter_mut().zip(ends) {
+        let SpanEnd::Touched(touched) = end else { return None };
+        *unknown = touched;
+    }
+    Some(core::array::from_fn(|at| system.place(unknowns[at / N], unknowns[at % N])))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

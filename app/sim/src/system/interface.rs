@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 
 use crate::matrix::cross_matrix;
 use crate::model::Model;
-use crate::system::sparse::BlockSparse;
+use crate::system::sparse::{BlockSparse, Place};
 use crate::trial::plan::{Attachment, Plan};
 
 /// Matrix, force and solution of the interface.
@@ -98,6 +98,16 @@ impl InterfaceSystem {
     #[cfg(test)]
     pub(super) fn get(&self, row: usize, column: usize) -> Option<DMat3> {
         self.matrix.holds(row, column).then(|| self.matrix.get(row, column))
+    }
+
+    /// Where the block at (row, column) is, which the layout must hold.
+    pub fn place(&self, row: usize, column: usize) -> Place {
+        self.matrix.place_of(row, column)
+    }
+
+    /// Adds a block at its place.
+    pub fn add_at(&mut self, place: Place, value: DMat3) {
+        *self.matrix.at_place(place) += value;
     }
 
     /// Adds a block that acts between the points of two attachments; `row_arm` and `column_arm` lead from a

@@ -193,6 +193,18 @@ impl LinearSystem {
 
     /// Solves the assembled system with rope as lines; the moves are in `rope.step` and `interface.step`.
     pub fn solve(&mut self, model: &Model, plan: &Plan, trial: &Trial) {
+        self.solve_changed(model, plan, trial, None);
+    }
+
+    /// Solves the assembled system with rope as lines. If only some nodes have `changed` since the last solution, what does not depend on
+    /// them is kept from it.
+    pub fn solve_changed(
+        &mut self,
+        model: &Model,
+        plan: &Plan,
+        trial: &Trial,
+        changed: Option<&[bool]>,
+    ) {
         self.attachments.clear();
         self.attachments.extend(
             plan.attachments.iter().map(|attachment| (*attachment, trial.arm(*attachment))),
@@ -203,7 +215,7 @@ impl LinearSystem {
         }
         let Self { rope, interface, attachments, .. } = self;
         if !self.ropes.couplings.is_empty() {
-            return self.ropes.solve(model, rope, interface, attachments);
+            return self.ropes.solve(model, rope, interface, attachments, changed);
         }
         for (index, line) in model.spec.lines.iter().enumerate() {
             let ends = [attachments[line.from], attachments[line.to]];

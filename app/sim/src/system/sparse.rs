@@ -32,6 +32,10 @@ pub(crate) struct BlockSparse {
     value: Vec<DMat3>,
 }
 
+/// Where the value of a block is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place(u32);
+
 /// An unknown in the order of elimination.
 #[derive(Clone, Copy, Debug)]
 struct Pivot {
@@ -163,6 +167,17 @@ impl BlockSparse {
 
     fn place(&self, row: usize, column: usize) -> usize {
         self.places[row * self.blocks + column] as usize
+    }
+
+    /// Where the block at (row, column) is, which the layout must hold.
+    pub fn place_of(&self, row: usize, column: usize) -> Place {
+        debug_assert!(self.holds(row, column), "block ({row}, {column}) is not in the layout");
+        Place(self.places[row * self.blocks + column])
+    }
+
+    /// The block at a place.
+    pub fn at_place(&mut self, Place(place): Place) -> &mut DMat3 {
+        &mut self.value[place as usize]
     }
 
     /// The block at (row, column), which the layout must hold.

@@ -143,8 +143,10 @@ impl ContactKind for RopeOnRope {
         let Some(law) = self.law else { return };
         let Assembly { context, trial, .. } = *assembly;
         self.follow(&trial.place);
-        let mut pairs = std::mem::take(&mut self.pairs);
-        for pair in &mut pairs {
+        let (mut pairs, opened) =
+            (std::mem::take(&mut self.pairs), std::mem::take(&mut self.opened));
+        for index in &opened {
+            let pair = &mut pairs[*index];
             for k in 0..pair.points.len() {
                 let at = |node: usize| trial.place[node];
                 let touch = touch_at(&law, context.state, pair, &pair.points[k], at);
@@ -163,13 +165,14 @@ impl ContactKind for RopeOnRope {
                 }
             }
         }
-        self.pairs = pairs;
+        (self.pairs, self.opened) = (pairs, opened);
     }
 
     fn store_solution(&mut self, _: &Trial, solution: &Solution<'_>) {
         let Solution::Step { system, .. } = solution else { return };
         let step = &system.rope.step;
-        for pair in &mut self.pairs {
+        for index in &self.opened {
+            let pair = &mut self.pairs[*index];
             let [one, other] = pair.nodes.map(|node| [step[node], step[node + 1]]);
             for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
                 let (moved, _) = between(one, other, point.fractions);
@@ -289,7 +292,12 @@ impl RopeOnRope {
         let refused = |pair: &Pair| {
             ContactFailure::refused(Kind::RopeOnRope, pair.segments, Reason::Overcompressed)
         };
-        self.pairs.iter().find(compressed).map_or(Ok(()), |pair| Err(refused(pair)))
+        self.opened_pairs().find(compressed).map_or(Ok(()), |pair| Err(refused(pair)))
+    }
+
+    /// Pairs with open points, in order.
+    fn opened_pairs(&self) -> impl Iterator<Item = &Pair> {
+        self.opened.iter().map(|index| &self.pairs[*index])
     }
 
     /// Calls `act` for every open point, with the contact there at the trial.
@@ -300,7 +308,7 @@ impl RopeOnRope {
         mut act: impl FnMut(&Pair, &RopeContactPoint, Option<Touch>),
     ) {
         let Some(law) = self.law else { return };
-        for pair in &self.pairs {
+        for pair in self.opened_pairs() {
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
                 act(pair, point, touch_at(&law, state, pair, point, |node| trial.place[node]));
             }

@@ -52,6 +52,8 @@ impl RopeOnRope {
     /// Gathers rope near rope for a step from the state by its velocities, in pieces measured for it; whether any may touch.
     pub fn gather(&mut self, model: &Model, state: &State, pieces: &Pieces, dt: f64) -> bool {
         self.pairs.clear();
+        self.room_m.clear();
+        self.opened.clear();
         self.through.clear();
         self.touching = false;
         self.crowded = None;
@@ -133,6 +135,9 @@ impl RopeOnRope {
             self.pairs.windows(2).all(|two| two[0].key() < two[1].key()),
             "each pair once"
         );
+        self.room_m.clear();
+        self.room_m.extend(self.pairs.iter().map(|pair| pair.first - pair.contact_distance));
+        self.opened.clear();
         (self.broad, self.found) = (broad, found);
     }
 

@@ -57,6 +57,10 @@ pub(crate) struct RopeOnRope {
     /// `None` if ropes pass through each other.
     pub law: Option<RopeLaw>,
     pub pairs: Vec<Pair>,
+    /// Of each pair: its distance when the step began, beyond the contact distance [m].
+    room_m: Vec<f64>,
+    /// Pairs with open contact points, in order.
+    pub opened: Vec<usize>,
     /// Whether ropes may touch in this step.
     pub touching: bool,
     /// Pairs that pass through each other; some may be listed twice.

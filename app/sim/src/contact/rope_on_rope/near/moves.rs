@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::broad_phase::pieces::Pieces;
+use crate::contact::rope_on_rope::near::open::greatest_approach_m;
 use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, TOUCH_M, between};
 use crate::geometry::crossing::first_crossing;
 use crate::geometry::segment_pair::{greatest_approach, nearest, safe_fraction};
@@ -27,7 +28,11 @@ impl RopeOnRope {
     /// Checks the straight path of a step; returns the number of crossings that an exact test finds, `None` if ropes may cross.
     pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let mut crossings = 0;
-        for pair in &self.pairs {
+        let reach_m = greatest_approach_m(from, to);
+        for (pair, room_m) in self.pairs.iter().zip(&self.room_m) {
+            if *room_m > reach_m {
+                continue;
+            }
             let [one, other] = pair.sweeps(from, |node| to[node]);
             if pair.is_of_knot() && !pair.is_followed(&one, &other) {
                 return None;
@@ -45,7 +50,11 @@ impl RopeOnRope {
 
     /// Removes from the move `from` -> `target` the part that brings ropes closer than their contact distance, or than they are.
     pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
-        for pair in &self.pairs {
+        let reach_m = greatest_approach_m(from, target);
+        for (pair, room_m) in self.pairs.iter().zip(&self.room_m) {
+            if *room_m > reach_m {
+                continue;
+            }
             let [one, other] = pair.sweeps(from, |node| target[node]);
             if pair.first - greatest_approach(&one, &other) > HELD_OFF_SHARE * pair.contact_distance
             {
@@ -96,7 +105,9 @@ impl RopeOnRope {
             let [one, other] = pair.sweeps(from, |node| to[node]);
             pair.first - greatest_approach(&one, &other) < pair.contact_distance
         };
-        self.pairs.iter().any(near)
+        let reach_m = greatest_approach_m(from, to);
+        let may_be_near = self.pairs.iter().zip(&self.room_m).filter(|(_, room)| **room <= reach_m);
+        may_be_near.map(|(pair, _)| pair).any(near)
     }
 }
 

@@ -13,15 +13,26 @@ const FOLLOWED_M: f64 = 0.05;
 /// Passes in which points follow the ropes; then they stay, so that Newton can finish.
 const FOLLOWING_PASSES: usize = 6;
 
+/// Distance beyond contact within which points are opened, besides twice the way of the predictor [m].
+const OPENED_WITHIN_M: f64 = 2e-3;
+
 /// A place of a pair that is nearer than its points by this share calls for new ones.
 const NEARER: f64 = 0.9;
 
 impl RopeOnRope {
-    /// Opens the points of every pair at these places, with the grips that they continue.
+    /// Opens the points of every pair that may touch in the step, at the places of its predictor, with the grips that they continue.
+    ///
+    /// Other pairs touch only where the step moves rope much farther than the predictor; [`open_nearer_points`](Self::open_nearer_points)
+    /// finds them then.
     pub fn open_points(&mut self, state: &State, places: &[DVec3]) {
         self.passes = 0;
+        self.opened.clear();
+        let within_m = OPENED_WITHIN_M + 2.0 * greatest_approach_m(&state.rope.position, places);
         for index in 0..self.pairs.len() {
-            self.open_pair(index, state, places, false);
+            if self.room_m[index] <= within_m {
+                self.opened.push(index);
+                self.open_pair(index, state, places, false);
+            }
         }
     }
 
@@ -70,7 +81,11 @@ impl RopeOnRope {
         if self.passes > FOLLOWING_PASSES {
             return;
         }
-        for pair in self.pairs.iter_mut().filter(|pair| pair.knots[1].is_none()) {
+        for index in &self.opened {
+            let pair = &mut self.pairs[*index];
+            if pair.knots[1].is_some() {
+                continue;
+            }
             let [one, other] = pair.places(|node| places[node]);
             for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
                 point.fractions = point.followed(one, other);
@@ -81,7 +96,11 @@ impl RopeOnRope {
     /// Opens points again where ropes are closer than at their points; returns whether there were any.
     pub fn open_nearer_points(&mut self, state: &State, places: &[DVec3]) -> bool {
         let mut opened = false;
+        let reach_m = greatest_approach_m(&state.rope.position, places);
         for index in 0..self.pairs.len() {
+            if self.room_m[index] > reach_m {
+                continue;
+            }
             let pair = &self.pairs[index];
             let [one, other] = pair.shapes(|node| places[node]);
             let least = nearest(one, other).distance;
@@ -92,11 +111,20 @@ impl RopeOnRope {
                 .fold(f64::INFINITY, f64::min);
             if least < pair.contact_distance && least < NEARER * known {
                 self.open_pair(index, state, places, true);
+                if let Err(at) = self.opened.binary_search(&index) {
+                    self.opened.insert(at, index);
+                }
                 opened = true;
             }
         }
         opened
     }
+}
+
+/// Distance by which any two places of rope approach each other at most when its nodes move so [m].
+pub(super) fn greatest_approach_m(from: &[DVec3], to: &[DVec3]) -> f64 {
+    let moved = from.iter().zip(to).map(|(from, to)| from.distance_squared(*to));
+    2.0 * moved.fold(0.0, f64::max).sqrt()
 }
 
 /// The nearest grip of a pair's lines or knots at these lengths along them, if any is near enough.
