@@ -1,12 +1,8 @@
-//! Edits of a TOML file that preserve comments and order, and its atomic save.
+//! Edits of a TOML file that preserve comments and order.
 //!
 //! Fields are named by dotted paths, such as `line.0.length`. A figure whose value is edited loses its former source.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
-use std::path::Path;
 use std::str::FromStr;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
@@ -145,11 +141,6 @@ impl Document {
             .and_then(|table| table.remove(key_in(table, last)))
             .map(|_| ())
             .ok_or_else(missing)
-    }
-
-    /// Saves atomically: a crash leaves the old file or the new one.
-    pub fn save(&self, path: &Path) -> io::Result<()> {
-        save_text(path, &self.text())
     }
 }
 
@@ -427,31 +418,6 @@ fn replace(slot: &mut Value, text: &str) {
     };
     *slot = fresh;
     *slot.decor_mut() = decor;
-}
-
-/// Number of saves of this process.
-static SAVES: AtomicU32 = AtomicU32::new(0);
-
-/// Saves a text atomically: writes a temporary file, syncs it, renames it.
-pub fn save_text(path: &Path, text: &str) -> io::Result<()> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
-    // Process id and number make the name unique.
-    let number = SAVES.fetch_add(1, Ordering::Relaxed);
-    let own = format!(".{}.{}-{number}.saving", name.to_string_lossy(), std::process::id());
-    let beside = path.with_file_name(own);
-    let written = write_synced(&beside, text).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        let _ = fs::remove_file(&beside);
-    }
-    written
-}
-
-fn write_synced(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(text.as_bytes())?;
-    file.sync_all()
 }
 
 #[cfg(test)]

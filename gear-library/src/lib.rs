@@ -41,7 +41,7 @@ pub use assembly::{
 };
 pub use case::{Case, CaseHaul, Check, Limit, Measure, Rows, Samples, Table};
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText, hint};
-pub use document::{Document, EditError, Setting, UNSOURCED, save_text};
+pub use document::{Document, EditError, Setting, UNSOURCED};
 pub use entry::{Confidence, Entry, FORMAT};
 pub use fields::{Figure, Range};
 pub use items::{

@@ -114,6 +114,8 @@ fn beside(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use endline_gear::Document;
+
     use super::*;
 
     #[test]
@@ -142,6 +144,20 @@ mod tests {
         atomically(&path, b"second").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"second");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_save_leaves_the_whole_text_and_nothing_beside_it() {
+        let folder = std::env::temp_dir().join(format!("endline-text-save-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("test.toml");
+        atomically(&path, b"old").unwrap();
+        let text = Document::parse("format = 1 # of the mill\n").unwrap().text();
+        atomically(&path, text.as_bytes()).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        assert!(atomically(&folder.join("no/such/folder.toml"), b"x").is_err());
         fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use endline_gear::{
-    Diagnostic, Document, Library, Scenario, Setting, Severity, Sources, save_text,
-};
+use endline_gear::{Diagnostic, Document, Library, Scenario, Setting, Severity, Sources};
 
 const ROPE: &str = r#"# A mill sheet.
 format = 1
@@ -305,19 +303,6 @@ fn an_edit_reaches_into_tables_and_lists() {
     );
     document.remove("line.0.rope").unwrap();
     assert_eq!(document.text(), expected);
-}
-
-#[test]
-fn a_save_leaves_the_whole_text_and_nothing_beside_it() {
-    let folder = std::env::temp_dir().join(format!("endline-gear-save-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join("test.toml");
-    save_text(&path, "old").unwrap();
-    Document::parse(ROPE).unwrap().save(&path).unwrap();
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), ROPE);
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
-    assert!(save_text(&folder.join("no/such/folder.toml"), "x").is_err());
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::{Diagnostic, Document, Library, Sources, save_text};
+use endline_gear::{Diagnostic, Document, Library, Sources};
 
 use super::figures;
 use super::history::{Change, History};
 use super::problems::{Named, Problems};
 use super::slug::{free_file, slug};
 use super::texts::Texts;
-use crate::shipped;
+use crate::{save, shipped};
 
 /// All texts that are open. The key of a library file is its path in the library's folder, such as
 /// `ropes/x.toml`; the scenario's is [`SCENARIO`](Self::SCENARIO), the study's
@@ -412,7 +412,8 @@ impl Documents {
     /// Errors: where it cannot be written.
     pub fn new_observation(&mut self, text: &str) -> Result<PathBuf, String> {
         let fresh = self.fresh_file("observations", "observation")?;
-        save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
+        save::atomically(&fresh, text.as_bytes())
+            .map_err(|error| format!("{}: {error}", fresh.display()))?;
         self.open_observation(&fresh)?;
         Ok(fresh)
     }
@@ -421,7 +422,8 @@ impl Documents {
     /// Errors: where it cannot be written.
     pub fn new_study(&self, stem: &str, text: &str) -> Result<PathBuf, String> {
         let fresh = self.fresh_file("studies", stem)?;
-        save_text(&fresh, text).map_err(|error| format!("{}: {error}", fresh.display()))?;
+        save::atomically(&fresh, text.as_bytes())
+            .map_err(|error| format!("{}: {error}", fresh.display()))?;
         Ok(fresh)
     }
 
@@ -433,7 +435,8 @@ impl Documents {
         let mut document = self.document(key)?;
         let name = document.get("name").unwrap_or_default();
         document.set("name", &format!("{name} (copy)")).map_err(|error| failed(error.message))?;
-        document.save(&fresh).map_err(|error| failed(error.to_string()))?;
+        save::atomically(&fresh, document.text().as_bytes())
+            .map_err(|error| failed(error.to_string()))?;
         Ok(fresh)
     }
 

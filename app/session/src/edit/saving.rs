@@ -2,12 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::save_text;
-
 use super::bundled::OwnCopy;
 use super::documents::Documents;
 use super::slug::free_file;
-use crate::save::text_if_there;
+use crate::save::{self, text_if_there};
 
 /// What becomes of a file that was changed on disk since it was read, and of the edits of it here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,7 +182,7 @@ impl Documents {
 /// Writes a text to its file; one that is `None` is removed.
 fn write(file: &Path, text: Option<&str>) -> Result<(), String> {
     let written = match text {
-        Some(text) => save_text(file, text),
+        Some(text) => save::atomically(file, text.as_bytes()),
         None => std::fs::remove_file(file),
     };
     written.map_err(|error| format!("{}: {error}", file.display()))
