@@ -99,7 +99,7 @@ fn typing(folder: &Folder) {
     screen.wait(|app| app.shared.workbench.view().is_some());
     screen.app.dock = Layout::Design.dock();
     screen.settle(5);
-    screen.open_alone(PanelId::LIBRARY);
+    screen.open_alone(PanelId::Library);
     screen.settle(5);
     let letter = |index: usize| {
         vec![Event::Text(if index.is_multiple_of(2) { "1" } else { "2" }.to_owned())]
@@ -197,7 +197,7 @@ fn playing(folder: &Folder) {
         "4 ms",
     );
     uploaded(&screen);
-    for panel in PanelId::ALL {
+    for panel in PanelId::ALL.iter().copied() {
         screen.open_alone(panel);
         screen.settle(3);
         report(&format!("  {} alone", panel.title()), played(&mut screen, 20), "");

@@ -135,7 +135,8 @@ impl Screen {
 
     /// Opens every panel in its own place, four in a row.
     pub fn open_all(&mut self) {
-        let ids: Vec<Vec<String>> = PanelId::ALL.map(|panel| vec![panel.id().to_owned()]).to_vec();
+        let ids: Vec<Vec<String>> =
+            PanelId::ALL.iter().map(|panel| vec![panel.id().to_owned()]).collect();
         let rows: Vec<&[Vec<String>]> = ids.chunks(4).collect();
         let mut dock = DockState::new(rows[0][0].clone());
         let tree = dock.main_surface_mut();

@@ -93,13 +93,13 @@ pub fn menus(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
         ui.menu_button("Window", |ui| window(ui, shared, dock));
         ui.menu_button("Help", |ui| {
             if ui.button("Start page").clicked() {
-                shared.give(PanelAction::Show(PanelId::START));
+                shared.give(PanelAction::Show(PanelId::Start));
                 ui.close();
             }
             HELP.iter().for_each(|id| command(ui, shared, id));
             ui.menu_button("Documents", |ui| documents(ui, shared));
             if ui.button("Version, how to cite").clicked() {
-                shared.give(PanelAction::Show(PanelId::HELP));
+                shared.give(PanelAction::Show(PanelId::Help));
                 ui.close();
             }
         });
@@ -195,7 +195,7 @@ fn documents(ui: &mut Ui, shared: &mut Shared) {
 }
 
 fn window(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
-    for panel in PanelId::ALL {
+    for panel in PanelId::ALL.iter().copied() {
         let mut open = layout::is_open(dock, panel);
         if ui.checkbox(&mut open, panel.title()).clicked() {
             shared.give(if open { PanelAction::Show(panel) } else { PanelAction::Close(panel) });
@@ -275,7 +275,7 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
             count => (format!("{count} problems"), palette.error),
         };
         if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
-            shared.give(PanelAction::Show(PanelId::PROBLEMS));
+            shared.give(PanelAction::Show(PanelId::Problems));
         }
         if unsaved > 0 {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));

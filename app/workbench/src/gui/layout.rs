@@ -47,63 +47,63 @@ impl Layout {
 }
 
 fn design() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::VIEW, PanelId::ASSEMBLY, PanelId::RULES]));
+    let mut dock = DockState::new(ids(&[PanelId::View, PanelId::Assembly, PanelId::Rules]));
     let tree = dock.main_surface_mut();
     let [upper, _] =
-        tree.split_below(NodeIndex::root(), 0.66, ids(&[PanelId::LIBRARY, PanelId::PROBLEMS]));
-    let [middle, _] = tree.split_left(upper, 0.2, ids(&[PanelId::SCENARIO]));
-    let [_, right] = tree.split_right(middle, 0.7, ids(&[PanelId::RUN]));
-    tree.split_below(right, 0.5, ids(&[PanelId::TENSION, PanelId::SUMMARY, PanelId::EVENTS]));
+        tree.split_below(NodeIndex::root(), 0.66, ids(&[PanelId::Library, PanelId::Problems]));
+    let [middle, _] = tree.split_left(upper, 0.2, ids(&[PanelId::Scenario]));
+    let [_, right] = tree.split_right(middle, 0.7, ids(&[PanelId::Run]));
+    tree.split_below(right, 0.5, ids(&[PanelId::Tension, PanelId::Summary, PanelId::Events]));
     dock
 }
 
 fn fly() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::VIEW]));
+    let mut dock = DockState::new(ids(&[PanelId::View]));
     let tree = dock.main_surface_mut();
     let [_, right] = tree.split_right(
         NodeIndex::root(),
         0.78,
-        ids(&[PanelId::RUN, PanelId::SCENARIO, PanelId::PAD]),
+        ids(&[PanelId::Run, PanelId::Scenario, PanelId::Pad]),
     );
-    let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::TENSION]));
-    tree.split_below(below, 0.5, ids(&[PanelId::EVENTS, PanelId::SUMMARY]));
+    let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::Tension]));
+    tree.split_below(below, 0.5, ids(&[PanelId::Events, PanelId::Summary]));
     dock
 }
 
 fn review() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::VIEW]));
+    let mut dock = DockState::new(ids(&[PanelId::View]));
     let tree = dock.main_surface_mut();
     let [upper, lower] =
-        tree.split_below(NodeIndex::root(), 0.55, ids(&[PanelId::PLOTS, PanelId::PROGRAM]));
-    tree.split_right(upper, 0.6, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY]));
+        tree.split_below(NodeIndex::root(), 0.55, ids(&[PanelId::Plots, PanelId::Pilot]));
+    tree.split_right(upper, 0.6, ids(&[PanelId::Entanglement, PanelId::Summary]));
     tree.split_right(
         lower,
         0.66,
-        ids(&[PanelId::EVENTS, PanelId::RUN, PanelId::RECORDINGS, PanelId::COMPARE]),
+        ids(&[PanelId::Events, PanelId::Run, PanelId::Recordings, PanelId::Compare]),
     );
     dock
 }
 
 fn study() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::RESULTS]));
+    let mut dock = DockState::new(ids(&[PanelId::Results]));
     let tree = dock.main_surface_mut();
     let [right, _] = tree.split_left(
         NodeIndex::root(),
         0.36,
-        ids(&[PanelId::STUDY, PanelId::LIBRARY, PanelId::PROBLEMS]),
+        ids(&[PanelId::Study, PanelId::Library, PanelId::Problems]),
     );
-    let [_, below] = tree.split_below(right, 0.52, ids(&[PanelId::VIEW, PanelId::PLOTS]));
-    tree.split_right(below, 0.62, ids(&[PanelId::SUMMARY, PanelId::ENTANGLEMENT, PanelId::EVENTS]));
+    let [_, below] = tree.split_below(right, 0.52, ids(&[PanelId::View, PanelId::Plots]));
+    tree.split_right(below, 0.62, ids(&[PanelId::Summary, PanelId::Entanglement, PanelId::Events]));
     dock
 }
 
 fn search() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::STORIES]));
+    let mut dock = DockState::new(ids(&[PanelId::Stories]));
     let tree = dock.main_surface_mut();
     let [right, _] =
-        tree.split_left(NodeIndex::root(), 0.38, ids(&[PanelId::SEARCH, PanelId::PROBLEMS]));
-    let [_, below] = tree.split_below(right, 0.46, ids(&[PanelId::VIEW, PanelId::PLOTS]));
-    tree.split_right(below, 0.66, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY, PanelId::EVENTS]));
+        tree.split_left(NodeIndex::root(), 0.38, ids(&[PanelId::Search, PanelId::Problems]));
+    let [_, below] = tree.split_below(right, 0.46, ids(&[PanelId::View, PanelId::Plots]));
+    tree.split_right(below, 0.66, ids(&[PanelId::Entanglement, PanelId::Summary, PanelId::Events]));
     dock
 }
 
@@ -159,7 +159,7 @@ mod tests {
     fn a_panel_opens_only_once_in_every_layout() {
         for layout in Layout::ALL {
             let mut dock = layout.dock();
-            for panel in PanelId::ALL.into_iter().chain(PanelId::ALL) {
+            for panel in PanelId::ALL.iter().chain(PanelId::ALL).copied() {
                 open(&mut dock, panel);
                 assert!(is_open(&dock, panel), "{layout:?} {panel:?}");
             }

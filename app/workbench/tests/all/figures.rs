@@ -47,7 +47,7 @@ fn summary_and_entanglement_show_every_figure_that_is_declared_for_them() {
     let whale = summary.whale.as_ref().unwrap();
     let parts = parts(whale, &shown.frame.contacts);
 
-    only(&mut harness, PanelId::SUMMARY);
+    only(&mut harness, PanelId::Summary);
     let lines = lines(summary, &[]);
     let count = count_figures(&harness, WHALE, from_ref(whale), View::Summary)
         + count_figures(&harness, PART, &parts, View::Summary)
@@ -55,7 +55,7 @@ fn summary_and_entanglement_show_every_figure_that_is_declared_for_them() {
         + count_figures(&harness, LINK, &summary.links, View::Summary);
     assert!(count > 40, "{count} figures");
 
-    only(&mut harness, PanelId::ENTANGLEMENT);
+    only(&mut harness, PanelId::Entanglement);
     let count = count_figures(&harness, WHALE, from_ref(whale), View::Entanglement)
         + count_figures(&harness, PART, &parts, View::Entanglement);
     assert!(count > 50, "{count} figures");
@@ -65,7 +65,7 @@ fn summary_and_entanglement_show_every_figure_that_is_declared_for_them() {
 fn the_run_panel_shows_the_largest_share_of_computing_time() {
     let folder = Folder::new("figures-cost");
     let mut harness = flown(&folder);
-    only(&mut harness, PanelId::RUN);
+    only(&mut harness, PanelId::Run);
     let shown = harness.view();
     let (greatest, share) = shares(&shown.cost)[0];
     let text = format!("Computing time: {} {:.0} %", greatest.label, 100.0 * share);
@@ -97,7 +97,7 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
         Ok(engine)
     });
     let mut harness = opened(folder.documents(), launch, Pilot::default());
-    only(&mut harness, PanelId::RUN);
+    only(&mut harness, PanelId::Run);
     harness.get_by_label_contains("Not valid: 30 % of the solver steps in touch did not converge");
     harness.get_by_label_contains("Resolution near the whale insufficient for 25 % of the time");
 }
@@ -111,7 +111,7 @@ fn the_comparison_shows_every_figure_that_is_declared_for_it() {
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
     harness.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
-    only(&mut harness, PanelId::COMPARE);
+    only(&mut harness, PanelId::Compare);
     let (a, b) = (harness.view(), harness.workbench().compared_view().unwrap());
     let all = groups(&a, &b, harness.workbench().preferences().units);
     let whale = &all.iter().find(|(head, _)| *head == "Whale").unwrap().1;
@@ -129,7 +129,7 @@ fn the_comparison_shows_every_figure_that_is_declared_for_it() {
 fn the_map_of_the_skin_has_its_own_scale_and_names_its_moment() {
     let folder = Folder::new("figures-map");
     let mut harness = flown(&folder);
-    only(&mut harness, PanelId::ENTANGLEMENT);
+    only(&mut harness, PanelId::Entanglement);
     harness.get_by_label("At 2.00 s");
     // The top of the scale is at least one turn, so that small wraps do not move it.
     harness.get_by_label("1.00 turns");
@@ -151,7 +151,7 @@ fn a_kinematic_whale_is_reported_with_its_tensions_and_made_kinetic_by_a_click()
         let documents = harness.documents();
         documents.field(Documents::SCENARIO, "whale.dynamics")
     };
-    for panel in [PanelId::SUMMARY, PanelId::TENSION] {
+    for panel in [PanelId::Summary, PanelId::Tension] {
         only(&mut harness, panel);
         harness.get_by_label_contains(warning);
     }

@@ -103,7 +103,7 @@ fn a_copy_is_compared_with_its_original_and_uses_are_listed() {
 /// The workbench with the assembly panel only, after its statics have converged.
 fn assembly(folder: &Folder) -> Window {
     let mut harness = real(folder, "hello-endline");
-    only(&mut harness, PanelId::ASSEMBLY);
+    only(&mut harness, PanelId::Assembly);
     wait(&mut harness, |app| app.panels.assembly.settled());
     harness
 }
@@ -339,7 +339,7 @@ fn an_impossible_fraction_is_reported_at_its_place_with_the_nearest_size() {
 fn the_table_of_whales_shows_source_and_confidence_of_every_figure() {
     let folder = Folder::new("whales");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    only(&mut harness, PanelId::LIBRARY);
+    only(&mut harness, PanelId::Library);
     harness.get_by_label("Whales").click();
     harness.run_steps(2);
     let whale = harness.documents().files("whales").next().unwrap().to_owned();
@@ -366,7 +366,7 @@ fn the_table_of_whales_shows_source_and_confidence_of_every_figure() {
 fn gear_is_selected_by_its_picture() {
     let folder = Folder::new("pictures");
     let mut harness = real(&folder, "hello-endline");
-    only(&mut harness, PanelId::ASSEMBLY);
+    only(&mut harness, PanelId::Assembly);
     harness.get_by_label("Pictures").click();
     harness.run_steps(3);
     let name = harness.documents().field("assemblies/single.toml", "name").unwrap();
@@ -387,7 +387,7 @@ fn focused(harness: &Window, kind: Kind, key: &str) -> Option<String> {
 fn keys_move_between_cells_as_in_a_spreadsheet_and_a_plain_number_gets_the_unit_of_its_cell() {
     let folder = Folder::new("table-keys");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    only(&mut harness, PanelId::LIBRARY);
+    only(&mut harness, PanelId::Library);
     let first = "ropes/sink-3-8.toml";
     let documents = harness.documents();
     go_to(&harness.ctx, documents, first, "strength");
@@ -450,7 +450,7 @@ fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_restores_it() {
     let mut harness = real(&folder, "hello-endline");
     let remove = |harness: &mut Window, path: &str| {
         harness.state_mut().dock =
-            egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
+            egui_dock::DockState::new(vec![PanelId::Library.id().to_owned()]);
         harness.state_mut().shared.give(PanelAction::Entry(path.to_owned()));
         harness.run_steps(3);
         harness.get_by_label("Delete").click();
@@ -480,7 +480,7 @@ fn an_entry_is_deleted_unless_the_scenario_uses_it_and_undo_restores_it() {
 fn a_right_click_on_a_row_offers_its_actions() {
     let folder = Folder::new("row-menu");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    only(&mut harness, PanelId::LIBRARY);
+    only(&mut harness, PanelId::Library);
     let path = "ropes/sink-3-8.toml";
     let name = harness.documents().field(path, "name").unwrap();
     harness.get_by_label(&name).click_secondary();

@@ -24,12 +24,12 @@ use crate::common::{Folder, Reach as _, Window, flown, give, only, real, retype,
 fn the_window_menu_ticks_open_panels_and_closes_them() {
     let folder = Folder::new("ticks");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    assert!(layout::is_open(&harness.state().dock, PanelId::TENSION));
+    assert!(layout::is_open(&harness.state().dock, PanelId::Tension));
     harness.get_by_label("Window").click();
     harness.run_steps(3);
     harness.get_all_by_label("Tension").last().unwrap().click();
     harness.run_steps(3);
-    assert!(!layout::is_open(&harness.state().dock, PanelId::TENSION));
+    assert!(!layout::is_open(&harness.state().dock, PanelId::Tension));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn a_button_is_reassigned_by_pressing_it() {
         Pilot::new(Some(Box::new(ScriptedPad { script: vec![vec![], events].into() })))
     };
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    only(&mut harness, PanelId::PAD);
+    only(&mut harness, PanelId::Pad);
     harness.get_by_label("right shoulder").click();
     harness.run_steps(2);
     harness.get_by_label("press it …");
@@ -133,7 +133,7 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_can_draw_it() {
         harness.state_mut().shared.give(PanelAction::Arrange(layout));
         harness.run_steps(3);
     }
-    for panel in PanelId::ALL {
+    for panel in PanelId::ALL.iter().copied() {
         only(&mut harness, panel);
     }
     let view = harness.view();
@@ -230,7 +230,7 @@ fn the_fonts_have_every_letter_of_the_sources() {
 fn a_button_of_the_start_page_opens_the_gear_it_names() {
     let folder = Folder::new("doors");
     let mut harness = real(&folder, "hello-endline");
-    only(&mut harness, PanelId::START);
+    only(&mut harness, PanelId::Start);
     for title in ["Design gear", "Compare for a rule", "Fly, or explain a case"] {
         harness.get_by_label(title);
     }
@@ -251,7 +251,7 @@ fn a_recording_shows_its_outcome_and_can_be_renamed_annotated_and_deleted() {
     give(&mut harness, RunAction::Reset);
     let kept = folder.0.join("recordings/hello-endline 0001.endline");
     wait(&mut harness, |_| kept.exists());
-    only(&mut harness, PanelId::RECORDINGS);
+    only(&mut harness, PanelId::Recordings);
     harness.get_by_label("No contact");
     // The thumbnail is drawn in the background.
     wait(&mut harness, |_| pictures::thumbnail(&kept).is_some());

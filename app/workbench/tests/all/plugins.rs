@@ -40,7 +40,7 @@ fn opened_on(folder: &Folder, place: &Path, scenario: &str) -> Window {
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path, _: &str| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
     harness.workbench_mut().load_plugins_with(loader, load, Vec::new());
-    harness.state_mut().shared.give(PanelAction::Show(PanelId::PLUGINS));
+    harness.state_mut().shared.give(PanelAction::Show(PanelId::Plugins));
     harness.run_steps(3);
     harness
 }

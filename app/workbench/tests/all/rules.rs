@@ -20,7 +20,7 @@ fn checking(folder: &Folder) -> Window {
     let study = "studies/gear-types.toml";
     std::fs::copy(shipped.join(study), folder.0.join(study)).unwrap();
     let mut harness = real(folder, "hello-endline");
-    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RULES.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::Rules.id().to_owned()]);
     ask(&mut harness, |question| {
         "single".clone_into(&mut question.assembly);
         "me-b".clone_into(&mut question.area);
@@ -177,5 +177,5 @@ fn two_ticked_rules_become_a_study_with_an_option_for_each() {
     assert!(documents.study_path().unwrap().ends_with("studies/single-rules.toml"));
     let option = |index: usize| documents.field(Documents::STUDY, &format!("option.{index}.id"));
     assert_eq!([option(0), option(1), option(2)], [Some(TWO.into()), Some(ONE.into()), None]);
-    assert!(harness.state().shared.selection.open.contains(&PanelId::STUDY));
+    assert!(harness.state().shared.selection.open.contains(&PanelId::Study));
 }

@@ -44,7 +44,7 @@ fn the_inputs_of_a_run_become_a_program_that_is_edited_and_rerun_from_a_moment()
     let folder = Folder::new("edit-inputs");
     let mut harness = flown(&folder);
     let (end, middle) = (harness.view(), seek(&mut harness, 1.0));
-    only(&mut harness, PanelId::PROGRAM);
+    only(&mut harness, PanelId::Pilot);
     harness.get_by_label("Edit inputs of this run").click();
     wait(&mut harness, |app| {
         app.shared
@@ -127,7 +127,7 @@ fn a_bar_of_the_timeline_is_dragged_and_each_drag_is_one_undo() {
     let folder = Folder::new("timeline");
     let mut harness = flown(&folder);
     harness.set(Documents::SCENARIO, "duration", "20 s");
-    only(&mut harness, PanelId::PROGRAM);
+    only(&mut harness, PanelId::Pilot);
     seek(&mut harness, 1.0);
     harness.get_by_label("Add entry").click();
     harness.run_steps(3);
@@ -185,7 +185,7 @@ fn a_run_compared_with_itself_has_no_differences_and_with_another_has_some() {
             .compared_view()
             .is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9)
     });
-    only(&mut harness, PanelId::VIEW);
+    only(&mut harness, PanelId::View);
     assert!(harness.query_by_label("Pane 1 of B").is_some(), "both runs are drawn");
 
     harness.set(Documents::SCENARIO, "whale.depth", "9 m");
@@ -201,7 +201,7 @@ fn a_run_compared_with_itself_has_no_differences_and_with_another_has_some() {
         all.iter().flat_map(|(_, rows)| rows).any(|row| row.difference.contains('%')),
         "{all:?}"
     );
-    only(&mut harness, PanelId::COMPARE);
+    only(&mut harness, PanelId::Compare);
     assert!(harness.query_all_by_label("A less B").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
     harness.run_steps(3);

@@ -25,7 +25,7 @@ fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Window {
 #[test]
 fn the_start_of_the_whale_is_dragged_in_the_view_and_each_drag_is_one_undo() {
     let folder = Folder::new("pose");
-    let mut harness = settled(&folder, "hello-endline", PanelId::VIEW);
+    let mut harness = settled(&folder, "hello-endline", PanelId::View);
     let start = |harness: &Window| Start::of(harness.documents()).unwrap();
     let before = start(&harness);
     harness.get_by_label("Start pose").click();
@@ -70,7 +70,7 @@ fn the_start_of_the_whale_is_dragged_in_the_view_and_each_drag_is_one_undo() {
 #[test]
 fn fields_choices_and_flags_of_the_panel_change_the_scenario() {
     let folder = Folder::new("scenario-fields");
-    let mut harness = settled(&folder, "hello-endline", PanelId::SCENARIO);
+    let mut harness = settled(&folder, "hello-endline", PanelId::Scenario);
     retype(&mut harness, "12 m", "9 m");
     let field =
         |harness: &Window, field: &str| harness.documents().field(Documents::SCENARIO, field);
@@ -94,7 +94,7 @@ fn fields_choices_and_flags_of_the_panel_change_the_scenario() {
 #[test]
 fn wraps_on_screen_equal_those_of_the_summary() {
     let folder = Folder::new("wraps");
-    let mut harness = settled(&folder, "dead-whale-wraps", PanelId::ENTANGLEMENT);
+    let mut harness = settled(&folder, "dead-whale-wraps", PanelId::Entanglement);
     for step in 1..=3_u64 {
         harness.perform(RunAction::Step);
         wait(&mut harness, |app| {
@@ -125,7 +125,7 @@ fn wraps_on_screen_equal_those_of_the_summary() {
 #[test]
 fn save_as_does_not_change_the_first_file() {
     let folder = Folder::new("save-as");
-    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::Scenario);
     let first = harness.documents().scenario_path().to_owned();
     let before = std::fs::read_to_string(&first).unwrap();
     harness.set(Documents::SCENARIO, "duration", "7 s");
@@ -144,7 +144,7 @@ fn save_as_does_not_change_the_first_file() {
 #[test]
 fn weak_links_and_friction_are_edited_without_loss_of_comments_and_undone() {
     let folder = Folder::new("links-friction");
-    let mut harness = settled(&folder, "hello-weak-link", PanelId::SCENARIO);
+    let mut harness = settled(&folder, "hello-weak-link", PanelId::Scenario);
     let before = harness.documents().text(Documents::SCENARIO).unwrap().to_owned();
     let field =
         |harness: &Window, field: &str| harness.documents().field(Documents::SCENARIO, field);
@@ -199,7 +199,7 @@ fn weak_links_and_friction_are_edited_without_loss_of_comments_and_undone() {
 #[test]
 fn unsaved_edits_are_asked_about_before_another_scenario_is_opened() {
     let folder = Folder::new("opened-over");
-    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::Scenario);
     let first = harness.documents().scenario_path().to_owned();
     let other = folder.0.join("scenarios/hello-endline.toml");
     harness.set(Documents::SCENARIO, "duration", "7 s");
@@ -226,7 +226,7 @@ fn unsaved_edits_are_asked_about_before_another_scenario_is_opened() {
 #[test]
 fn a_file_changed_on_disk_is_asked_about_before_it_is_overwritten() {
     let folder = Folder::new("changed-on-disk");
-    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::Scenario);
     let file = harness.documents().scenario_path().to_owned();
     let on_disk = || std::fs::read_to_string(&file).unwrap();
     let first = on_disk();
@@ -262,7 +262,7 @@ fn a_field_shows_its_value_in_the_selected_units_and_keeps_its_own() {
     let folder = Folder::new("field-units");
     let mut harness = real(&folder, "hello-endline");
     harness.workbench_mut().set_units(Units::Noaa);
-    only(&mut harness, PanelId::SCENARIO);
+    only(&mut harness, PanelId::Scenario);
     harness.get_all_by_value("0.25 m/s").next().unwrap().hover();
     harness.run_steps(60);
     harness.get_by_label_contains("0.25 m/s is 0.49 kn");

@@ -177,7 +177,7 @@ fn a_search_is_cancelled_and_continued_and_found_again_with_its_observation() {
     let found = stories(&harness);
     give(&mut harness, SearchAction::New);
     assert!(stories_are_gone(&harness), "a new observation has no stories");
-    assert!(harness.state().shared.selection.open.contains(&PanelId::SEARCH));
+    assert!(harness.state().shared.selection.open.contains(&PanelId::Search));
     let file = harness.documents().observation_path().unwrap();
     assert!(file.ends_with("observations/observation.toml"), "{}", file.display());
     give(&mut harness, SearchAction::Open(folder.0.join("observations/quick.toml")));

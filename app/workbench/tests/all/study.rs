@@ -164,7 +164,7 @@ fn options_and_priors_are_edited_and_errors_are_reported_at_their_place() {
     let mut harness = studying(&folder);
     // The whole panel is visible.
     harness.set_size(egui::vec2(1500.0, 1400.0));
-    only(&mut harness, PanelId::STUDY);
+    only(&mut harness, PanelId::Study);
     harness.get_by_label("Add option").click();
     harness.run_steps(2);
     let field = |harness: &Window, field: &str| harness.documents().field(Documents::STUDY, field);
@@ -241,7 +241,7 @@ fn edits_become_an_option_results_are_summarised_in_words_and_the_bundle_is_save
 fn a_field_is_found_by_its_meaning_and_a_wrong_value_is_reported_before_the_run() {
     let folder = Folder::new("settable");
     let mut harness = studying(&folder);
-    only(&mut harness, PanelId::STUDY);
+    only(&mut harness, PanelId::Study);
     harness.get_all_by_label_contains("Set a field").next().unwrap().click();
     harness.run_steps(4);
     harness.event(egui::Event::Text("surface speed".to_owned()));

@@ -24,7 +24,7 @@ use crate::common::{Folder, Reach as _, Window, flown, give, only, real, wait};
 fn settled(folder: &Folder) -> Window {
     let mut harness = real(folder, "hello-endline");
     wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
-    only(&mut harness, PanelId::VIEW);
+    only(&mut harness, PanelId::View);
     harness
 }
 
@@ -380,7 +380,7 @@ fn a_film_is_made_in_the_background_from_stored_frames_and_can_be_cancelled() {
 
 /// Shows only the 3-D view.
 fn alone(harness: &mut Window) {
-    only(harness, PanelId::VIEW);
+    only(harness, PanelId::View);
 }
 
 /// Sets a camera key at the side view at 0 s, and one at the top view at 2 s.

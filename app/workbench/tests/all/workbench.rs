@@ -97,19 +97,19 @@ fn a_run_after_an_edit_first_applies_the_edit() {
 fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
     let folder = Folder::new("panels");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    for panel in PanelId::ALL {
-        only(&mut harness, PanelId::RUN);
+    for panel in PanelId::ALL.iter().copied() {
+        only(&mut harness, PanelId::Run);
         harness.get_by_label("Window").click();
         harness.run_steps(3);
-        harness.get_all_by_label_contains(panel.title()).last().unwrap().click();
+        harness.get_all_by_label_contains(&panel.title()).last().unwrap().click();
         harness.run_steps(3);
         assert!(layout::is_open(&harness.state().dock, panel), "{panel:?}");
     }
     harness.state_mut().shared.give(PanelAction::Arrange(layout::Layout::Design));
     harness.run_steps(2);
     assert!(
-        layout::is_open(&harness.state().dock, PanelId::LIBRARY)
-            && layout::is_open(&harness.state().dock, PanelId::VIEW)
+        layout::is_open(&harness.state().dock, PanelId::Library)
+            && layout::is_open(&harness.state().dock, PanelId::View)
     );
 }
 

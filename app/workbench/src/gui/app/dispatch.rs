@@ -81,26 +81,26 @@ impl App {
     /// The panel that shows what comes of a command.
     fn shown_by(&mut self, command: &Command) -> Option<PanelId> {
         let starts = matches!(command, Command::Run(RunAction::Start | RunAction::Toggle));
-        if starts && layout::is_open(&self.dock, PanelId::START) {
+        if starts && layout::is_open(&self.dock, PanelId::Start) {
             // Whoever runs something wants to see it.
-            layout::close(&mut self.dock, PanelId::START);
-            return Some(PanelId::VIEW);
+            layout::close(&mut self.dock, PanelId::Start);
+            return Some(PanelId::View);
         }
         if matches!(command, Command::Run(RunAction::Hold | RunAction::CompareWith(_))) {
-            return Some(PanelId::COMPARE);
+            return Some(PanelId::Compare);
         }
         if matches!(command, Command::Search(SearchAction::Open(_) | SearchAction::New)) {
-            return Some(PanelId::SEARCH);
+            return Some(PanelId::Search);
         }
         if matches!(command, Command::Rules(RuleAction::Compare(_))) {
-            return Some(PanelId::STUDY);
+            return Some(PanelId::Study);
         }
         let replays = matches!(
             command,
             Command::Study(StudyAction::Replay { .. })
                 | Command::Search(SearchAction::Replay(_) | SearchAction::FlyOn(_))
         );
-        replays.then_some(PanelId::VIEW)
+        replays.then_some(PanelId::View)
     }
 
     fn look(&mut self, action: ViewAction) -> Result<(), String> {
@@ -173,15 +173,15 @@ impl App {
             PanelAction::Close(panel) => layout::close(dock, panel),
             PanelAction::Arrange(layout) => *dock = layout.dock(),
             PanelAction::Table(kind) => {
-                layout::open(dock, PanelId::LIBRARY);
+                layout::open(dock, PanelId::Library);
                 panels.library.turn_to(kind);
             }
             PanelAction::Entry(path) => {
-                layout::open(dock, PanelId::LIBRARY);
+                layout::open(dock, PanelId::Library);
                 panels.library.choose(path);
             }
             PanelAction::Assembly(id) => {
-                layout::open(dock, PanelId::ASSEMBLY);
+                layout::open(dock, PanelId::Assembly);
                 panels.assembly.choose(shared, id);
             }
             PanelAction::Duplicate => {
@@ -308,7 +308,11 @@ impl App {
             gear_at_rest: running.is_some_and(|answer| answer.is_ok()),
             inspects: panels.view.picks.holds(),
             camera_keys: panels.view.path.times().len(),
-            open: PanelId::ALL.into_iter().filter(|panel| layout::is_open(dock, *panel)).collect(),
+            open: PanelId::ALL
+                .iter()
+                .copied()
+                .filter(|panel| layout::is_open(dock, *panel))
+                .collect(),
         };
     }
 
@@ -319,7 +323,7 @@ impl App {
                 Event::ProgramWritten => {
                     // The entries are others than before.
                     self.panels.program.chosen = None;
-                    layout::open(&mut self.dock, PanelId::PROGRAM);
+                    layout::open(&mut self.dock, PanelId::Pilot);
                 }
                 Event::EntryAdded(index) => self.panels.program.chosen = Some(index),
                 Event::RunKept(recording) => {

@@ -71,7 +71,7 @@ impl App {
         let first = saved.is_none() && creation.storage.is_some();
         let mut dock = saved.unwrap_or_else(|| Layout::Design.dock());
         if first {
-            layout::open_beside(&mut dock, PanelId::START, PanelId::VIEW);
+            layout::open_beside(&mut dock, PanelId::Start, PanelId::View);
         }
         let left_behind = shared.workbench.left_behind();
         Self {
@@ -200,7 +200,7 @@ impl App {
     /// Checks what the panels drawn show.
     fn check_shown(&mut self) {
         let drawn = std::mem::take(&mut self.shared.drawn);
-        let [study, rules] = [PanelId::STUDY, PanelId::RULES].map(|panel| drawn.contains(&panel));
+        let [study, rules] = [PanelId::Study, PanelId::Rules].map(|panel| drawn.contains(&panel));
         self.shared.workbench.check(Shown { study, rules });
     }
 

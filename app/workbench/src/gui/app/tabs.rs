@@ -21,13 +21,13 @@ impl TabViewer for Tabs<'_> {
     }
 
     fn title(&mut self, tab: &mut String) -> egui::WidgetText {
-        self.panels.find(tab).map_or(tab.as_str(), |panel| panel.title()).into()
+        PanelId::find(tab).map_or_else(|| tab.clone(), PanelId::title).into()
     }
 
     fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
-        if let Some(panel) = self.panels.find(tab) {
-            self.shared.drawn.push(panel.id());
-            panel.ui(ui, self.shared);
+        if let Some(panel) = PanelId::find(tab) {
+            self.shared.drawn.push(panel);
+            self.panels.get(panel).ui(ui, self.shared);
         }
     }
 
@@ -42,6 +42,6 @@ impl TabViewer for Tabs<'_> {
     }
 
     fn allowed_in_windows(&self, tab: &mut String) -> bool {
-        tab != PanelId::VIEW.id()
+        tab != PanelId::View.id()
     }
 }

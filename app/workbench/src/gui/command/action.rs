@@ -224,7 +224,7 @@ impl ViewAction {
 impl PanelAction {
     fn id(&self) -> &'static str {
         match self {
-            Self::Show(PanelId::HELP) => "panel.help",
+            Self::Show(PanelId::Help) => "panel.help",
             Self::ExportPlots(file) if has_extension(file, "png") => "panel.plots-png",
             Self::ExportPlots(file) if has_extension(file, "csv") => "panel.plots-csv",
             Self::ExportModel(file) if has_extension(file, "stl") => "panel.model-stl",

@@ -20,7 +20,7 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             "panel.help",
             "Show Keys and help",
             "Lists keys, mouse and game controller; tells version, licence and how to cite; opens the documents.",
-            Make::Plain(PanelAction::Show(PanelId::HELP).into()),
+            Make::Plain(PanelAction::Show(PanelId::Help).into()),
         )
         .with_key("F1", When::Always),
         WindowInfo::of(PanelVerb::Show, Make::Choices(panels_but_help)),
@@ -113,7 +113,7 @@ pub(super) fn commands() -> Vec<WindowInfo> {
 }
 
 fn panels_but_help(_: &Shared) -> Vec<Choice<WindowCommand>> {
-    let others = PanelId::ALL.into_iter().filter(|panel| *panel != PanelId::HELP);
+    let others = PanelId::ALL.iter().copied().filter(|panel| *panel != PanelId::Help);
     others.map(|panel| Choice::new(panel.title(), PanelAction::Show(panel).into())).collect()
 }
 

@@ -18,10 +18,6 @@ use crate::gui::widgets::words::capital;
 pub struct ComparePanel;
 
 impl Panel for ComparePanel {
-    fn id(&self) -> PanelId {
-        PanelId::COMPARE
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }
@@ -57,7 +53,7 @@ fn buttons(ui: &mut Ui, shared: &mut Shared) {
         command(ui, shared, "Hold this run as B", RunAction::Hold);
         if ui.button("Recordings …").on_hover_text("Select a recording to compare with").clicked()
         {
-            shared.give(PanelAction::Show(PanelId::RECORDINGS));
+            shared.give(PanelAction::Show(PanelId::Recordings));
         }
         command(ui, shared, "End comparison", RunAction::EndComparison);
     });

@@ -7,7 +7,7 @@ use endline_sim::Model;
 use endline_sim::metrics::Event;
 
 use crate::gui::command::action::{ViewAction, WindowCommand};
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
@@ -18,10 +18,6 @@ use crate::scene::Picked;
 pub struct EventsPanel;
 
 impl Panel for EventsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::EVENTS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }

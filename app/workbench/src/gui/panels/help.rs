@@ -7,7 +7,7 @@ use endline_session::command::When;
 
 use super::about;
 use crate::gui::command::{declared, spelled};
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -26,10 +26,6 @@ pub const MOUSE: [(&str, &str); 4] = [
 pub struct HelpPanel;
 
 impl Panel for HelpPanel {
-    fn id(&self) -> PanelId {
-        PanelId::HELP
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             about::show(ui, shared);

@@ -78,48 +78,47 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// All panels, in the order of [`PanelId::ALL`].
-    pub fn all(&mut self) -> [&mut dyn Panel; PanelId::ALL.len()] {
-        [
-            &mut self.library,
-            &mut self.assembly,
-            &mut self.scenario,
-            &mut self.view,
-            &mut self.run,
-            &mut self.tension,
-            &mut self.plots,
-            &mut self.entanglement,
-            &mut self.events,
-            &mut self.summary,
-            &mut self.problems,
-            &mut self.help,
-            &mut self.start,
-            &mut self.recordings,
-            &mut self.pad,
-            &mut self.plugins,
-            &mut self.study,
-            &mut self.results,
-            &mut self.search,
-            &mut self.stories,
-            &mut self.rules,
-            &mut self.program,
-            &mut self.compare,
-        ]
-    }
-
-    /// Finds a panel by its id.
-    pub fn find(&mut self, id: &str) -> Option<&mut dyn Panel> {
-        self.all().into_iter().find(|panel| panel.id().id() == id)
+    /// The panel with an id.
+    pub fn get(&mut self, id: PanelId) -> &mut dyn Panel {
+        match id {
+            PanelId::Library => &mut self.library,
+            PanelId::Assembly => &mut self.assembly,
+            PanelId::Scenario => &mut self.scenario,
+            PanelId::View => &mut self.view,
+            PanelId::Run => &mut self.run,
+            PanelId::Tension => &mut self.tension,
+            PanelId::Plots => &mut self.plots,
+            PanelId::Entanglement => &mut self.entanglement,
+            PanelId::Events => &mut self.events,
+            PanelId::Summary => &mut self.summary,
+            PanelId::Problems => &mut self.problems,
+            PanelId::Help => &mut self.help,
+            PanelId::Start => &mut self.start,
+            PanelId::Recordings => &mut self.recordings,
+            PanelId::Pad => &mut self.pad,
+            PanelId::Plugins => &mut self.plugins,
+            PanelId::Study => &mut self.study,
+            PanelId::Results => &mut self.results,
+            PanelId::Search => &mut self.search,
+            PanelId::Stories => &mut self.stories,
+            PanelId::Rules => &mut self.rules,
+            PanelId::Pilot => &mut self.program,
+            PanelId::Compare => &mut self.compare,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::any::Any;
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]
     fn every_id_has_its_panel() {
-        let ids: Vec<PanelId> = Panels::default().all().map(|panel| panel.id()).to_vec();
-        assert_eq!(ids, PanelId::ALL);
+        let mut panels = Panels::default();
+        let kinds = PanelId::ALL.iter().map(|id| (panels.get(*id) as &dyn Any).type_id());
+        assert_eq!(kinds.collect::<BTreeSet<_>>().len(), PanelId::ALL.len());
     }
 }

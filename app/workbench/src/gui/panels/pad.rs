@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Grid, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui, vec2};
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -32,10 +32,6 @@ pub struct PadPanel {
 }
 
 impl Panel for PadPanel {
-    fn id(&self) -> PanelId {
-        PanelId::PAD
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.learn(shared);
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {

@@ -7,7 +7,7 @@ use endline_session::command::ExportAction;
 use endline_session::export::chart::Kind;
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::widgets;
 use crate::gui::widgets::command;
@@ -27,10 +27,6 @@ impl Default for PlotsPanel {
 }
 
 impl Panel for PlotsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::PLOTS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         if shared.workbench.view().is_none() {
             return widgets::nothing(ui, "No run yet.");
@@ -92,10 +88,6 @@ pub struct TensionPanel {
 }
 
 impl Panel for TensionPanel {
-    fn id(&self) -> PanelId {
-        PanelId::TENSION
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         if let Some(view) = shared.workbench.view().cloned() {
             widgets::kinematic_whale(ui, shared, &view);

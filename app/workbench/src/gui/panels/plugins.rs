@@ -13,7 +13,7 @@ use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
 use endline_session::workbench::plugins::{Switchable, place_of};
 
 use crate::gui::fields;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
@@ -32,10 +32,6 @@ pub struct PluginsPanel {
 }
 
 impl Panel for PluginsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::PLUGINS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let plugins = shared.workbench.plugins().every();
         if !plugins.iter().any(|plugin| self.chosen.as_ref() == Some(&plugin.info.id)) {

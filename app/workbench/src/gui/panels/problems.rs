@@ -16,10 +16,6 @@ use crate::gui::widgets;
 pub struct ProblemsPanel;
 
 impl Panel for ProblemsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::PROBLEMS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }
@@ -49,7 +45,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 fn go_to(shared: &mut Shared, problem: &Diagnostic) {
     let documents = &shared.workbench.project().documents;
     for (key, panel) in
-        [(Documents::STUDY, PanelId::STUDY), (Documents::OBSERVATION, PanelId::SEARCH)]
+        [(Documents::STUDY, PanelId::Study), (Documents::OBSERVATION, PanelId::Search)]
     {
         if documents.shown_name(key) == problem.file {
             return shared.give(PanelAction::Show(panel));
@@ -58,6 +54,6 @@ fn go_to(shared: &mut Shared, problem: &Diagnostic) {
     let kind = problem.file.split_once('/').and_then(|(folder, _)| Kind::in_folder(folder));
     match kind.filter(|kind| KINDS.iter().any(|(shown, _)| shown == kind)) {
         Some(_) => shared.give(PanelAction::Entry(problem.file.clone())),
-        None => shared.give(PanelAction::Show(PanelId::SCENARIO)),
+        None => shared.give(PanelAction::Show(PanelId::Scenario)),
     }
 }

@@ -13,7 +13,7 @@ use egui::{
 use endline_session::recording::{self, kept::Kept};
 use endline_sim::metrics::Outcome;
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::{files, pictures};
@@ -39,10 +39,6 @@ struct Recorded {
 const PICTURE: Vec2 = vec2(96.0, 54.0);
 
 impl Panel for RecordingsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::RECORDINGS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some(folder) = shared.workbench.recordings().map(Path::to_owned) else {
             return widgets::nothing(

@@ -11,7 +11,7 @@ use endline_session::units::Units;
 use endline_session::workbench::SPEEDS;
 use endline_sim::Cost;
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
@@ -23,10 +23,6 @@ const LEAST_LISTED: f64 = 0.05;
 pub struct RunPanel;
 
 impl Panel for RunPanel {
-    fn id(&self) -> PanelId {
-        PanelId::RUN
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }

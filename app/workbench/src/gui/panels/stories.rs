@@ -12,7 +12,7 @@ use endline_session::encounters::in_words;
 use endline_session::search::{LIKE, SearchJob, Stories, Story};
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
@@ -30,10 +30,6 @@ pub struct StoriesPanel {
 }
 
 impl Panel for StoriesPanel {
-    fn id(&self) -> PanelId {
-        PanelId::STORIES
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let job = shared.workbench.searches().job.as_ref();
         let Some(found) = job.and_then(|job| job.found().stories) else {

@@ -6,7 +6,7 @@ use endline_session::figures::{LINE, LINK, PART, Part, View, WHALE, lines, parts
 use endline_session::live::LiveView;
 use endline_sim::metrics::{Summary, WhaleSummary};
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
@@ -17,10 +17,6 @@ use crate::gui::widgets::{self, words};
 pub struct SummaryPanel;
 
 impl Panel for SummaryPanel {
-    fn id(&self) -> PanelId {
-        PanelId::SUMMARY
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }

@@ -23,7 +23,7 @@ use endline_session::scene::{Scene, Show};
 use endline_session::statics::worker::Answer;
 use endline_session::statics::{RigAtRest, StaticsWorker, Trial, TrialGear, TrialSea};
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::{fields, widgets};
 
@@ -89,10 +89,6 @@ impl AssemblyPanel {
 }
 
 impl Panel for AssemblyPanel {
-    fn id(&self) -> PanelId {
-        PanelId::ASSEMBLY
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some(gear) = self.shown(shared) else {
             return widgets::nothing(

@@ -10,7 +10,7 @@ use endline_session::units::Units;
 use endline_sim::metrics::WhaleSummary;
 
 use crate::gui::inspector::wraps;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
@@ -25,10 +25,6 @@ pub struct EntanglementPanel {
 }
 
 impl Panel for EntanglementPanel {
-    fn id(&self) -> PanelId {
-        PanelId::ENTANGLEMENT
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some(view) = shared.workbench.view().cloned() else {
             return widgets::nothing(ui, "No run yet.");

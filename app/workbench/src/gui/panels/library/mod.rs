@@ -21,7 +21,7 @@ use endline_session::edit::library_table;
 pub use detail::{Against, Uses};
 
 use crate::gui::files::KINDS;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::primary;
 use crate::gui::widgets;
@@ -67,10 +67,6 @@ impl Default for LibraryPanel {
 const TOOLBAR: f32 = 1130.0;
 
 impl Panel for LibraryPanel {
-    fn id(&self) -> PanelId {
-        PanelId::LIBRARY
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.paste(ui, shared);
         self.toolbar(ui, shared);

@@ -12,7 +12,7 @@ use endline_gear::Document;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, entries};
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -84,10 +84,6 @@ impl PilotPanel {
 }
 
 impl Panel for PilotPanel {
-    fn id(&self) -> PanelId {
-        PanelId::PROGRAM
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         if shared.workbench.project().documents.field(Documents::SCENARIO, "whale.item").is_none() {
             return widgets::nothing(ui, "This scenario has no whale to pilot.");

@@ -15,7 +15,7 @@ use endline_session::study::stats::answer;
 use endline_session::study::{ResultsReader, StudyResults};
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -75,10 +75,6 @@ pub struct ResultsPanel {
 }
 
 impl Panel for ResultsPanel {
-    fn id(&self) -> PanelId {
-        PanelId::RESULTS
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some(shown) = shared.workbench.studies().results.shown().cloned() else {
             return missing(ui, &shared.workbench.studies().results);

@@ -13,7 +13,7 @@ use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
 use crate::gui::command::action::WindowAction;
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
@@ -39,10 +39,6 @@ pub struct RulesPanel {
 }
 
 impl Panel for RulesPanel {
-    fn id(&self) -> PanelId {
-        PanelId::RULES
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         asked::show(ui, &mut self.typed, shared);
         ui.separator();

@@ -27,10 +27,6 @@ const NAME_WIDTH: f32 = 74.0;
 pub struct ScenarioPanel;
 
 impl Panel for ScenarioPanel {
-    fn id(&self) -> PanelId {
-        PanelId::SCENARIO
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }
@@ -147,7 +143,7 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
         .on_hover_text("Shows handles in the 3-D view for place, depth and heading")
         .clicked()
     {
-        shared.give(PanelAction::Show(PanelId::VIEW));
+        shared.give(PanelAction::Show(PanelId::View));
         shared.give(ViewAction::Pose);
     }
     attributes::show_friction(ui, shared, edits);
@@ -334,7 +330,7 @@ fn apply(ui: &mut Ui, shared: &mut Shared) {
             .on_hover_text("How the whale is steered, on a timeline")
             .clicked()
         {
-            shared.give(PanelAction::Show(PanelId::PROGRAM));
+            shared.give(PanelAction::Show(PanelId::Pilot));
         }
         if shared.workbench.making() {
             ui.spinner();

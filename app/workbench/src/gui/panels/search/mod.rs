@@ -14,7 +14,7 @@ use endline_session::edit::observation::{self, Range};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::fields::{self, Said};
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::command;
@@ -48,10 +48,6 @@ impl Default for SearchPanel {
 }
 
 impl Panel for SearchPanel {
-    fn id(&self) -> PanelId {
-        PanelId::SEARCH
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.pick(ui, shared);
         if shared.documents().text(Documents::OBSERVATION).is_none() {

@@ -36,10 +36,6 @@ pub struct StartPanel {
 }
 
 impl Panel for StartPanel {
-    fn id(&self) -> PanelId {
-        PanelId::START
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let root = shared.documents().root().to_owned();
         if self.checked.is_none_or(|checked| checked.elapsed() > CHECK_INTERVAL) {
@@ -106,7 +102,7 @@ fn open(shared: &mut Shared, what: What, path: &Path) {
     match what {
         What::Scenario => {
             shared.give(EditAction::OpenScenario(path));
-            shared.give(PanelAction::Show(PanelId::VIEW));
+            shared.give(PanelAction::Show(PanelId::View));
         }
         What::Study => {
             shared.give(StudyAction::Open(path));
@@ -205,7 +201,7 @@ const PURPOSES: [Purpose; 3] = [
             ("Kinds of gear", |shared, root| open_study(shared, root, "gear-types")),
             ("Check the rules", |shared, _| {
                 shared.give(PanelAction::Arrange(Layout::Design));
-                shared.give(PanelAction::Show(PanelId::RULES));
+                shared.give(PanelAction::Show(PanelId::Rules));
             }),
         ],
     },

@@ -28,10 +28,6 @@ type Edits = Vec<(String, Option<Setting>)>;
 pub struct StudyPanel;
 
 impl Panel for StudyPanel {
-    fn id(&self) -> PanelId {
-        PanelId::STUDY
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         show(ui, shared);
     }
@@ -242,7 +238,7 @@ fn design(ui: &mut Ui, shared: &mut Shared) {
             shared.give(EditAction::OpenScenario(file));
             shared.give(PanelAction::Arrange(Layout::Design));
             if has_assembly {
-                shared.give(PanelAction::Show(PanelId::ASSEMBLY));
+                shared.give(PanelAction::Show(PanelId::Assembly));
             }
         }
     });

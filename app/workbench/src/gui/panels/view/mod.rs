@@ -16,7 +16,7 @@ use endline_session::scene::Show;
 
 pub use state::{Drawn, ScaleTop, ViewPanel};
 
-use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::command;
@@ -26,10 +26,6 @@ use crate::scene::draw::MOST_PANES;
 use pane::{Pane, places};
 
 impl Panel for ViewPanel {
-    fn id(&self) -> PanelId {
-        PanelId::VIEW
-    }
-
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         self.follow(shared);
         if !shared.presents() {
