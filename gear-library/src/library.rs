@@ -80,7 +80,7 @@ impl Library {
         let folder = folder.rsplit('/').next().unwrap_or_default();
         let id = file.trim_end_matches(".toml");
         let Some(kind) = Kind::in_folder(folder) else {
-            let folders = Kind::ALL.map(Kind::folder);
+            let folders = Kind::ALL.iter().map(|kind| kind.folder());
             problems.push(Diagnostic::of_file(
                 path,
                 format!("`{folder}` is not a folder of a library"),

@@ -27,7 +27,7 @@ impl Sources {
     pub fn from_folder(root: &Path) -> Result<Self, Vec<Diagnostic>> {
         let (mut files, mut meshes) = (BTreeMap::new(), BTreeMap::new());
         let mut problems = Vec::new();
-        for kind in Kind::ALL {
+        for kind in Kind::ALL.iter().copied() {
             files.extend(read_texts(root, kind.folder(), &mut problems));
         }
         for kind in [Kind::Whale, Kind::Act] {

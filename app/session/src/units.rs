@@ -2,6 +2,7 @@
 
 use endline_gear::units::{Quantity, find, parse};
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 /// Newtons in a pound-force, exact by definition.
 pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
@@ -15,22 +16,21 @@ pub fn newtons_and_lbf(newtons: f64, decimals: usize) -> String {
 }
 
 /// Unit that forces are shown in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum ForceUnit {
     /// Pounds-force, as breaking strengths are given in the trade.
+    #[strum(serialize = "lbf")]
     #[default]
     Lbf,
     /// Newtons.
+    #[strum(serialize = "N")]
     Newton,
 }
 
 impl ForceUnit {
     /// Its symbol.
     pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Lbf => "lbf",
-            Self::Newton => "N",
-        }
+        self.into()
     }
 
     /// A force given in newtons, in this unit.
@@ -75,28 +75,28 @@ const METRIC: [&str; 9] = ["m", "cm", "mm", "km", "m/s", "N", "kN", "kg", "g"];
 const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
 
 /// The units that values are displayed in. Files keep their own units, and any unit may be typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
 pub enum Units {
     /// As in rules and in the trade: lbf, feet, fathoms, knots, fractions of an inch.
+    #[strum(serialize = "NOAA")]
     Noaa,
     /// Forces in lbf, all else metric.
     #[default]
     Mixed,
     /// SI.
+    #[strum(serialize = "SI")]
     Si,
 }
 
 impl Units {
     /// Every profile, in the order shown.
-    pub const ALL: [Self; 3] = [Self::Noaa, Self::Mixed, Self::Si];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Noaa => "NOAA",
-            Self::Mixed => "Mixed",
-            Self::Si => "SI",
-        }
+        self.into()
     }
 
     /// Its description, in a few words.

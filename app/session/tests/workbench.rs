@@ -177,7 +177,7 @@ fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_command
 fn a_duplicate_of_any_kind_has_no_error_and_claims_no_measurement() {
     let folder = Folder::new("duplicate");
     let mut workbench = folder.workbench();
-    for kind in Kind::ALL {
+    for kind in Kind::ALL.iter().copied() {
         let path = workbench.project().documents.files(kind.folder()).next().unwrap().to_owned();
         workbench.perform(Command::Edit(EditAction::Duplicate(path.clone()))).unwrap();
     }

@@ -3,11 +3,13 @@
 //! The physics reads no clock of its own. The caller may lend one ([`Workspace::lend_clock`](crate::Workspace::lend_clock));
 //! the state does not depend on it. It is read where a solver step changes from one part to the next, never per segment.
 
+use strum::VariantArray;
+
 /// Returns the time since a fixed moment [ns].
 pub type Clock = fn() -> u64;
 
 /// Part of a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray)]
 pub enum CostPart {
     /// Solution of rope and bodies without contact other than the seabed.
     FreeRope,
@@ -28,15 +30,7 @@ pub enum CostPart {
 
 impl CostPart {
     /// All parts, in the order of reports.
-    pub const ALL: [Self; 7] = [
-        Self::FreeRope,
-        Self::Detection,
-        Self::Contact,
-        Self::Whale,
-        Self::Water,
-        Self::Metrics,
-        Self::Other,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 }
 
 /// Computing time by part.
@@ -131,7 +125,8 @@ mod tests {
         clock.enter(CostPart::Contact);
         clock.end();
         let nanoseconds = |part| (clock.cost.of_s(part) * 1e9).round() as u64;
-        assert_eq!(CostPart::ALL.map(nanoseconds), [0, 2, 1, 0, 1, 0, 1]);
+        let parts: Vec<u64> = CostPart::ALL.iter().copied().map(nanoseconds).collect();
+        assert_eq!(parts, [0, 2, 1, 0, 1, 0, 1]);
         assert!((clock.cost.whole_s() - 5e-9).abs() < 1e-15);
         clock.enter(CostPart::Whale);
         assert!((clock.cost.whole_s() - 5e-9).abs() < 1e-15, "no time is added between steps");
@@ -139,7 +134,7 @@ mod tests {
 
     #[test]
     fn parts_are_listed_in_the_order_of_their_numbers() {
-        for (place, part) in CostPart::ALL.into_iter().enumerate() {
+        for (place, part) in CostPart::ALL.iter().copied().enumerate() {
             assert_eq!(part as usize, place);
         }
     }

@@ -5,11 +5,14 @@
 mod gear;
 mod whale;
 
+use strum::{IntoStaticStr, VariantArray};
+
 use crate::fields::Range;
 use crate::units::Quantity;
 
 /// The kinds of library files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Kind {
     /// Rope, in `ropes/`.
     Rope,
@@ -63,33 +66,33 @@ pub struct Word {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 11] = [
-        Self::Rope,
-        Self::Trap,
-        Self::Buoy,
-        Self::WeakLink,
-        Self::Knot,
-        Self::Anchor,
-        Self::Site,
-        Self::Friction,
-        Self::Whale,
-        Self::Act,
-        Self::Assembly,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its folder in the library.
     pub fn folder(self) -> &'static str {
-        self.names().0
+        match self {
+            Self::Rope => "ropes",
+            Self::Trap => "traps",
+            Self::Buoy => "buoys",
+            Self::WeakLink => "weak-links",
+            Self::Knot => "knots",
+            Self::Anchor => "anchors",
+            Self::Site => "sites",
+            Self::Friction => "friction",
+            Self::Whale => "whales",
+            Self::Act => "acts",
+            Self::Assembly => "assemblies",
+        }
     }
 
     /// The word of a file's `kind` field.
     pub fn word(self) -> &'static str {
-        self.names().1
+        self.into()
     }
 
     /// The kind of the files in a folder.
     pub fn in_folder(folder: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.folder() == folder)
+        Self::ALL.iter().copied().find(|kind| kind.folder() == folder)
     }
 
     /// Its figures, in the order shown.
@@ -122,22 +125,6 @@ impl Kind {
                 help: "sphere, bullet (rounded ends), low-drag (spheroid) or cylinder",
             }],
             _ => &[],
-        }
-    }
-
-    fn names(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Rope => ("ropes", "rope"),
-            Self::Trap => ("traps", "trap"),
-            Self::Buoy => ("buoys", "buoy"),
-            Self::WeakLink => ("weak-links", "weak-link"),
-            Self::Knot => ("knots", "knot"),
-            Self::Anchor => ("anchors", "anchor"),
-            Self::Site => ("sites", "site"),
-            Self::Friction => ("friction", "friction"),
-            Self::Whale => ("whales", "whale"),
-            Self::Act => ("acts", "act"),
-            Self::Assembly => ("assemblies", "assembly"),
         }
     }
 }

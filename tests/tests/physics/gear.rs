@@ -447,7 +447,7 @@ fn a_mistake_in_an_assembly_is_reported_in_its_own_file() {
 #[test]
 fn every_kind_of_item_is_shipped() {
     let library = library();
-    for kind in Kind::ALL {
+    for kind in Kind::ALL.iter().copied() {
         assert!(!library.ids(kind).is_empty(), "{kind:?}");
     }
 }

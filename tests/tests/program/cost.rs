@@ -44,7 +44,7 @@ fn the_parts_sum_to_the_real_time_and_contact_costs_nothing_before_it() {
     }
     assert!(run.audit().contact_steps > 0, "the rope was never touched");
     let cost = run.timing().cost;
-    for part in CostPart::ALL {
+    for part in CostPart::ALL.iter().copied() {
         assert!(cost.of_s(part) > 0.0, "{part:?} of {cost:?}");
     }
     // The steps lie within what is measured around them; little else does.

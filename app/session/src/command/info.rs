@@ -2,35 +2,34 @@
 
 use std::path::{Path, PathBuf};
 
-use strum::{EnumMessage, IntoDiscriminant};
+use strum::{EnumMessage, IntoDiscriminant, IntoStaticStr, VariantArray};
 
 use crate::workbench::{Direction, Workbench};
 
 /// When a shortcut holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, VariantArray)]
 pub enum When {
     /// At any time, while text is typed too.
+    #[strum(serialize = "At any time")]
     Always,
     /// While no text is typed.
+    #[strum(serialize = "While no text is typed")]
     Idle,
     /// While no text is typed and the whale is not steered.
+    #[strum(serialize = "While the whale is not steered")]
     NotFlying,
     /// While somebody steers the whale.
+    #[strum(serialize = "While steering the whale")]
     Flying,
 }
 
 impl When {
     /// All of them, in the order of the list of keys.
-    pub const ALL: [Self; 4] = [Self::Always, Self::Idle, Self::NotFlying, Self::Flying];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// The title of its keys in the list of keys.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Always => "At any time",
-            Self::Idle => "While no text is typed",
-            Self::NotFlying => "While the whale is not steered",
-            Self::Flying => "While steering the whale",
-        }
+        self.into()
     }
 
     /// Whether two may hold at the same time.

@@ -1,8 +1,8 @@
 //! Charts of a run, as plain data: drawn in the window, written as CSV, SVG or PNG.
 
 use endline_sdk::BodyPart;
-
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 use crate::live::{Channel, LiveView, Series, Span};
 use crate::scales::SERIES;
@@ -12,7 +12,10 @@ use crate::units::Units;
 pub const SPANS: usize = 900;
 
 /// A kind of plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
+#[strum(serialize_all = "snake_case")]
 pub enum Kind {
     /// Greatest tension of each line over time, with strengths and ratings.
     Tension,
@@ -30,8 +33,7 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind, in the order shown.
-    pub const ALL: [Self; 6] =
-        [Self::Tension, Self::Along, Self::Force, Self::Wraps, Self::Depth, Self::Speed];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its title.
     pub fn title(self) -> &'static str {
@@ -47,14 +49,7 @@ impl Kind {
 
     /// Its short name, for files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Tension => "tension",
-            Self::Along => "along",
-            Self::Force => "force",
-            Self::Wraps => "wraps",
-            Self::Depth => "depth",
-            Self::Speed => "speed",
-        }
+        self.into()
     }
 
     /// Whether it runs over time.

@@ -345,7 +345,7 @@ mod tests {
     fn the_parts_sum_to_the_whole_and_the_greatest_share_is_first() {
         let mut cost = Cost::default();
         assert!(shares(&cost).is_empty());
-        for (place, part) in CostPart::ALL.into_iter().enumerate() {
+        for (place, part) in CostPart::ALL.iter().copied().enumerate() {
             cost.add_ns(part, 1_000_000_000 << place);
         }
         let seconds = |figure: &Figure<Cost>| (figure.read)(&cost).number().unwrap();

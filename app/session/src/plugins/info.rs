@@ -9,6 +9,7 @@ use endline_sdk::{
     Act, Attribute, AttributeKind, Controls, Descriptor, FrictionModel, GearType, WhaleMotion,
 };
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 use super::choices::Ask;
 
@@ -16,7 +17,8 @@ use super::choices::Ask;
 pub type Checker<'a> = dyn Fn(&Path, &str) -> Result<(), String> + 'a;
 
 /// Which hook a plugin serves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum PluginKind {
     /// A whale motion.
     Motion,
@@ -29,6 +31,11 @@ pub enum PluginKind {
 }
 
 impl PluginKind {
+    /// Its word in ids and folders, such as `motion`.
+    pub fn word(self) -> &'static str {
+        self.into()
+    }
+
     /// Its name in lists, such as `friction model`.
     pub fn name(self) -> &'static str {
         match self {

@@ -398,17 +398,6 @@ pub(super) enum PluginKindArg {
     Gear,
 }
 
-impl PluginKindArg {
-    /// The word for this kind in ids and names.
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::Motion => "motion",
-            Self::Friction => "friction",
-            Self::Gear => "gear",
-        }
-    }
-}
-
 impl From<PluginKindArg> for PluginKind {
     fn from(kind: PluginKindArg) -> Self {
         match kind {

@@ -8,8 +8,8 @@ use std::time::Duration;
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::load_with;
 use endline_session::plugins::{
-    Change, PluginInfo, PluginProblem, Project, Standing, file_hash, report_here, report_of_child,
-    write_project,
+    Change, PluginInfo, PluginKind, PluginProblem, Project, Standing, file_hash, report_here,
+    report_of_child, write_project,
 };
 
 use super::args::{NewPluginArgs, PluginsCommand};
@@ -152,8 +152,8 @@ fn serve() -> Result<ExitCode, Failure> {
 
 /// Writes a project and prints the next steps.
 fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
-    let (kind, language) = (args.kind.into(), args.lang.into());
-    let usual = || PathBuf::from(format!("my-{}", args.kind.word()));
+    let (kind, language) = (PluginKind::from(args.kind), args.lang.into());
+    let usual = || PathBuf::from(format!("my-{}", kind.word()));
     let folder = args.folder.clone().unwrap_or_else(usual);
     let Project { id, build, library } =
         write_project(&folder, kind, language, args.sdk.as_deref()).map_err(Failure::failed)?;

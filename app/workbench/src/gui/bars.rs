@@ -116,7 +116,7 @@ fn menus_right(ui: &mut Ui, shared: &mut Shared) {
         return;
     }
     let now = shared.workbench.preferences().units;
-    for units in Units::ALL.into_iter().rev() {
+    for units in Units::ALL.iter().copied().rev() {
         let label = ui.selectable_label(units == now, units.name()).on_hover_text(units.help());
         if label.clicked() {
             shared.give(WindowAction::Units(units));
@@ -126,7 +126,7 @@ fn menus_right(ui: &mut Ui, shared: &mut Shared) {
         return;
     }
     ui.separator();
-    for layout in Layout::ALL.into_iter().rev() {
+    for layout in Layout::ALL.iter().copied().rev() {
         if ui.button(layout.name()).on_hover_text("Arrange the panels").clicked() {
             shared.give(PanelAction::Arrange(layout));
         }

@@ -1,11 +1,12 @@
 //! Named layouts, and how panels are opened and closed in them.
 
 use egui_dock::{DockState, NodeIndex};
+use strum::{IntoStaticStr, VariantArray};
 
 use super::panel::PanelId;
 
 /// A named arrangement of panels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, VariantArray)]
 pub enum Layout {
     /// For editing gear and running it.
     Design,
@@ -21,17 +22,11 @@ pub enum Layout {
 
 impl Layout {
     /// All layouts, in the order of the menu.
-    pub const ALL: [Self; 5] = [Self::Design, Self::Fly, Self::Review, Self::Study, Self::Search];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Design => "Design",
-            Self::Fly => "Fly",
-            Self::Review => "Review",
-            Self::Study => "Study",
-            Self::Search => "Search",
-        }
+        self.into()
     }
 
     /// Its panels in their places.
@@ -157,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_panel_opens_only_once_in_every_layout() {
-        for layout in Layout::ALL {
+        for layout in Layout::ALL.iter().copied() {
             let mut dock = layout.dock();
             for panel in PanelId::ALL.iter().chain(PanelId::ALL).copied() {
                 open(&mut dock, panel);

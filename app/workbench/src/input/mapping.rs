@@ -5,78 +5,80 @@
 
 use egui::{InputState, Key};
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 use crate::input::pad::{PadAxis, PadButton};
 
 /// What a stick or trigger can control.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
 pub enum Steered {
     /// Swimming speed.
+    #[strum(serialize = "Swim faster")]
     Speed,
     /// Nose up.
+    #[strum(serialize = "Nose up")]
     Pitch,
     /// Roll to starboard.
+    #[strum(serialize = "Roll to starboard")]
     Roll,
     /// Turn to port.
+    #[strum(serialize = "Turn to port")]
     Yaw,
     /// Flippers out.
+    #[strum(serialize = "Flippers out")]
     FlipperRaise,
     /// Flippers pronated.
+    #[strum(serialize = "Flippers pronated")]
     FlipperTwist,
     /// Flippers swept forward.
+    #[strum(serialize = "Flippers swept forward")]
     FlipperSweep,
     /// Opening of the mouth.
+    #[strum(serialize = "Open the mouth")]
     Mouth,
 }
 
 impl Steered {
     /// All, in the order shown.
-    pub const ALL: [Self; 8] = [
-        Self::Speed,
-        Self::Pitch,
-        Self::Roll,
-        Self::Yaw,
-        Self::FlipperRaise,
-        Self::FlipperTwist,
-        Self::FlipperSweep,
-        Self::Mouth,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Name on screen.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::Speed => "Swim faster",
-            Self::Pitch => "Nose up",
-            Self::Roll => "Roll to starboard",
-            Self::Yaw => "Turn to port",
-            Self::FlipperRaise => "Flippers out",
-            Self::FlipperTwist => "Flippers pronated",
-            Self::FlipperSweep => "Flippers swept forward",
-            Self::Mouth => "Open the mouth",
-        }
+        self.into()
     }
 }
 
 /// Function of a button.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
 pub enum Pressed {
     /// While held, sticks and triggers have their second function.
+    #[strum(serialize = "Second function of sticks and triggers, while held")]
     Second,
     /// Burst, while held.
     Burst,
     /// The selected act, while held.
+    #[strum(serialize = "Do the selected act")]
     Act,
     /// Select the next act.
+    #[strum(serialize = "Select the next act")]
     NextAct,
     /// Open or close the mouth.
+    #[strum(serialize = "Open, close the mouth")]
     Mouth,
     /// Reset and start the run.
     Restart,
     /// Pause or continue.
+    #[strum(serialize = "Run, pause")]
     PlayPause,
     /// First or third person.
+    #[strum(serialize = "First, third person")]
     Person,
     /// Weak links on or off.
+    #[strum(serialize = "Weak links on, off")]
     WeakLinks,
     /// The next slower speed.
     Slower,
@@ -86,35 +88,11 @@ pub enum Pressed {
 
 impl Pressed {
     /// All, in the order shown.
-    pub const ALL: [Self; 11] = [
-        Self::Second,
-        Self::Burst,
-        Self::Act,
-        Self::NextAct,
-        Self::Mouth,
-        Self::Restart,
-        Self::PlayPause,
-        Self::Person,
-        Self::WeakLinks,
-        Self::Slower,
-        Self::Faster,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Name on screen.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::Second => "Second function of sticks and triggers, while held",
-            Self::Burst => "Burst",
-            Self::Act => "Do the selected act",
-            Self::NextAct => "Select the next act",
-            Self::Mouth => "Open, close the mouth",
-            Self::Restart => "Restart",
-            Self::PlayPause => "Run, pause",
-            Self::Person => "First, third person",
-            Self::WeakLinks => "Weak links on, off",
-            Self::Slower => "Slower",
-            Self::Faster => "Faster",
-        }
+        self.into()
     }
 }
 

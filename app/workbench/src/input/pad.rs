@@ -7,45 +7,40 @@ use std::time::Duration;
 
 use endline_sim::metrics::{Event, EventKind};
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 /// A stick or trigger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
 pub enum PadAxis {
     /// Left stick, right is 1.
+    #[strum(serialize = "left stick, sideways")]
     LeftX,
     /// Left stick, up (away from the pilot) is 1.
+    #[strum(serialize = "left stick, up and down")]
     LeftY,
     /// Right stick, right is 1.
+    #[strum(serialize = "right stick, sideways")]
     RightX,
     /// Right stick, up (away from the pilot) is 1.
+    #[strum(serialize = "right stick, up and down")]
     RightY,
     /// Left trigger, pulled is 1.
+    #[strum(serialize = "left trigger")]
     LeftTrigger,
     /// Right trigger, pulled is 1.
+    #[strum(serialize = "right trigger")]
     RightTrigger,
 }
 
 impl PadAxis {
     /// All sticks and triggers.
-    pub const ALL: [Self; 6] = [
-        Self::LeftX,
-        Self::LeftY,
-        Self::RightX,
-        Self::RightY,
-        Self::LeftTrigger,
-        Self::RightTrigger,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Name on screen.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::LeftX => "left stick, sideways",
-            Self::LeftY => "left stick, up and down",
-            Self::RightX => "right stick, sideways",
-            Self::RightY => "right stick, up and down",
-            Self::LeftTrigger => "left trigger",
-            Self::RightTrigger => "right trigger",
-        }
+        self.into()
     }
 
     /// Whether it is a trigger, 0 to 1.
@@ -55,31 +50,43 @@ impl PadAxis {
 }
 
 /// A button the pilot uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum PadButton {
     /// Lower face button (A).
+    #[strum(serialize = "A")]
     South,
     /// Right face button (B).
+    #[strum(serialize = "B")]
     East,
     /// Upper face button (Y).
+    #[strum(serialize = "Y")]
     North,
     /// Left face button (X).
+    #[strum(serialize = "X")]
     West,
     /// Up on the cross.
+    #[strum(serialize = "cross up")]
     Up,
     /// Down on the cross.
+    #[strum(serialize = "cross down")]
     Down,
     /// Left on the cross.
+    #[strum(serialize = "cross left")]
     Left,
     /// Right on the cross.
+    #[strum(serialize = "cross right")]
     Right,
     /// Left shoulder.
+    #[strum(serialize = "left shoulder")]
     LeftShoulder,
     /// Right shoulder.
+    #[strum(serialize = "right shoulder")]
     RightShoulder,
     /// Left stick pressed.
+    #[strum(serialize = "left stick pressed")]
     LeftStick,
     /// Right stick pressed.
+    #[strum(serialize = "right stick pressed")]
     RightStick,
     /// Start.
     Start,
@@ -90,22 +97,7 @@ pub enum PadButton {
 impl PadButton {
     /// Name on screen.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::South => "A",
-            Self::East => "B",
-            Self::North => "Y",
-            Self::West => "X",
-            Self::Up => "cross up",
-            Self::Down => "cross down",
-            Self::Left => "cross left",
-            Self::Right => "cross right",
-            Self::LeftShoulder => "left shoulder",
-            Self::RightShoulder => "right shoulder",
-            Self::LeftStick => "left stick pressed",
-            Self::RightStick => "right stick pressed",
-            Self::Start => "Start",
-            Self::Back => "Back",
-        }
+        self.into()
     }
 }
 

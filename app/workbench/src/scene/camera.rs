@@ -4,11 +4,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use endline_sim::frame::WhaleFrame;
 use glam::{DMat4, DVec2, DVec3, DVec4};
+use strum::{EnumString, IntoStaticStr};
 
 use endline_session::scene::Bounds;
 
 /// Named views.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, EnumString, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum View {
     /// From the side and a little above.
     #[default]
@@ -50,17 +52,7 @@ impl View {
 
     /// Its name on the command line and in menus.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Orbit => "orbit",
-            Self::Side => "side",
-            Self::Top => "top",
-            Self::Front => "front",
-            Self::Whale => "whale",
-            Self::FirstPerson => "first-person",
-            Self::WhaleSide => "whale-side",
-            Self::WhaleTop => "whale-top",
-            Self::WhaleFront => "whale-front",
-        }
+        self.into()
     }
 
     /// Names of all views, for messages.
@@ -70,7 +62,7 @@ impl View {
 
     /// Finds a view by name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::all().find(|view| view.name() == name)
+        name.parse().ok()
     }
 }
 

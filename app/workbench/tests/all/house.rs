@@ -129,7 +129,7 @@ fn a_run_is_recorded_automatically_replayed_to_the_bit_and_branched() {
 fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_can_draw_it() {
     let folder = Folder::new("plots");
     let mut harness = flown(&folder);
-    for layout in Layout::ALL {
+    for layout in Layout::ALL.iter().copied() {
         harness.state_mut().shared.give(PanelAction::Arrange(layout));
         harness.run_steps(3);
     }

@@ -72,7 +72,7 @@ fn timing(next: &mut Numbers) -> Timing {
     for phase in [&mut timing.approach, &mut timing.contact] {
         (phase.simulated_s, phase.wall_s) = (next.real(), next.real());
     }
-    for part in CostPart::ALL {
+    for part in CostPart::ALL.iter().copied() {
         timing.cost.add_ns(part, next.whole() * 1_000_000_000);
     }
     timing

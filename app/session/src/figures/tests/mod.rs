@@ -206,7 +206,7 @@ fn the_summary_nests_the_lists() {
     assert_eq!(json["contact"]["simulated_s"], report.timing.contact.simulated_s);
     let cost = &report.timing.cost;
     assert_eq!(json["cost"]["whole_s"], cost.whole_s());
-    for (figure, part) in COST[1..].iter().zip(CostPart::ALL) {
+    for (figure, part) in COST[1..].iter().zip(CostPart::ALL.iter().copied()) {
         assert_eq!(json["cost"][figure.key], cost.of_s(part), "{}", figure.key);
     }
     assert_eq!(json["settled"]["residual_N"], report.settled.residual_n);

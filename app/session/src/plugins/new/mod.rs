@@ -49,7 +49,7 @@ pub fn write_project(
     } else {
         kind
     };
-    let id = format!("org.example.{}.{name}", word(kind));
+    let id = format!("org.example.{}.{name}", kind.word());
     let files = match language {
         Language::Text => in_text(kind, &name, &id)?,
         Language::Rust => in_rust(kind, &name, &id, &find_sdk(sdk)?),
@@ -79,16 +79,6 @@ pub fn write_project(
         Language::Text => Vec::new(),
     };
     Ok(Project { id, build, library })
-}
-
-/// The kind's word in ids and folders, such as `motion`.
-fn word(kind: PluginKind) -> &'static str {
-    match kind {
-        PluginKind::Motion => "motion",
-        PluginKind::Friction => "friction",
-        PluginKind::Gear => "gear",
-        PluginKind::Clips => "clips",
-    }
 }
 
 /// Name of crate and plugin: the folder's.

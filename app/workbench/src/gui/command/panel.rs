@@ -37,7 +37,7 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             Make::Choices(|_| {
                 let choice =
                     |layout: Layout| Choice::new(layout.name(), PanelAction::Arrange(layout).into());
-                Layout::ALL.into_iter().map(choice).collect()
+                Layout::ALL.iter().copied().map(choice).collect()
             }),
         ),
         WindowInfo::of(

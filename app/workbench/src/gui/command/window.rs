@@ -33,7 +33,7 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             Make::Choices(|_| {
                 let choice =
                     |units: Units| Choice::new(units.name(), WindowAction::Units(units).into());
-                Units::ALL.into_iter().map(choice).collect()
+                Units::ALL.iter().copied().map(choice).collect()
             }),
         ),
         WindowInfo::of(

@@ -31,7 +31,7 @@ impl Panel for HelpPanel {
             about::show(ui, shared);
             widgets::caption(ui, "Files");
             ui.label("Gear is text in the folder of the library: one TOML file per item, with values such as \"3/8 in\" or \"1700 lbf\".");
-            for when in When::ALL {
+            for when in When::ALL.iter().copied() {
                 table(ui, when.title(), &keys(when));
             }
         });

@@ -66,7 +66,7 @@ impl PadPanel {
             }
             Learning::Axis(steers, second) => {
                 let moved =
-                    PadAxis::ALL.into_iter().find(|axis| shared.pilot.axis(*axis).abs() > FAR);
+                    PadAxis::ALL.iter().copied().find(|axis| shared.pilot.axis(*axis).abs() > FAR);
                 if let Some(axis) = moved {
                     let inverted = shared.pilot.axis(axis) < 0.0;
                     shared.pilot.mapping.bind_axis(AxisUse { axis, second, steers, inverted });
@@ -83,7 +83,7 @@ impl PadPanel {
                 ui.label(RichText::new(head).small().color(faint));
             }
             ui.end_row();
-            for steers in Steered::ALL {
+            for steers in Steered::ALL.iter().copied() {
                 ui.label(steers.words());
                 let first = shared
                     .pilot
@@ -145,7 +145,7 @@ impl PadPanel {
 
     fn buttons(&mut self, ui: &mut Ui, shared: &mut Shared) {
         Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
-            for does in Pressed::ALL {
+            for does in Pressed::ALL.iter().copied() {
                 ui.label(does.words());
                 let button = shared
                     .pilot

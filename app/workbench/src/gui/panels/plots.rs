@@ -52,13 +52,13 @@ impl Panel for PlotsPanel {
 impl PlotsPanel {
     fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ui.horizontal_wrapped(|ui| {
-            for kind in Kind::ALL {
+            for kind in Kind::ALL.iter().copied() {
                 let mut on = self.kinds.contains(&kind);
                 if ui.toggle_value(&mut on, kind.title()).changed() {
                     let shown = |known: &Kind| {
                         if *known == kind { on } else { self.kinds.contains(known) }
                     };
-                    self.kinds = Kind::ALL.into_iter().filter(shown).collect();
+                    self.kinds = Kind::ALL.iter().copied().filter(shown).collect();
                 }
             }
             ui.menu_button("Save ⏷", |ui| {

@@ -35,7 +35,7 @@ pub(in super::super) fn show(
 
 /// A length of an entry [m].
 fn metres(documents: &Documents, path: &str, key: &str) -> Option<f32> {
-    let field = Kind::ALL.into_iter().flat_map(Kind::fields).find(|field| field.key == key)?;
+    let field = Kind::ALL.iter().copied().flat_map(Kind::fields).find(|field| field.key == key)?;
     Some(units::parse(&documents.field(path, key)?, field.quantity).ok()? as f32)
 }
 

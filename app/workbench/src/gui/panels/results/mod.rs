@@ -13,6 +13,7 @@ use endline_gear::StudyEvent;
 use endline_session::shell;
 use endline_session::study::stats::answer;
 use endline_session::study::{ResultsReader, StudyResults};
+use strum::{IntoStaticStr, VariantArray};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::panel::Panel;
@@ -24,14 +25,16 @@ use runs::{Listed, Sort};
 use spread::Placed;
 
 /// Part of the results that is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr, VariantArray)]
 pub enum Part {
     /// Table of rates and differences from the baseline.
     #[default]
     Rates,
     /// Uncertainty of rates by three causes.
+    #[strum(serialize = "Uncertainty")]
     Bands,
     /// Chart of differences from the baseline.
+    #[strum(serialize = "Differences")]
     Forest,
     /// Greatest tensions of all runs.
     Tensions,
@@ -41,18 +44,6 @@ pub enum Part {
     Claims,
     /// Table of all runs.
     Runs,
-}
-
-impl Part {
-    const ALL: [(Self, &'static str); 7] = [
-        (Self::Rates, "Rates"),
-        (Self::Bands, "Uncertainty"),
-        (Self::Forest, "Differences"),
-        (Self::Tensions, "Tensions"),
-        (Self::Sensitivity, "Sensitivity"),
-        (Self::Claims, "Claims"),
-        (Self::Runs, "Runs"),
-    ];
 }
 
 /// Results of a study.
@@ -152,11 +143,11 @@ impl ResultsPanel {
         let caveat = "Rates are per encounter, for the distribution of encounters of this study; 95 % intervals.";
         ui.label(RichText::new(caveat).small().color(palette.faint));
         ui.horizontal_wrapped(|ui| {
-            for (part, name) in Part::ALL {
+            for part in Part::VARIANTS.iter().copied() {
                 if part == Part::Claims && findings.claims.is_empty() {
                     continue;
                 }
-                ui.selectable_value(&mut self.part, part, name);
+                ui.selectable_value(&mut self.part, part, <&str>::from(part));
             }
             if matches!(self.part, Part::Rates | Part::Bands | Part::Forest) {
                 self.choose_event(ui, shown);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::Document;
 use endline_session::locate;
+use strum::{IntoStaticStr, VariantArray};
 
 use super::sketch::Sketch;
 use crate::gui::files;
@@ -20,51 +21,41 @@ pub(super) enum What {
 }
 
 /// Subject of an item.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, VariantArray)]
 pub(super) enum Group {
     /// A whale meets gear.
+    #[strum(serialize = "Whales meeting gear")]
     Encounter,
     /// Studies.
+    #[strum(serialize = "Studies: options compared")]
     Study,
     /// Scenarios that re-create a real case.
+    #[strum(serialize = "Real cases")]
     Case,
     /// Observations.
+    #[strum(serialize = "Observations of entangled whales")]
     Observation,
     /// Gear without a whale.
+    #[strum(serialize = "Gear alone")]
     Gear,
     /// Whales without gear.
+    #[strum(serialize = "Whales alone")]
     Whale,
     /// Neither gear of a fishery nor a whale.
+    #[strum(serialize = "Checks of the physics")]
     Physics,
     /// Scenarios that studies and searches draw theirs from.
+    #[strum(serialize = "Scenarios of studies and searches")]
     Base,
 }
 
 impl Group {
     /// All groups, in the order of the page.
-    pub(super) const ALL: [Self; 8] = [
-        Self::Encounter,
-        Self::Study,
-        Self::Case,
-        Self::Observation,
-        Self::Gear,
-        Self::Whale,
-        Self::Physics,
-        Self::Base,
-    ];
+    pub(super) const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its heading.
     pub(super) fn title(self) -> &'static str {
-        match self {
-            Self::Encounter => "Whales meeting gear",
-            Self::Study => "Studies: options compared",
-            Self::Case => "Real cases",
-            Self::Observation => "Observations of entangled whales",
-            Self::Gear => "Gear alone",
-            Self::Whale => "Whales alone",
-            Self::Physics => "Checks of the physics",
-            Self::Base => "Scenarios of studies and searches",
-        }
+        self.into()
     }
 
     /// Whether it is open initially.

@@ -64,7 +64,7 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
         let now = shared.workbench.preferences().units;
-        for units in Units::ALL {
+        for units in Units::ALL.iter().copied() {
             if ui.radio(units == now, units.name()).on_hover_text(units.help()).clicked() {
                 shared.give(WindowAction::Units(units));
             }
@@ -119,7 +119,7 @@ fn open(shared: &mut Shared, what: What, path: &Path) {
 fn listed(ui: &mut Ui, shared: &mut Shared, items: &[Item], search: &str) {
     let mut any = false;
     let words = item::words(search);
-    for group in Group::ALL {
+    for group in Group::ALL.iter().copied() {
         let of: Vec<&Item> =
             items.iter().filter(|item| item.group == group && item.has(&words)).collect();
         if of.is_empty() {

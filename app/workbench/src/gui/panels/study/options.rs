@@ -427,7 +427,7 @@ impl<'a> Base<'a> {
     /// Figures of library items: those used by the open scenario, or all items if there are search words.
     fn items(&self, sought: &[String]) -> impl Iterator<Item = Settable> {
         let documents = self.documents();
-        let kinds = Kind::ALL.into_iter().filter(|kind| *kind != Kind::Act);
+        let kinds = Kind::ALL.iter().copied().filter(|kind| *kind != Kind::Act);
         kinds.flat_map(move |kind| {
             let files = documents.files(kind.folder());
             let shown = files.filter(move |file| !sought.is_empty() || documents.in_use(file));
