@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::Library as Items;
 use endline_session::check::check_path;
-use endline_session::locate;
 use endline_session::source::AssemblyFile;
 use endline_session::statics::{TrialGear, TrialSea, alone, settled};
+use endline_session::{json, locate};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -91,6 +91,6 @@ impl Assembly {
             let text = alone(&scenario, &gear, &sea, &self.items)?;
             settled(&self.file.id, &text, &self.items, host())
         });
-        Ok(rest.map_err(raised)?.shape.json())
+        Ok(json::line(&rest.map_err(raised)?.shape))
     }
 }

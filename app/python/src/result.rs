@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use endline_session::units::Units;
-use endline_session::{Recording, Report, Run};
+use endline_session::{Recording, Report, Run, json};
 use endline_sim::{DVec3, Frame, Model};
 use endline_workbench::scene::{RenderRequest, render};
 use pyo3::exceptions::PyIndexError;
@@ -48,7 +48,7 @@ impl Result {
 impl Result {
     /// The figures as the JSON of `endline run --json`.
     fn json(&self) -> String {
-        self.report.json()
+        json::line(&self.report)
     }
 
     /// Each line: id, its first node and the one after its last, its first segment and the one after its last.

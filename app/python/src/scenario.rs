@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use endline_session::recording::replay::{self as again, ReplayOptions, Verdict};
 use endline_session::settled::SettledShape;
-use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, locate, prepare};
+use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, json, locate, prepare};
 use endline_sim::settle;
 use pyo3::prelude::*;
 
@@ -71,7 +71,8 @@ impl Scenario {
         interruptible(python, move |_| {
             let start = Instant::now();
             let settled = settle(&prepared.model);
-            Ok(SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64()).json())
+            let wall_s = start.elapsed().as_secs_f64();
+            Ok(json::line(&SettledShape::of(&prepared, &settled, wall_s)))
         })
     }
 

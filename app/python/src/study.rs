@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use endline_session::campaign::{Control, Shard};
-use endline_session::locate;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
 use endline_session::study::{PreparedStudy, batch, merge, report};
+use endline_session::{json, locate};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -100,7 +100,7 @@ impl Study {
             let table = merge::load(&self.opened, &folder)?;
             let findings = Findings::of(&self.opened, &table, &folder.registration);
             let page = report::write(&self.opened, &folder, &findings, &[])?;
-            Ok((page, findings.json()))
+            Ok((page, json::line(&findings)))
         });
         written.map_err(raised)
     }

@@ -43,9 +43,15 @@ impl Error {
     }
 }
 
+impl From<Vec<Diagnostic>> for Error {
+    fn from(problems: Vec<Diagnostic>) -> Self {
+        Self::Diagnostics(problems)
+    }
+}
+
 impl From<Diagnostic> for Error {
     fn from(problem: Diagnostic) -> Self {
-        Self::Diagnostics(vec![problem])
+        vec![problem].into()
     }
 }
 

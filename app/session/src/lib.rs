@@ -10,6 +10,7 @@
 //! | [`touching`] | the contact of a body with the whale at the moment shown |
 //! | [`figures`] | every figure of a run, declared once; comparison of two runs |
 //! | [`forms`] | the JSON forms that commands print, with their schemas |
+//! | [`json`] | results as JSON |
 //! | [`settled`] | the gear at rest as JSON |
 //! | [`statics`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
@@ -61,6 +62,7 @@ pub mod forms;
 pub mod hash;
 pub mod haul;
 mod hooks;
+pub mod json;
 pub mod live;
 pub mod locate;
 pub mod mill;

@@ -113,12 +113,6 @@ impl SettledShape {
             probes: probes(model, state),
         }
     }
-
-    /// One line of JSON.
-    pub fn json(&self) -> String {
-        // Structs of numbers and strings always serialise.
-        serde_json::to_string(self).unwrap_or_default()
-    }
 }
 
 fn lines(model: &Model, state: &State) -> Vec<LineShape> {

@@ -9,7 +9,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use endline_session::plugins::PluginHost;
-use endline_session::{Overrides, Prepared, Report, Run, RunOptions, prepare};
+use endline_session::{Overrides, Prepared, Report, Run, RunOptions, json, prepare};
 use endline_sim::{CostPart, Input, Workspace, settle, step};
 
 use crate::common::Place;
@@ -51,7 +51,8 @@ fn the_parts_sum_to_the_real_time_and_contact_costs_nothing_before_it() {
     let steps_s = cost.whole_s() - cost.of_s(CostPart::Metrics);
     let wall_s = run.timing().whole().wall_s;
     assert!(steps_s <= wall_s * (1.0 + 1e-12) && steps_s > 0.9 * wall_s, "{steps_s} of {wall_s} s");
-    let json: serde_json::Value = serde_json::from_str(&Report::from_run(&run).json()).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_str(&json::line(&Report::from_run(&run))).unwrap();
     let parts = json["cost"].as_object().unwrap();
     let sum: f64 =
         parts.iter().filter(|(key, _)| *key != "whole_s").map(|(_, s)| s.as_f64().unwrap()).sum();

@@ -51,7 +51,7 @@ impl Cases {
     /// The cases of a library folder, found as [`locate::library`] says where `library` is `None`.
     pub fn open(library: Option<&Path>) -> Result<Self, Error> {
         let root = locate::library(None, library).map_err(Error::Message)?;
-        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let sources = Sources::from_folder(&root)?;
         Ok(Self { root, sources })
     }
 
@@ -73,8 +73,7 @@ impl Cases {
     /// Reads a case and its table.
     pub fn load(&self, id: &str) -> Result<Loaded, Error> {
         let path = self.root.join("cases").join(format!("{id}.toml"));
-        let case = Case::read(&path.display().to_string(), &self.text(&path, || self.known(id))?)
-            .map_err(Error::Diagnostics)?;
+        let case = Case::read(&path.display().to_string(), &self.text(&path, || self.known(id))?)?;
         let table = match &case.table {
             Some(name) => {
                 let path = self.root.join("cases/tables").join(format!("{}.csv", name.value));

@@ -109,14 +109,6 @@ impl Serialize for Report {
     }
 }
 
-impl Report {
-    /// One line of JSON.
-    pub fn json(&self) -> String {
-        // Numbers and texts always serialise; the empty string would fail every reader at once.
-        serde_json::to_string(self).unwrap_or_default()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -189,10 +189,10 @@ impl Made {
             .sea_m
             .map(|height| request.period_s.unwrap_or(PERIOD_OF_ROOT_HEIGHT * height.sqrt()));
         let text = text(id, request, depth_m, period_s)?;
-        let scenario = Scenario::read("scenario", &text).map_err(Error::Diagnostics)?;
+        let scenario = Scenario::read("scenario", &text)?;
         let options = Options { step_s: Some(request.step_s), ..Options::default() };
         let Assembled { mut spec, strengths, .. } =
-            assemble_traced(&scenario, library, host, &options).map_err(Error::Diagnostics)?;
+            assemble_traced(&scenario, library, host, &options)?;
         for body in &mut spec.bodies {
             body.foot_break_out_n *= request.break_out;
         }

@@ -141,12 +141,6 @@ pub struct Along {
 }
 
 impl HaulSheet {
-    /// The sheet as one JSON object.
-    pub fn json(&self) -> String {
-        // Strings and finite numbers always become JSON.
-        serde_json::to_string_pretty(self).unwrap_or_default()
-    }
-
     pub(super) fn of(
         id: &str,
         request: &HaulRequest,

@@ -10,7 +10,7 @@ use super::expression::{Expression, Names, begins_with_function};
 use super::facts::of_subject;
 use super::value::Kind;
 use crate::error::Error;
-use crate::locate;
+use crate::{json, locate};
 
 /// Folder of the packs in a library.
 const FOLDER: &str = "rules";
@@ -288,8 +288,7 @@ impl Packs {
     /// Every pack with its areas and rules, as one JSON object.
     pub fn json(&self) -> String {
         let listing = Listing { schema: SCHEMA, packs: self.packs.iter().map(pack).collect() };
-        // Strings and finite numbers always become JSON.
-        serde_json::to_string_pretty(&listing).unwrap_or_default()
+        json::indented(&listing)
     }
 }
 

@@ -127,12 +127,6 @@ impl RuleSheet {
     pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
         self.rules.iter().filter(move |rule| rule.verdict == verdict)
     }
-
-    /// The sheet as one JSON object.
-    pub fn json(&self) -> String {
-        // Strings and finite numbers always become JSON.
-        serde_json::to_string_pretty(self).unwrap_or_default()
-    }
 }
 
 /// Assembles an assembly of the library, by its id or its file, alone in still water.
@@ -156,9 +150,8 @@ pub fn of_library(
 ) -> Result<RuleGear, Error> {
     let depth_m = depth_m.unwrap_or(USUAL_DEPTH_M);
     let text = alone(id, depth_m, library)?;
-    let scenario = Scenario::read("scenario", &text).map_err(Error::Diagnostics)?;
-    let made: Assembled = assemble_traced(&scenario, library, host, &Options::default())
-        .map_err(Error::Diagnostics)?;
+    let scenario = Scenario::read("scenario", &text)?;
+    let made: Assembled = assemble_traced(&scenario, library, host, &Options::default())?;
     Ok(RuleGear { assembly: id.to_owned(), depth_m, gear: gear_of(&made, library) })
 }
 
@@ -175,7 +168,7 @@ fn alone(id: &str, depth_m: f64, library: &Library) -> Result<String, Error> {
 pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSheet, Error> {
     let around = packs.around(&fishing.area).map_err(Error::Message)?;
     let rules = packs.rules().map(|rule| of(rule, &gear.gear, fishing, &around));
-    let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>().map_err(Error::Diagnostics)?;
+    let rules: Vec<RuleResult> = rules.collect::<Result<_, _>>()?;
     Ok(RuleSheet {
         schema: SCHEMA,
         assembly: gear.assembly.clone(),

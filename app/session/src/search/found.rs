@@ -3,7 +3,7 @@
 use crate::campaign::{Control, Count};
 use crate::encounters::Encounter;
 use crate::error::Error;
-use crate::save;
+use crate::{json, save};
 
 use super::Effort;
 use super::distance::LIKE;
@@ -47,7 +47,7 @@ pub(super) fn stories(
         found.stories[place] = story(rounds, kind, tried.elite, &draws, Some(&tried));
     }
     let file = folder.path.join("stories.json");
-    save::atomically(&file, (found.json() + "\n").as_bytes())
+    save::atomically(&file, (json::indented(&found) + "\n").as_bytes())
         .map_err(Error::on(&file, "cannot be written"))?;
     Ok(found)
 }

@@ -49,7 +49,7 @@ impl Question {
         let path = locate::named(named, "observations", library).map_err(Error::Message)?;
         let text = endline_gear::read::text(&path).map_err(Error::on(&path, "cannot be read"))?;
         let root = locate::library(Some(&path), library).map_err(Error::Message)?;
-        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let sources = Sources::from_folder(&root)?;
         let files = Files { root, sources, scenario: None };
         Self::of_sources((&path, &text), encounters, files, None, host)
     }
@@ -63,8 +63,7 @@ impl Question {
         open_study: Option<&(PathBuf, String)>,
         host: &PluginHost,
     ) -> Result<Self, Error> {
-        let observation =
-            Observation::read(&path.display().to_string(), text).map_err(Error::Diagnostics)?;
+        let observation = Observation::read(&path.display().to_string(), text)?;
         let study = study_of(&observation, encounters, &files.root)?;
         let study_text = match open_study.filter(|(open, _)| *open == study) {
             Some((_, text)) => text.clone(),

@@ -150,11 +150,6 @@ impl Stories {
             _ => format!("{like} kinds of story end like this; {fragile} of them are fragile."),
         }
     }
-
-    /// As JSON.
-    pub fn json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default()
-    }
 }
 
 #[cfg(test)]

@@ -191,7 +191,7 @@ impl Source {
         balance: bool,
     ) -> Result<(Model, Vec<String>, Vec<StrengthBudget>), Error> {
         let name = &self.scenario_name;
-        let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
+        let scenario = Scenario::read(name, &self.scenario)?;
         let (library, problems) = Library::read(&self.library);
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
         if let Some(step_s) = step_s {
@@ -270,7 +270,7 @@ impl AssemblyFile {
     pub fn open(named: &str, library: Option<&Path>) -> Result<Self, Error> {
         let path = locate::named(named, "assemblies", library).map_err(Error::Message)?;
         let root = locate::library(Some(&path), library).map_err(Error::Message)?;
-        let mut sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let mut sources = Sources::from_folder(&root)?;
         let text = endline_gear::read::text(&path).map_err(Error::on(&path, "cannot be read"))?;
         let id =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

@@ -135,10 +135,9 @@ pub fn settled(
     library: &Library,
     host: &PluginHost,
 ) -> Result<RigAtRest, Error> {
-    let scenario = Scenario::read(name, text).map_err(Error::Diagnostics)?;
+    let scenario = Scenario::read(name, text)?;
     let Assembled { spec, strengths, .. } =
-        assemble_traced(&scenario, library, host, &Options::default())
-            .map_err(Error::Diagnostics)?;
+        assemble_traced(&scenario, library, host, &Options::default())?;
     let located = |error: ModelError| {
         Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
     };

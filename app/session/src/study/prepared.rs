@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::locate;
 use crate::plugins::PluginHost;
+use crate::{json, locate};
 
 use super::equivalence;
 use super::folder::BLOCK;
@@ -55,7 +55,7 @@ impl PreparedStudy {
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
         let text = endline_gear::read::text(path).map_err(Error::on(path, "cannot be read"))?;
         let root = locate::library(Some(path), library).map_err(Error::Message)?;
-        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let sources = Sources::from_folder(&root)?;
         Self::of_sources(text, path, Files { root, sources, scenario: None }, host)
     }
 
@@ -67,7 +67,7 @@ impl PreparedStudy {
         files: Files,
         host: &PluginHost,
     ) -> Result<Self, Error> {
-        let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
+        let study = Study::read(&path.display().to_string(), &text)?;
         let sources = host.with_clips(files.sources);
         let named = scenario_path(&study, path, &files.root);
         let open = files.scenario.filter(|(open, _)| *open == named);
@@ -241,7 +241,6 @@ impl PreparedStudy {
             baseline: &self.options[self.baseline].id,
             families: self.families(),
         };
-        // Structs of numbers and strings always serialise.
-        serde_json::to_string(&plan).unwrap_or_default()
+        json::line(&plan)
     }
 }

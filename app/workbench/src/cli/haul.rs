@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use endline_session::haul::sheet::{Place, sweep};
 use endline_session::haul::{HaulRequest, HaulSheet, Stage, Sweep, SweepRow, haul};
+use endline_session::json;
 use endline_session::units::newtons_and_lbf;
 use endline_sim::DVec3;
 use endline_sim::haul::Hauling;
@@ -99,7 +100,7 @@ pub(super) fn haul_gear(args: &HaulArgs, library: Option<&Path>) -> Result<ExitC
         return Err(Failure::usage("several depths, traps or tides: add --table"));
     }
     let sheet = haul(&args.assembly, &request, library, &host::load())?;
-    output::print(&if args.json { sheet.json() + "\n" } else { words(&sheet) })?;
+    output::print(&if args.json { json::indented(&sheet) + "\n" } else { words(&sheet) })?;
     Ok(ExitCode::SUCCESS)
 }
 

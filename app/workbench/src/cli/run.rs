@@ -7,7 +7,7 @@ use std::time::Instant;
 use endline_gear::RunRule;
 use endline_session::recording::replay::take_over;
 use endline_session::settled::SettledShape;
-use endline_session::{Prepared, Recording, Report, Run, RunOptions};
+use endline_session::{Prepared, Recording, Report, Run, RunOptions, json};
 use endline_sim::settle as find_rest;
 
 use super::args::{RunArgs, SettleArgs};
@@ -39,7 +39,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     let report = Report::from_run(&run);
     // A summary is not lost with a recording that cannot be kept.
     let kept = args.out.as_ref().map_or(Ok(()), |folder| save(&run, &report, folder));
-    output::print(&if args.json { report.json() + "\n" } else { table::summary(&report) })?;
+    output::print(&if args.json { json::line(&report) + "\n" } else { table::summary(&report) })?;
     kept?;
     if let Some(code) = interrupt.exit_code() {
         output::warn(&how_to_continue(args, &run));
@@ -107,9 +107,9 @@ fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
         Failure::failed(format!("{}: cannot be made: {error}", folder.display()))
     })?;
     let summary = folder.join("summary.json");
-    endline_session::save::atomically(&summary, report.json().as_bytes()).map_err(|error| {
-        Failure::failed(format!("{}: cannot be written: {error}", summary.display()))
-    })?;
+    endline_session::save::atomically(&summary, json::line(&report).as_bytes()).map_err(
+        |error| Failure::failed(format!("{}: cannot be written: {error}", summary.display())),
+    )?;
     run.save_recording(&folder.join(RECORDING))?;
     picture::of_peak(run, report, &folder.join("picture.png"));
     Ok(())
@@ -121,7 +121,7 @@ pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCo
     let start = Instant::now();
     let settled = find_rest(&prepared.model);
     let shape = SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64());
-    output::print(&if args.json { shape.json() + "\n" } else { table::settled(&shape) })?;
+    output::print(&if args.json { json::line(&shape) + "\n" } else { table::settled(&shape) })?;
     if settled.converged {
         return Ok(ExitCode::SUCCESS);
     }

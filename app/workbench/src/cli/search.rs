@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use endline_session::campaign::{Control, Shard};
 use endline_session::encounters::Encounter;
+use endline_session::json;
 use endline_session::search::{
     DEFAULT_NET, Effort, Folder, LIKE, Progress, Question, Stories, Story, page, search as found,
 };
@@ -95,7 +96,7 @@ pub(super) fn search(args: &SearchArgs, library: Option<&Path>) -> Result<ExitCo
     }
     let report = page::write(&question, &folder, &stories)?;
     output::note(&format!("the report is {}", report.display()));
-    output::print(&if args.json { stories.json() + "\n" } else { words(&stories) })?;
+    output::print(&if args.json { json::indented(&stories) + "\n" } else { words(&stories) })?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -12,6 +12,7 @@ use endline_sim::balance::Source;
 use endline_sim::metrics::Summary;
 
 use super::*;
+use crate::json;
 use crate::report::Report;
 
 /// Keys whose field has another name.
@@ -190,7 +191,7 @@ fn figures_of_a_part_of_a_run_that_are_computed() {
 fn the_summary_nests_the_lists() {
     let report = made_up::report();
     let whale = report.summary.whale.as_ref().unwrap();
-    let json: serde_json::Value = serde_json::from_str(&report.json()).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json::line(&report)).unwrap();
     assert_eq!(json["audit"]["passes"], report.audit.passes);
     let balance = report.balance.as_ref().unwrap();
     assert_eq!(json["audit"]["balance"]["residual_Ns"], balance.residual_ns);
@@ -213,7 +214,7 @@ fn the_summary_nests_the_lists() {
     assert_eq!(json["events"][1]["kind"], "wrap");
     assert_eq!(json["plugins"][0]["file_hash"], "00ff");
     let none = Report { summary: Summary { whale: None, ..report.summary.clone() }, ..report };
-    let json: serde_json::Value = serde_json::from_str(&none.json()).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json::line(&none)).unwrap();
     assert!(json["whale"].is_null() && json["audit"]["winding_jumps"] == 0);
 }
 

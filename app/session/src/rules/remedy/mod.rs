@@ -108,12 +108,6 @@ pub struct Asked<'a> {
 }
 
 impl Remedies {
-    /// As one JSON object.
-    pub fn json(&self) -> String {
-        // Strings and finite numbers always become JSON.
-        serde_json::to_string_pretty(self).unwrap_or_default()
-    }
-
     /// Every proposal with its rule, in the order in which they are numbered from 1.
     pub fn numbered(&self) -> impl Iterator<Item = (&Remedy, &Proposal)> {
         self.rules.iter().flat_map(|rule| rule.proposals.iter().map(move |edit| (rule, edit)))

@@ -7,6 +7,7 @@ use super::super::tests::gear::{
 };
 use super::super::tests::{fishing, packs};
 use super::*;
+use crate::json;
 
 fn sources() -> Sources {
     Sources::from_folder(&library()).unwrap()
@@ -253,7 +254,7 @@ fn all_edits_together_meet_every_rule_that_binds() {
     assert!(all.still_fails.is_empty() && all.breaks.is_empty(), "{all:?}");
     let again = super::super::tests::gear::assembled(&all.text);
     let sheet = super::super::check(&again, &packs(), &fishing("me-b, 2024-06-01, 5 nmi")).unwrap();
-    assert!(!sheet.fails_binding(), "{}\n{}", all.text, sheet.json());
+    assert!(!sheet.fails_binding(), "{}\n{}", all.text, json::indented(&sheet));
     // Eight traps in the place of one.
     assert_eq!(sheet.traps, 8);
     let weak = found(&rig(2, "sink-3-8", "20 m", &[line(WEAK, "40 m")]), "lma-1, 2024-06-01");

@@ -219,9 +219,9 @@ pub fn usual_inserts_of_own(
     host: &PluginHost,
 ) -> Result<Edited, Error> {
     let text = alone(scenario, &TrialGear::Own, &TrialSea::default(), library)?;
-    let read = Scenario::read("scenario", &text).map_err(Error::Diagnostics)?;
+    let read = Scenario::read("scenario", &text)?;
     let made = assemble_traced(&read, library, host, &Options::default());
-    put_into(scenario, &gear_of(&made.map_err(Error::Diagnostics)?, library))
+    put_into(scenario, &gear_of(&made?, library))
 }
 
 /// A file of gear with the usual inserts.

@@ -14,6 +14,7 @@ use std::path::PathBuf;
 pub use words::lowest;
 
 use crate::error::Error;
+use crate::json;
 use crate::save::atomically;
 
 use hauled::HauledLoad;
@@ -37,7 +38,7 @@ pub fn write(
     let files = [
         (page.clone(), html),
         (folder.path.join("report.csv"), numbers(findings).csv()),
-        (folder.path.join("findings.json"), findings.json() + "\n"),
+        (folder.path.join("findings.json"), json::line(findings) + "\n"),
     ];
     for (file, text) in files {
         atomically(&file, text.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;

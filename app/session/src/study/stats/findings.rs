@@ -189,12 +189,6 @@ impl Findings {
             ),
         }
     }
-
-    /// One line of JSON.
-    pub fn json(&self) -> String {
-        // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
-        serde_json::to_string(self).unwrap_or_default()
-    }
 }
 
 /// Adjusts the probabilities of all comparisons of registered events with the baseline; answers how many there are.

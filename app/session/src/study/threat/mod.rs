@@ -103,12 +103,6 @@ impl Threats {
             tau,
         })
     }
-
-    /// One line of JSON.
-    pub fn json(&self) -> String {
-        // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
-        serde_json::to_string(self).unwrap_or_default()
-    }
 }
 
 fn threat(

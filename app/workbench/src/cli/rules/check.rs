@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use endline_session::json;
 use endline_session::rules::{RuleResult, RuleSheet, Verdict, assembly, check};
 
 use super::args::CheckArgs;
@@ -17,7 +18,11 @@ pub(super) fn check_rules(args: &CheckArgs, library: Option<&Path>) -> Result<Ex
     let (packs, fishing) = fished.open(library)?;
     let gear = assembly(&fished.assembly, fished.depth, library, &host::load())?;
     let sheet = check(&gear, &packs, &fishing)?;
-    output::print(&if args.json { sheet.json() + "\n" } else { words(&sheet, args.brief) })?;
+    output::print(&if args.json {
+        json::indented(&sheet) + "\n"
+    } else {
+        words(&sheet, args.brief)
+    })?;
     Ok(if sheet.fails_binding() { ExitCode::from(1) } else { ExitCode::SUCCESS })
 }
 

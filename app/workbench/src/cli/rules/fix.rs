@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use endline_gear::{Document, Setting};
+use endline_session::json;
 use endline_session::rules::Verdict;
 use endline_session::rules::remedy::{Asked, Proposal, Remedies, Remedy, remedies};
 use endline_session::source::AssemblyFile;
@@ -22,7 +23,7 @@ pub(super) fn fix(args: &FixArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     let file = AssemblyFile::open(&args.fished.assembly, library)?;
     let asked = Asked { id: &file.id, text: &file.text, sources: &file.sources };
     let remedies = remedies(asked, &packs, &fishing, &host::load())?;
-    output::print(&if args.json { remedies.json() + "\n" } else { words(&remedies) })?;
+    output::print(&if args.json { json::indented(&remedies) + "\n" } else { words(&remedies) })?;
     if let Some(named) = &args.write {
         let edit = chosen(&remedies, args.take)?;
         let path = write_new(named, &file.root, "assemblies", &renamed(edit)?)?;

@@ -17,7 +17,7 @@ use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
 use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, merge, report};
-use endline_session::{locate, save};
+use endline_session::{json, locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
 use self::status::Bar;
@@ -98,7 +98,7 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     let page = report::write(&opened, &folder, &findings, &hauls)?;
     output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json {
-        findings.json() + "\n"
+        json::line(&findings) + "\n"
     } else {
         words::findings(&opened, &findings)
     })?;
@@ -122,7 +122,7 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
         save_run(to, &played)?;
     }
     output::print(&if args.json {
-        played.report.json() + "\n"
+        json::line(&played.report) + "\n"
     } else {
         table::summary(&played.report)
     })?;
@@ -134,7 +134,7 @@ pub(super) fn save_run(to: &Path, played: &endline_session::study::Played) -> Re
         .map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", to.display())))?;
     let texts = [
         ("scenario.toml", &played.run.prepared().source.scenario),
-        ("summary.json", &played.report.json()),
+        ("summary.json", &json::line(&played.report)),
     ];
     for (name, text) in texts {
         let file = to.join(name);

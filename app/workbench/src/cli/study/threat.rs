@@ -8,7 +8,7 @@ use endline_gear::{StudyEvent, hint};
 use endline_session::study::folder::Folder;
 use endline_session::study::threat::{Filled, How, Poll, Threat, Threats, as_own, with_bands};
 use endline_session::study::{PreparedStudy, merge};
-use endline_session::{Error, locate, save};
+use endline_session::{Error, json, locate, save};
 
 use super::args::ThreatArgs;
 use super::{folder_of, open};
@@ -27,7 +27,7 @@ pub(super) fn threat(args: &ThreatArgs, library: Option<&Path>) -> Result<ExitCo
     if let Some(to) = &args.to {
         write(to, &threats.fill(&poll), poll.rows.len())?;
     }
-    output::print(&if args.json { threats.json() + "\n" } else { words(&threats) })?;
+    output::print(&if args.json { json::line(&threats) + "\n" } else { words(&threats) })?;
     Ok(ExitCode::SUCCESS)
 }
 
