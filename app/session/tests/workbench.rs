@@ -204,9 +204,9 @@ fn a_command_that_does_nothing_gives_the_reason_it_is_declared_with() {
         else {
             continue;
         };
-        assert_eq!(workbench.perform(command.clone()), Err(reason.clone()), "{}", info.id);
+        assert_eq!(workbench.perform(command.clone()), Err(reason.clone()), "{}", info.about.id);
         let notice = workbench.notice().unwrap();
-        assert_eq!((&notice.text, notice.kind), (&reason, NoticeKind::Hint), "{}", info.id);
+        assert_eq!((&notice.text, notice.kind), (&reason, NoticeKind::Hint), "{}", info.about.id);
         refused += 1;
     }
     assert!(refused > 10, "little can be done before a run: {refused}");

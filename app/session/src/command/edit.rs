@@ -7,9 +7,7 @@ use std::path::PathBuf;
 use endline_gear::Kind;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{
-    Choice, FileQuestion, Make, When, can_redo, can_undo, has_moments, has_whale, unsaved,
-};
+use super::info::{Choice, FileQuestion, Make, When, has_moments, has_whale, require};
 use super::{Command, Info};
 use crate::edit::recovery::UnsavedEdits;
 use crate::edit::saving::Keep;
@@ -129,9 +127,17 @@ pub(super) fn commands() -> Vec<Info> {
         Info::plain(EditAction::Undo)
             // A text being typed has an undo of its own.
             .with_key("Ctrl+Z", When::Idle)
-            .only_if(can_undo),
-        Info::plain(EditAction::Redo).with_key("Ctrl+Shift+Z", When::Idle).only_if(can_redo),
-        Info::plain(EditAction::Save).with_key("Ctrl+S", When::Always).only_if(unsaved),
+            .only_if(|workbench| {
+                let (undo, _) = workbench.project.documents.can_undo_redo();
+                require(undo, "nothing to undo")
+            }),
+        Info::plain(EditAction::Redo).with_key("Ctrl+Shift+Z", When::Idle).only_if(|workbench| {
+            let (_, redo) = workbench.project.documents.can_undo_redo();
+            require(redo, "nothing to redo")
+        }),
+        Info::plain(EditAction::Save).with_key("Ctrl+S", When::Always).only_if(|workbench| {
+            require(!workbench.project.documents.unsaved().is_empty(), "nothing to save")
+        }),
         Info::of(
             EditVerb::SaveScenarioAs,
             Make::File {

@@ -27,7 +27,7 @@ use strum::IntoDiscriminant;
 use crate::workbench::{Notice, Workbench};
 pub use edit::EditAction;
 pub use export::ExportAction;
-pub use info::{Choice, CommandInfo, FileQuestion, FileUse, Make, Shortcut, When};
+pub use info::{About, Choice, CommandInfo, FileQuestion, FileUse, Make, Shortcut, When};
 pub use plugin::PluginAction;
 pub use rules::RuleAction;
 pub use run::RunAction;
@@ -109,7 +109,7 @@ pub fn declared() -> impl Iterator<Item = &'static Info> {
 
 /// The declaration of an identity such as `run.start`.
 pub fn find(id: &str) -> Option<&'static Info> {
-    declared().find(|info| info.id == id)
+    declared().find(|info| info.about.id == id)
 }
 
 impl Command {

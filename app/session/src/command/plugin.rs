@@ -6,9 +6,7 @@ use std::path::PathBuf;
 
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::info::{
-    Choice, Make, loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting,
-};
+use super::info::{Choice, Make, loads_plugins, require};
 use super::{Command, Info};
 use crate::workbench::Workbench;
 
@@ -48,9 +46,18 @@ pub enum PluginAction {
 pub(super) fn commands() -> Vec<Info> {
     vec![
         Info::plain(PluginAction::Reload).only_if(loads_plugins),
-        Info::of(PluginVerb::Allow, Make::Choices(waiting)).only_if(plugins_waiting),
-        Info::of(PluginVerb::Switch, Make::Choices(switches)).only_if(plugins_to_switch),
-        Info::of(PluginVerb::Use, Make::Choices(usable)).only_if(plugins_to_use),
+        Info::of(PluginVerb::Allow, Make::Choices(waiting)).only_if(|workbench| {
+            let waiting = workbench.plugins.waiting().next().is_some();
+            require(waiting, "no plugin waits to be allowed")
+        }),
+        Info::of(PluginVerb::Switch, Make::Choices(switches)).only_if(|workbench| {
+            loads_plugins(workbench)?;
+            require(!workbench.plugins.every().is_empty(), "there are no plugins")
+        }),
+        Info::of(PluginVerb::Use, Make::Choices(usable)).only_if(|workbench| {
+            let usable = !workbench.usable_plugins().is_empty();
+            require(usable, "no plugin that the scenario does not use already")
+        }),
         Info::values(PluginVerb::Check, "file"),
     ]
 }

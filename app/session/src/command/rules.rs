@@ -5,7 +5,7 @@
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::Info;
-use super::info::{has_edit_of_all, has_edits, has_verdicts};
+use super::info::{has_verdicts, require};
 use crate::workbench::{RuleQuestion, Workbench};
 
 /// An action on rules.
@@ -34,8 +34,20 @@ pub enum RuleAction {
 /// The actions on rules, declared.
 pub(super) fn commands() -> Vec<Info> {
     vec![
-        Info::plain(RuleAction::TakeAll).only_if(has_edit_of_all),
-        Info::values(RuleVerb::Take, "its place among the proposals").only_if(has_edits),
+        Info::plain(RuleAction::TakeAll).only_if(|workbench| {
+            has_verdicts(workbench)?;
+            let remedies =
+                workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+            let any = remedies.is_some_and(|remedies| remedies.all.is_some());
+            require(any, "no edit is proposed for a rule that binds")
+        }),
+        Info::values(RuleVerb::Take, "its place among the proposals").only_if(|workbench| {
+            has_verdicts(workbench)?;
+            let remedies =
+                workbench.rules.answer.as_ref().and_then(|answer| answer.remedies.as_ref());
+            let any = remedies.is_some_and(|remedies| remedies.numbered().next().is_some());
+            require(any, "no edit is proposed")
+        }),
         Info::values(RuleVerb::Ask, "assembly, area, day, depth, distance, traps"),
         Info::values(RuleVerb::Compare, "rules").only_if(has_verdicts),
         Info::plain(RuleAction::Sheet).only_if(has_verdicts),

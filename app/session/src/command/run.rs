@@ -8,8 +8,8 @@ use endline_sdk::Controls;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::info::{
-    Choice, FileQuestion, Make, When, can_apply, can_rerun, compares, earlier_moment, faster,
-    has_moments, is_still, no_errors, ready, running, slower,
+    Choice, FileQuestion, Make, When, earlier_moment, has_moments, no_errors, ready, require,
+    running,
 };
 use super::{Command, Info};
 use crate::workbench::{Direction, SPEEDS, Workbench};
@@ -98,11 +98,17 @@ pub(super) fn commands() -> Vec<Info> {
         Info::plain(RunAction::Toggle).with_key_and_pad("Space", When::Idle, "Back").only_if(ready),
         Info::plain(RunAction::Start).only_if(ready),
         Info::plain(RunAction::Pause).only_if(running),
-        Info::plain(RunAction::Step).with_key(".", When::Idle).only_if(is_still),
+        Info::plain(RunAction::Step).with_key(".", When::Idle).only_if(|workbench| {
+            ready(workbench)?;
+            require(!workbench.running(), "pause the run first")
+        }),
         Info::plain(RunAction::Reset)
             .with_key_and_pad("Backspace", When::Idle, "Start")
             .only_if(ready),
-        Info::plain(RunAction::Apply).with_key("Ctrl+Enter", When::Always).only_if(can_apply),
+        Info::plain(RunAction::Apply).with_key("Ctrl+Enter", When::Always).only_if(|workbench| {
+            no_errors(workbench)?;
+            require(workbench.stale(), "nothing has changed since the model was made")
+        }),
         Info::of(
             RunVerb::Speed,
             Make::Choices(|_| {
@@ -113,11 +119,25 @@ pub(super) fn commands() -> Vec<Info> {
             }),
         )
         .only_if(ready),
-        Info::plain(RunAction::Slower).with_key("-", When::Idle).only_if(slower),
-        Info::plain(RunAction::Faster).with_key("=", When::Idle).only_if(faster),
+        Info::plain(RunAction::Slower).with_key("-", When::Idle).only_if(|workbench| {
+            ready(workbench)?;
+            let next = workbench.next_speed(Direction::Slower);
+            require(next.is_some(), "this is the slowest speed")
+        }),
+        Info::plain(RunAction::Faster).with_key("=", When::Idle).only_if(|workbench| {
+            ready(workbench)?;
+            let next = workbench.next_speed(Direction::Faster);
+            require(next.is_some(), "this is the fastest speed")
+        }),
         Info::plain(RunAction::Branch).only_if(earlier_moment),
-        Info::plain(RunAction::Rerun).only_if(can_rerun),
-        Info::plain(RunAction::Hold).only_if(can_hold),
+        Info::plain(RunAction::Rerun).only_if(|workbench| {
+            ready(workbench)?;
+            no_errors(workbench)
+        }),
+        Info::plain(RunAction::Hold).only_if(|workbench| {
+            has_moments(workbench)?;
+            no_errors(workbench)
+        }),
         Info::of(
             RunVerb::CompareWith,
             Make::File {
@@ -125,7 +145,9 @@ pub(super) fn commands() -> Vec<Info> {
                 command: |_, file| Command::Run(RunAction::CompareWith(file)),
             },
         ),
-        Info::plain(RunAction::EndComparison).only_if(compares),
+        Info::plain(RunAction::EndComparison).only_if(|workbench| {
+            require(workbench.comparison().is_some(), "no run is compared with the one shown")
+        }),
         Info::of(
             RunVerb::OpenRecording,
             Make::File {
@@ -151,10 +173,6 @@ fn recording(workbench: &Workbench) -> FileQuestion {
         Some(folder) => question.within(folder),
         None => question,
     }
-}
-
-fn can_hold(workbench: &Workbench) -> Result<(), String> {
-    has_moments(workbench).and_then(|()| no_errors(workbench))
 }
 
 /// Dispatches an action.

@@ -8,7 +8,7 @@ use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::edit::stem;
 use super::info::{
-    Choice, FileQuestion, Make, has_stories, observation_opened, search_at_work, search_runs,
+    Choice, FileQuestion, Make, has_stories, observation_opened, require, search_at_work,
 };
 use super::{Command, Info};
 use crate::locate;
@@ -78,7 +78,17 @@ pub(super) fn commands() -> Vec<Info> {
         ),
         Info::plain(SearchAction::New),
         Info::plain(SearchAction::Duplicate).only_if(observation_opened),
-        Info::plain(SearchAction::Run).only_if(search_runs),
+        Info::plain(SearchAction::Run).only_if(|workbench| {
+            observation_opened(workbench)?;
+            require(
+                workbench.observation_is_sound(),
+                "observation or gear have errors; see Problems",
+            )?;
+            require(
+                workbench.searches.at_work().is_none(),
+                "a search is at work; pause or cancel it",
+            )
+        }),
         Info::plain(SearchAction::Pause).only_if(search_at_work),
         Info::plain(SearchAction::Cancel).only_if(search_at_work),
         Info::values(SearchVerb::Effort, "runs, threads, neighbours, priority"),

@@ -7,9 +7,7 @@ use std::path::PathBuf;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::edit::stem;
-use super::info::{
-    Choice, FileQuestion, Make, has_report, has_results, study_at_work, study_opened, study_runs,
-};
+use super::info::{Choice, FileQuestion, Make, has_results, require, study_at_work, study_opened};
 use super::{Command, Info};
 use crate::edit::Documents;
 use crate::edit::library_table::id_of;
@@ -107,7 +105,10 @@ pub(super) fn commands() -> Vec<Info> {
             }),
         )
         .only_if(study_opened),
-        Info::plain(StudyAction::Run).only_if(study_runs),
+        Info::plain(StudyAction::Run).only_if(|workbench| {
+            study_opened(workbench)?;
+            require(workbench.study_is_sound(), "study or gear have errors; see Problems")
+        }),
         Info::plain(StudyAction::Pause).only_if(study_at_work),
         Info::plain(StudyAction::Cancel).only_if(study_at_work),
         Info::values(StudyVerb::PauseJob, "its file"),
@@ -130,7 +131,11 @@ pub(super) fn commands() -> Vec<Info> {
                 command: |_, folder| Command::Study(StudyAction::SaveBundle(folder)),
             },
         )
-        .only_if(has_report),
+        .only_if(|workbench| {
+            has_results(workbench)?;
+            let written = workbench.report_shown().is_some();
+            require(written, "the report is written when the study has run to its end")
+        }),
         Info::values(StudyVerb::Replay, "option, encounter").only_if(has_results),
     ]
 }

@@ -5,7 +5,7 @@
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::Info;
-use super::info::{When, can_replay, earlier_moment, has_moments};
+use super::info::{When, earlier_moment, has_moments, require};
 use crate::workbench::Workbench;
 
 /// An action on the moment shown.
@@ -41,7 +41,10 @@ pub(super) fn commands() -> Vec<Info> {
         Info::plain(TimeAction::Back).with_key("Left", When::NotFlying).only_if(has_moments),
         Info::plain(TimeAction::Forward).with_key("Right", When::NotFlying).only_if(earlier_moment),
         Info::values(TimeVerb::Seek, "time in seconds").only_if(has_moments),
-        Info::plain(TimeAction::Replay).with_key("P", When::Idle).only_if(can_replay),
+        Info::plain(TimeAction::Replay).with_key("P", When::Idle).only_if(|workbench| {
+            has_moments(workbench)?;
+            require(workbench.replaying() || !workbench.running(), "pause the run first")
+        }),
     ]
 }
 

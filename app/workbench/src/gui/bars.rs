@@ -139,7 +139,7 @@ fn show_item(ui: &mut Ui, shared: &mut Shared, item: Item) {
         Submenu(title, id, further) => {
             ui.menu_button(title, |ui| {
                 for offer in find(id).map(|command| command.offers(shared)).unwrap_or_default() {
-                    let of = find(id).map_or("", |command| command.name());
+                    let of = find(id).map_or("", |command| command.about().name);
                     let name = offer.name.strip_prefix(of).unwrap_or(&offer.name).trim().to_owned();
                     show_offer(ui, shared, Offer { name, ..offer });
                 }

@@ -61,13 +61,17 @@ fn every_command(
         let offers = info.offers(&harness.state().shared);
         // A command without choices has a reason.
         if let (true, Err(reason)) = (offers.is_empty(), info.enabled(&harness.state().shared)) {
-            assert!(!reason.is_empty(), "{} has no reason for its lack of choices", info.id());
-            effects.entry(info.id()).or_default().insert("reason");
+            assert!(
+                !reason.is_empty(),
+                "{} has no reason for its lack of choices",
+                info.about().id
+            );
+            effects.entry(info.about().id).or_default().insert("reason");
         }
         for offer in offers {
             // A file dialog needs a display; quitting would end the test.
             let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
-            if asks || info.id() == "window.quit" {
+            if asks || info.about().id == "window.quit" {
                 continue;
             }
             harness.workbench_mut().dismiss_notice();
@@ -77,7 +81,7 @@ fn every_command(
             harness.state_mut().shared.give(offer.command.clone());
             harness.run_steps(1);
             let notice = harness.workbench().notice().cloned();
-            let effect = effects.entry(info.id()).or_default();
+            let effect = effects.entry(info.about().id).or_default();
             match enabled {
                 Ok(()) if fingerprint(harness, received) != before => {
                     effect.insert("effect");
@@ -124,11 +128,15 @@ fn every_declared_command_has_an_effect_or_a_reason() {
                 || matches!(info, Declared::Window(info) if !matches!(info.make, Make::Values(_))),
             info.question(&harness.state().shared).is_some(),
         ];
-        if !named || needs_file || info.id() == "window.quit" {
+        if !named || needs_file || info.about().id == "window.quit" {
             continue;
         }
-        let effect = effects.get(info.id());
-        assert!(effect.is_some_and(|effect| !effect.is_empty()), "{} does nothing", info.id());
+        let effect = effects.get(info.about().id);
+        assert!(
+            effect.is_some_and(|effect| !effect.is_empty()),
+            "{} does nothing",
+            info.about().id
+        );
     }
 }
 
@@ -147,7 +155,7 @@ fn commands_of_a_finished_run_have_their_effect() {
     wait(&mut harness, |app| {
         matches!(app.shared.workbench.status(), Some(Status::Paused | Status::Finished))
     });
-    let command = |id: &str| declared().find(|info| info.id() == id).unwrap();
+    let command = |id: &str| declared().find(|info| info.about().id == id).unwrap();
     let give_enabled = |harness: &mut Window, id: &str| {
         let command = command(id);
         assert_eq!(command.enabled(&harness.state().shared), Ok(()), "{id}");
@@ -179,14 +187,14 @@ fn ids_and_names_of_commands_are_unique() {
     let mut ids = BTreeSet::new();
     let mut names = BTreeSet::new();
     for info in declared() {
-        assert!(ids.insert(info.id()), "{} is declared twice", info.id());
+        assert!(ids.insert(info.about().id), "{} is declared twice", info.about().id);
         for offer in info.offers(&harness.state().shared) {
             assert!(names.insert(offer.name.clone()), "two commands have the name {}", offer.name);
             let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
             assert!(
-                asks || offer.command.id() == info.id(),
+                asks || offer.command.id() == info.about().id,
                 "{} makes {}",
-                info.id(),
+                info.about().id,
                 offer.command.id()
             );
         }

@@ -18,7 +18,7 @@ struct Bound {
 /// Every key with its command.
 fn bound() -> impl Iterator<Item = Bound> {
     declared().filter_map(|info| Some((info, info.plain()?))).flat_map(|(info, command)| {
-        info.keys().iter().filter_map(move |shortcut| {
+        info.about().keys.iter().filter_map(move |shortcut| {
             let (key, when) = (to_egui(shortcut.keys)?, shortcut.when);
             Some(Bound { key, when, command: command.clone() })
         })
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn every_shortcut_is_a_key_of_a_plain_command_and_none_is_given_twice() {
-        let declared: usize = declared().map(|info| info.keys().len()).sum();
+        let declared: usize = declared().map(|info| info.about().keys.len()).sum();
         let all: Vec<Bound> = bound().collect();
         assert_eq!(all.len(), declared, "each shortcut is understood, and gives a command");
         for (index, one) in all.iter().enumerate() {

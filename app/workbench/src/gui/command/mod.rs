@@ -13,7 +13,7 @@ mod window;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-use endline_session::command::{self, Choice, CommandInfo, FileQuestion, Info, Make, Shortcut};
+use endline_session::command::{self, About, Choice, CommandInfo, FileQuestion, Info, Make};
 
 use super::shared::Shared;
 use action::{WindowAction, WindowCommand};
@@ -76,41 +76,17 @@ pub fn declared() -> impl Iterator<Item = Declared> {
 pub fn find(id: &str) -> Option<Declared> {
     let window = || {
         let mut all = WINDOW_COMMANDS.iter().flat_map(|(_, commands)| commands);
-        all.find(|info| info.id == id).map(Declared::Window)
+        all.find(|info| info.about.id == id).map(Declared::Window)
     };
     command::find(id).map(Declared::Workbench).or_else(window)
 }
 
 impl Declared {
-    /// Its identity.
-    pub fn id(self) -> &'static str {
+    /// Its identity, words and keys.
+    pub fn about(self) -> &'static About {
         match self {
-            Self::Workbench(info) => info.id,
-            Self::Window(info) => info.id,
-        }
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Workbench(info) => info.name,
-            Self::Window(info) => info.name,
-        }
-    }
-
-    /// What it does, in a sentence.
-    pub fn help(self) -> &'static str {
-        match self {
-            Self::Workbench(info) => info.help,
-            Self::Window(info) => info.help,
-        }
-    }
-
-    /// The keys that give it.
-    pub fn keys(self) -> &'static [Shortcut] {
-        match self {
-            Self::Workbench(info) => &info.keys,
-            Self::Window(info) => &info.keys,
+            Self::Workbench(info) => &info.about,
+            Self::Window(info) => &info.about,
         }
     }
 
@@ -169,7 +145,8 @@ impl Declared {
             }
             Self::Window(WindowInfo { make: Make::Choices(choices), .. }) => choices(shared),
             Self::Workbench(_) | Self::Window(_) => {
-                let asked = self.question(shared).map(|_| WindowAction::Ask(self.id()).into());
+                let asked =
+                    self.question(shared).map(|_| WindowAction::Ask(self.about().id).into());
                 let command = self.plain().or(asked);
                 command.map(|command| Choice::new("", command)).into_iter().collect()
             }
@@ -179,10 +156,11 @@ impl Declared {
     /// Each way to give it now, as menus and palette show it.
     pub fn offers(self, shared: &Shared) -> Vec<Offer> {
         let enabled = self.enabled(shared);
-        let keys = self.keys().first().map_or_else(String::new, |shortcut| spelled(shortcut.keys));
+        let About { name, help, keys, .. } = self.about();
+        let keys = keys.first().map_or_else(String::new, |shortcut| spelled(shortcut.keys));
         let offer = |choice: Choice<WindowCommand>| Offer {
-            name: format!("{} {}", self.name(), choice.name).trim_end().to_owned(),
-            help: self.help(),
+            name: format!("{name} {}", choice.name).trim_end().to_owned(),
+            help,
             keys: keys.clone(),
             enabled: enabled.clone(),
             command: choice.command,
@@ -192,10 +170,11 @@ impl Declared {
 
     /// Help text for a control that gives it: what it does, its keys, and why it does nothing now.
     pub fn hint(self, shared: &Shared) -> String {
-        let keys: Vec<String> = self.keys().iter().map(|key| spelled(key.keys)).collect();
+        let About { help, keys, .. } = self.about();
+        let keys: Vec<String> = keys.iter().map(|key| spelled(key.keys)).collect();
         let keys = if keys.is_empty() { String::new() } else { format!(" ({})", keys.join(", ")) };
         let reason = self.enabled(shared).err();
         let reason = reason.map_or_else(String::new, |reason| format!("\nNot now: {reason}."));
-        format!("{}{keys}{reason}", self.help())
+        format!("{help}{keys}{reason}")
     }
 }

@@ -15,34 +15,16 @@ use crate::scene::{Picked, View};
 pub(super) fn commands() -> Vec<WindowInfo> {
     vec![
         WindowInfo::plain(ViewAction::Frame).with_key("F", When::NotFlying).only_if(shown),
-        WindowInfo::new(
-            "view.side",
-            "View side",
-            "Looks from the side.",
-            Make::Plain(ViewAction::Look(View::Side).into()),
-        )
-        .with_key("1", When::NotFlying),
-        WindowInfo::new(
-            "view.top",
-            "View top",
-            "Looks from above.",
-            Make::Plain(ViewAction::Look(View::Top).into()),
-        )
-        .with_key("7", When::NotFlying),
-        WindowInfo::new(
-            "view.front",
-            "View front",
-            "Looks from the front.",
-            Make::Plain(ViewAction::Look(View::Front).into()),
-        )
-        .with_key("3", When::NotFlying),
-        WindowInfo::new(
+        look(View::Side, "view.side", "View side", "Looks from the side.", "1"),
+        look(View::Top, "view.top", "View top", "Looks from above.", "7"),
+        look(View::Front, "view.front", "View front", "Looks from the front.", "3"),
+        look(
+            View::Orbit,
             "view.orbit",
             "View orbit",
             "Looks from where the view was turned to.",
-            Make::Plain(ViewAction::Look(View::Orbit).into()),
-        )
-        .with_key("5", When::NotFlying),
+            "5",
+        ),
         WindowInfo::of(
             ViewVerb::Look,
             Make::Choices(|_| {
@@ -95,6 +77,18 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             require(shared.selection.inspects, "nothing is inspected or measured")
         }),
     ]
+}
+
+/// The command that looks at everything from one side.
+fn look(
+    view: View,
+    id: &'static str,
+    name: &'static str,
+    help: &'static str,
+    key: &'static str,
+) -> WindowInfo {
+    let make = Make::Plain(ViewAction::Look(view).into());
+    WindowInfo::new(id, name, help, make).with_key(key, When::NotFlying)
 }
 
 /// A run has moments to film, and no film is being made.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use egui::{Grid, RichText, ScrollArea, Ui};
-use endline_session::command::When;
+use endline_session::command::{About, When};
 
 use super::about;
 use crate::gui::command::{declared, spelled};
@@ -55,9 +55,9 @@ pub fn keys(when: When) -> Vec<Row> {
         .map(|steer| Row { what: steer.what.to_owned(), keys: steer.keys(), pad: steer.pad })
         .collect();
     for command in declared() {
-        let held = command.keys().iter().filter(|shortcut| shortcut.when == when);
+        let held = command.about().keys.iter().filter(|shortcut| shortcut.when == when);
         rows.extend(held.map(|shortcut| Row {
-            what: command.name().to_owned(),
+            what: command.about().name.to_owned(),
             keys: spelled(shortcut.keys),
             pad: shortcut.pad,
         }));
@@ -87,10 +87,10 @@ fn commands(text: &mut String) -> std::fmt::Result {
             "\n### {title}\n\n| command | id | keys | what it does |\n|---|---|---|---|"
         )?;
         for command in commands {
-            let keys =
-                command.keys().iter().map(|shortcut| format!("`{}`", spelled(shortcut.keys)));
-            let (keys, help) = (keys.collect::<Vec<_>>().join(", "), command.help());
-            writeln!(text, "| {} | `{}` | {keys} | {help} |", command.name(), command.id())?;
+            let About { id, name, help, keys } = command.about();
+            let keys = keys.iter().map(|shortcut| format!("`{}`", spelled(shortcut.keys)));
+            let keys = keys.collect::<Vec<_>>().join(", ");
+            writeln!(text, "| {name} | `{id}` | {keys} | {help} |")?;
         }
     }
     Ok(())

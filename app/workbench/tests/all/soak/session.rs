@@ -117,7 +117,7 @@ pub fn numbers(text: &str) -> Vec<(String, f64, String)> {
 
 /// Gives a random command as the palette would, without dialogs, which need a display, and without quitting.
 fn command(harness: &mut Window, dice: &mut Dice) {
-    let all: Vec<_> = declared().filter(|info| info.id() != "window.quit").collect();
+    let all: Vec<_> = declared().filter(|info| info.about().id != "window.quit").collect();
     let info = all[dice.below(all.len())];
     let mut offers = info.offers(&harness.state().shared);
     offers.retain(|offer| !matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_))));
