@@ -297,6 +297,13 @@ impl RopeOnRope {
 
     /// Pairs with open points, in order.
     fn opened_pairs(&self) -> impl Iterator<Item = &Pair> {
+        debug_assert!(
+            self.pairs.iter().enumerate().all(|(index, pair)| {
+                pair.points.iter().all(|point| point.length <= 0.0)
+                    || self.opened.binary_search(&index).is_ok()
+            }),
+            "every pair with an open point is listed"
+        );
         self.opened.iter().map(|index| &self.pairs[*index])
     }
 

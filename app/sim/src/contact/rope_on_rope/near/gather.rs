@@ -137,7 +137,10 @@ impl RopeOnRope {
         );
         self.room_m.clear();
         self.room_m.extend(self.pairs.iter().map(|pair| pair.first - pair.contact_distance));
-        self.opened.clear();
+        // Pairs that were added change the numbers of the others; their points are then opened again.
+        if self.pairs.len() > known {
+            self.opened.clear();
+        }
         (self.broad, self.found) = (broad, found);
     }
 

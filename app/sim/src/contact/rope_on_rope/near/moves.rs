@@ -50,7 +50,7 @@ impl RopeOnRope {
 
     /// Removes from the move `from` -> `target` the part that brings ropes closer than their contact distance, or than they are.
     pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
-        let reach_m = greatest_approach_m(from, target);
+        let mut reach_m = greatest_approach_m(from, target);
         for (pair, room_m) in self.pairs.iter().zip(&self.room_m) {
             if *room_m > reach_m {
                 continue;
@@ -73,6 +73,9 @@ impl RopeOnRope {
                 for (node, sign) in pair.nodes.into_iter().zip([0.5, -0.5]) {
                     target[node] += normal * (sign * too_near);
                     target[node + 1] += normal * (sign * too_near);
+                    let moved = node..node + 2;
+                    reach_m =
+                        reach_m.max(greatest_approach_m(&from[moved.clone()], &target[moved]));
                 }
             }
         }
