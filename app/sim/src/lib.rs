@@ -11,6 +11,7 @@ mod assembly;
 pub mod balance;
 mod bits;
 mod broad_phase;
+mod bucket_sort;
 pub mod contact;
 pub mod cost;
 pub mod float;

@@ -10,6 +10,7 @@ use crate::broad_phase::pieces::{GROUPS, IN_A_GROUP, Piece, Pieces};
 use crate::broad_phase::rope_neighbours::{
     Are, MayTouch, NearGroups, NearKnot, NearPieces, Neighbours,
 };
+use crate::bucket_sort::BucketSort;
 use crate::whale::Bounds;
 use glam::DVec3;
 
@@ -17,6 +18,7 @@ use glam::DVec3;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Broad {
     neighbours: Neighbours,
+    sort: BucketSort<[usize; 2]>,
 }
 
 /// A step's moves as the search sees them.
@@ -94,7 +96,7 @@ impl Broad {
             step.pairs(&mut found.segments);
             step.knots(knots, &mut found.knots);
         }
-        found.segments.sort_unstable();
+        self.sort.sort(&mut found.segments, |[one, _]| *one, |[_, other]| *other);
         found.knots.sort_unstable();
     }
 }

@@ -9,6 +9,7 @@ use glam::{DAffine3, DVec3};
 
 use super::pose::skin_vertex;
 use super::tree::{Bounds, SkinTree};
+use crate::bucket_sort::BucketSort;
 use crate::geometry::sweep::{SweptSegment, SweptTriangle};
 
 /// A segment and a triangle that may approach each other within a step.
@@ -32,6 +33,7 @@ pub struct Surface {
     nodes: Vec<usize>,
     /// Triangles near a group of segments.
     close: Vec<(u32, Bounds)>,
+    sort: BucketSort<Candidate>,
 }
 
 /// Values of the current step; an entry is valid if its stamp is the step's number.
@@ -98,6 +100,7 @@ impl Surface {
             pairs: Vec::new(),
             nodes: Vec::new(),
             close: Vec::new(),
+            sort: BucketSort::default(),
         };
         surface.step.number = 1;
         surface
@@ -156,7 +159,7 @@ impl Surface {
             true
         });
         self.close = close;
-        out.sort_unstable();
+        self.sort.sort(out, |pair| pair.segment as usize, |pair| pair.triangle as usize);
     }
 
     /// Whether any pair of a segment and a triangle has boxes over the step within `margin`.

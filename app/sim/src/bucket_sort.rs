@@ -1,0 +1,69 @@
+//! Sorts lists whose first key is a small number: by buckets of that number, then within each bucket.
+
+/// Scratch of sorts, kept so that a step allocates nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct BucketSort<T> {
+    /// Where each bucket begins.
+    begins: Vec<usize>,
+    sorted: Vec<T>,
+}
+
+impl<T> Default for BucketSort<T> {
+    fn default() -> Self {
+        Self { begins: Vec::new(), sorted: Vec::new() }
+    }
+}
+
+impl<T: Copy> BucketSort<T> {
+    /// Sorts a list by bucket, a small number, and within a bucket by `rank`.
+    pub fn sort(
+        &mut self,
+        list: &mut Vec<T>,
+        bucket: impl Fn(&T) -> usize,
+        rank: impl Fn(&T) -> usize,
+    ) {
+        let Some(first) = list.first() else { return };
+        let buckets = 1 + list.iter().map(&bucket).max().unwrap_or(0);
+        self.begins.clear();
+        self.begins.resize(buckets + 1, 0);
+        for item in &*list {
+            self.begins[bucket(item) + 1] += 1;
+        }
+        for number in 0..buckets {
+            self.begins[number + 1] += self.begins[number];
+        }
+        self.sorted.clear();
+        self.sorted.reserve(list.capacity());
+        self.sorted.resize(list.len(), *first);
+        for item in &*list {
+            let at = &mut self.begins[bucket(item)];
+            self.sorted[*at] = *item;
+            *at += 1;
+        }
+        // Each begin has become the end of its bucket.
+        let mut begin = 0;
+        for end in &self.begins[..buckets] {
+            self.sorted[begin..*end].sort_unstable_by_key(&rank);
+            begin = *end;
+        }
+        std::mem::swap(list, &mut self.sorted);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BucketSort;
+
+    #[test]
+    fn lists_are_sorted_by_bucket_and_rank() {
+        let mut sort = BucketSort::default();
+        for count in [0, 1, 5, 300] {
+            let mut list: Vec<[usize; 2]> =
+                (0..count).map(|k| [k * 7919 % 11, k * 104_729 % 97]).collect();
+            let mut wanted = list.clone();
+            wanted.sort_unstable();
+            sort.sort(&mut list, |item| item[0], |item| item[1]);
+            assert_eq!(list, wanted);
+        }
+    }
+}
