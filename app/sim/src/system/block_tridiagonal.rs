@@ -8,10 +8,12 @@
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Matrix and right-hand side of all lines, in the model's node and segment layout.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BlockTridiagonal {
+    arch: Arch,
     /// Diagonal block of each node.
     pub diagonal: Vec<DMat3>,
     /// Block of each segment: row of its first node, column of its second.
@@ -44,6 +46,7 @@ impl BlockTridiagonal {
     /// Storage for these numbers of nodes and segments.
     pub fn new(nodes: usize, segments: usize) -> Self {
         Self {
+            arch: Arch::new(),
             diagonal: vec![DMat3::ZERO; nodes],
             up: vec![DMat3::ZERO; segments],
             low: vec![DMat3::ZERO; segments],
@@ -90,28 +93,8 @@ impl BlockTridiagonal {
         a_moves: bool,
         owns_a: bool,
     ) -> Ends {
-        let (a, b) = (nodes.start, nodes.end - 1);
-        let (mut fill, mut gill) = (self.low[segments.start], self.up[segments.start]);
-        let (mut aa, mut force_a) =
-            if owns_a { (self.diagonal[a], self.force[a]) } else { (DMat3::ZERO, DVec3::ZERO) };
-        let (mut diagonal, mut force) = (self.diagonal[a + 1], self.force[a + 1]);
-        for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
-            let inverse = diagonal.inverse();
-            let up = self.up[segment];
-            let across = self.low[segment] * inverse;
-            (self.inverse[node], self.reduced[node]) = (inverse, force);
-            if a_moves {
-                let back = gill * inverse;
-                aa -= back * fill;
-                force_a -= back * force;
-                gill = -(back * up);
-                self.fill[node] = fill;
-                fill = -(across * fill);
-            }
-            diagonal = self.diagonal[node + 1] - across * up;
-            force = self.force[node + 1] - across * force;
-        }
-        Ends { aa, ab: gill, ba: fill, bb: diagonal, force_a, force_b: force }
+        let (nodes, segments) = (nodes.clone(), segments.clone());
+        self.arch.dispatch(Eliminate { rope: self, nodes, segments, a_moves, owns_a })
     }
 
     /// Moves of the inner nodes from the moves of the ends.
@@ -133,5 +116,45 @@ impl BlockTridiagonal {
             }
             self.step[node] = self.inverse[node] * right;
         }
+    }
+}
+
+/// An elimination, compiled for the instructions that the processor has; its bits do not depend on them.
+struct Eliminate<'a> {
+    rope: &'a mut BlockTridiagonal,
+    nodes: Range<usize>,
+    segments: Range<usize>,
+    a_moves: bool,
+    owns_a: bool,
+}
+
+impl WithSimd for Eliminate<'_> {
+    type Output = Ends;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Ends {
+        let Self { rope, nodes, segments, a_moves, owns_a } = self;
+        let (a, b) = (nodes.start, nodes.end - 1);
+        let (mut fill, mut gill) = (rope.low[segments.start], rope.up[segments.start]);
+        let (mut aa, mut force_a) =
+            if owns_a { (rope.diagonal[a], rope.force[a]) } else { (DMat3::ZERO, DVec3::ZERO) };
+        let (mut diagonal, mut force) = (rope.diagonal[a + 1], rope.force[a + 1]);
+        for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
+            let inverse = diagonal.inverse();
+            let up = rope.up[segment];
+            let across = rope.low[segment] * inverse;
+            (rope.inverse[node], rope.reduced[node]) = (inverse, force);
+            if a_moves {
+                let back = gill * inverse;
+                aa -= back * fill;
+                force_a -= back * force;
+                gill = -(back * up);
+                rope.fill[node] = fill;
+                fill = -(across * fill);
+            }
+            diagonal = rope.diagonal[node + 1] - across * up;
+            force = rope.force[node + 1] - across * force;
+        }
+        Ends { aa, ab: gill, ba: fill, bb: diagonal, force_a, force_b: force }
     }
 }

@@ -6,6 +6,7 @@
 //! Reference: George and Liu 1981, Computer Solution of Large Sparse Positive Definite Systems, chapter 5.
 
 use glam::{DMat3, DVec3};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Bits of a word of a row's set of columns.
 const WORD: usize = 64;
@@ -13,6 +14,7 @@ const WORD: usize = 64;
 /// Pattern, order and values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BlockSparse {
+    arch: Arch,
     blocks: usize,
     /// Words of the set of columns of a row.
     words: usize,
@@ -212,31 +214,48 @@ impl BlockSparse {
 
     /// Factors the matrix in place and solves for a force out of balance, which is replaced.
     pub fn solve(&mut self, force: &mut [DVec3], step: &mut [DVec3]) {
-        let (mut begin, mut changed) = (0, self.changed.iter());
-        for Pivot { block, diagonal, end } in &self.order {
-            let inverse = self.value[*diagonal as usize].inverse();
-            self.value[*diagonal as usize] = inverse;
-            let later = &self.later[begin..*end as usize];
+        self.arch.dispatch(Factor { matrix: self, force, step });
+    }
+}
+
+/// The solution, compiled for the instructions that the processor has; its bits do not depend on them.
+struct Factor<'a> {
+    matrix: &'a mut BlockSparse,
+    force: &'a mut [DVec3],
+    step: &'a mut [DVec3],
+}
+
+impl WithSimd for Factor<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { matrix, force, step } = self;
+        let (mut begin, mut changed) = (0, matrix.changed.iter());
+        for Pivot { block, diagonal, end } in &matrix.order {
+            let inverse = matrix.value[*diagonal as usize].inverse();
+            matrix.value[*diagonal as usize] = inverse;
+            let later = &matrix.later[begin..*end as usize];
             let eliminated = force[*block as usize];
             for row in later {
-                let across = self.value[row.lower as usize] * inverse;
+                let across = matrix.value[row.lower as usize] * inverse;
                 for (column, place) in later.iter().zip(&mut changed) {
-                    let taken = across * self.value[column.upper as usize];
-                    self.value[*place as usize] -= taken;
+                    let taken = across * matrix.value[column.upper as usize];
+                    matrix.value[*place as usize] -= taken;
                 }
                 force[row.block as usize] -= across * eliminated;
             }
             begin = *end as usize;
         }
-        for place in (0..self.order.len()).rev() {
-            let Pivot { block, diagonal, end } = self.order[place];
-            let begin = place.checked_sub(1).map_or(0, |before| self.order[before].end as usize);
+        for place in (0..matrix.order.len()).rev() {
+            let Pivot { block, diagonal, end } = matrix.order[place];
+            let begin = place.checked_sub(1).map_or(0, |before| matrix.order[before].end as usize);
             let mut right = force[block as usize];
-            for other in &self.later[begin..end as usize] {
-                right -= self.value[other.upper as usize] * step[other.block as usize];
+            for other in &matrix.later[begin..end as usize] {
+                right -= matrix.value[other.upper as usize] * step[other.block as usize];
             }
             // The diagonal was replaced by its inverse.
-            step[block as usize] = self.value[diagonal as usize] * right;
+            step[block as usize] = matrix.value[diagonal as usize] * right;
         }
     }
 }
