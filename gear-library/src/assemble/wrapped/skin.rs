@@ -23,8 +23,9 @@ const MARGIN_M: f64 = 0.05;
 pub(super) struct PosedSkin {
     skin: Arc<Skin>,
     places: Vec<DVec3>,
-    /// Triangles of each part; the trunk is one part.
+    /// Triangles of each part, and their corners; the trunk is one part.
     own: [Vec<usize>; BodyPart::ALL.len()],
+    corners: [Vec<usize>; BodyPart::ALL.len()],
     /// Posed axis of each part with its extent; `None` if the skin has no such part.
     axes: [Option<(PosedAxis, [f64; 2])>; BodyPart::ALL.len()],
     surface: Surface,
@@ -61,16 +62,24 @@ impl PosedSkin {
         };
         let axes = axes_of(&skin).map(|axis| axis.map(posed));
         let surface = Surface::new(Arc::new(SkinTree::new(Arc::clone(&skin))));
-        let own = BodyPart::ALL.map(|part| {
+        let own: [Vec<usize>; BodyPart::ALL.len()] = BodyPart::ALL.map(|part| {
             let wanted = |region: Region| {
                 region.part() == part || (part.on_trunk() && region.part().on_trunk())
             };
             (0..skin.triangles.len()).filter(|triangle| wanted(skin.regions[*triangle])).collect()
         });
+        let corners = own.each_ref().map(|triangles| {
+            let corners = triangles.iter().flat_map(|triangle| skin.triangles[*triangle]);
+            let mut corners: Vec<usize> = corners.map(|corner| corner as usize).collect();
+            corners.sort_unstable();
+            corners.dedup();
+            corners
+        });
         let mut posed = Self {
             axes,
             places,
             own,
+            corners,
             surface,
             up: whale.orientation * DVec3::Z,
             off_m,
@@ -88,13 +97,21 @@ impl PosedSkin {
 
     /// The outline of a part in the plane through a place, perpendicular to `along`.
     pub fn outline(&self, part: BodyPart, place: DVec3, along: DVec3) -> Outline {
-        let corners = |triangle: &usize| {
-            self.skin.triangles[*triangle].map(|corner| self.places[corner as usize])
+        let mut heights = vec![0.0; self.places.len()];
+        for corner in &self.corners[part as usize] {
+            heights[*corner] = (self.places[*corner] - place).dot(along);
+        }
+        let cut_of = |triangle: &usize| {
+            let corners = self.skin.triangles[*triangle].map(|corner| corner as usize);
+            let height = corners.map(|corner| heights[corner]);
+            let above = height.map(|height| height > 0.0);
+            // Nearly all triangles are on one side.
+            if above == [true; 3] || above == [false; 3] {
+                return None;
+            }
+            cut(corners.map(|corner| self.places[corner]), height)
         };
-        let cuts: Vec<[DVec3; 2]> = self.own[part as usize]
-            .iter()
-            .filter_map(|triangle| cut(corners(triangle), place, along))
-            .collect();
+        let cuts: Vec<[DVec3; 2]> = self.own[part as usize].iter().filter_map(cut_of).collect();
         let weigh = |(sum, whole): (DVec3, f64), [a, b]: &[DVec3; 2]| {
             (sum + a.midpoint(*b) * a.distance(*b), whole + a.distance(*b))
         };
@@ -192,9 +209,8 @@ impl Outline {
     }
 }
 
-/// The cut of a triangle by a plane through a place.
-fn cut(corners: [DVec3; 3], place: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
-    let heights = corners.map(|corner| (corner - place).dot(normal));
+/// The cut of a triangle by a plane above which its corners are so high.
+fn cut(corners: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [(0, 1), (1, 2), (2, 0)]
         .into_iter()
         .filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
