@@ -36,6 +36,7 @@
 //! | [`plugins`] | plugins found, checked and loaded |
 //! | [`locate`] | where the gear library of a scenario is |
 //! | [`shipped`] | the gear library inside the program, written to the user's data folder where no other is found |
+//! | [`sketch`] | the content of a scenario or study in few numbers, for the sketch on the start page |
 //!
 //! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
@@ -79,6 +80,7 @@ pub mod search;
 pub mod settled;
 pub mod shell;
 pub mod shipped;
+pub mod sketch;
 pub mod source;
 pub mod statics;
 pub mod study;

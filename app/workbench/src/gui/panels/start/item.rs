@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::Document;
 use endline_session::locate;
+use endline_session::sketch::Sketch;
 use strum::{IntoStaticStr, VariantArray};
 
-use super::sketch::Sketch;
 use crate::gui::files;
 
 /// Kind of a file, which decides where it opens.

@@ -1,82 +1,12 @@
-//! A sketch of the content of a file: traps, endlines, a net, a whale.
-
-use std::path::Path;
+//! Draws a sketch of the content of a file: traps, endlines, a net, a whale.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
-use endline_gear::Document;
+use endline_session::sketch::Sketch;
 
 use crate::gui::theme::Palette;
 
 /// Maximum number of traps drawn.
 const MOST_TRAPS: usize = 12;
-
-/// Content of a sketch.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Sketch {
-    pub traps: usize,
-    pub endlines: usize,
-    pub net: bool,
-    /// Whether the endline is stowed at the trap.
-    pub stowed: bool,
-    pub whale: bool,
-    /// Number of options of a study.
-    pub options: usize,
-}
-
-impl Sketch {
-    /// Sketch of a scenario and its assembly.
-    pub(super) fn of_scenario(root: &Path, scenario: &Document) -> Self {
-        let whale = scenario.has("whale");
-        let id = scenario.get("gear.0.assembly");
-        let assembly = id.and_then(|id| read(&root.join(format!("assemblies/{id}.toml"))));
-        let gear = assembly.map(|assembly| Self::of_assembly(&assembly)).unwrap_or_default();
-        Self { whale, ..gear }
-    }
-
-    fn of_assembly(assembly: &Document) -> Self {
-        let number = |field: &str| assembly.get(field).and_then(|text| text.parse().ok());
-        let gear_type = assembly.get("gear_type").unwrap_or_default();
-        let kind = gear_type.rsplit('.').next().unwrap_or_default();
-        let (traps, endlines) = match kind {
-            "" => bodies(assembly),
-            "pair" => (2, 1),
-            "trawl" => (10, 2),
-            "gillnet" => (2, 2),
-            _ => (1, 1),
-        };
-        Self {
-            traps: number("attributes.traps").unwrap_or(traps),
-            endlines: number("attributes.endlines").unwrap_or(endlines),
-            net: kind == "gillnet",
-            stowed: kind == "on-demand",
-            ..Self::default()
-        }
-    }
-
-    /// Sketch of a study.
-    pub(super) fn of_study(study: &Document) -> Self {
-        let options = (0..MOST_TRAPS).take_while(|index| study.has(&format!("option.{index}")));
-        Self { options: options.count().max(2), ..Self::default() }
-    }
-
-    /// Whether there is gear.
-    pub(super) fn has_gear(&self) -> bool {
-        self.traps > 0 || self.endlines > 0
-    }
-}
-
-/// Numbers of traps and endlines of an assembly that lists its parts.
-fn bodies(assembly: &Document) -> (usize, usize) {
-    let items = (0..).map_while(|index| assembly.get(&format!("body.{index}.item")));
-    items.fold((0, 0), |(traps, floats), item| {
-        let floats_up = ["buoy", "ball", "flyer", "float"].iter().any(|word| item.contains(word));
-        if floats_up { (traps, floats + 1) } else { (traps + 1, floats) }
-    })
-}
-
-fn read(path: &Path) -> Option<Document> {
-    Document::parse(&endline_gear::read::text(path).ok()?).ok()
-}
 
 /// Draws the sketch in a rectangle.
 pub(super) fn draw(painter: &Painter, place: Rect, sketch: &Sketch, palette: Palette) {
@@ -206,25 +136,5 @@ fn options(painter: &Painter, place: Rect, count: usize, palette: Palette) {
         let half = place.width() * (0.2 - 0.02 * row as f32);
         painter.hline(middle - half..=middle + half, y, Stroke::new(1.2, palette.faint));
         painter.circle_filled(pos2(middle, y), 2.5, palette.accent);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_sketch_shows_the_content_of_its_files() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
-        let of = |id: &str| {
-            let scenario = read(&root.join(format!("scenarios/{id}.toml"))).unwrap();
-            Sketch::of_scenario(&root, &scenario)
-        };
-        let single = of("hello-endline");
-        assert_eq!((single.traps, single.endlines, single.whale), (1, 1, true));
-        assert_eq!(of("trawl-45").traps, 45);
-        assert!(of("gillnet").net);
-        assert!(of("on-demand-release").stowed);
-        assert!(!of("portrait").has_gear());
     }
 }
