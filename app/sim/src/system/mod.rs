@@ -1,6 +1,7 @@
 //! The linear system of one Newton iteration: `A δ = r` for the moves of rope nodes, free joints and bodies.
 //!
-//! `r` is the force out of balance, `A = -dr/dx`. Force laws and kinds of contact add to both through [`LinearSystem`] alone:
+//! `r` is the force out of balance, `A = -dr/dx`. Kinds of contact add to both by these functions alone; force laws also write the
+//! blocks of nodes, segments and bodies directly:
 //!
 //! | function | adds |
 //! |---|---|
