@@ -62,6 +62,9 @@ const STALLED_SHARE: f64 = 0.5;
 pub(crate) const SHORT_S: f64 = 1.3e-4;
 /// Iteration limit of such a short step.
 const MOST_SHORT_PASSES: usize = 24;
+/// Beyond [`MOST_PASSES`], one iteration of a short step in so many takes its whole move; the others take half of it. Whole moves go
+/// back and forth between two states of contact.
+const WHOLE_MOVE_EVERY: usize = 5;
 
 /// Result of an iteration.
 #[derive(Clone, Copy, Debug)]
@@ -221,7 +224,13 @@ impl PassCount {
     pub fn end(&mut self, rules: &Stopping, done: &PassDone, contact: ContactError) -> Option<f64> {
         let missed = rules.missed(done, contact, self.moved_m);
         let was_half = self.half;
-        self.half = rules.in_contact && !was_half && missed > STALLED_SHARE * self.missed;
+        let stalled = !was_half && missed > STALLED_SHARE * self.missed;
+        let takes_half = if self.since_opened > MOST_PASSES && !rules.bends {
+            !self.since_opened.is_multiple_of(WHOLE_MOVE_EVERY)
+        } else {
+            stalled
+        };
+        self.half = rules.in_contact && takes_half;
         self.missed = if was_half { f64::INFINITY } else { missed };
         self.moved_m = done.longest_m;
         self.path_m += done.longest_m;
