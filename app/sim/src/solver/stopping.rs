@@ -62,8 +62,8 @@ const STALLED_SHARE: f64 = 0.5;
 pub(crate) const SHORT_S: f64 = 1.3e-4;
 /// Iteration limit of such a short step.
 const MOST_SHORT_PASSES: usize = 24;
-/// Beyond [`MOST_PASSES`], one iteration of a short step in so many takes its whole move; the others take half of it. Whole moves go
-/// back and forth between two states of contact.
+/// Beyond [`MOST_PASSES`], every fifth iteration of a short step takes its whole move, and the others half of it. Whole moves alternate
+/// between two states of contact.
 const WHOLE_MOVE_EVERY: usize = 5;
 
 /// Result of an iteration.
