@@ -123,10 +123,9 @@ impl CoupledRopes {
         rope: &mut BlockTridiagonal,
         interface: &mut InterfaceSystem,
         attachments: &Attachments,
-        changed: Option<&[bool]>,
+        mut changed: Option<&[bool]>,
     ) {
         self.add_new_pairs();
-        let mut changed = changed;
         if self.pairs != self.laid_out {
             self.lay_out(model, interface, attachments);
             changed = None;
@@ -208,13 +207,13 @@ impl CoupledRopes {
         self.touched.extend(nodes);
         self.touched.sort_unstable();
         self.touched.dedup();
-        let lines = || model.spec.lines.iter().zip(&model.line_nodes).zip(&model.line_segments);
         self.touched.retain(|node| {
             let within = |line: &Range<usize>| line.start < *node && *node + 1 < line.end;
             model.line_nodes.iter().any(within)
         });
         self.spans.clear();
-        for ((line, nodes), segments) in lines() {
+        let lines = model.spec.lines.iter().zip(&model.line_nodes).zip(&model.line_segments);
+        for ((line, nodes), segments) in lines {
             let first = self.touched.partition_point(|node| *node < nodes.start);
             let (mut from, mut end) = (nodes.start, SpanEnd::Joint(line.from));
             let inside = self.touched.iter().enumerate().skip(first);
@@ -283,6 +282,7 @@ impl CoupledRopes {
         }
     }
 }
+
 /// Places of the blocks of touched nodes with each other, row after row; `None` if one of them is at a joint.
 fn places<const N: usize, const M: usize>(
     system: &InterfaceSystem,
@@ -294,7 +294,7 @@ fn places<const N: usize, const M: usize>(
         let SpanEnd::Touched(touched) = end else { return None };
         *unknown = touched;
     }
-    Some(core::array::from_fn(|at| system.place(unknowns[at / N], unknowns[at % N])))
+    Some(core::array::from_fn(|at| system.place_of(unknowns[at / N], unknowns[at % N])))
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Direct solve of the interface system: free joints (one 3×3 block) and bodies (place and rotation, two blocks).
 //!
-//! Lines reduced to their ends couple interface blocks pairwise. The block matrix is factored without pivoting
-//! (inertia keeps its diagonal dominant) along an order of least degree found once per model, with
-//! the fill laid out beforehand: trees of gear have no fill, a loop has a few blocks.
+//! Lines reduced to their ends couple interface blocks pairwise. The matrix is sparse (`sparse.rs`): gear that is a tree has no
+//! fill, a loop has a few blocks.
 
 use glam::{DMat3, DVec3};
 
@@ -101,7 +100,7 @@ impl InterfaceSystem {
     }
 
     /// Where the block at (row, column) is, which the layout must hold.
-    pub fn place(&self, row: usize, column: usize) -> Place {
+    pub fn place_of(&self, row: usize, column: usize) -> Place {
         self.matrix.place_of(row, column)
     }
 

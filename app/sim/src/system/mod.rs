@@ -34,8 +34,7 @@ use coupled::{ContactBlock, CoupledRopes};
 use interface::InterfaceSystem;
 use lanes::Lanes;
 
-/// Largest number of places at which rope presses on rope at a time: four times as many as in four tight hitches. Their dense
-/// system then has 1,200 rows, 12 MB and some 1e9 operations an iteration.
+/// Largest number of places at which rope presses on rope at a time: four times as many as in four tight hitches.
 const MOST_COUPLINGS: usize = 400;
 
 /// Matrix, right-hand side and solution.

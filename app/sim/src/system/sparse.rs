@@ -148,14 +148,14 @@ impl BlockSparse {
         let mut begin = 0;
         for place in 0..self.order.len() {
             let Pivot { block, end, .. } = self.order[place];
-            self.order[place].diagonal = self.place(block as usize, block as usize) as u32;
+            self.order[place].diagonal = self.place_of(block as usize, block as usize).0;
             for at in begin..end as usize {
                 let other = self.later[at].block as usize;
-                self.later[at].upper = self.place(block as usize, other) as u32;
-                self.later[at].lower = self.place(other, block as usize) as u32;
+                self.later[at].upper = self.place_of(block as usize, other).0;
+                self.later[at].lower = self.place_of(other, block as usize).0;
                 for column in begin..end as usize {
                     let column = self.later[column].block as usize;
-                    self.changed.push(self.place(other, column) as u32);
+                    self.changed.push(self.place_of(other, column).0);
                 }
             }
             begin = end as usize;
@@ -165,10 +165,6 @@ impl BlockSparse {
     /// Whether the layout holds the block at (row, column).
     pub fn holds(&self, row: usize, column: usize) -> bool {
         self.columns[row * self.words + column / WORD] >> (column % WORD) & 1 == 1
-    }
-
-    fn place(&self, row: usize, column: usize) -> usize {
-        self.places[row * self.blocks + column] as usize
     }
 
     /// Where the block at (row, column) is, which the layout must hold.
@@ -184,15 +180,13 @@ impl BlockSparse {
 
     /// The block at (row, column), which the layout must hold.
     pub fn at(&mut self, row: usize, column: usize) -> &mut DMat3 {
-        debug_assert!(self.holds(row, column), "block ({row}, {column}) is not in the layout");
-        let place = self.place(row, column);
-        &mut self.value[place]
+        self.at_place(self.place_of(row, column))
     }
 
     /// The value of the block at (row, column), which the layout must hold.
     pub fn get(&self, row: usize, column: usize) -> DMat3 {
-        debug_assert!(self.holds(row, column), "block ({row}, {column}) is not in the layout");
-        self.value[self.place(row, column)]
+        let Place(place) = self.place_of(row, column);
+        self.value[place as usize]
     }
 
     /// Empties the matrix.

@@ -73,10 +73,11 @@ fn measured(workspace: &Workspace, reason: &str) -> Outcome<Option<Row>> {
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let (next, counts) = (AtomicUsize::new(0), Mutex::new(vec![None; names.len()]));
     let work = || {
-        while let Some(name) = names.get(next.fetch_add(1, Ordering::Relaxed)) {
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some(name) = names.get(at) else { return };
             let count = callgrind::count(&bench, name, &folder);
-            let at = names.iter().position(|other| other == name);
-            if let (Some(at), Ok(mut counts)) = (at, counts.lock()) {
+            if let Ok(mut counts) = counts.lock() {
                 counts[at] = Some(count);
             }
         }
