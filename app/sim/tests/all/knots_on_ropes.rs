@@ -190,7 +190,7 @@ fn thrown(knot_m: f64, gap_m: f64, speed_m_s: f64) -> Run {
 
 #[test]
 fn a_thrown_knot_flies_through_no_narrow_gap() {
-    for speed_m_s in [5.0, 20.0, 75.0] {
+    for speed_m_s in [5.0, 20.0, 80.0] {
         let mut run = thrown(0.04, 0.016, speed_m_s);
         let mut most_m = -1.0_f64;
         for k in 1..=30 {
@@ -219,7 +219,7 @@ fn fast_knots_fly_through_no_narrow_gap_and_their_steps_converge() {
         assert_eq!((audit.ropes_crossed, audit.ropes_through), (0, 0), "{speed_m_s} m/s");
         unconverged += audit.unconverged;
     }
-    assert!(unconverged <= 2, "{unconverged} steps without convergence");
+    assert_eq!(unconverged, 0, "steps without convergence");
 }
 
 /// A small knot passes; it spreads the ropes, though it would fly past them within one step.

@@ -130,6 +130,10 @@ impl ContactKind for RopeOnRope {
         self.check_compressed(trial, CRUSHED_SHARE)
     }
 
+    fn begin_iteration(&mut self, _: &Trial) {
+        self.iterations += 1;
+    }
+
     fn assemble_on_rope(
         &mut self,
         order: Order,

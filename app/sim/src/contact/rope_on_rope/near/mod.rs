@@ -60,7 +60,7 @@ pub(crate) struct RopeOnRope {
     /// Of each pair: its distance when the step began, beyond the contact distance [m].
     room_m: Vec<f64>,
     /// Pairs with open contact points, in order.
-    pub opened: Vec<usize>,
+    pub(super) opened: Vec<usize>,
     /// Whether ropes may touch in this step.
     pub touching: bool,
     /// Pairs that pass through each other; some may be listed twice.
@@ -80,7 +80,10 @@ pub(crate) struct RopeOnRope {
     widest_knot_m: f64,
     broad: Broad,
     found: Found,
-    passes: usize,
+    /// Assemblies of this step.
+    assemblies: usize,
+    /// Iterations since points were opened.
+    pub(super) iterations: usize,
     /// Two segments at which more places are in contact than can be solved.
     pub crowded: Option<[usize; 2]>,
 }

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use crate::broad_phase::pieces::Pieces;
-use crate::contact::rope_on_rope::near::open::greatest_approach_m;
 use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, TOUCH_M, between};
 use crate::geometry::crossing::first_crossing;
 use crate::geometry::segment_pair::{greatest_approach, nearest, safe_fraction};
@@ -29,10 +28,7 @@ impl RopeOnRope {
     pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let mut crossings = 0;
         let reach_m = greatest_approach_m(from, to);
-        for (pair, room_m) in self.pairs.iter().zip(&self.room_m) {
-            if *room_m > reach_m {
-                continue;
-            }
+        for pair in self.pairs_within(reach_m) {
             let [one, other] = pair.sweeps(from, |node| to[node]);
             if pair.is_of_knot() && !pair.is_followed(&one, &other) {
                 return None;
@@ -108,10 +104,21 @@ impl RopeOnRope {
             let [one, other] = pair.sweeps(from, |node| to[node]);
             pair.first - greatest_approach(&one, &other) < pair.contact_distance
         };
-        let reach_m = greatest_approach_m(from, to);
-        let may_be_near = self.pairs.iter().zip(&self.room_m).filter(|(_, room)| **room <= reach_m);
-        may_be_near.map(|(pair, _)| pair).any(near)
+        self.pairs_within(greatest_approach_m(from, to)).any(near)
     }
+
+    /// Pairs that may touch when they approach each other by this much [m].
+    fn pairs_within(&self, approach_m: f64) -> impl Iterator<Item = &Pair> {
+        let within =
+            self.pairs.iter().zip(&self.room_m).filter(move |(_, room)| **room <= approach_m);
+        within.map(|(pair, _)| pair)
+    }
+}
+
+/// Distance by which any two places of rope approach each other at most when its nodes move so [m].
+pub(super) fn greatest_approach_m(from: &[DVec3], to: &[DVec3]) -> f64 {
+    let moved = from.iter().zip(to).map(|(from, to)| from.distance_squared(*to));
+    2.0 * moved.fold(0.0, f64::max).sqrt()
 }
 
 impl Pair {

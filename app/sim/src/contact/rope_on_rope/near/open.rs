@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::contact::rope_on_rope::near::moves::greatest_approach_m;
 use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, between};
 use crate::contact::rope_on_rope::points::{RopeContactPoint, point_of_ball, points_of};
 use crate::geometry::segment_pair::nearest;
@@ -10,8 +11,12 @@ use crate::state::{RopeGrip, State};
 /// Largest move of a point along either rope in a step with which it continues a grip [m].
 const FOLLOWED_M: f64 = 0.05;
 
-/// Passes in which points follow the ropes; then they stay, so that Newton can finish.
-const FOLLOWING_PASSES: usize = 6;
+/// Assemblies in which points follow the ropes; then they stay, so that Newton can finish.
+const FOLLOWING_ASSEMBLIES: usize = 6;
+
+/// Iteration since points were last opened in which they follow once more. Only short steps get so far; they take half moves from
+/// there on.
+const FOLLOWING_AGAIN: usize = 9;
 
 /// Distance beyond contact within which points are opened, besides twice the way of the predictor [m].
 const OPENED_WITHIN_M: f64 = 2e-3;
@@ -25,7 +30,7 @@ impl RopeOnRope {
     /// Other pairs touch only where the step moves rope much farther than the predictor; [`open_nearer_points`](Self::open_nearer_points)
     /// finds them then.
     pub fn open_points(&mut self, state: &State, places: &[DVec3]) {
-        self.passes = 0;
+        (self.assemblies, self.iterations) = (0, 0);
         self.opened.clear();
         let within_m = OPENED_WITHIN_M + 2.0 * greatest_approach_m(&state.rope.position, places);
         for index in 0..self.pairs.len() {
@@ -75,10 +80,10 @@ impl RopeOnRope {
         RopeGrip { lines: pair.lines, knots: pair.knots, along_m, stretch, forgiven_m }
     }
 
-    /// Lets points follow the ropes in the first passes.
+    /// Lets points follow the ropes in the first assemblies, and once more later.
     pub fn follow(&mut self, places: &[DVec3]) {
-        self.passes += 1;
-        if self.passes > FOLLOWING_PASSES {
+        self.assemblies += 1;
+        if self.assemblies > FOLLOWING_ASSEMBLIES && self.iterations != FOLLOWING_AGAIN {
             return;
         }
         for index in &self.opened {
@@ -117,14 +122,11 @@ impl RopeOnRope {
                 opened = true;
             }
         }
+        if opened {
+            self.iterations = 0;
+        }
         opened
     }
-}
-
-/// Distance by which any two places of rope approach each other at most when its nodes move so [m].
-pub(super) fn greatest_approach_m(from: &[DVec3], to: &[DVec3]) -> f64 {
-    let moved = from.iter().zip(to).map(|(from, to)| from.distance_squared(*to));
-    2.0 * moved.fold(0.0, f64::max).sqrt()
 }
 
 /// The nearest grip of a pair's lines or knots at these lengths along them, if any is near enough.
