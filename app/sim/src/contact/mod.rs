@@ -153,8 +153,8 @@ pub(crate) struct Assembly<'a> {
 pub(crate) enum Solution<'a> {
     /// The solved step, of which a share is taken next.
     Step { system: &'a LinearSystem, plan: &'a Plan, share: f64 },
-    /// The trial has moved from these places.
-    Moved { rope: &'a [DVec3], bodies: &'a [BodyTrial] },
+    /// The trial has moved from these places, by this share of the solved step.
+    Moved { rope: &'a [DVec3], bodies: &'a [BodyTrial], share: f64 },
 }
 
 /// A step that is accepted.

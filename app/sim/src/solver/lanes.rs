@@ -1,4 +1,4 @@
-//! An iteration with rope held as lanes: rope that water, seabed, skin, obstacles and bodies touch, but no other rope.
+//! An iteration with rope held as lanes: rope in contact with anything, in water without waves.
 
 use glam::{DMat3, DVec3};
 

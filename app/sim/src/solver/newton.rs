@@ -161,6 +161,7 @@ impl Solver {
     }
 
     /// Solves with rope held as lanes, from the same places again until the segments that pull are those that are taut by the solution.
+    /// If ropes are coupled, other segments keep their stiffness across: iterations then settle sooner (docs/lab-notebook.md).
     fn solve_in_lanes(
         &mut self,
         context: &StepContext<'_>,
@@ -176,6 +177,10 @@ impl Solver {
         }
         self.before.clone_from(&self.trial.place);
         self.bodies_before.clone_from(&self.trial.bodies);
+        let coupled = self.system.ropes_are_coupled();
+        if coupled {
+            self.system.lanes.store_tension();
+        }
         let mut solved = 0;
         loop {
             let passed = self.pass_in_lanes(context, share);
@@ -183,13 +188,16 @@ impl Solver {
             if settled || !passed.finite || solved == MOST_ACTIVE_SETS {
                 self.take_places();
                 let (rope, bodies) = (&self.before[..], &self.bodies_before[..]);
-                self.contacts.store_solution(&self.trial, &Solution::Moved { rope, bodies });
+                self.contacts.store_solution(&self.trial, &Solution::Moved { rope, bodies, share });
                 return self.pass_done(&passed);
             }
             solved += 1;
             self.trial.place.clone_from(&self.before);
             self.trial.bodies.clone_from(&self.bodies_before);
             self.system.lanes.take_places(&self.trial.place);
+            if coupled {
+                self.system.lanes.restore_tension();
+            }
         }
     }
 

@@ -45,7 +45,7 @@ impl Solver {
         let StepContext { model, state, scheme } = *context;
         self.in_contact = self.contacts.is_touching();
         self.cost.enter(if self.in_contact { CostPart::Contact } else { CostPart::FreeRope });
-        if self.system.suits_lanes(model) && !self.contacts.rope_on_rope.touching {
+        if self.system.suits_lanes(model) {
             self.begin_in_lanes(model, state, scheme, |solver| solver.project_guess(model, state));
         } else {
             self.begin(model, state, scheme);

@@ -10,6 +10,7 @@ use crate::model::{
 };
 use crate::solver::Solver;
 use crate::state::State;
+use crate::system::LinearSystem;
 use crate::system::coupled::ContactBlock;
 use crate::system::tests::Method;
 use crate::trial::StepContext;
@@ -229,20 +230,40 @@ fn contacts(model: &Model) -> Vec<(usize, f64, DVec3, DMat3)> {
     (0..model.segment_count).step_by(3).chain([1, 0]).map(contact).collect()
 }
 
+/// Adds forces on rope; `coupled` adds couplings of ropes, at ends of lines, inside and across piece ends, several on one node.
+fn add_contacts(model: &Model, system: &mut LinearSystem, coupled: bool) {
+    for (segment, fraction, force, block) in contacts(model) {
+        let node = segment + model.segment_line[segment];
+        system.add_on_rope([segment, node], fraction, force, &block);
+    }
+    if !coupled {
+        return;
+    }
+    let last = model.segment_count - 1;
+    let pairs = (0..last).step_by(7).map(|segment| [segment, last - segment]);
+    for (at, segments) in pairs.chain([[0, 1], [3, 9], [4, 9], [last / 2, last]]).enumerate() {
+        let block = DMat3::from_cols_array(&[3.0, 0.2, -0.4, 0.9, 2.0, 0.1, -0.3, 0.5, 1.0]);
+        let coupling = ContactBlock {
+            segments,
+            nodes: segments.map(|segment| segment + model.segment_line[segment]),
+            fractions: [0.3, 0.8],
+            block: block * (2e3 * (1 + at % 5) as f64),
+        };
+        assert!(system.couple_ropes(coupling, DVec3::new(5.0, -3.0, 8.0)));
+    }
+}
+
 /// One pass with contact, line by line and in lanes of two widths.
 #[test]
 fn lanes_solve_contact_as_the_lines_do() {
     let one = model(60.0, 0.7);
-    for model in [eight(&one), one] {
+    for (model, coupled) in [(eight(&one), false), (eight(&one), true), (one, true)] {
         let (state, scheme) = (moving(&model), Scheme::backward_euler(0.002));
         let context = StepContext { model: &model, state: &state, scheme: &scheme };
         let mut lines = Solver::new(&model);
         lines.begin(&model, &state, &scheme);
         lines.assemble(&context);
-        for (segment, fraction, force, block) in contacts(&model) {
-            let node = segment + model.segment_line[segment];
-            lines.system.add_on_rope([segment, node], fraction, force, &block);
-        }
+        add_contacts(&model, &mut lines.system, coupled);
         lines.solve(&model);
         lines.advance(&model, 1.0);
         let in_lanes = |arch: Option<Arch>| {
@@ -251,10 +272,7 @@ fn lanes_solve_contact_as_the_lines_do() {
                 solver.system.lanes.set_arch(arch);
             }
             solver.begin_in_lanes(&model, &state, &scheme, |_| ());
-            for (segment, fraction, force, block) in contacts(&model) {
-                let node = segment + model.segment_line[segment];
-                solver.system.add_on_rope([segment, node], fraction, force, &block);
-            }
+            add_contacts(&model, &mut solver.system, coupled);
             assert!(solver.pass_in_lanes(&context, 1.0).finite);
             solver.take_places();
             solver.trial.place
@@ -286,7 +304,9 @@ fn elimination_solves_what_a_dense_system_solves() {
             }
             for (nodes, fractions) in [([3, 40], [0.2, 0.9]), ([10, 70], [0.5, 0.1])] {
                 let block = DMat3::from_diagonal(DVec3::new(1e4, 2e4, 3e4));
-                let coupling = ContactBlock { nodes, fractions, block };
+                let segments = nodes
+                    .map(|node| node - model.line_nodes.partition_point(|nodes| nodes.end <= node));
+                let coupling = ContactBlock { segments, nodes, fractions, block };
                 assert!(solver.system.couple_ropes(coupling, DVec3::new(5.0, -3.0, 8.0)));
             }
             solver.solve(&model);

@@ -5,6 +5,8 @@
 //! Each line is therefore cut at its touched nodes. Every span from one of them to the next is eliminated down to its two ends
 //! (`block_tridiagonal.rs`). What is left, touched nodes, free joints and bodies, is one sparse system (`interface.rs`, `sparse.rs`).
 //!
+//! With rope as lanes, each line is also cut where two pieces meet, and the spans are eliminated by the sweeps (`lanes/kept.rs`).
+//!
 //! A layout of that system serves all couplings of a solver step: it grows by those that are new. A new step begins with no couplings, so
 //! that no bit of a step depends on the steps before.
 
@@ -16,12 +18,14 @@ use crate::model::Model;
 use crate::system::block_tridiagonal::{BlockTridiagonal, Ends};
 use crate::system::interface::{InterfaceSystem, parts};
 use crate::system::join;
+use crate::system::lanes::Lanes;
 use crate::system::sparse::Place;
 use crate::trial::plan::{Attachment, Attachments};
 
 /// A coupling as the linear system sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactBlock {
+    pub segments: [usize; 2],
     /// First nodes of the two segments.
     pub nodes: [usize; 2],
     /// Fractions along them.
@@ -91,9 +95,10 @@ pub(crate) struct CoupledRopes {
     pub couplings: Vec<ContactBlock>,
     /// Pairs of first nodes of all couplings of this solver step, in order.
     pairs: Vec<[usize; 2]>,
-    /// The pairs of the layout.
+    /// The pairs of the layout, and the nodes that were cuts for another reason.
     laid_out: Vec<[usize; 2]>,
-    /// Touched nodes that are no ends of lines, in order; the unknowns after those of the interface.
+    cuts: Vec<usize>,
+    /// Touched nodes and cuts that are no ends of lines, in order; the unknowns after those of the interface.
     touched: Vec<usize>,
     spans: Vec<Span>,
     /// Where the nodes of each pair of the layout are.
@@ -125,20 +130,75 @@ impl CoupledRopes {
         attachments: &Attachments,
         mut changed: Option<&[bool]>,
     ) {
-        self.add_new_pairs();
-        if self.pairs != self.laid_out {
-            self.lay_out(model, interface, attachments);
+        if self.prepare(model, interface, attachments, std::iter::empty()) {
             changed = None;
         }
+        for Span { nodes, segments, ends, left, .. } in &mut self.spans {
+            if changed.is_none_or(|changed| changed[nodes.clone()].contains(&true)) {
+                let (a, _) = ends[0].at(attachments);
+                let owns_a = matches!(ends[0], SpanEnd::Joint(_));
+                *left = rope.eliminate(nodes, segments, a != Attachment::Fixed, owns_a);
+            }
+        }
+        self.solve_spans(interface, attachments);
+        for Span { nodes, segments, ends, .. } in &self.spans {
+            let [step_a, step_b] = self.steps_of(*ends, attachments);
+            let (a, _) = ends[0].at(attachments);
+            rope.substitute(nodes, segments, a != Attachment::Fixed, step_a, step_b);
+        }
+    }
+
+    /// Solves the assembled system of lanes that are reduced to the ends of spans, interface and couplings; the moves are in `lanes` and
+    /// `interface.step`.
+    pub fn solve_lanes(
+        &mut self,
+        lanes: &mut Lanes,
+        interface: &mut InterfaceSystem,
+        attachments: &Attachments,
+    ) {
+        for span in &mut self.spans {
+            span.left = lanes.span_ends(span.segments.end - 1);
+        }
+        self.solve_spans(interface, attachments);
+        for Span { segments, ends, .. } in &self.spans {
+            lanes.move_span(segments, self.steps_of(*ends, attachments));
+        }
+    }
+
+    /// Lays out the system, with further cuts of the lines in rising order, if its layout lacks a pair; returns whether it does.
+    pub fn prepare(
+        &mut self,
+        model: &Model,
+        interface: &InterfaceSystem,
+        attachments: &Attachments,
+        cuts: impl Iterator<Item = usize> + Clone,
+    ) -> bool {
+        self.add_new_pairs();
+        let is_laid_out = self.pairs == self.laid_out && self.cuts.iter().copied().eq(cuts.clone());
+        if !is_laid_out {
+            self.cuts.clear();
+            self.cuts.extend(cuts);
+            self.lay_out(model, interface, attachments);
+        }
+        !is_laid_out
+    }
+
+    /// Nodes at which lines are cut, in rising order.
+    pub fn touched(&self) -> &[usize] {
+        &self.touched
+    }
+
+    /// Moves of the ends of a span.
+    fn steps_of(&self, ends: [SpanEnd; 2], attachments: &Attachments) -> [DVec3; 2] {
+        ends.map(|end| end.at(attachments)).map(|(at, arm)| self.system.step_of(at, arm))
+    }
+
+    /// Solves the system of spans that are eliminated, interface and couplings.
+    fn solve_spans(&mut self, interface: &mut InterfaceSystem, attachments: &Attachments) {
         let Self { system, spans, .. } = self;
         system.clear();
         system.add_all(interface);
-        for Span { nodes, segments, ends, places, left } in spans {
-            let at = ends.map(|end| end.at(attachments));
-            if changed.is_none_or(|changed| changed[nodes.clone()].contains(&true)) {
-                let owns_a = matches!(ends[0], SpanEnd::Joint(_));
-                *left = rope.eliminate(nodes, segments, at[0].0 != Attachment::Fixed, owns_a);
-            }
+        for Span { ends, places, left, .. } in spans {
             match (*places, *ends) {
                 (Some(places), [SpanEnd::Touched(a), SpanEnd::Touched(b)]) => {
                     let blocks = [left.aa, left.ab, left.ba, left.bb];
@@ -148,19 +208,13 @@ impl CoupledRopes {
                     system.force[a] += left.force_a;
                     system.force[b] += left.force_b;
                 }
-                _ => join(system, at, left),
+                _ => join(system, ends.map(|end| end.at(attachments)), left),
             }
         }
         self.add_couplings(attachments);
-        let Self { system, spans, .. } = self;
-        system.solve();
-        for Span { nodes, segments, ends, .. } in &*spans {
-            let [a, b] = ends.map(|end| end.at(attachments));
-            let [step_a, step_b] = [a, b].map(|(at, arm)| system.step_of(at, arm));
-            rope.substitute(nodes, segments, a.0 != Attachment::Fixed, step_a, step_b);
-        }
+        self.system.solve();
         let blocks = interface.blocks();
-        interface.step.copy_from_slice(&system.step[..blocks]);
+        interface.step.copy_from_slice(&self.system.step[..blocks]);
     }
 
     /// Adds the pairs of nodes that no coupling of this step had before.
@@ -205,6 +259,7 @@ impl CoupledRopes {
         self.touched.clear();
         let nodes = self.pairs.iter().flat_map(|[a, b]| [*a, a + 1, *b, b + 1]);
         self.touched.extend(nodes);
+        self.touched.extend_from_slice(&self.cuts);
         self.touched.sort_unstable();
         self.touched.dedup();
         self.touched.retain(|node| {
@@ -319,8 +374,10 @@ mod tests {
         .into_iter()
         .zip([1e3, 1e4, 1e5, 1e6, 1e7])
         .map(|(nodes, size)| {
+            let line = |node| model.line_nodes.partition_point(|nodes| nodes.end <= node);
+            let segments = nodes.map(|node| node - line(node));
             let block = DMat3::from_cols_array(&[3.0, 0.2, -0.4, 0.9, 2.0, 0.1, -0.3, 0.5, 1.0]);
-            ContactBlock { nodes, fractions: [0.3, 0.8], block: block * size }
+            ContactBlock { segments, nodes, fractions: [0.3, 0.8], block: block * size }
         })
         .collect()
     }

@@ -12,7 +12,8 @@
 //! Rope is held in one of two forms. *Lines*: one block-tridiagonal matrix for each line (`block_tridiagonal.rs`).
 //! *Lanes*: pieces of lines side by side in the lanes of the processor (`lanes`), which evaluate the force laws of rope as well.
 //! Both eliminate each line down to its two ends, which join the interface system of free joints and bodies (`interface.rs`).
-//! Couplings of rope on rope cut the lines at the touched nodes, which join that system (`coupled.rs`); both are sparse (`sparse.rs`).
+//! Couplings of rope on rope cut the lines at the touched nodes (`coupled.rs`, `lanes/kept.rs`), which join that system; both are
+//! sparse (`sparse.rs`).
 //! Cost is linear in the number of nodes; no ratio of stiffness or mass limits the step.
 
 pub(crate) mod block_tridiagonal;
@@ -117,6 +118,7 @@ impl LinearSystem {
     pub fn clear_contact(&mut self) {
         if self.in_lanes {
             self.lanes.clear_contact();
+            self.ropes.couplings.clear();
         }
     }
 
@@ -156,7 +158,6 @@ impl LinearSystem {
     /// Adds a force on the first of two places on rope, its reaction on the second, and the block between them.
     /// Returns whether there was room: at most 400 places are coupled at a time.
     pub fn couple_ropes(&mut self, coupling: ContactBlock, force: DVec3) -> bool {
-        debug_assert!(!self.in_lanes, "ropes are coupled as lines");
         debug_assert!(
             coupling.fractions.into_iter().all(is_fraction),
             "fractions {:?} of segments",
@@ -167,6 +168,10 @@ impl LinearSystem {
         }
         for (k, sign) in [(0, 1.0), (1, -1.0)] {
             let (node, fraction) = (coupling.nodes[k], coupling.fractions[k]);
+            if self.in_lanes {
+                self.lanes.add_force(coupling.segments[k], fraction, force * sign);
+                continue;
+            }
             self.rope.force[node] += force * (sign * (1.0 - fraction));
             self.rope.force[node + 1] += force * (sign * fraction);
         }
@@ -191,6 +196,11 @@ impl LinearSystem {
         self.interface.add(two, two_arm, one, one_arm, -block);
     }
 
+    /// Whether rope presses on rope in the system as assembled.
+    pub fn ropes_are_coupled(&self) -> bool {
+        !self.ropes.couplings.is_empty()
+    }
+
     /// Solves the assembled system with rope as lines; the moves are in `rope.step` and `interface.step`.
     pub fn solve(&mut self, model: &Model, plan: &Plan, trial: &Trial) {
         self.solve_changed(model, plan, trial, None);
@@ -205,17 +215,15 @@ impl LinearSystem {
         trial: &Trial,
         changed: Option<&[bool]>,
     ) {
-        self.attachments.clear();
-        self.attachments.extend(
-            plan.attachments.iter().map(|attachment| (*attachment, trial.arm(*attachment))),
-        );
+        self.take_attachments(plan, trial);
         #[cfg(test)]
         if self.method == tests::Method::Dense {
             return self.solve_densely(model);
         }
-        let Self { rope, interface, attachments, .. } = self;
-        if !self.ropes.couplings.is_empty() {
-            return self.ropes.solve(model, rope, interface, attachments, changed);
+        let coupled = self.ropes_are_coupled();
+        let Self { rope, interface, attachments, ropes, .. } = self;
+        if coupled {
+            return ropes.solve(model, rope, interface, attachments, changed);
         }
         for (index, line) in model.spec.lines.iter().enumerate() {
             let ends = [attachments[line.from], attachments[line.to]];
@@ -232,7 +240,15 @@ impl LinearSystem {
         }
     }
 
-    /// Evaluates forces and eliminates rope as lanes; the ends of lines join the interface system.
+    fn take_attachments(&mut self, plan: &Plan, trial: &Trial) {
+        self.attachments.clear();
+        self.attachments.extend(
+            plan.attachments.iter().map(|attachment| (*attachment, trial.arm(*attachment))),
+        );
+    }
+
+    /// Evaluates forces and eliminates rope as lanes. The ends of lines join the interface system; if ropes are coupled, the ends of spans
+    /// join that of the couplings when it is solved.
     pub fn eliminate_lanes(
         &mut self,
         model: &Model,
@@ -240,6 +256,14 @@ impl LinearSystem {
         trial: &Trial,
         shared: &Shared<f64>,
     ) {
+        if self.ropes_are_coupled() {
+            self.take_attachments(plan, trial);
+            let Self { ropes, lanes, interface, attachments, .. } = self;
+            ropes.prepare(model, interface, attachments, lanes.cuts());
+            lanes.keep_nodes(ropes.touched());
+            return lanes.reduce(shared);
+        }
+        self.lanes.keep_nodes(&[]);
         self.lanes.reduce(shared);
         for (index, line) in model.spec.lines.iter().enumerate() {
             let ends = [line.from, line.to].map(|joint| {
@@ -253,6 +277,10 @@ impl LinearSystem {
 
     /// Solves the interface system and moves the ends of lines by its solution, with rope as lanes.
     pub fn solve_lanes(&mut self, model: &Model, plan: &Plan, trial: &Trial) {
+        if self.ropes_are_coupled() {
+            let Self { ropes, lanes, interface, attachments, .. } = self;
+            return ropes.solve_lanes(lanes, interface, attachments);
+        }
         self.interface.solve();
         for (index, line) in model.spec.lines.iter().enumerate() {
             let [a, b] = [line.from, line.to].map(|joint| plan.attachments[joint]);

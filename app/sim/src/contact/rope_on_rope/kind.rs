@@ -100,6 +100,10 @@ impl ContactKind for RopeOnRope {
         self.touching
     }
 
+    fn adds_on_rope(&self) -> bool {
+        self.touching
+    }
+
     fn checks_path_of_rope(&self) -> bool {
         !self.pairs.is_empty()
     }
@@ -140,7 +144,7 @@ impl ContactKind for RopeOnRope {
         assembly: &Assembly<'_>,
         system: &mut LinearSystem,
     ) {
-        if order != Order::First || system.in_lanes() {
+        if order != Order::First || (system.in_lanes() && !self.touching) {
             return;
         }
         self.crowded = None;
@@ -160,8 +164,12 @@ impl ContactKind for RopeOnRope {
                     .map_or((DVec3::ZERO, DMat3::ZERO), |touch| (touch.force(), touch.block()));
                 point.normal = touch.as_ref().map_or(DVec3::ZERO, |touch| touch.normal);
                 if let Some(touch) = touch {
-                    let (nodes, fractions) = (pair.nodes, touch.fractions);
-                    let coupling = ContactBlock { nodes, fractions, block: touch.block() };
+                    let coupling = ContactBlock {
+                        segments: pair.segments,
+                        nodes: pair.nodes,
+                        fractions: touch.fractions,
+                        block: touch.block(),
+                    };
                     if !system.couple_ropes(coupling, touch.force()) {
                         self.crowded = Some(pair.segments);
                         break;
@@ -172,12 +180,16 @@ impl ContactKind for RopeOnRope {
         (self.pairs, self.opened) = (pairs, opened);
     }
 
-    fn store_solution(&mut self, _: &Trial, solution: &Solution<'_>) {
-        let Solution::Step { system, .. } = solution else { return };
-        let step = &system.rope.step;
+    fn store_solution(&mut self, trial: &Trial, solution: &Solution<'_>) {
+        let step = |node: usize| match *solution {
+            Solution::Step { system, .. } => system.rope.step[node],
+            Solution::Moved { rope: before, share, .. } => {
+                (trial.place[node] - before[node]) / share
+            }
+        };
         for index in &self.opened {
             let pair = &mut self.pairs[*index];
-            let [one, other] = pair.nodes.map(|node| [step[node], step[node + 1]]);
+            let [one, other] = pair.nodes.map(|node| [step(node), step(node + 1)]);
             for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
                 let (moved, _) = between(one, other, point.fractions);
                 point.solved = point.force - point.block * moved;
@@ -243,7 +255,7 @@ impl ContactKind for RopeOnRope {
         let Accepted { scheme, trial, in_lanes, .. } = *accepted;
         let mut grips = std::mem::take(&mut state.rope.rope_grips);
         grips.clear();
-        if !scheme.is_static() && !in_lanes {
+        if !scheme.is_static() && (self.touching || !in_lanes) {
             self.each_touch(state, trial, |pair, point, touch| {
                 let forgiven_m = still_forgiven_m(trial, pair, point);
                 if let Some(touch) = touch {
@@ -257,7 +269,7 @@ impl ContactKind for RopeOnRope {
     }
 
     fn source_forces(&self, sources: &mut SourceForces<'_>) {
-        if sources.system.in_lanes() {
+        if !self.touching && sources.system.in_lanes() {
             return;
         }
         let (trial, rate) = (sources.trial, sources.context.scheme.rate);

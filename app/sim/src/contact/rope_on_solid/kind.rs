@@ -178,7 +178,7 @@ impl ContactKind for RopeOnSolid {
                     point.on_rope(|node| system.rope.step[node]) * share,
                     step_on((plan, trial, system), solid, point) * share,
                 ),
-                Solution::Moved { rope: before, bodies } => {
+                Solution::Moved { rope: before, bodies, .. } => {
                     let rope = point.on_rope(|node| trial.place[node] - before[node]);
                     let relative = match solid.carrier.body() {
                         None => rope,

@@ -271,6 +271,17 @@ impl Lanes {
         self.touches.fill(false);
     }
 
+    /// Adds a force at a fraction of a segment.
+    pub fn add_force(&mut self, segment: usize, fraction: f64, force: DVec3) {
+        let piece = &self.pieces[self.piece_of[segment]];
+        let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
+        for (row, share) in [(row, 1.0 - fraction), (row + 1, fraction)] {
+            self.contact[row].force.add(piece.lane, force * share);
+            self.contact_rows.push(row);
+        }
+        self.touches[piece.group] = true;
+    }
+
     /// Adds a force and its block `-dF/dx` at a fraction of a segment.
     pub fn add_contact(&mut self, segment: usize, fraction: f64, force: DVec3, block: &DMat3) {
         debug_assert_eq!(self.contact.len(), self.nodes.len(), "contact in the layout of nodes");

@@ -2,10 +2,11 @@
 //!
 //! Lines are cut into pieces (`layout.rs`) that are evaluated side by side (`sweep`), each reduced to its ends.
 //! Rope is copied in and out by `exchange.rs`. The ends of the pieces of a line form a short chain (`block_tridiagonal.rs`), and the ends
-//! of the line join the interface system. The force laws are those of `forces/laws.rs`; eight lanes give the bits of eight single
-//! evaluations.
+//! of the line join the interface system. Where other rope presses, nodes are kept as unknowns (`kept.rs`). The force laws are those of
+//! `forces/laws.rs`; eight lanes give the bits of eight single evaluations.
 
 mod exchange;
+mod kept;
 mod layout;
 pub(crate) mod real;
 mod rows;
@@ -18,6 +19,7 @@ use pulp::Arch;
 use crate::forces::laws::{PerMetre, Shared};
 use crate::model::Model;
 use crate::system::block_tridiagonal::{BlockTridiagonal, Ends};
+use kept::Kept;
 use layout::{Group, Piece};
 use rows::{
     ContactRow, EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, SegmentRow, Solved,
@@ -41,6 +43,10 @@ pub(crate) struct Lanes {
     contact: Vec<ContactRow>,
     contact_rows: Vec<usize>,
     touches: Vec<bool>,
+    /// Nodes on which other rope presses.
+    kept: Kept,
+    /// Tension of each row of segments before the first solution of an iteration.
+    tension: Vec<Row>,
     /// Piece of each segment.
     piece_of: Vec<usize>,
     ropes: Vec<PerMetre<Row>>,
@@ -93,6 +99,8 @@ impl Lanes {
             contact: Vec::new(),
             contact_rows: Vec::new(),
             touches: vec![false; groups.len()],
+            kept: Kept::new(pieces.len(), &groups),
+            tension: Vec::new(),
             piece_of: pieces
                 .iter()
                 .enumerate()
@@ -120,7 +128,7 @@ impl Lanes {
         model.sea.field().is_none()
     }
 
-    /// Forces, matrix and elimination of every piece, and of the chains of their ends.
+    /// Forces, matrix and elimination of every piece, and of the chains of their ends if no node is kept.
     pub fn reduce(&mut self, shared: &Shared<f64>) {
         for (index, group) in self.groups.iter().enumerate() {
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
@@ -136,12 +144,16 @@ impl Lanes {
                 shared,
             );
             let ends = &mut self.ends[index];
-            if self.touches[index] {
+            if self.touches[index] || self.kept.is_in(index) {
                 let contact = &self.contact[group.node_row..];
-                self.arch.dispatch(ForwardContact(rows, contact, ends));
+                let kept = self.kept.rows_of(index, group);
+                self.arch.dispatch(ForwardContact { rows, contact, kept, ends });
             } else {
                 self.arch.dispatch(Forward(rows, ends));
             }
+        }
+        if !self.kept.is_empty() {
+            return;
         }
         self.chain.clear();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -167,6 +179,70 @@ impl Lanes {
         self.chain.substitute(&chain_nodes(line, &pieces), &pieces, a_moves, step_a, step_b);
     }
 
+    /// Stores the tensions before an iteration.
+    pub fn store_tension(&mut self) {
+        self.tension.clear();
+        self.tension.extend(self.segments.iter().map(|row| row.tension));
+    }
+
+    /// Restores the tensions from before the iteration, but in segments that are taut now and were slack then, or the reverse.
+    pub fn restore_tension(&mut self) {
+        for (row, before) in self.segments.iter_mut().zip(&self.tension) {
+            for (now, before) in row.tension.0.iter_mut().zip(before.0) {
+                if (*now > 0.0) == (before > 0.0) {
+                    *now = before;
+                }
+            }
+        }
+    }
+
+    /// Keeps these nodes as unknowns, in rising order and inside lines, and no others.
+    pub fn keep_nodes(&mut self, nodes: &[usize]) {
+        self.kept.set(nodes, &self.pieces, &self.groups);
+    }
+
+    /// Nodes where two pieces meet, in rising order.
+    pub fn cuts(&self) -> impl Iterator<Item = usize> + Clone {
+        self.pieces.iter().filter(|piece| piece.follows).map(|piece| piece.first_node)
+    }
+
+    /// Matrix and force of a span, which ends at a kept node or at the end of a piece; `last_segment` is the last of the span.
+    pub fn span_ends(&self, last_segment: usize) -> Ends {
+        let piece = &self.pieces[self.piece_of[last_segment]];
+        let (group, k) = (&self.groups[piece.group], last_segment + 1 - piece.first_segment);
+        let ends = if k == piece.segments {
+            &self.ends[piece.group]
+        } else {
+            &self.kept.row(group, k).ends
+        };
+        Ends {
+            aa: ends.aa.matrix(piece.lane),
+            ab: ends.ab.matrix(piece.lane),
+            ba: ends.ba.matrix(piece.lane),
+            bb: ends.bb.matrix(piece.lane),
+            force_a: ends.force_a.vector(piece.lane),
+            force_b: ends.force_b.vector(piece.lane),
+        }
+    }
+
+    /// Sets the moves of the ends of a span of these segments.
+    pub fn move_span(&mut self, segments: &core::ops::Range<usize>, [step_a, step_b]: [DVec3; 2]) {
+        let index = self.piece_of[segments.end - 1];
+        let piece = &self.pieces[index];
+        let (node, k) = (index + piece.line, segments.end - piece.first_segment);
+        debug_assert!(segments.start >= piece.first_segment, "a span is part of one piece");
+        if segments.start == piece.first_segment {
+            self.chain.step[node] = step_a;
+        }
+        if k == piece.segments {
+            self.chain.step[node + 1] = step_b;
+            self.kept.set_last(index, step_a);
+        } else {
+            let group = &self.groups[piece.group];
+            self.kept.move_row((group, piece.lane), k, [step_a, step_b]);
+        }
+    }
+
     /// Moves every node by a share of the solved step and predicts tensions.
     pub fn advance(&mut self, shared: &Shared<f64>, share: f64) -> RopeMoved {
         let mut moved = RopeMoved { finite: true, ..RopeMoved::default() };
@@ -174,7 +250,9 @@ impl Lanes {
             let mut ends = [Row3::default(); 2];
             for (lane, piece) in group.pieces.iter().enumerate() {
                 let node = piece + self.pieces[*piece].line;
-                ends[0].set(lane, self.chain.step[node]);
+                let is_whole = self.kept.is_empty();
+                let step_a = if is_whole { self.chain.step[node] } else { self.kept.last(*piece) };
+                ends[0].set(lane, step_a);
                 ends[1].set(lane, self.chain.step[node + 1]);
             }
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
@@ -190,7 +268,8 @@ impl Lanes {
                 shared,
             );
             let moves = &mut self.moves[index];
-            self.arch.dispatch(Backward { group: rows, ends: &ends, share, moves });
+            let kept = self.kept.rows_of(index, group);
+            self.arch.dispatch(Backward { group: rows, kept, ends: &ends, share, moves });
             for lane in 0..group.used {
                 let moves = &self.moves[index];
                 moved.longest_m = moved.longest_m.max(moves.longest.0[lane]);

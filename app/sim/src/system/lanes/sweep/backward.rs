@@ -2,6 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::system::lanes::kept::{KeptRow, KeptRows};
 use crate::system::lanes::real::{Lane, Real};
 use crate::system::lanes::rows::{MoveRows, NodeRow, Part, Row3, SegmentRow, Solved};
 use crate::system::lanes::space::Vec3;
@@ -10,6 +11,7 @@ use crate::system::lanes::sweep::GroupRows;
 /// Backward sweep from the moves of the ends A and B.
 pub(crate) struct Backward<'a> {
     pub group: GroupRows<'a>,
+    pub kept: KeptRows<'a>,
     /// Moves of the ends A and B.
     pub ends: &'a [Row3; 2],
     /// Share of the solved step that is made.
@@ -24,10 +26,11 @@ impl WithSimd for Backward<'_> {
         for part in 0..Part::<S>::COUNT {
             let part = Part { simd, part };
             let share = Lane::new(simd, self.share);
-            if self.group.anchored {
-                backward::<S, false>(part, &mut self.group, self.ends, share, self.moves);
+            let Self { group, kept, ends, moves, .. } = &mut self;
+            if group.anchored && kept.is_empty() {
+                backward::<S, false>(part, (group, kept), ends, share, moves);
             } else {
-                backward::<S, true>(part, &mut self.group, self.ends, share, self.moves);
+                backward::<S, true>(part, (group, kept), ends, share, moves);
             }
         }
     }
@@ -47,13 +50,13 @@ struct Moved<R> {
 #[inline(always)]
 fn backward<S: Simd, const FILL: bool>(
     part: Part<S>,
-    group: &mut GroupRows<'_>,
+    (group, kept): (&mut GroupRows<'_>, &mut KeptRows<'_>),
     ends: &[Row3; 2],
     share: Lane<S>,
     moves: &mut MoveRows,
 ) {
     let zero = Lane::new(part.simd, 0.0);
-    let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
+    let (mut step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
     let mut moved = Moved {
         longest: zero,
         gap: zero,
@@ -68,6 +71,8 @@ fn backward<S: Simd, const FILL: bool>(
         let live = part.get(&group.live[k - group.shortest]);
         let step =
             Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
+        let (step, begin) = kept_step(part, kept.get(k), step, step_a);
+        step_a = begin;
         // A lane whose piece ends before: its last node is moved by its end's own row.
         move_node(part, &mut group.nodes[k + 2], next.scale(share));
         moved = predict(
@@ -81,6 +86,8 @@ fn backward<S: Simd, const FILL: bool>(
     }
     for k in (1..group.shortest).rev() {
         let step = inner_step::<S, FILL>(part, &group.solved[k], step_a, next);
+        let (step, begin) = kept_step(part, kept.get(k), step, step_a);
+        step_a = begin;
         move_node(part, &mut group.nodes[k + 2], next.scale(share));
         moved = predict(
             part,
@@ -123,6 +130,22 @@ fn inner_step<S: Simd, const FILL: bool>(
         g
     };
     own.plus(x.x, next.x).plus(x.y, next.y).plus(x.z, next.z)
+}
+
+/// Move of a node, given in lanes in which it is kept, and that of the first node of its span, from there on of the span before.
+#[inline(always)]
+fn kept_step<S: Simd>(
+    part: Part<S>,
+    kept: Option<&mut KeptRow>,
+    step: Vec3<Lane<S>>,
+    step_a: Vec3<Lane<S>>,
+) -> (Vec3<Lane<S>>, Vec3<Lane<S>>) {
+    let Some(kept) = kept else { return (step, step_a) };
+    let mask = part.get(&kept.mask);
+    (
+        Vec3::choose(mask, part.get3(&kept.step), step),
+        Vec3::choose(mask, part.get3(&kept.before), step_a),
+    )
 }
 
 #[inline(always)]

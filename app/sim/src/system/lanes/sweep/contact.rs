@@ -7,24 +7,32 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::system::lanes::real::Lane;
+use crate::system::lanes::kept::{KeptRow, KeptRows};
+use crate::system::lanes::real::{Lane, Real};
 use crate::system::lanes::rows::{ContactRow, EndRows, Part, Solved};
-use crate::system::lanes::space::{Mat3, Vec3};
+use crate::system::lanes::space::{Mat3, Sym3, Vec3};
 use crate::system::lanes::sweep::GroupRows;
 use crate::system::lanes::sweep::forward::{Inputs, keep_pull};
 
 /// Forward sweep with contact rows in the layout of the nodes.
-pub(crate) struct ForwardContact<'a>(pub GroupRows<'a>, pub &'a [ContactRow], pub &'a mut EndRows);
+pub(crate) struct ForwardContact<'a> {
+    pub rows: GroupRows<'a>,
+    pub contact: &'a [ContactRow],
+    pub kept: KeptRows<'a>,
+    pub ends: &'a mut EndRows,
+}
 
 impl WithSimd for ForwardContact<'_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
+        let Self { rows, contact, kept, ends } = &mut self;
         for part in 0..Part::<S>::COUNT {
-            if self.0.anchored {
-                forward::<S, false>(Part { simd, part }, &mut self.0, self.1, self.2);
+            let part = Part { simd, part };
+            if rows.anchored && kept.is_empty() {
+                forward::<S, false>(part, rows, contact, kept, ends);
             } else {
-                forward::<S, true>(Part { simd, part }, &mut self.0, self.1, self.2);
+                forward::<S, true>(part, rows, contact, kept, ends);
             }
         }
     }
@@ -46,26 +54,26 @@ fn forward<S: Simd, const FILL: bool>(
     part: Part<S>,
     group: &mut GroupRows<'_>,
     contact: &[ContactRow],
+    kept: &mut KeptRows<'_>,
     ends: &mut EndRows,
 ) {
     let (inputs, solved, (shortest, live)) = Inputs::of(part, group);
     let mut carry = begin(&inputs, contact, &mut solved[0]);
     let (first, rest) = solved.split_at_mut(shortest);
     for (k, solved) in first.iter_mut().enumerate().skip(1) {
-        carry = onward::<S, FILL>(&inputs, contact, k, carry, solved);
+        carry = onward::<S, FILL>(&inputs, contact, kept.get(k), (k, carry), solved);
     }
     for (k, (live, solved)) in (shortest..).zip(live.iter().zip(rest)) {
         let live = part.get(live);
-        let next = onward::<S, FILL>(&inputs, contact, k, carry, solved);
-        carry = Carry {
-            block: Mat3::choose(live, next.block, carry.block),
-            force: Vec3::choose(live, next.force, carry.force),
-            fill: Mat3::choose(live, next.fill, carry.fill),
-            back: Mat3::choose(live, next.back, carry.back),
-            aa: Mat3::choose(live, next.aa, carry.aa),
-            force_a: Vec3::choose(live, next.force_a, carry.force_a),
-        };
+        let next = onward::<S, FILL>(&inputs, contact, kept.get(k), (k, carry), solved);
+        carry = choose(live, &next, &carry);
     }
+    put_ends(part, ends, &carry);
+}
+
+/// Stores what a span leaves, at its end B.
+#[inline(always)]
+fn put_ends<S: Simd>(part: Part<S>, ends: &mut EndRows, carry: &Carry<Lane<S>>) {
     part.put9(&mut ends.aa, carry.aa);
     part.put9(&mut ends.ab, carry.back);
     part.put9(&mut ends.ba, carry.fill);
@@ -110,13 +118,13 @@ fn begin<S: Simd>(
     }
 }
 
-/// Eliminates node `k`; the carry for node `k + 1`.
+/// Eliminates node `k`, or ends a span there in lanes in which it is kept; the carry for node `k + 1`.
 #[inline(always)]
 fn onward<S: Simd, const FILL: bool>(
     inputs: &Inputs<'_, S>,
     contact: &[ContactRow],
-    k: usize,
-    carry: Carry<Lane<S>>,
+    kept: Option<&mut KeptRow>,
+    (k, carry): (usize, Carry<Lane<S>>),
     solved: &mut Solved,
 ) -> Carry<Lane<S>> {
     let part = inputs.part;
@@ -124,27 +132,46 @@ fn onward<S: Simd, const FILL: bool>(
     keep_pull(part, &pull, solved);
     let own = pull.block.matrix();
     let coupling = own.sub(part.get9(&contact[k + 1].coupling));
-    let inverse = carry.block.add(own).inverse();
+    let carry = Carry { block: carry.block.add(own), force: carry.force.add(pull.force), ..carry };
+    let inverse = carry.block.inverse();
     let x = inverse.times(coupling);
-    let g = inverse.apply(carry.force.add(pull.force));
+    let g = inverse.apply(carry.force);
     part.put9(&mut solved.x, x);
     part.put3(&mut solved.g, g);
     let (force, block) = node(inputs, contact, k + 1);
-    let onward = Carry {
-        block: block.add(own).sub(coupling.times(x)),
-        force: force.sub(pull.force).add(coupling.apply(g)),
-        ..carry
-    };
+    let (force, block) = (force.sub(pull.force), block.add(own));
+    let onward =
+        Carry { block: block.sub(coupling.times(x)), force: force.add(coupling.apply(g)), ..carry };
     if !FILL {
         return onward;
     }
     let w = inverse.times(carry.fill);
     part.put9(&mut solved.w, w);
-    Carry {
+    let onward = Carry {
         fill: coupling.times(w),
         back: carry.back.times(x),
         aa: carry.aa.sub(carry.back.times(w)),
         force_a: carry.force_a.sub(carry.back.apply(g)),
         ..onward
+    };
+    let Some(kept) = kept else { return onward };
+    put_ends(part, &mut kept.ends, &carry);
+    let zero = Sym3::diagonal(inputs.shared.rate.splat(0.0)).matrix();
+    let coupled = zero.sub(coupling);
+    let begun =
+        Carry { block, force, fill: coupled, back: coupled, aa: zero, force_a: force.sub(force) };
+    choose(part.get(&kept.mask), &begun, &onward)
+}
+
+/// `yes` in lanes in which `of` is above zero, else `no`.
+#[inline(always)]
+fn choose<S: Simd>(of: Lane<S>, yes: &Carry<Lane<S>>, no: &Carry<Lane<S>>) -> Carry<Lane<S>> {
+    Carry {
+        block: Mat3::choose(of, yes.block, no.block),
+        force: Vec3::choose(of, yes.force, no.force),
+        fill: Mat3::choose(of, yes.fill, no.fill),
+        back: Mat3::choose(of, yes.back, no.back),
+        aa: Mat3::choose(of, yes.aa, no.aa),
+        force_a: Vec3::choose(of, yes.force_a, no.force_a),
     }
 }

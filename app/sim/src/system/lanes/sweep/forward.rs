@@ -44,7 +44,7 @@ pub(crate) struct Inputs<'a, S: Simd> {
     ground: &'a [GroundRow],
     bends: bool,
     rope: PerMetre<Lane<S>>,
-    shared: Shared<Lane<S>>,
+    pub shared: Shared<Lane<S>>,
 }
 
 /// Inputs of a part of a group, the place for its solution, and the node from which each lane is active.

@@ -3,6 +3,7 @@
 //! Forward, node `k` is met with its block `D`, force `f` and its coupling `F` to the piece's end A:
 //! `step_k = g - W step_A + X step_(k+1)` with `X = D⁻¹B`, `g = D⁻¹f`, `W = D⁻¹F` and `B` the block of segment `k`;
 //! node `k + 1` then has `D' = D - B X`, `f' = f + B g`, `F' = B W`. What is left couples the piece's ends (`rows::EndRows`).
+//! At a kept node, on which other rope presses, a span ends in this way and the next begins (`kept.rs`).
 //! Here all is symmetric; rope that touches skin, obstacles or bodies, whose blocks are not, has a sweep of its own (`contact.rs`).
 
 mod backward;
