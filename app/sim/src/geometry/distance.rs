@@ -188,6 +188,12 @@ impl Plane {
         if from * to > 0.0 { from.abs().min(to.abs()) } else { 0.0 }
     }
 
+    /// Whether a segment stays on one side of the plane, at this distance from it or more.
+    pub fn is_beyond(&self, segment: [DVec3; 2], most: f64) -> bool {
+        let [from, to] = segment.map(|end| self.height(end));
+        (from >= most && to >= most) || (from <= -most && to <= -most)
+    }
+
     /// Height over the plane and barycentric place of the foot.
     fn place(&self, point: DVec3) -> (f64, [f64; 3]) {
         let from = point - self.corner;

@@ -77,6 +77,24 @@ impl Placed {
         point_triangle_in(self.plane.as_ref(), point, self.now, most)
     }
 
+    /// Whether its ball or its plane shows that a segment is no nearer than `most`, which is above zero.
+    pub fn is_beyond(&self, segment: [DVec3; 2], most: f64) -> bool {
+        if self.plane.as_ref().is_some_and(|plane| plane.is_beyond(segment, most)) {
+            return true;
+        }
+        let [from, to] = segment;
+        let (along, centre) = (to - from, self.ball.centre - from);
+        let (square, ahead) = (along.length_squared(), centre.dot(along));
+        let reach = most + self.ball.radius;
+        if ahead <= 0.0 {
+            centre.length_squared() >= reach * reach
+        } else if ahead >= square {
+            (centre - along).length_squared() >= reach * reach
+        } else {
+            (centre.length_squared() - reach * reach) * square >= ahead * ahead
+        }
+    }
+
     /// No more than a segment's distance from it, below zero where that bounds nothing [m].
     pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
         let [from, to] = segment;

@@ -19,18 +19,13 @@ use crate::model::Model;
 /// Greatest `1 - cos D` of a turn that is corrected for, a right angle; rope that turns more follows nothing that it touches.
 const MOST_TURN: f64 = 1.0;
 
-/// Factor on the coefficient of friction of a segment that is pressed at a share of its length.
-pub(crate) fn friction_factor(
-    model: &Model,
-    places: &[DVec3],
-    (segment, node): (usize, usize),
-    fraction: f64,
-) -> f64 {
-    1.0 + (fraction * (1.0 - fraction) - 1.0 / 12.0) * bend(model, places, segment, node)
+/// Factor on the coefficient of friction of a segment that is pressed at a share of its length, with its [`bend`].
+pub(crate) fn friction_factor(bend: f64, fraction: f64) -> f64 {
+    1.0 + (fraction * (1.0 - fraction) - 1.0 / 12.0) * bend
 }
 
 /// Mean of `B` at the two ends of a segment.
-fn bend(model: &Model, places: &[DVec3], segment: usize, node: usize) -> f64 {
+pub(crate) fn bend(model: &Model, places: &[DVec3], segment: usize, node: usize) -> f64 {
     let nodes = &model.line_nodes[model.segment_line[segment]];
     let along = |from: usize| (places[from + 1] - places[from]).normalize_or_zero();
     let here = along(node);

@@ -49,15 +49,12 @@ impl ContactKind for RopeOnSkin {
             let StepContext { model, state, .. } = *context;
             self.near.follow(&state.rope.position, &trial.place);
             self.open_active_points(model, state, &trial.place);
+            self.is_measured = true;
         }
     }
 
-    fn open_more(&mut self, context: &StepContext<'_>, trial: &Trial) -> bool {
-        let opened = self.touching && self.points.open_more(&self.near, &trial.place) > 0;
-        if opened {
-            self.points.begin(context.model, &context.state.rope.position);
-        }
-        opened
+    fn open_more(&mut self, _: &StepContext<'_>, trial: &Trial) -> bool {
+        self.touching && self.points.open_more(&self.near, &trial.place) > 0
     }
 
     fn measure(
@@ -71,8 +68,10 @@ impl ContactKind for RopeOnSkin {
         }
         let StepContext { model, state, scheme } = *context;
         cost.enter(CostPart::Detection);
-        self.near.follow(&state.rope.position, &trial.place);
-        self.points.measure(&self.near, &trial.place);
+        if !std::mem::take(&mut self.is_measured) {
+            self.near.follow(&state.rope.position, &trial.place);
+            self.points.measure(&self.near, &trial.place);
+        }
         cost.enter(CostPart::Contact);
         if let Some(parts) = self.nearer_than(CRUSHED_SHARE) {
             return Err(ContactFailure::refused(
@@ -88,6 +87,7 @@ impl ContactKind for RopeOnSkin {
     }
 
     fn begin_iteration(&mut self, trial: &Trial) {
+        self.is_measured = false;
         if self.touching {
             self.before.clone_from(&trial.place);
             self.store_blocks();

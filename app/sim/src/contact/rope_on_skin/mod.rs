@@ -3,6 +3,7 @@
 mod crease;
 mod kind;
 pub(crate) mod near;
+mod pieces;
 pub(crate) mod points;
 pub(crate) mod skin_friction;
 pub mod step_sums;
@@ -35,6 +36,10 @@ pub(crate) struct RopeOnSkin {
     friction: Touching,
     /// Whether rope may touch skin in this solver step.
     pub touching: bool,
+    /// Whether all contact points have been measured at the trial, which has not moved since.
+    is_measured: bool,
+    /// Force of each contact point by the last solution less the force at the trial [N].
+    missed: Vec<DVec3>,
     /// Places where contact was measured last.
     before: Vec<DVec3>,
     /// Places of rope by its velocities.
@@ -52,6 +57,8 @@ impl RopeOnSkin {
             near: Near::new(model, tree),
             points: SkinContactPoints::default(),
             touching: false,
+            is_measured: false,
+            missed: Vec::new(),
             before: Vec::new(),
             target: Vec::new(),
             greatest_contact_distance: model
@@ -139,26 +146,26 @@ impl RopeOnSkin {
 
     /// After a solution: push and friction of every contact point by it.
     fn store_solved(&mut self, places: &[DVec3]) {
-        let Self { points, friction: touching, before, .. } = self;
-        points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
+        let Self { points, friction: touching, before, missed, .. } = self;
+        missed.clear();
+        missed.resize(points.list.len(), DVec3::ZERO);
         for (place, contact) in touching.faces.iter().enumerate() {
-            let point = &mut points.list[contact.point];
-            let step = point.on_rope(|node| places[node] - before[node]);
-            point.missed += touching.arrays.force_of(place) - touching.block[place] * step;
+            let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
+            missed[contact.point] += touching.arrays.force_of(place) - touching.block[place] * step;
             points.note_solved(contact.point, contact.face, step);
         }
     }
 
     /// Difference between the forces of the last solution and those evaluated last.
     fn solution_error(&mut self) -> ContactError {
-        let Self { points, friction: touching, .. } = self;
+        let Self { friction: touching, missed, .. } = self;
         let mut greatest = 0.0_f64;
         for (place, contact) in touching.faces.iter().enumerate() {
             let force = touching.arrays.force_of(place);
-            points.list[contact.point].missed -= force;
+            missed[contact.point] -= force;
             greatest = greatest.max(force.length_squared());
         }
-        let gap = points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
+        let gap = missed.iter().map(|missed| missed.length_squared()).fold(0.0, f64::max);
         ContactError { gap_n: gap.sqrt(), greatest_n: greatest.sqrt() }
     }
 
@@ -169,10 +176,11 @@ impl RopeOnSkin {
         let lengths = &state.rope.segment_length;
         self.points.open(model, &self.near, lengths, stiffness, friction);
         self.points.measure(&self.near, places);
-        while self.points.open_more(&self.near, places) > 0 {
-            self.points.measure(&self.near, places);
+        let mut opened = self.points.open_more(&self.near, places);
+        while opened > 0 {
+            self.points.measure_opened(&self.near, places);
+            opened = self.points.open_more_beside_opened(&self.near, places);
         }
-        self.points.begin(model, &state.rope.position);
     }
 
     /// Whether rope has left the margin in which skin near it was gathered.

@@ -10,12 +10,11 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::contact::law::capstan_correction::friction_factor;
+use crate::contact::law::capstan_correction::{bend, friction_factor};
 use crate::contact::rope_on_skin::crease;
 use crate::contact::rope_on_skin::near::Near;
-use crate::contact::rope_on_skin::stored_faces::{
-    self, FACE_BITS, KeptFace, MOST_POINTS, PIECE_BITS, SEGMENT_BITS,
-};
+use crate::contact::rope_on_skin::pieces::Piece;
+use crate::contact::rope_on_skin::stored_faces::{self, KeptFace, PIECE_BITS, SEGMENT_BITS};
 use crate::contact::rope_on_skin::touch::Touch;
 use crate::geometry::placed::on_triangle;
 use crate::model::Model;
@@ -25,11 +24,8 @@ use crate::state::FrictionState;
 const PIECE_M: f64 = 0.025;
 /// Pieces a segment is cut into at least.
 const LEAST_PIECES: f64 = 2.0;
-/// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
-const NEARER: f64 = 0.8;
-const NEARER_BY: f64 = 0.1;
 /// Further contact points are searched for only within this many contact distances.
-const LOOK_WITHIN: f64 = 3.0;
+pub(crate) const LOOK_WITHIN: f64 = 3.0;
 /// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
 /// piece is looked at.
 const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
@@ -38,55 +34,47 @@ const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
 #[derive(Clone, Debug)]
 pub(crate) struct SkinContactPoint {
     /// Number that names it from step to step: segment, piece, which of the piece's contact points; that of its first face.
-    site: u64,
+    pub(super) site: u64,
     pub segment: usize,
     pub node: usize,
     pub fraction: f64,
     pub length: f64,
     /// Whether it is the middle of a knot, a ball whose surface faces every way.
     pub is_knot: bool,
-    segment_length: f64,
-    /// Its segment in `Near::groups`, and the pairs of that which may touch, in `Near::active`.
-    group: usize,
-    pairs: Range<usize>,
+    /// Its segment in `Near::groups`.
+    pub(super) group: usize,
     /// Contact distance: the rope's radius [m].
     pub contact_distance: f64,
-    stiffness: f64,
+    pub(super) stiffness: f64,
     /// Where it was last measured, and the distance found there.
-    seen: Option<(DVec3, f64)>,
-    /// The pair it was nearest to then.
-    nearest_pair: Option<usize>,
+    pub(super) seen: Option<(DVec3, f64)>,
+    /// The pair it was nearest to then, and the barycentric place on that.
+    pub(super) nearest: Option<(usize, [f64; 3])>,
     /// Greatest push on its piece of rope when it was opened beside other contact points [N].
-    push_beside_n: Option<f64>,
+    pub(super) push_beside_n: Option<f64>,
     /// Its touches, in `SkinContactPoints::touches`.
-    touches: Range<usize>,
-    /// Where the solver step began.
-    pub began: Began,
-    /// Force on it by the last solution less the force at the trial [N].
-    pub missed: DVec3,
-}
-
-/// A contact point where the solver step began.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Began {
-    /// Its place.
-    pub place: DVec3,
-    /// Its segment, end to end.
-    pub along: DVec3,
-    /// Factor on friction that corrects for the polygon (`law/capstan_correction.rs`).
-    pub friction_factor: f64,
+    pub(super) touches: Range<usize>,
+    /// The faces that it touched at the end of the last solver step, in `SkinContactPoints::kept`.
+    pub(super) kept: Range<usize>,
 }
 
 /// All contact points of a solver step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SkinContactPoints {
+    /// In rising order of site, each once.
     pub list: Vec<SkinContactPoint>,
+    /// The sub-segments of rope, in the same order, and the contact points of each in `list`.
+    pub(super) pieces: Vec<Piece>,
+    /// The pieces in which contact points were opened last, and these points.
+    pub(super) opened: Vec<(usize, SkinContactPoint)>,
     /// Their touches, point after point.
-    touches: Vec<Touch>,
+    pub(super) touches: Vec<Touch>,
     /// Touches of the evaluation before.
     touched: Vec<Touch>,
     /// Faces that were touched at the end of the last solver step, where passes set out from it.
-    kept: Vec<KeptFace>,
+    pub(super) kept: Vec<KeptFace>,
+    /// Bend of each segment where the solver step began, as `Near::groups`; `None` until it is asked for.
+    bends: Vec<Option<f64>>,
 }
 
 impl SkinContactPoints {
@@ -102,94 +90,53 @@ impl SkinContactPoints {
     ) {
         stored_faces::take(friction, &mut self.kept);
         self.list.clear();
+        self.pieces.clear();
+        self.bends.clear();
+        self.bends.resize(near.groups.len(), None);
+        let mut kept = 0..0;
         for (index, group) in near.groups.iter().enumerate() {
             if group.active.is_empty() {
                 continue;
             }
             let (segment, length) = (group.segment, segment_length[group.segment]);
             let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
-            let point = |piece: u64, fraction: f64, bears_m: f64| SkinContactPoint {
-                site: ((segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
-                segment,
-                node: group.node,
-                fraction,
-                length: bears_m,
-                is_knot: false,
-                segment_length: length,
-                group: index,
-                pairs: group.active.clone(),
-                contact_distance: group.radius,
-                stiffness: stiffness_n_m2 * bears_m,
-                seen: None,
-                nearest_pair: None,
-                push_beside_n: None,
-                touches: 0..0,
-                began: Began::default(),
-                missed: DVec3::ZERO,
-            };
-            for piece in 0..pieces as u64 {
-                self.list.push(point(piece, (piece as f64 + 0.5) / pieces, length / pieces));
-            }
-            for (knot, piece) in model.knots_of_segment(segment).iter().zip(pieces as u64..) {
-                self.list.push(SkinContactPoint {
-                    is_knot: true,
-                    contact_distance: knot.radius_m,
-                    ..point(piece, knot.fraction(length), 2.0 * knot.radius_m)
+            let knots = model.knots_of_segment(segment);
+            for piece in 0..pieces as usize + knots.len() {
+                let knot = piece.checked_sub(pieces as usize).map(|knot| &knots[knot]);
+                let (fraction, bears_m) = knot.map_or_else(
+                    || ((piece as f64 + 0.5) / pieces, length / pieces),
+                    |knot| (knot.fraction(length), 2.0 * knot.radius_m),
+                );
+                let site = ((segment as u64) << SEGMENT_BITS) | ((piece as u64) << PIECE_BITS);
+                kept = stored_faces::next_of_piece(&self.kept, kept.end, site);
+                let faces = &self.kept[kept.clone()];
+                let first = self.list.len();
+                let share = 0.5 * bears_m / length;
+                self.pieces.push(Piece {
+                    points: first..first + 1,
+                    between: [fraction - share, fraction + share],
+                    segment_length: length,
+                    beside: if faces.is_empty() { 0 } else { stored_faces::points_beside(faces) },
+                    looked: None,
                 });
-            }
-        }
-    }
-
-    /// Opens further contact points where a piece of rope is clearly nearer to skin than at those it has; how many.
-    pub fn open_more(&mut self, near: &Near, places: &[DVec3]) -> usize {
-        let count = self.list.len();
-        let mut from = 0;
-        while from < count {
-            let piece = self.list[from].site >> PIECE_BITS;
-            let to = (from..count)
-                .find(|index| self.list[*index].site >> PIECE_BITS != piece)
-                .unwrap_or(count);
-            let least = self.list[from..to]
-                .iter()
-                .map(|point| point.at_least(places))
-                .fold(f64::INFINITY, f64::min);
-            if self.list[from].is_knot || self.list[from].is_far(least, places) {
-                from = to;
-                continue;
-            }
-            // Else each step would first sink in where a point is missing that bears.
-            let most = if to - from <= stored_faces::points_beside(&self.kept, piece) {
-                least
-            } else {
-                (NEARER * least).min(least - NEARER_BY * self.list[from].contact_distance)
-            };
-            if to - from < MOST_POINTS
-                && let Some(fraction) = self.list[from].nearer_fraction(near, places, most)
-            {
-                let site = self.list[to - 1].site + (1 << FACE_BITS);
-                let beside = self.list[from..to].iter().flat_map(|point| self.touches(point));
-                let push_n = beside.map(|touch| touch.barrier.force).fold(0.0, f64::max);
                 self.list.push(SkinContactPoint {
                     site,
+                    segment,
+                    node: group.node,
                     fraction,
+                    length: bears_m,
+                    is_knot: knot.is_some(),
+                    group: index,
+                    contact_distance: knot.map_or(group.radius, |knot| knot.radius_m),
+                    stiffness: stiffness_n_m2 * bears_m,
                     seen: None,
-                    push_beside_n: Some(push_n),
+                    nearest: None,
+                    push_beside_n: None,
                     touches: 0..0,
-                    missed: DVec3::ZERO,
-                    ..self.list[from].clone()
+                    kept: kept.start..kept.start + stored_faces::of_point(faces, site).len(),
                 });
             }
-            from = to;
         }
-        let opened = self.list.len() - count;
-        if opened > 0 {
-            self.list.sort_unstable_by_key(|point| point.site);
-        }
-        debug_assert!(
-            self.list.windows(2).all(|two| two[0].site < two[1].site),
-            "contact points in rising order of site, each once"
-        );
-        opened
     }
 
     /// Evaluates every contact point at these places.
@@ -203,16 +150,24 @@ impl SkinContactPoints {
         }
     }
 
-    /// Notes where the contact points were when the solver step began, with the rope `from` there.
-    pub fn begin(&mut self, model: &Model, from: &[DVec3]) {
-        for point in &mut self.list {
-            let segment = (point.segment, point.node);
-            point.began = Began {
-                place: point.on_rope(|node| from[node]),
-                along: from[point.node + 1] - from[point.node],
-                friction_factor: friction_factor(model, from, segment, point.fraction),
-            };
+    /// Evaluates the contact points that were opened last, at the places at which all others have been evaluated.
+    pub fn measure_opened(&mut self, near: &Near, places: &[DVec3]) {
+        for (piece, _) in &self.opened {
+            // One was opened in each of these pieces, behind the others.
+            let point = &mut self.list[self.pieces[*piece].points.end - 1];
+            let first = self.touches.len();
+            point.measure(near, places, (&[], &self.kept), &mut self.touches);
+            point.touches = first..self.touches.len();
         }
+    }
+
+    /// Factor on the friction of a contact point that corrects for the polygon (`law/capstan_correction.rs`), with the rope `from` where the
+    /// solver step began.
+    pub fn friction_factor(&mut self, model: &Model, from: &[DVec3], point: usize) -> f64 {
+        let point = &self.list[point];
+        let bend = *self.bends[point.group]
+            .get_or_insert_with(|| bend(model, from, point.segment, point.node));
+        friction_factor(bend, point.fraction)
     }
 
     /// Notes the push that a solution found for a face of a contact point, which it moves by `step`.
@@ -268,15 +223,18 @@ impl SkinContactPoint {
         let within = (MEASURED_WITHIN.0 * self.contact_distance)
             .max(LOOK_WITHIN * self.contact_distance + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
-        if let Some((distance, pair)) = self.add_touches(near, place, within, touches) {
+        if let Some((distance, nearest)) = self.add_touches(near, place, within, touches) {
             self.seen = Some((place, distance));
-            self.nearest_pair = Some(pair);
+            self.nearest = Some(nearest);
+        }
+        if touches.len() == first {
+            return;
         }
         if !self.is_knot {
             let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
             touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
         }
-        stored_faces::assign(&mut touches[first..], kept, stored_faces::of_point(kept, self.site));
+        stored_faces::assign(&mut touches[first..], kept, self.kept.clone());
         for touch in &mut touches[first..] {
             let whole_n = touch
                 .solved_before(&touched[self.touches.clone()])
@@ -292,7 +250,7 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// Adds its touches; returns distance and pair of the nearest triangle within `most`. The nearest triangle of the last evaluation is
+    /// Adds its touches; returns distance, pair and barycentric place of the nearest triangle within `most`. The nearest triangle of the last evaluation is
     /// measured first: most others are then excluded by their bounds.
     fn add_touches(
         &self,
@@ -300,13 +258,14 @@ impl SkinContactPoint {
         place: DVec3,
         most: f64,
         touches: &mut Vec<Touch>,
-    ) -> Option<(f64, usize)> {
+    ) -> Option<(f64, (usize, [f64; 3]))> {
         let (first, mut nearest, mut nearest_place) = (touches.len(), None, 0);
         let mut least = most;
         let group = &near.groups[self.group];
-        let active = near.active[self.pairs.clone()].iter().copied();
-        let others = active.filter(|index| Some(*index) != self.nearest_pair);
-        for index in self.nearest_pair.into_iter().chain(others) {
+        let active = near.active[group.active.clone()].iter().copied();
+        let last = self.nearest.map(|(pair, _)| pair);
+        let others = active.filter(|index| Some(*index) != last);
+        for index in last.into_iter().chain(others) {
             let within = least.max(self.contact_distance);
             if near.bound(index, group) >= within {
                 continue;
@@ -317,7 +276,7 @@ impl SkinContactPoint {
             };
             if distance < least {
                 least = distance;
-                (nearest, nearest_place) = (Some((distance, index)), touches.len());
+                (nearest, nearest_place) = (Some((distance, (index, barycentric))), touches.len());
             }
             touches.extend(self.touch_of(near, place, distance, index, barycentric));
         }
@@ -350,38 +309,17 @@ impl SkinContactPoint {
             .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
     }
 
+    /// The way from the nearest place of skin to where it was last measured, zero if there is none.
+    pub(super) fn away(&self, near: &Near) -> DVec3 {
+        let (Some((seen, _)), Some((pair, barycentric))) = (self.seen, self.nearest) else {
+            return DVec3::ZERO;
+        };
+        seen - on_triangle(near.skin_of(pair).now, barycentric)
+    }
+
     /// Lower bound of its distance from skin at these places.
-    fn at_least(&self, places: &[DVec3]) -> f64 {
+    pub(super) fn at_least(&self, places: &[DVec3]) -> f64 {
         let place = self.on_rope(|node| places[node]);
         self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
-    }
-
-    /// Whether its sub-segment is too far from skin for a further contact point, if a place of it is `least` from skin.
-    fn is_far(&self, least: f64, places: &[DVec3]) -> bool {
-        let segment = places[self.node].distance(places[self.node + 1]);
-        let piece = segment * self.length / self.segment_length;
-        least - piece > LOOK_WITHIN * self.contact_distance
-    }
-
-    /// Where along the segment its sub-segment is nearest to skin, if closer than `most`. Called for the middle contact point.
-    fn nearer_fraction(&self, near: &Near, places: &[DVec3], most: f64) -> Option<f64> {
-        let share = 0.5 * self.length / self.segment_length;
-        let (from, to) = (self.fraction - share, self.fraction + share);
-        let ends =
-            [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
-        let mut least = most.min(LOOK_WITHIN * self.contact_distance);
-        let mut along = None;
-        let group = &near.groups[self.group];
-        for index in near.active[self.pairs.clone()].iter().copied() {
-            if near.bound(index, group) >= least || near.skin_of(index).gap(ends) >= least {
-                continue;
-            }
-            let nearest = near.skin_of(index).nearest_to(ends);
-            if nearest.distance < least {
-                least = nearest.distance;
-                along = Some(nearest.fraction);
-            }
-        }
-        Some(from + (to - from) * along?)
     }
 }

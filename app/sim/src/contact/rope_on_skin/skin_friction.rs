@@ -62,7 +62,7 @@ impl Touching {
         &mut self,
         model: &Model,
         near: &Near,
-        points: &SkinContactPoints,
+        points: &mut SkinContactPoints,
         state: &State,
     ) {
         self.clear();
@@ -83,9 +83,11 @@ impl Touching {
         if friction.laws.len() > 1 {
             self.faces.sort_unstable_by_key(|contact| (contact.law, contact.point, contact.face));
         }
-        let sources = Sources { model, whale, friction, near, points, state };
         for place in 0..self.faces.len() {
-            self.append(&sources, self.faces[place]);
+            let contact = self.faces[place];
+            let factor = points.friction_factor(model, &state.rope.position, contact.point);
+            let sources = Sources { model, whale, friction, near, points, state };
+            self.append(&sources, contact, factor);
         }
         self.in_order.extend(0..self.faces.len());
         if friction.laws.len() > 1 {
@@ -100,8 +102,8 @@ impl Touching {
         self.arrays.clear();
     }
 
-    /// Appends the inputs of a contact to the arrays.
-    fn append(&mut self, sources: &Sources<'_>, contact: FaceContact) {
+    /// Appends the inputs of a contact to the arrays, with a factor on its coefficient of friction.
+    fn append(&mut self, sources: &Sources<'_>, contact: FaceContact, factor: f64) {
         let Sources { model, whale, friction, near, points, state } = *sources;
         let FaceContact { law, point: index, face } = contact;
         let point = &points.list[index];
@@ -109,7 +111,9 @@ impl Touching {
         let pair = near.skin_of(touch.pair);
         let region = whale.skin.regions[pair.triangle as usize];
         let rope = model.spec.lines[model.segment_line[point.segment]].rope;
-        let rope_move = touch.place - point.began.place;
+        let from = &state.rope.position;
+        let rope_move = touch.place - point.on_rope(|node| from[node]);
+        let along = from[point.node + 1] - from[point.node];
         let skin_move = pair.move_of(touch.barycentric) * (pair.stands - near.start);
         let coefficient = friction.coefficients[rope][region as usize];
         let asked = Asked {
@@ -118,11 +122,11 @@ impl Touching {
             growth_n: touch.growth_n,
             normal: touch.normal,
             grain: self.grains.at(pair.triangle as usize, &pair.now, touch.normal),
-            along: point.began.along.normalize_or(touch.normal),
+            along: along.normalize_or(touch.normal),
             slip: rope_move - skin_move,
             length: point.length * touch.share,
             share: touch.share,
-            coefficient: coefficient * point.began.friction_factor,
+            coefficient: coefficient * factor,
             region: region as u32,
             rope: u32::try_from(rope).unwrap_or(u32::MAX),
         };

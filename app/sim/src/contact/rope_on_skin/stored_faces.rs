@@ -76,12 +76,24 @@ pub(crate) fn assign(touches: &mut [Touch], kept: &[KeptFace], of_point: Range<u
     }
 }
 
-/// Contact points beside its middle one that bore much of the push on a piece of rope in the last solver step.
-pub(crate) fn points_beside(kept: &[KeptFace], piece: u64) -> usize {
-    let from = kept.partition_point(|face| face.site >> PIECE_BITS < piece);
-    let of_piece = kept[from..].iter().take_while(|face| face.site >> PIECE_BITS == piece);
-    let greatest_n = of_piece.clone().map(|face| face.push_n).fold(0.0, f64::max);
-    let bearing = of_piece.filter(|face| face.push_n >= BEARING_SHARE * greatest_n);
+/// The faces of a piece, by the site of its first contact point, among the stored faces from `from` on; all before belong to earlier pieces.
+pub(crate) fn next_of_piece(kept: &[KeptFace], from: usize, site: u64) -> Range<usize> {
+    let piece = site >> PIECE_BITS;
+    let (mut start, is_before) = (from, |face: &KeptFace| face.site >> PIECE_BITS < piece);
+    while kept.get(start).is_some_and(is_before) {
+        start += 1;
+    }
+    let (mut end, is_of_piece) = (start, |face: &KeptFace| face.site >> PIECE_BITS == piece);
+    while kept.get(end).is_some_and(is_of_piece) {
+        end += 1;
+    }
+    start..end
+}
+
+/// Contact points beside its middle one that bore much of the push on a piece of rope, of these faces, in the last solver step.
+pub(crate) fn points_beside(of_piece: &[KeptFace]) -> usize {
+    let greatest_n = of_piece.iter().map(|face| face.push_n).fold(0.0, f64::max);
+    let bearing = of_piece.iter().filter(|face| face.push_n >= BEARING_SHARE * greatest_n);
     let numbers = bearing.map(|face| (face.site >> FACE_BITS) as usize & (MOST_POINTS - 1));
     numbers.max().unwrap_or(0)
 }
