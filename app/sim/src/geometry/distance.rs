@@ -30,14 +30,14 @@ const SURELY_INSIDE: f64 = 1e-9;
 /// An edge, or either of its corners, can be nearest to the segment only where the segment reaches beyond that edge;
 /// the other edges are left out.
 pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
-    segment_triangle_in(Plane::of(triangle).as_ref(), segment, triangle)
+    segment_triangle_in(Plane::of(triangle).as_ref(), segment, &triangle)
 }
 
 /// The nearest places of a segment and a triangle whose plane is precomputed.
 pub(crate) fn segment_triangle_in(
     plane: Option<&Plane>,
     segment: [DVec3; 2],
-    triangle: [DVec3; 3],
+    triangle: &[DVec3; 3],
 ) -> Nearest {
     let Some(plane) = plane else {
         return nearest_of_edges(segment, triangle, [true; 3]);
@@ -59,7 +59,7 @@ pub(crate) fn segment_triangle_in(
 
 /// Nearest place on a triangle to a point: distance and barycentric place.
 pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
-    point_triangle_in(Plane::of(triangle).as_ref(), point, triangle, f64::INFINITY)
+    point_triangle_in(Plane::of(triangle).as_ref(), point, &triangle, f64::INFINITY)
         .unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
 }
 
@@ -68,16 +68,17 @@ pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
 pub(crate) fn point_triangle_in(
     plane: Option<&Plane>,
     point: DVec3,
-    triangle: [DVec3; 3],
+    triangle: &[DVec3; 3],
     most: f64,
 ) -> Option<(f64, [f64; 3])> {
     let mut beyond = [true; 3];
     if let Some(plane) = plane {
-        let height = plane.height(point);
+        let from = point - plane.corner;
+        let height = from.dot(plane.normal);
         if height.abs() >= most {
             return None;
         }
-        let (height, barycentric) = plane.place(point);
+        let barycentric = plane.barycentric(from);
         if inside(barycentric) {
             return Some((height.abs(), barycentric));
         }
@@ -87,7 +88,7 @@ pub(crate) fn point_triangle_in(
 }
 
 /// The nearest place to a point on a set of edges, each named by the corner opposite.
-fn nearest_edge(point: DVec3, triangle: [DVec3; 3], wanted: [bool; 3]) -> (f64, [f64; 3]) {
+fn nearest_edge(point: DVec3, triangle: &[DVec3; 3], wanted: [bool; 3]) -> (f64, [f64; 3]) {
     let (mut least, mut barycentric) = (f64::INFINITY, [1.0, 0.0, 0.0]);
     for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
         if !wanted[opposite] {
@@ -135,7 +136,7 @@ fn share(part: f64, whole: f64) -> f64 {
 }
 
 /// The nearest of a set of edges, each named by the corner opposite; infinite distance if the set is empty.
-fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3], wanted: [bool; 3]) -> Nearest {
+fn nearest_of_edges(segment: [DVec3; 2], triangle: &[DVec3; 3], wanted: [bool; 3]) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
     let mut least = f64::INFINITY;
     for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
@@ -197,8 +198,13 @@ impl Plane {
     /// Height over the plane and barycentric place of the foot.
     fn place(&self, point: DVec3) -> (f64, [f64; 3]) {
         let from = point - self.corner;
+        (from.dot(self.normal), self.barycentric(from))
+    }
+
+    /// Barycentric place of the foot of a point that lies there from the first corner.
+    fn barycentric(&self, from: DVec3) -> [f64; 3] {
         let (v, w) = (from.dot(self.across[0]), from.dot(self.across[1]));
-        (from.dot(self.normal), [1.0 - v - w, v, w])
+        [1.0 - v - w, v, w]
     }
 }
 

@@ -65,7 +65,7 @@ impl Placed {
 
     /// Nearest places of a segment and the triangle.
     pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
-        segment_triangle_in(self.plane.as_ref(), segment, self.now)
+        segment_triangle_in(self.plane.as_ref(), segment, &self.now)
     }
 
     /// Nearest place on it to a point: distance and barycentric place; `None` where it is no nearer than `most`.
@@ -74,7 +74,7 @@ impl Placed {
         if point.distance_squared(self.ball.centre) > reach * reach {
             return None;
         }
-        point_triangle_in(self.plane.as_ref(), point, self.now, most)
+        point_triangle_in(self.plane.as_ref(), point, &self.now, most)
     }
 
     /// Whether its ball or its plane shows that a segment is no nearer than `most`, which is above zero.

@@ -20,7 +20,10 @@ const AT_SKIN: f64 = 1.0 / (1.0 - LEAST_SHARE);
 /// `b`, by which the skin stiffens.
 const STIFFENING: f64 = 10.0;
 /// Share of the way to the least distance from which the law counts as steep.
+#[cfg(test)]
 const STEEP_SHARE: f64 = 0.5;
+/// The push there, in units of `l K D`: `(e^(b/2) - 1)/b`.
+const STEEP_PUSH: f64 = 14.74131591025766;
 
 /// Share of the contact distance below which rope is pinched when a step ends: skin is overrun, the force means nothing.
 pub(crate) const PINCHED_SHARE: f64 = 0.8 * LEAST_SHARE;
@@ -51,7 +54,7 @@ impl BarrierForce {
 
     /// The push from which on the law counts as steep [N].
     pub fn steep_n(contact_distance: f64, stiffness: f64) -> f64 {
-        stiffness * room_of(contact_distance) * law(STEEP_SHARE).0
+        stiffness * room_of(contact_distance) * STEEP_PUSH
     }
 
     /// The depth at which the push is `force`, and the push there.
@@ -130,6 +133,11 @@ mod tests {
         assert_eq!(BarrierForce::new(0.006, 0.006, 5e4), BarrierForce::default());
         let beyond = BarrierForce::new(-1e3, 0.006, 5e4);
         assert!(beyond.force.is_finite() && beyond.stiffness.is_finite());
+    }
+
+    #[test]
+    fn the_law_is_steep_from_half_the_way_to_the_least_distance() {
+        assert_eq!(STEEP_PUSH.to_bits(), law(STEEP_SHARE).0.to_bits());
     }
 
     #[test]

@@ -34,6 +34,9 @@ const RISEN: (f64, f64) = (0.05, 1.0);
 /// Keeps of the triangles touched from `first` on the faces touched, in rising order of the pair, so that a face keeps its place in the row as
 /// another comes nearer: the nearest triangle, of the place given, and those that rise from it.
 pub(crate) fn keep_faces(touches: &mut Vec<Touch>, first: usize, nearest: usize) {
+    if touches.len() == first + 1 {
+        return;
+    }
     touches.swap(first, nearest);
     let nearest = touches[first];
     let mut risen = first + 1;

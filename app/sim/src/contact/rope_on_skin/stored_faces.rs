@@ -49,6 +49,17 @@ pub(crate) fn of_point(kept: &[KeptFace], site: u64) -> Range<usize> {
 /// Assigns to each touched face the stored face of its contact point with the nearest normal; each stored face is assigned once.
 /// A face without a stored value inherits the value of the face with the nearest normal, because it takes over part of its normal force.
 pub(crate) fn assign(touches: &mut [Touch], kept: &[KeptFace], of_point: Range<usize>) {
+    if let [touch] = touches {
+        let mut best = f64::NEG_INFINITY;
+        touch.kept = None;
+        for face in of_point {
+            let alike = touch.normal.dot(kept[face].normal);
+            if alike > best {
+                (best, touch.kept) = (alike, Some(face));
+            }
+        }
+        return;
+    }
     touches.iter_mut().for_each(|touch| touch.kept = None);
     for _ in 0..touches.len().min(of_point.len()) {
         let free =
