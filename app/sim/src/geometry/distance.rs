@@ -34,6 +34,7 @@ pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
 }
 
 /// The nearest places of a segment and a triangle whose plane is precomputed.
+#[inline(always)]
 pub(crate) fn segment_triangle_in(
     plane: Option<&Plane>,
     segment: [DVec3; 2],
@@ -65,6 +66,7 @@ pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
 
 /// Distance of a point from a triangle whose plane is precomputed, and the barycentric place nearest to it; `None`
 /// where the distance is certainly `most` or more.
+#[inline(always)]
 pub(crate) fn point_triangle_in(
     plane: Option<&Plane>,
     point: DVec3,
@@ -88,6 +90,7 @@ pub(crate) fn point_triangle_in(
 }
 
 /// The nearest place to a point on a set of edges, each named by the corner opposite.
+#[inline(always)]
 fn nearest_edge(point: DVec3, triangle: &[DVec3; 3], wanted: [bool; 3]) -> (f64, [f64; 3]) {
     let (mut least, mut barycentric) = (f64::INFINITY, [1.0, 0.0, 0.0]);
     for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
@@ -109,6 +112,11 @@ fn nearest_edge(point: DVec3, triangle: &[DVec3; 3], wanted: [bool; 3]) -> (f64,
 
 /// Nearest places on two segments, as fractions along each.
 pub fn segment_segment(first: [DVec3; 2], second: [DVec3; 2]) -> (f64, f64) {
+    segment_segment_in(first, second)
+}
+
+#[inline(always)]
+fn segment_segment_in(first: [DVec3; 2], second: [DVec3; 2]) -> (f64, f64) {
     let (u, v, w) = (first[1] - first[0], second[1] - second[0], first[0] - second[0]);
     let (uu, vv) = (u.length_squared(), v.length_squared());
     let (uv, uw, vw) = (u.dot(v), u.dot(w), v.dot(w));
@@ -136,6 +144,7 @@ fn share(part: f64, whole: f64) -> f64 {
 }
 
 /// The nearest of a set of edges, each named by the corner opposite; infinite distance if the set is empty.
+#[inline(always)]
 fn nearest_of_edges(segment: [DVec3; 2], triangle: &[DVec3; 3], wanted: [bool; 3]) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
     let mut least = f64::INFINITY;
@@ -143,7 +152,7 @@ fn nearest_of_edges(segment: [DVec3; 2], triangle: &[DVec3; 3], wanted: [bool; 3
         if !wanted[opposite] {
             continue;
         }
-        let (s, t) = segment_segment(segment, [triangle[from], triangle[to]]);
+        let (s, t) = segment_segment_in(segment, [triangle[from], triangle[to]]);
         let gap = segment[0].lerp(segment[1], s) - triangle[from].lerp(triangle[to], t);
         if gap.length_squared() < least {
             least = gap.length_squared();
@@ -190,6 +199,7 @@ impl Plane {
     }
 
     /// Whether a segment stays on one side of the plane, at this distance from it or more.
+    #[inline(always)]
     pub fn is_beyond(&self, segment: [DVec3; 2], most: f64) -> bool {
         let [from, to] = segment.map(|end| self.height(end));
         (from >= most && to >= most) || (from <= -most && to <= -most)
@@ -213,6 +223,7 @@ fn inside(barycentric: [f64; 3]) -> bool {
 }
 
 /// Where a segment passes through the triangle, from the places of its ends over the plane.
+#[inline(always)]
 fn crossing([(from, start), (to, end)]: [(f64, [f64; 3]); 2]) -> Option<Nearest> {
     if from * to > 0.0 || (from - to).abs() <= f64::MIN_POSITIVE {
         return None;

@@ -64,11 +64,13 @@ impl Placed {
     }
 
     /// Nearest places of a segment and the triangle.
+    #[inline(always)]
     pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
         segment_triangle_in(self.plane.as_ref(), segment, &self.now)
     }
 
     /// Nearest place on it to a point: distance and barycentric place; `None` where it is no nearer than `most`.
+    #[inline(always)]
     pub fn nearest_to_point(&self, point: DVec3, most: f64) -> Option<(f64, [f64; 3])> {
         let reach = most + self.ball.radius;
         if point.distance_squared(self.ball.centre) > reach * reach {
@@ -78,6 +80,7 @@ impl Placed {
     }
 
     /// Whether its ball or its plane shows that a segment is no nearer than `most`, which is above zero.
+    #[inline(always)]
     pub fn is_beyond(&self, segment: [DVec3; 2], most: f64) -> bool {
         if self.plane.as_ref().is_some_and(|plane| plane.is_beyond(segment, most)) {
             return true;

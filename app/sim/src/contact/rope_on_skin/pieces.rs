@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use pulp::{Simd, WithSimd};
 
 use crate::contact::rope_on_skin::near::{Group, Near};
 use crate::contact::rope_on_skin::points::{LOOK_WITHIN, SkinContactPoint, SkinContactPoints};
@@ -42,6 +43,7 @@ pub(crate) struct Looked {
 
 impl Looked {
     /// Whether a piece with its ends there is certainly no nearer than `least`.
+    #[inline(always)]
     fn excludes(&self, ends: [DVec3; 2], least: f64) -> bool {
         let room = self.bound - least - ROUNDING_M;
         let moved =
@@ -50,13 +52,33 @@ impl Looked {
     }
 }
 
+/// Searches pieces for further contact points, with the instructions of the processor.
+struct Search<'a> {
+    points: &'a mut SkinContactPoints,
+    near: &'a Near,
+    places: &'a [DVec3],
+    /// The number of contact points opened last, if only their pieces are searched.
+    beside: Option<usize>,
+}
+
+impl WithSimd for Search<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { points, near, places, beside } = self;
+        for place in 0..beside.unwrap_or(points.pieces.len()) {
+            let piece = if beside.is_some() { points.opened[place].0 } else { place };
+            points.open_in(piece, near, places);
+        }
+    }
+}
+
 impl SkinContactPoints {
     /// Opens further contact points where a piece of rope is clearly nearer to skin than at those it has; how many.
     pub fn open_more(&mut self, near: &Near, places: &[DVec3]) -> usize {
         self.opened.clear();
-        for piece in 0..self.pieces.len() {
-            self.open_in(piece, near, places);
-        }
+        self.arch.dispatch(Search { points: self, near, places, beside: None });
         self.insert_opened()
     }
 
@@ -64,14 +86,13 @@ impl SkinContactPoints {
     /// any other piece would find nothing again.
     pub fn open_more_beside_opened(&mut self, near: &Near, places: &[DVec3]) -> usize {
         let count = self.opened.len();
-        for place in 0..count {
-            self.open_in(self.opened[place].0, near, places);
-        }
+        self.arch.dispatch(Search { points: self, near, places, beside: Some(count) });
         self.opened.drain(..count);
         self.insert_opened()
     }
 
     /// Appends a further contact point of a piece to those opened, if there is one.
+    #[inline(always)]
     fn open_in(&mut self, index: usize, near: &Near, places: &[DVec3]) {
         let piece = &mut self.pieces[index];
         let points = &self.list[piece.points.clone()];
@@ -137,6 +158,7 @@ impl SkinContactPoints {
 
 impl Piece {
     /// Whether it is too far from skin for a further contact point, if a place of it is `least` from skin.
+    #[inline(always)]
     fn is_far(&self, middle: &SkinContactPoint, least: f64, places: &[DVec3]) -> bool {
         let within = LOOK_WITHIN * middle.contact_distance;
         least > within && {
@@ -146,6 +168,7 @@ impl Piece {
     }
 
     /// Where along the segment it is nearest to skin, if closer than `most`.
+    #[inline(always)]
     fn nearer_fraction(
         &mut self,
         middle: &SkinContactPoint,
@@ -198,6 +221,7 @@ struct Side {
 
 impl Side {
     /// The plane through the place on skin that is nearest to the middle contact point, across the way there.
+    #[inline(always)]
     fn of(middle: &SkinContactPoint, near: &Near, ends: [DVec3; 2]) -> Self {
         let across = middle.away(near);
         let [from, to] = ends.map(|end| end.dot(across));
@@ -205,6 +229,7 @@ impl Side {
     }
 
     /// Whether a triangle lies on the other side, no nearer than `most`.
+    #[inline(always)]
     fn is_beyond(&self, triangle: &[DVec3; 3], most: f64) -> bool {
         let least = self.least - most * self.length;
         triangle.iter().all(|corner| corner.dot(self.across) < least)

@@ -9,6 +9,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::contact::law::capstan_correction::{bend, friction_factor};
 use crate::contact::rope_on_skin::crease;
@@ -61,6 +62,7 @@ pub(crate) struct SkinContactPoint {
 /// All contact points of a solver step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SkinContactPoints {
+    pub(super) arch: Arch,
     /// In rising order of site, each once.
     pub list: Vec<SkinContactPoint>,
     /// The sub-segments of rope, in the same order, and the contact points of each in `list`.
@@ -143,22 +145,12 @@ impl SkinContactPoints {
     pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
         std::mem::swap(&mut self.touches, &mut self.touched);
         self.touches.clear();
-        for point in &mut self.list {
-            let first = self.touches.len();
-            point.measure(near, places, (&self.touched, &self.kept), &mut self.touches);
-            point.touches = first..self.touches.len();
-        }
+        self.arch.dispatch(Measure { points: self, near, places, only_opened: false });
     }
 
     /// Evaluates the contact points that were opened last, at the places at which all others have been evaluated.
     pub fn measure_opened(&mut self, near: &Near, places: &[DVec3]) {
-        for (piece, _) in &self.opened {
-            // One was opened in each of these pieces, behind the others.
-            let point = &mut self.list[self.pieces[*piece].points.end - 1];
-            let first = self.touches.len();
-            point.measure(near, places, (&[], &self.kept), &mut self.touches);
-            point.touches = first..self.touches.len();
-        }
+        self.arch.dispatch(Measure { points: self, near, places, only_opened: true });
     }
 
     /// Factor on the friction of a contact point that corrects for the polygon (`law/capstan_correction.rs`), with the rope `from` where the
@@ -197,6 +189,35 @@ impl SkinContactPoints {
     }
 }
 
+/// Evaluates every contact point, with the instructions of the processor.
+struct Measure<'a> {
+    points: &'a mut SkinContactPoints,
+    near: &'a Near,
+    places: &'a [DVec3],
+    /// Whether only those are evaluated that were opened last, each behind the others of its piece.
+    only_opened: bool,
+}
+
+impl WithSimd for Measure<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let SkinContactPoints { list, pieces, opened, touches, touched, kept, .. } = self.points;
+        let count = if self.only_opened { opened.len() } else { list.len() };
+        for place in 0..count {
+            let point = if self.only_opened {
+                &mut list[pieces[opened[place].0].points.end - 1]
+            } else {
+                &mut list[place]
+            };
+            let first = touches.len();
+            point.measure(self.near, self.places, (touched, kept), touches);
+            point.touches = first..touches.len();
+        }
+    }
+}
+
 impl SkinContactPoint {
     /// Its place on the rope.
     pub fn on_rope(&self, place: impl Fn(usize) -> DVec3) -> DVec3 {
@@ -204,6 +225,7 @@ impl SkinContactPoint {
     }
 
     /// Adds its touches at these places to `touches`; copies those of the evaluation before if it has not moved.
+    #[inline(always)]
     fn measure(
         &mut self,
         near: &Near,
@@ -252,6 +274,7 @@ impl SkinContactPoint {
 
     /// Adds its touches; returns distance, pair and barycentric place of the nearest triangle within `most`. The nearest triangle of the last evaluation is
     /// measured first: most others are then excluded by their bounds.
+    #[inline(always)]
     fn add_touches(
         &self,
         near: &Near,
@@ -288,6 +311,7 @@ impl SkinContactPoint {
         nearest
     }
 
+    #[inline(always)]
     fn touch_of(
         &self,
         near: &Near,
@@ -304,12 +328,14 @@ impl SkinContactPoint {
     }
 
     /// Whether it cannot touch, by its last evaluation.
+    #[inline(always)]
     fn out_of_reach(&self, place: DVec3) -> bool {
         self.seen
             .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
     }
 
     /// The way from the nearest place of skin to where it was last measured, zero if there is none.
+    #[inline(always)]
     pub(super) fn away(&self, near: &Near) -> DVec3 {
         let (Some((seen, _)), Some((pair, barycentric))) = (self.seen, self.nearest) else {
             return DVec3::ZERO;
@@ -318,6 +344,7 @@ impl SkinContactPoint {
     }
 
     /// Lower bound of its distance from skin at these places.
+    #[inline(always)]
     pub(super) fn at_least(&self, places: &[DVec3]) -> f64 {
         let place = self.on_rope(|node| places[node]);
         self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
