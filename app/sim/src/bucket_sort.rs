@@ -48,6 +48,54 @@ impl<T: Copy> BucketSort<T> {
         }
         std::mem::swap(list, &mut self.sorted);
     }
+
+    /// As [`sort`](Self::sort), where ranks are small numbers too.
+    pub fn sort_by_both(
+        &mut self,
+        list: &mut Vec<T>,
+        bucket: impl Fn(&T) -> usize,
+        rank: impl Fn(&T) -> usize,
+    ) {
+        let (low, high) = ends(list, &rank);
+        if high.saturating_sub(low) > FEWEST_OF_SPAN * list.len() {
+            return self.sort(list, bucket, rank);
+        }
+        self.place(list, rank);
+        self.place(list, bucket);
+    }
+
+    /// Sorts a list by bucket alone; items of a bucket keep their order.
+    pub fn place(&mut self, list: &mut Vec<T>, bucket: impl Fn(&T) -> usize) {
+        let Some(first) = list.first() else { return };
+        let (low, high) = ends(list, &bucket);
+        self.begins.clear();
+        self.begins.resize(high - low + 2, 0);
+        for item in &*list {
+            self.begins[bucket(item) - low + 1] += 1;
+        }
+        let mut sum = 0;
+        for begin in &mut self.begins {
+            sum += *begin;
+            *begin = sum;
+        }
+        self.sorted.clear();
+        self.sorted.reserve(list.capacity());
+        self.sorted.resize(list.len(), *first);
+        for item in &*list {
+            let at = &mut self.begins[bucket(item) - low];
+            self.sorted[*at] = *item;
+            *at += 1;
+        }
+        std::mem::swap(list, &mut self.sorted);
+    }
+}
+
+/// Ranks are buckets where their span is at most this many times the number of items.
+const FEWEST_OF_SPAN: usize = 4;
+
+/// Least and greatest of the numbers of a list.
+fn ends<T>(list: &[T], number: impl Fn(&T) -> usize) -> (usize, usize) {
+    list.iter().map(number).fold((usize::MAX, 0), |(low, high), one| (low.min(one), high.max(one)))
 }
 
 #[cfg(test)]
@@ -62,8 +110,11 @@ mod tests {
                 (0..count).map(|k| [k * 7919 % 11, k * 104_729 % 97]).collect();
             let mut wanted = list.clone();
             wanted.sort_unstable();
+            let mut other = list.clone();
             sort.sort(&mut list, |item| item[0], |item| item[1]);
             assert_eq!(list, wanted);
+            sort.sort_by_both(&mut other, |item| item[0], |item| item[1]);
+            assert_eq!(other, wanted);
         }
     }
 }

@@ -176,6 +176,7 @@ pub(crate) struct Plane {
 
 impl Plane {
     /// `None` where the triangle has shrunk to a line or a point.
+    #[inline(always)]
     pub fn of([a, b, c]: [DVec3; 3]) -> Option<Self> {
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
@@ -193,6 +194,7 @@ impl Plane {
     }
 
     /// No more than a segment's distance from the triangle: how far it stays on one side of the plane.
+    #[inline(always)]
     pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
         let [from, to] = segment.map(|end| self.height(end));
         if from * to > 0.0 { from.abs().min(to.abs()) } else { 0.0 }

@@ -44,6 +44,7 @@ impl Placed {
 
     /// Evaluates its corners at a share of the model's step.
     #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    #[inline(always)]
     pub fn stand(&mut self, share: f64) {
         if self.stands != share {
             self.stands = share;
@@ -99,6 +100,7 @@ impl Placed {
     }
 
     /// No more than a segment's distance from it, below zero where that bounds nothing [m].
+    #[inline(always)]
     pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
         let [from, to] = segment;
         let (along, centre) = (to - from, self.ball.centre - from);
@@ -115,6 +117,7 @@ pub(crate) fn on_triangle(corners: [DVec3; 3], barycentric: [f64; 3]) -> DVec3 {
 }
 
 impl Ball {
+    #[inline(always)]
     fn around(corners: [DVec3; 3]) -> Self {
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
         let square =

@@ -119,6 +119,7 @@ pub fn greatest_approach(segment: &SweptSegment, triangle: &SweptTriangle) -> f6
 }
 
 /// The triangle at a fraction of the move.
+#[inline(always)]
 pub fn triangle_at(triangle: &SweptTriangle, fraction: f64) -> [DVec3; 3] {
     [0, 1, 2].map(|corner| triangle[0][corner].lerp(triangle[1][corner], fraction))
 }

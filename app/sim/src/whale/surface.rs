@@ -159,7 +159,7 @@ impl Surface {
             true
         });
         self.close = close;
-        self.sort.sort(out, |pair| pair.segment as usize, |pair| pair.triangle as usize);
+        self.sort.sort_by_both(out, |pair| pair.segment as usize, |pair| pair.triangle as usize);
     }
 
     /// Whether any pair of a segment and a triangle has boxes over the step within `margin`.

@@ -9,7 +9,29 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::geometry::placed::Placed;
+use crate::geometry::sweep::SweptTriangle;
+
+/// Least separation on a path, as a share of the rope's radius.
+const MIN_SEPARATION_SHARE: f64 = 0.08;
+
+/// How a triangle of skin moves over the model's step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SkinMove {
+    /// Of its corners [m].
+    corners: [DVec3; 3],
+    /// The least and the greatest of each component of these.
+    low: DVec3,
+    high: DVec3,
+}
+
+impl SkinMove {
+    /// The move of a triangle.
+    pub fn of([start, end]: SweptTriangle) -> Self {
+        let corners = [0, 1, 2].map(|corner| end[corner] - start[corner]);
+        let [a, b, c] = corners;
+        Self { corners, low: a.min(b).min(c), high: a.max(b).max(c) }
+    }
+}
 
 /// A segment near skin.
 #[derive(Clone, Debug)]
@@ -25,6 +47,8 @@ pub(crate) struct Group {
     pub radius: f64,
     /// The greatest of it and of the segment's knots [m].
     pub reach: f64,
+    /// Least separation from skin on a path [m].
+    pub min_separation: f64,
     /// Mean move of its skin over the model's step, and the greatest departure of a corner from it [m].
     skin_move: DVec3,
     spread: f64,
@@ -48,6 +72,7 @@ impl Group {
             active: 0..0,
             radius,
             reach,
+            min_separation: MIN_SEPARATION_SHARE * radius,
             skin_move: DVec3::ZERO,
             spread: 0.0,
             clear: 0.0,
@@ -58,17 +83,19 @@ impl Group {
     }
 
     /// Sets the mean and the spread of the moves of its skin.
-    pub fn follow_skin<'a>(&mut self, skin: impl Iterator<Item = &'a Placed> + Clone) {
+    #[inline(always)]
+    pub fn follow_skin<'a>(&mut self, skin: impl Iterator<Item = &'a SkinMove> + Clone) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corner_move in skin.clone().flat_map(Placed::corner_moves) {
-            (low, high) = (low.min(corner_move), high.max(corner_move));
+        for triangle in skin.clone() {
+            (low, high) = (low.min(triangle.low), high.max(triangle.high));
         }
-        self.skin_move = low.midpoint(high);
-        self.spread = skin
-            .flat_map(Placed::corner_moves)
-            .map(|corner_move| corner_move.distance_squared(self.skin_move))
-            .fold(0.0, f64::max)
-            .sqrt();
+        let mean = low.midpoint(high);
+        let mut greatest = 0.0_f64;
+        for corner_move in skin.flat_map(|triangle| &triangle.corners) {
+            let square = corner_move.distance_squared(mean);
+            greatest = if square > greatest { square } else { greatest };
+        }
+        (self.skin_move, self.spread) = (mean, greatest.sqrt());
     }
 
     /// Bound of the move of the segment relative to its skin while that makes a share of its step [m].

@@ -12,6 +12,7 @@ mod tests;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::broad_phase::pieces::Pieces;
 use crate::geometry::distance::segment_triangle;
@@ -20,12 +21,10 @@ use crate::geometry::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
+use group::SkinMove;
 
 /// Distance from the path of skin within which rope is gathered [m].
 pub(crate) const MARGIN_M: f64 = 0.04;
-
-/// Least separation on a path, as a share of the rope's radius.
-const MIN_SEPARATION_SHARE: f64 = 0.08;
 
 /// A segment and a triangle that may touch.
 #[derive(Clone, Copy, Debug)]
@@ -33,14 +32,8 @@ pub(crate) struct Pair {
     pub segment: usize,
     /// Place of the triangle in [`Near::skin`].
     skin: usize,
-    /// Lower bound of their distance when it was measured [m].
-    gap_bound: f64,
-    /// Whether it was their distance.
+    /// Whether `Near::gap_bound` was their distance.
     exact: bool,
-    /// How far the group had moved relative to its skin by then [m].
-    measured_at: f64,
-    /// Least separation on a path [m].
-    min_separation: f64,
 }
 
 /// All pairs of a step of the model, in rising order of segment, with their surface.
@@ -48,15 +41,22 @@ pub(crate) struct Pair {
 /// Skin moves straight from the start of the model's step to its end; a solver step moves it from the share `start` to `goal`.
 #[derive(Clone, Debug)]
 pub(crate) struct Near {
+    arch: Arch,
     surface: Surface,
     sweeps: Vec<SweptSegment>,
     candidates: Vec<Candidate>,
     /// Triangles that have pairs.
     skin: Vec<Placed>,
+    /// Their moves over the model's step.
+    skin_moves: Vec<SkinMove>,
     /// Where each triangle of the skin lies among them, with the number of the step for which that holds.
     placed_at: Vec<(u64, usize)>,
     number: u64,
     pub pairs: Vec<Pair>,
+    /// Lower bound of the distance of each pair when it was measured [m].
+    gap_bound: Vec<f64>,
+    /// How far the group of each pair had moved relative to its skin by then [m].
+    measured_at: Vec<f64>,
     /// Pairs of each segment that has any.
     pub groups: Vec<Group>,
     /// Pairs that may touch in this solver step, group after group.
@@ -79,13 +79,17 @@ impl Near {
     pub fn new(model: &Model, tree: Arc<SkinTree>) -> Self {
         let nodes = model.line_nodes.iter().flat_map(|nodes| nodes.start..nodes.end - 1);
         Self {
+            arch: Arch::new(),
             skin: Vec::new(),
+            skin_moves: Vec::new(),
             placed_at: vec![(0, 0); tree.skin().triangles.len()],
             number: 0,
             surface: Surface::new(tree),
             sweeps: vec![SweptSegment::default(); model.segment_count],
             candidates: Vec::new(),
             pairs: Vec::new(),
+            gap_bound: Vec::new(),
+            measured_at: Vec::new(),
             groups: Vec::new(),
             active: Vec::new(),
             segment_node: nodes.collect(),
@@ -150,6 +154,7 @@ impl Near {
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
         self.number += 1;
         self.skin.clear();
+        self.skin_moves.clear();
         self.pairs.clear();
         self.groups.clear();
         self.active.clear();
@@ -160,35 +165,32 @@ impl Near {
                 continue;
             }
             let skin = self.place_of(triangle);
-            let radius = 0.5 * model.rope_of_segment(segment).diameter_m;
-            let min_separation = MIN_SEPARATION_SHARE * radius;
-            let node = self.segment_node[segment];
             let index = self.pairs.len();
-            self.pairs.push(Pair {
-                segment,
-                skin,
-                gap_bound: 0.0,
-                exact: false,
-                measured_at: 0.0,
-                min_separation,
-            });
+            self.pairs.push(Pair { segment, skin, exact: false });
             match self.groups.last_mut() {
                 Some(group) if group.segment == segment => group.pairs.end = index + 1,
                 _ => {
+                    let radius = 0.5 * model.rope_of_segment(segment).diameter_m;
                     let knots = model.knots_of_segment(segment).iter().map(|knot| knot.radius_m);
                     let reach = knots.fold(radius, f64::max);
+                    let node = self.segment_node[segment];
                     self.groups.push(Group::new(segment, node, [radius, reach], index));
                 }
             }
+        }
+        for bounds in [&mut self.gap_bound, &mut self.measured_at] {
+            bounds.clear();
+            bounds.resize(self.pairs.len(), 0.0);
         }
         debug_assert!(
             self.groups.windows(2).all(|two| two[0].segment < two[1].segment),
             "one group for each segment, in rising order"
         );
-        for group in &mut self.groups {
-            let moves = self.pairs[group.pairs.clone()].iter().map(|pair| &self.skin[pair.skin]);
-            group.follow_skin(moves);
-        }
+        self.arch.dispatch(FollowSkin {
+            groups: &mut self.groups,
+            pairs: &self.pairs,
+            moves: &self.skin_moves,
+        });
     }
 
     /// Where a triangle lies among those that have pairs; put there where it is new.
@@ -198,6 +200,7 @@ impl Near {
             *at = (self.number, self.skin.len());
             let sweep = self.surface.triangle_sweep(triangle);
             self.skin.push(Placed::new(triangle, sweep, self.fraction));
+            self.skin_moves.push(SkinMove::of(sweep));
         }
         at.1
     }
@@ -208,16 +211,16 @@ impl Near {
     }
 
     /// Lower bound of the distance of a group's pair at the trial [m].
+    #[inline(always)]
     pub fn bound(&self, pair: usize, group: &Group) -> f64 {
-        let pair = &self.pairs[pair];
-        pair.gap_bound - (group.moved - pair.measured_at) - group.moving
+        self.gap_bound[pair] - (group.moved - self.measured_at[pair]) - group.moving
     }
 
     /// A segment that crosses skin where a solver step begins, if any.
     pub fn crossed(&self) -> Option<usize> {
-        let pairs = self.active.iter().map(|index| &self.pairs[*index]);
-        let mut crossed = pairs.filter(|pair| self.swept && pair.exact && pair.gap_bound <= 0.0);
-        crossed.next().map(|pair| pair.segment)
+        let crosses = |pair: usize| self.pairs[pair].exact && self.gap_bound[pair] <= 0.0;
+        let mut crossed = self.active.iter().filter(|pair| self.swept && crosses(**pair));
+        crossed.next().map(|pair| self.pairs[*pair].segment)
     }
 
     /// Returns to the start of a rejected solver step; if its path had been ended, all distances are invalidated.
@@ -227,9 +230,9 @@ impl Near {
             return;
         }
         self.fraction = self.start;
-        for pair in &mut self.pairs {
-            (pair.gap_bound, pair.exact, pair.measured_at) = (0.0, false, 0.0);
-        }
+        self.pairs.iter_mut().for_each(|pair| pair.exact = false);
+        self.gap_bound.fill(0.0);
+        self.measured_at.fill(0.0);
         for group in &mut self.groups {
             (group.clear, group.moved, group.moving) = (0.0, 0.0, 0.0);
         }
@@ -239,5 +242,24 @@ impl Near {
     pub fn began_at(&self, pair: usize, place: DVec3) -> f64 {
         let skin = self.skin_of(pair);
         segment_triangle([place, place], triangle_at(&skin.sweep, self.start)).distance
+    }
+}
+
+/// Sets the mean and the spread of the moves of the skin of each group, with the instructions of the processor.
+struct FollowSkin<'a> {
+    groups: &'a mut [Group],
+    pairs: &'a [Pair],
+    moves: &'a [SkinMove],
+}
+
+impl WithSimd for FollowSkin<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for group in self.groups {
+            let pairs = &self.pairs[group.pairs.clone()];
+            group.follow_skin(pairs.iter().map(|pair| &self.moves[pair.skin]));
+        }
     }
 }

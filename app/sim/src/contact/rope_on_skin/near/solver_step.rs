@@ -5,6 +5,7 @@
 //! and checked by an exact test (`geometry/crossing.rs`).
 
 use glam::DVec3;
+use pulp::{Simd, WithSimd};
 
 use crate::contact::rope_on_skin::near::{Group, Near};
 use crate::geometry::crossing::first_meeting;
@@ -31,9 +32,44 @@ fn away(from: DVec3, to: DVec3, place: DVec3) -> f64 {
     (place - from - path * along).length()
 }
 
+/// Pairs whose bounds are computed together.
+const TOGETHER: usize = 4;
+
+/// Finds the pairs that may touch, with the instructions of the processor.
+struct FindActive<'a> {
+    near: &'a mut Near,
+    path: (&'a [DVec3], &'a [DVec3]),
+    goal: f64,
+}
+
+impl WithSimd for FindActive<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.near.find_active_on(self.path, self.goal);
+    }
+}
+
+/// The least of the bounds of pairs measured together, if all are above `look`; `None` for fewer pairs.
+#[inline(always)]
+fn least_beyond((gap_bound, measured_at): (&[f64], &[f64]), moved: f64, look: f64) -> Option<f64> {
+    let (gaps, at) = (gap_bound.first_chunk::<TOGETHER>()?, measured_at.first_chunk::<TOGETHER>()?);
+    let bounds: [f64; TOGETHER] = std::array::from_fn(|lane| gaps[lane] - (moved - at[lane]));
+    let lesser = |one: f64, other: f64| if one < other { one } else { other };
+    let beyond = bounds.iter().fold(true, |all, bound| all & (*bound > look));
+    let least = lesser(lesser(bounds[0], bounds[1]), lesser(bounds[2], bounds[3]));
+    beyond.then_some(least)
+}
+
 impl Near {
     /// Moves skin to the end of a solver step, and finds the pairs that may touch on the path of rope to its predictor.
     pub fn find_active(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
+        self.arch.dispatch(FindActive { near: self, path: (from, to), goal });
+    }
+
+    #[inline(always)]
+    fn find_active_on(&mut self, (from, to): (&[DVec3], &[DVec3]), goal: f64) {
         (self.start, self.goal) = (self.fraction, goal);
         self.active.clear();
         let share = goal - self.start;
@@ -47,28 +83,36 @@ impl Near {
                 continue;
             }
             let segment = [from[group.node], from[group.node + 1]];
-            let mut least = f64::INFINITY;
-            group.far = f64::INFINITY;
-            for index in group.pairs.clone() {
-                let pair = &mut self.pairs[index];
-                let debt = group.moved - pair.measured_at;
-                let mut bound = pair.gap_bound - debt;
-                if bound <= look && (debt > STALE_M || !pair.exact) {
-                    let skin = &mut self.skin[pair.skin];
-                    skin.stand(self.start);
-                    let gap = skin.gap(segment);
-                    pair.exact = gap <= look;
-                    bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
-                    (pair.gap_bound, pair.measured_at) = (bound, group.moved);
+            let (mut least, mut far) = (f64::INFINITY, f64::INFINITY);
+            for begin in group.pairs.clone().step_by(TOGETHER) {
+                let pairs = begin..group.pairs.end.min(begin + TOGETHER);
+                let measured = (&self.gap_bound[pairs.clone()], &self.measured_at[pairs.clone()]);
+                let beyond = least_beyond(measured, group.moved, look);
+                if let Some(bound) = beyond {
+                    far = if bound < far { bound } else { far };
+                    continue;
                 }
-                least = least.min(bound);
-                if bound <= look {
-                    self.active.push(index);
-                } else {
-                    group.far = group.far.min(bound);
+                for index in pairs {
+                    let debt = group.moved - self.measured_at[index];
+                    let mut bound = self.gap_bound[index] - debt;
+                    let pair = &mut self.pairs[index];
+                    if bound <= look && (debt > STALE_M || !pair.exact) {
+                        let skin = &mut self.skin[pair.skin];
+                        skin.stand(self.start);
+                        let gap = skin.gap(segment);
+                        pair.exact = gap <= look;
+                        bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
+                        (self.gap_bound[index], self.measured_at[index]) = (bound, group.moved);
+                    }
+                    if bound <= look {
+                        least = least.min(bound);
+                        self.active.push(index);
+                    } else {
+                        far = far.min(bound);
+                    }
                 }
             }
-            group.clear = least + group.moved;
+            (group.clear, group.far) = (least.min(far) + group.moved, far);
             group.active = first..self.active.len();
         }
         for index in &self.active {
@@ -138,18 +182,20 @@ impl Near {
         (from, to): (&[DVec3], &[DVec3]),
     ) -> Option<u64> {
         let group = &self.groups[group];
-        let pair = &mut self.pairs[index];
-        if pair.gap_bound - (group.moved - pair.measured_at) - pair.min_separation > group.moving {
+        let bound = self.gap_bound[index] - (group.moved - self.measured_at[index]);
+        if bound - group.min_separation > group.moving {
             return Some(0);
         }
+        let pair = &mut self.pairs[index];
         let skin = &self.skin[pair.skin];
         let triangle = [triangle_at(&skin.sweep, self.start), triangle_at(&skin.sweep, self.goal)];
         let node = group.node;
         let segment =
             SweptSegment { a0: from[node], b0: from[node + 1], a1: to[node], b1: to[node + 1] };
         let gap = segment_triangle(segment.at(0.0), triangle[0]).distance;
-        (pair.gap_bound, pair.exact, pair.measured_at) = (gap, true, group.moved);
-        if safe_fraction_from(&segment, &triangle, pair.min_separation, gap) < 1.0 {
+        pair.exact = true;
+        (self.gap_bound[index], self.measured_at[index]) = (gap, group.moved);
+        if safe_fraction_from(&segment, &triangle, group.min_separation, gap) < 1.0 {
             return None;
         }
         Some(u64::from(first_meeting(&segment, &triangle).is_some()))
