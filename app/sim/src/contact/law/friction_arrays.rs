@@ -99,6 +99,7 @@ impl FrictionArrays {
     }
 
     /// Appends a contact, in rising order of law; `kept` are its floats at the end of the last solver step.
+    #[inline(always)]
     pub fn put(&mut self, friction: &Friction, asked: Asked, kept: Option<&[f64]>) {
         let place = self.normal_force.len();
         self.normal_force.push(asked.normal_force);
@@ -117,6 +118,7 @@ impl FrictionArrays {
     }
 
     /// The law's floats and the account as the step began; zero where the contact is new or another law held there.
+    #[inline(always)]
     fn put_floats(&mut self, friction: &Friction, law: usize, kept: Option<&[f64]>) {
         let width = friction.laws[law].model.descriptor().state_len;
         match kept {
@@ -131,6 +133,7 @@ impl FrictionArrays {
         }
     }
 
+    #[inline(always)]
     fn put_in_group(&mut self, law: usize, place: usize) {
         match self.groups.last_mut() {
             Some(group) if group.law == law => {

@@ -31,6 +31,7 @@ impl Grains {
     }
 
     /// Unit vector across `normal` that is fixed to the skin of a triangle whose corners are at `now`.
+    #[inline(always)]
     pub fn at(&self, triangle: usize, now: &[DVec3; 3], normal: DVec3) -> DVec3 {
         let carried = |along: &Option<Along>| {
             let [alpha, beta] = (*along)?;

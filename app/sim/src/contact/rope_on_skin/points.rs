@@ -91,6 +91,17 @@ impl SkinContactPoints {
         friction: &FrictionState,
     ) {
         stored_faces::take(friction, &mut self.kept);
+        self.arch.dispatch(Open { points: self, model, near, segment_length, stiffness_n_m2 });
+    }
+
+    #[inline(always)]
+    fn open_middles(
+        &mut self,
+        model: &Model,
+        near: &Near,
+        segment_length: &[f64],
+        stiffness_n_m2: f64,
+    ) {
         self.list.clear();
         self.pieces.clear();
         self.bends.clear();
@@ -103,10 +114,11 @@ impl SkinContactPoints {
             let (segment, length) = (group.segment, segment_length[group.segment]);
             let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
             let knots = model.knots_of_segment(segment);
+            let piece_m = length / pieces;
             for piece in 0..pieces as usize + knots.len() {
                 let knot = piece.checked_sub(pieces as usize).map(|knot| &knots[knot]);
                 let (fraction, bears_m) = knot.map_or_else(
-                    || ((piece as f64 + 0.5) / pieces, length / pieces),
+                    || ((piece as f64 + 0.5) / pieces, piece_m),
                     |knot| (knot.fraction(length), 2.0 * knot.radius_m),
                 );
                 let site = ((segment as u64) << SEGMENT_BITS) | ((piece as u64) << PIECE_BITS);
@@ -186,6 +198,25 @@ impl SkinContactPoints {
     /// Touches of a contact point, as evaluated last.
     pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
         &self.touches[point.touches.clone()]
+    }
+}
+
+/// Opens the middle contact points, with the instructions of the processor.
+struct Open<'a> {
+    points: &'a mut SkinContactPoints,
+    model: &'a Model,
+    near: &'a Near,
+    segment_length: &'a [f64],
+    stiffness_n_m2: f64,
+}
+
+impl WithSimd for Open<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { points, model, near, segment_length, stiffness_n_m2 } = self;
+        points.open_middles(model, near, segment_length, stiffness_n_m2);
     }
 }
 

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use glam::DMat3;
+use pulp::{Arch, Simd, WithSimd};
 
+use crate::bucket_sort::BucketSort;
 use crate::contact::law::friction_arrays::{Asked, Failed, FrictionArrays, kept_floats};
 use crate::contact::law::skin_direction::Grains;
 use crate::contact::rope_on_skin::near::Near;
@@ -20,6 +22,8 @@ pub(crate) struct FaceContact {
     pub point: usize,
     /// Which of the faces that the contact point touches.
     pub face: usize,
+    /// Its place in rising order of contact point and face.
+    order: usize,
 }
 
 /// What the inputs of the friction laws are computed from.
@@ -28,13 +32,33 @@ struct Sources<'a> {
     whale: &'a Whale,
     friction: &'a Friction,
     near: &'a Near,
-    points: &'a SkinContactPoints,
     state: &'a State,
+}
+
+/// Appends the inputs of all contacts to the arrays, with the instructions of the processor.
+struct Append<'a> {
+    touching: &'a mut Touching,
+    points: &'a mut SkinContactPoints,
+    sources: Sources<'a>,
+}
+
+impl WithSimd for Append<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { touching, points, sources } = self;
+        for place in 0..touching.faces.len() {
+            touching.append(&sources, points, touching.faces[place]);
+        }
+    }
 }
 
 /// Contact points in touch, one entry for each face, in the order of the arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct Touching {
+    arch: Arch,
+    sort: BucketSort<FaceContact>,
     grains: Arc<Grains>,
     /// Each touched face, in the order of the arrays.
     pub faces: Vec<FaceContact>,
@@ -49,6 +73,8 @@ impl Touching {
     /// No contacts yet, on a skin of these grains.
     pub fn new(grains: Arc<Grains>) -> Self {
         Self {
+            arch: Arch::new(),
+            sort: BucketSort::default(),
             grains,
             faces: Vec::new(),
             in_order: Vec::new(),
@@ -73,27 +99,20 @@ impl Touching {
             for (face, touch) in points.touches(at).iter().enumerate() {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
-                self.faces.push(FaceContact {
-                    law: friction.law_of[rope][region as usize],
-                    point,
-                    face,
-                });
+                let law = friction.law_of[rope][region as usize];
+                self.faces.push(FaceContact { law, point, face, order: self.faces.len() });
             }
         }
         if friction.laws.len() > 1 {
-            self.faces.sort_unstable_by_key(|contact| (contact.law, contact.point, contact.face));
+            self.sort.place(&mut self.faces, |contact| contact.law);
         }
-        for place in 0..self.faces.len() {
-            let contact = self.faces[place];
-            let factor = points.friction_factor(model, &state.rope.position, contact.point);
-            let sources = Sources { model, whale, friction, near, points, state };
-            self.append(&sources, contact, factor);
+        self.in_order.resize(self.faces.len(), 0);
+        for (place, contact) in self.faces.iter().enumerate() {
+            self.in_order[contact.order] = place;
         }
-        self.in_order.extend(0..self.faces.len());
-        if friction.laws.len() > 1 {
-            let key = |place: &usize| (self.faces[*place].point, self.faces[*place].face);
-            self.in_order.sort_unstable_by_key(key);
-        }
+        let arch = self.arch;
+        let sources = Sources { model, whale, friction, near, state };
+        arch.dispatch(Append { touching: self, points, sources });
     }
 
     fn clear(&mut self) {
@@ -102,10 +121,17 @@ impl Touching {
         self.arrays.clear();
     }
 
-    /// Appends the inputs of a contact to the arrays, with a factor on its coefficient of friction.
-    fn append(&mut self, sources: &Sources<'_>, contact: FaceContact, factor: f64) {
-        let Sources { model, whale, friction, near, points, state } = *sources;
-        let FaceContact { law, point: index, face } = contact;
+    /// Appends the inputs of a contact to the arrays.
+    #[inline(always)]
+    fn append(
+        &mut self,
+        sources: &Sources<'_>,
+        points: &mut SkinContactPoints,
+        contact: FaceContact,
+    ) {
+        let Sources { model, whale, friction, near, state } = *sources;
+        let FaceContact { law, point: index, face, .. } = contact;
+        let factor = points.friction_factor(model, &state.rope.position, index);
         let point = &points.list[index];
         let touch = &points.touches(point)[face];
         let pair = near.skin_of(touch.pair);

@@ -40,6 +40,7 @@ pub(crate) fn take(state: &FrictionState, kept: &mut Vec<KeptFace>) {
 }
 
 /// The faces of the contact point whose first face has this site.
+#[inline(always)]
 pub(crate) fn of_point(kept: &[KeptFace], site: u64) -> Range<usize> {
     let from = kept.partition_point(|face| face.site < site);
     let faces = kept[from..].iter().take_while(|face| face.site >> FACE_BITS == site >> FACE_BITS);
@@ -88,6 +89,7 @@ pub(crate) fn assign(touches: &mut [Touch], kept: &[KeptFace], of_point: Range<u
 }
 
 /// The faces of a piece, by the site of its first contact point, among the stored faces from `from` on; all before belong to earlier pieces.
+#[inline(always)]
 pub(crate) fn next_of_piece(kept: &[KeptFace], from: usize, site: u64) -> Range<usize> {
     let piece = site >> PIECE_BITS;
     let (mut start, is_before) = (from, |face: &KeptFace| face.site >> PIECE_BITS < piece);
