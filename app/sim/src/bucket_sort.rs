@@ -49,19 +49,34 @@ impl<T: Copy> BucketSort<T> {
         std::mem::swap(list, &mut self.sorted);
     }
 
-    /// As [`sort`](Self::sort), where ranks are small numbers too.
+    /// As [`sort`](Self::sort), where ranks are small numbers too; there are so many `buckets` and so many `ranks`.
     pub fn sort_by_both(
         &mut self,
         list: &mut Vec<T>,
-        bucket: impl Fn(&T) -> usize,
-        rank: impl Fn(&T) -> usize,
+        (bucket, buckets): (impl Fn(&T) -> usize, usize),
+        (rank, ranks): (impl Fn(&T) -> usize, usize),
     ) {
-        let (low, high) = ends(list, &rank);
-        if high.saturating_sub(low) > FEWEST_OF_SPAN * list.len() {
+        let Some(first) = list.first() else { return };
+        if ranks > MOST_RANKS * list.len() {
             return self.sort(list, bucket, rank);
         }
-        self.place(list, rank);
-        self.place(list, bucket);
+        if self.sorted.len() < list.len() {
+            self.sorted.reserve(list.capacity());
+            self.sorted.resize(list.len(), *first);
+        }
+        self.begins.clear();
+        self.begins.resize(buckets + ranks, 0);
+        let (of_buckets, of_ranks) = self.begins.split_at_mut(buckets);
+        for item in &*list {
+            of_buckets[bucket(item)] += 1;
+            of_ranks[rank(item)] += 1;
+        }
+        add_up(of_buckets);
+        add_up(of_ranks);
+        // By rank, and then by bucket, in which items keep their order.
+        let sorted = &mut self.sorted[..list.len()];
+        scatter(list, of_ranks, sorted, rank);
+        scatter(sorted, of_buckets, list, bucket);
     }
 
     /// Sorts a list by bucket alone; items of a bucket keep their order.
@@ -90,8 +105,25 @@ impl<T: Copy> BucketSort<T> {
     }
 }
 
-/// Ranks are buckets where their span is at most this many times the number of items.
-const FEWEST_OF_SPAN: usize = 4;
+/// Ranks are counted as buckets are where there are at most this many for each item.
+const MOST_RANKS: usize = 8;
+
+/// Makes of counts the sums of those before.
+fn add_up(counts: &mut [usize]) {
+    let mut sum = 0;
+    for count in counts {
+        (*count, sum) = (sum, sum + *count);
+    }
+}
+
+/// Copies items to where those of their number begin.
+fn scatter<T: Copy>(from: &[T], begins: &mut [usize], to: &mut [T], number: impl Fn(&T) -> usize) {
+    for item in from {
+        let at = &mut begins[number(item)];
+        to[*at] = *item;
+        *at += 1;
+    }
+}
 
 /// Least and greatest of the numbers of a list.
 fn ends<T>(list: &[T], number: impl Fn(&T) -> usize) -> (usize, usize) {
@@ -113,7 +145,7 @@ mod tests {
             let mut other = list.clone();
             sort.sort(&mut list, |item| item[0], |item| item[1]);
             assert_eq!(list, wanted);
-            sort.sort_by_both(&mut other, |item| item[0], |item| item[1]);
+            sort.sort_by_both(&mut other, (|item| item[0], 11), (|item| item[1], 97));
             assert_eq!(other, wanted);
         }
     }

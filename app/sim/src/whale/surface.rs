@@ -159,7 +159,11 @@ impl Surface {
             true
         });
         self.close = close;
-        self.sort.sort_by_both(out, |pair| pair.segment as usize, |pair| pair.triangle as usize);
+        self.sort.sort_by_both(
+            out,
+            (|pair| pair.segment as usize, segments.len()),
+            (|pair| pair.triangle as usize, self.tree.order().len()),
+        );
     }
 
     /// Whether any pair of a segment and a triangle has boxes over the step within `margin`.

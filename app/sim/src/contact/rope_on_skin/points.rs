@@ -167,6 +167,7 @@ impl SkinContactPoints {
 
     /// Factor on the friction of a contact point that corrects for the polygon (`law/capstan_correction.rs`), with the rope `from` where the
     /// solver step began.
+    #[inline(always)]
     pub fn friction_factor(&mut self, model: &Model, from: &[DVec3], point: usize) -> f64 {
         let point = &self.list[point];
         let bend = *self.bends[point.group]

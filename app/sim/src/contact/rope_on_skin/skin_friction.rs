@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use endline_sdk::Region;
 use glam::DMat3;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,13 +12,15 @@ use crate::contact::law::skin_direction::Grains;
 use crate::contact::rope_on_skin::near::Near;
 use crate::contact::rope_on_skin::points::SkinContactPoints;
 use crate::contact::rope_on_skin::touch::Touch;
-use crate::model::{Friction, Model, Whale};
+use crate::model::{Friction, Model};
 use crate::state::{FrictionState, State};
 
 /// A touched face of a contact point, and its friction law.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FaceContact {
     law: usize,
+    rope: usize,
+    region: Region,
     /// Index of the contact point.
     pub point: usize,
     /// Which of the faces that the contact point touches.
@@ -29,7 +32,6 @@ pub(crate) struct FaceContact {
 /// What the inputs of the friction laws are computed from.
 struct Sources<'a> {
     model: &'a Model,
-    whale: &'a Whale,
     friction: &'a Friction,
     near: &'a Near,
     state: &'a State,
@@ -100,7 +102,8 @@ impl Touching {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
                 let law = friction.law_of[rope][region as usize];
-                self.faces.push(FaceContact { law, point, face, order: self.faces.len() });
+                let order = self.faces.len();
+                self.faces.push(FaceContact { law, rope, region, point, face, order });
             }
         }
         if friction.laws.len() > 1 {
@@ -111,7 +114,7 @@ impl Touching {
             self.in_order[contact.order] = place;
         }
         let arch = self.arch;
-        let sources = Sources { model, whale, friction, near, state };
+        let sources = Sources { model, friction, near, state };
         arch.dispatch(Append { touching: self, points, sources });
     }
 
@@ -129,14 +132,12 @@ impl Touching {
         points: &mut SkinContactPoints,
         contact: FaceContact,
     ) {
-        let Sources { model, whale, friction, near, state } = *sources;
-        let FaceContact { law, point: index, face, .. } = contact;
+        let Sources { model, friction, near, state } = *sources;
+        let FaceContact { law, rope, region, point: index, face, .. } = contact;
         let factor = points.friction_factor(model, &state.rope.position, index);
         let point = &points.list[index];
         let touch = &points.touches(point)[face];
         let pair = near.skin_of(touch.pair);
-        let region = whale.skin.regions[pair.triangle as usize];
-        let rope = model.spec.lines[model.segment_line[point.segment]].rope;
         let from = &state.rope.position;
         let rope_move = touch.place - point.on_rope(|node| from[node]);
         let along = from[point.node + 1] - from[point.node];

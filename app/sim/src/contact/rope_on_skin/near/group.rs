@@ -99,6 +99,7 @@ impl Group {
     }
 
     /// Bound of the move of the segment relative to its skin while that makes a share of its step [m].
+    #[inline(always)]
     pub fn relative_move(&self, from: &[DVec3], to: &[DVec3], share: f64) -> f64 {
         let skin = self.skin_move * share;
         let end = |node: usize| (to[node] - from[node] - skin).length_squared();
