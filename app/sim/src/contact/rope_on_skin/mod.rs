@@ -95,18 +95,20 @@ impl RopeOnSkin {
     fn store_blocks(&mut self) {
         let Self { points, friction: touching, .. } = self;
         touching.block.clear();
+        touching.force.clear();
         for (place, contact) in touching.faces.iter().enumerate() {
             let touch = &points.touches(&points.list[contact.point])[contact.face];
             touching.block.push(touching.block_of(place, touch));
+            touching.force.push(touching.arrays.force_of(place));
         }
     }
 
     /// Push and friction of every contact as measured last, with its block as noted.
     pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
         let Self { points, friction: touching, .. } = self;
-        touching.faces.iter().zip(&touching.block).enumerate().map(|(place, (contact, block))| {
-            (&points.list[contact.point], touching.arrays.force_of(place), block)
-        })
+        let solved = touching.force.iter().zip(&touching.block);
+        let faces = touching.faces.iter().zip(solved);
+        faces.map(|(contact, (force, block))| (&points.list[contact.point], *force, block))
     }
 
     /// Contacts with forces linear about the evaluation (`before`), with the rope at other places.
@@ -127,7 +129,7 @@ impl RopeOnSkin {
         for (place, contact) in touching.faces.iter().enumerate() {
             let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
             let gap_n = points.law_missed(contact.point, contact.face, step);
-            let force = touching.arrays.force_of(place) - touching.block[place] * step;
+            let force = touching.force[place] - touching.block[place] * step;
             missed = missed.and(ContactError { gap_n, greatest_n: force.length() });
         }
         missed
@@ -151,7 +153,7 @@ impl RopeOnSkin {
         missed.resize(points.list.len(), DVec3::ZERO);
         for (place, contact) in touching.faces.iter().enumerate() {
             let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
-            missed[contact.point] += touching.arrays.force_of(place) - touching.block[place] * step;
+            missed[contact.point] += touching.force[place] - touching.block[place] * step;
             points.note_solved(contact.point, contact.face, step);
         }
     }
@@ -190,6 +192,9 @@ impl RopeOnSkin {
 
     /// A segment and triangle nearer than this share of the contact distance, if any.
     fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
+        if !self.points.any_nearer_than(share * self.greatest_contact_distance) {
+            return None;
+        }
         self.points.list.iter().find_map(|point| {
             let touch = self
                 .points
@@ -204,6 +209,10 @@ impl RopeOnSkin {
     /// and come out again.
     /// A knot may be pressed flat: the rope in its middle has contact points of its own.
     fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
+        // Twice the distance, whatever the rounding.
+        if !self.points.any_nearer_than(2.0 * PINCHED_SHARE * self.greatest_contact_distance) {
+            return None;
+        }
         self.points.list.iter().filter(|point| !point.is_knot).find_map(|point| {
             let is_pinched = |touch: &&Touch| {
                 let share = touch.distance / point.contact_distance;

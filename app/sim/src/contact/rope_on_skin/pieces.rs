@@ -128,19 +128,17 @@ impl SkinContactPoints {
 
     /// Inserts the contact points opened into the list, each behind the others of its piece; how many.
     fn insert_opened(&mut self) -> usize {
-        let (mut read, opened) = (self.list.len(), self.opened.len());
+        let opened = self.opened.len();
         if opened == 0 {
             return 0;
         }
+        let mut end = self.list.len() + opened;
         self.list.extend(self.opened.iter().map(|(_, point)| point.clone()));
-        let mut write = self.list.len();
-        for (_, point) in self.opened.iter().rev() {
-            while read > 0 && self.list[read - 1].site > point.site {
-                (read, write) = (read - 1, write - 1);
-                self.list.swap(read, write);
-            }
-            write -= 1;
-            self.list[write] = point.clone();
+        // From the last on: what is behind a contact point changes places with it and with those before it.
+        for (before, (piece, _)) in self.opened.iter().enumerate().rev() {
+            let begin = self.pieces[*piece].points.end;
+            self.list[begin..end].rotate_right(before + 1);
+            end = begin + before;
         }
         let (mut shift, mut places) = (0, self.opened.iter().map(|(piece, _)| *piece).peekable());
         for (index, piece) in self.pieces.iter_mut().enumerate() {

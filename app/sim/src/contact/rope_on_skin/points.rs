@@ -126,6 +126,8 @@ impl SkinContactPoints {
                 let faces = &self.kept[kept.clone()];
                 let first = self.list.len();
                 let share = 0.5 * bears_m / length;
+                let of_middle =
+                    if faces.is_empty() { 0..0 } else { stored_faces::of_point(faces, site) };
                 self.pieces.push(Piece {
                     points: first..first + 1,
                     between: [fraction - share, fraction + share],
@@ -147,7 +149,7 @@ impl SkinContactPoints {
                     nearest: None,
                     push_beside_n: None,
                     touches: 0..0,
-                    kept: kept.start..kept.start + stored_faces::of_point(faces, site).len(),
+                    kept: kept.start..kept.start + of_middle.len(),
                 });
             }
         }
@@ -194,6 +196,11 @@ impl SkinContactPoints {
         let point = &self.list[point];
         let touch = &self.touches[point.touches.start + face];
         touch.law_missed(step, point.contact_distance, point.stiffness)
+    }
+
+    /// Whether skin is nearer than this to any contact point in touch [m].
+    pub fn any_nearer_than(&self, distance: f64) -> bool {
+        self.touches.iter().any(|touch| touch.distance < distance)
     }
 
     /// Touches of a contact point, as evaluated last.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use endline_sdk::Region;
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::bucket_sort::BucketSort;
@@ -69,6 +69,8 @@ pub(crate) struct Touching {
     pub arrays: FrictionArrays,
     /// `-d force / d place` of each contact as it went into the last solve [N/m].
     pub block: Vec<DMat3>,
+    /// Push and friction of each contact, linear about the evaluation that went into the last solve [N].
+    pub force: Vec<DVec3>,
 }
 
 impl Touching {
@@ -82,6 +84,7 @@ impl Touching {
             in_order: Vec::new(),
             arrays: FrictionArrays::default(),
             block: Vec::new(),
+            force: Vec::new(),
         }
     }
 
@@ -192,5 +195,6 @@ impl Touching {
     pub fn follow_law(&mut self, place: usize, touch: &Touch) {
         self.arrays.set_push(place, touch.barrier.force + touch.growth_n);
         self.block[place] = self.block_of(place, touch);
+        self.force[place] = self.arrays.force_of(place);
     }
 }
