@@ -49,7 +49,7 @@ impl<T: Copy> BucketSort<T> {
         std::mem::swap(list, &mut self.sorted);
     }
 
-    /// As [`sort`](Self::sort), where ranks are small numbers too; there are so many `buckets` and so many `ranks`.
+    /// As [`sort`](Self::sort), where ranks are small numbers too; buckets are below `buckets`, and ranks below `ranks`.
     pub fn sort_by_both(
         &mut self,
         list: &mut Vec<T>,
