@@ -10,12 +10,12 @@
 use glam::{DMat3, DVec3};
 
 use crate::forces::Forces;
-use crate::matrix::outer;
+use crate::matrix::{outer, turned};
 use crate::model::{Body, Float, Model, Wet};
 use crate::state::State;
 use crate::system::LinearSystem;
 use crate::trial::plan::{Attachment, Plan};
-use crate::trial::rotation::momentum_rate;
+use crate::trial::rotation::momentum_rate_at;
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
 
@@ -31,6 +31,38 @@ pub(crate) struct BodyAt<'a> {
     /// First block of the body in the interface system.
     pub block: usize,
     pub trial: &'a BodyTrial,
+    /// Its axes in the world frame, by columns.
+    axes: DMat3,
+    /// Velocity of its place at the end of the step [m/s].
+    velocity: DVec3,
+    /// Angular velocity at the end of the step, zero in statics [rad/s].
+    spin: DVec3,
+}
+
+impl<'a> BodyAt<'a> {
+    fn of(
+        index: usize,
+        body: &'a Body,
+        block: usize,
+        trial: &'a BodyTrial,
+        scheme: &Scheme,
+    ) -> Self {
+        Self {
+            index,
+            body,
+            block,
+            trial,
+            axes: DMat3::from_quat(trial.orientation),
+            velocity: (trial.place - trial.place_history) * scheme.rate,
+            spin: if scheme.is_static() { DVec3::ZERO } else { trial.spin(scheme) },
+        }
+    }
+
+    /// A place in the body's frame as an attachment, and the arm to it in the world frame.
+    fn point(&self, offset: DVec3) -> (Attachment, DVec3) {
+        let attachment = Attachment::Body { block: self.block, body: self.index, offset };
+        (attachment, self.trial.orientation * offset)
+    }
 }
 
 impl Forces {
@@ -61,12 +93,13 @@ impl Forces {
     ) {
         let StepContext { model, state, scheme } = *context;
         let body = &model.spec.bodies[index];
-        let at = BodyAt { index, body, block: plan.body_block[index], trial: &trial.bodies[index] };
+        let at =
+            BodyAt::of(index, body, plan.body_block[index], &trial.bodies[index], scheme);
         system.interface.force[at.block].z -= body.mass_kg * model.spec.water.gravity_m_s2;
         let [wet, facing] = self.add_floats(model, &at, scheme, system);
         add_body_inertia(state, &at, wet, scheme, system);
         let area = body.drag_area_m2 * facing;
-        self.add_part_drag(model, &at, (DVec3::ZERO, area), scheme, system);
+        self.add_part_drag(model, &at, (at.point(DVec3::ZERO), area), scheme, system);
         add_turn_drag(model, &at, wet, scheme, system);
         self.water.add_body_push(model, &at, wet, system);
     }
@@ -83,9 +116,10 @@ impl Forces {
         let body = at.body;
         let (mut wet, mut facing, mut whole) = (0.0, 0.0, 0.0);
         for float in &body.floats {
-            let under = self.add_float(model, at, float, scheme, system);
+            let point = at.point(float.offset_m);
+            let under = self.add_float(model, at, (float, point), scheme, system);
             let area = float.drag_area_m2 * under.facing;
-            self.add_part_drag(model, at, (float.offset_m, area), scheme, system);
+            self.add_part_drag(model, at, (point, area), scheme, system);
             wet += under.share * float.volume_m3;
             facing += under.facing * float.volume_m3;
             whole += float.volume_m3;
@@ -98,58 +132,60 @@ impl Forces {
         &self,
         model: &Model,
         at: &BodyAt<'_>,
-        float: &Float,
+        (float, (attachment, arm)): (&Float, (Attachment, DVec3)),
         scheme: &Scheme,
         system: &mut LinearSystem,
     ) -> Wet {
         let water = &model.spec.water;
         let BodyAt { index, block, trial, .. } = *at;
-        let arm = trial.orientation * float.offset_m;
         let wet = float.form.wet(
             trial.place.z + arm.z - self.water.flow_bodies[index].surface_m,
             trial.orientation * DVec3::Z,
         );
         let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
-        let attachment = Attachment::Body { block, body: index, offset: float.offset_m };
-        let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
+        let force = DVec3::Z * (lift * wet.share);
         system.interface.push(attachment, arm, force);
         system.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
             return wet;
         }
-        system.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
-        *system.interface.at(block + 1, block + 1) +=
-            turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
+        // Under water and above it most of these blocks are zero.
+        let up = outer(DVec3::Z, DVec3::Z);
+        let (stiffness, turning) = (lift * wet.slope, lift * wet.turn);
+        if stiffness != 0.0 {
+            system.interface.add(attachment, arm, attachment, arm, up * stiffness);
+        }
+        if turning != 0.0 || arm.dot(force) > 0.0 {
+            *system.interface.at(block + 1, block + 1) +=
+                turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * turning;
+        }
         wet
     }
 
-    /// Adds the drag of a part of a body at a place in the body's frame; `area` is coefficient times area by body axis.
+    /// Adds the drag of a part of a body at a point of it; `area` is coefficient times area by body axis.
     fn add_part_drag(
         &self,
         model: &Model,
         at: &BodyAt<'_>,
-        (offset, area): (DVec3, DVec3),
+        ((attachment, arm), area): ((Attachment, DVec3), DVec3),
         scheme: &Scheme,
         system: &mut LinearSystem,
     ) {
         if area == DVec3::ZERO {
             return;
         }
-        let BodyAt { index, block, trial, .. } = *at;
-        let (axes, arm) = (DMat3::from_quat(trial.orientation), trial.orientation * offset);
+        let BodyAt { index, axes, mut velocity, spin, .. } = *at;
         let half_density = 0.5 * model.spec.water.density_kg_m3;
-        let mut velocity = (trial.place - trial.place_history) * scheme.rate;
         if !scheme.is_static() {
-            velocity += trial.spin(scheme).cross(arm);
+            velocity += spin.cross(arm);
         }
         let relative = axes.transpose() * (self.water.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
-        let attachment = Attachment::Body { block, body: index, offset };
         system.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
         if !scheme.is_static() {
             let slope =
                 area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
-            let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
+            let slope = turned(&axes, slope * scheme.rate);
             system.interface.add(attachment, arm, attachment, arm, slope);
         }
     }
@@ -163,23 +199,22 @@ fn add_body_inertia(
     scheme: &Scheme,
     system: &mut LinearSystem,
 ) {
-    let BodyAt { index, body, block, trial } = *at;
+    let BodyAt { index, body, block, trial, ref axes, spin, .. } = *at;
     let now = &state.bodies[index];
-    let axes = DMat3::from_quat(trial.orientation);
-    let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
-    let mass = DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
+    let mass =
+        DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(axes, body.added_mass_kg * wet);
     let moments = body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet;
-    let inertia = turned(moments);
     let share = scheme.inertia * trial.pseudo_mass_scale;
     *system.interface.at(block, block) += mass * share;
     if scheme.is_static() {
+        let inertia = turned(axes, moments);
         *system.interface.at(block + 1, block + 1) += inertia * share;
         if scheme.anchored {
             system.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
             system.interface.force[block + 1] -= inertia * (trial.turn() * share);
         }
     } else {
-        let (turning, growth) = momentum_rate(trial, now, moments, scheme);
+        let (turning, growth) = momentum_rate_at(axes, spin, now, moments, scheme);
         system.interface.force[block] -= inertial(trial, scheme, mass);
         system.interface.force[block + 1] -= turning;
         *system.interface.at(block + 1, block + 1) += growth;
@@ -203,15 +238,13 @@ fn add_turn_drag(
     if scheme.is_static() {
         return;
     }
-    let BodyAt { body, block, trial, .. } = *at;
-    let axes = DMat3::from_quat(trial.orientation);
+    let BodyAt { body, block, ref axes, .. } = *at;
     let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
-    let spin = axes.transpose() * trial.spin(scheme);
+    let spin = axes.transpose() * at.spin;
     system.interface.force[block + 1] -=
         axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
     let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density * scheme.rate);
-    *system.interface.at(block + 1, block + 1) +=
-        axes * DMat3::from_diagonal(slope) * axes.transpose();
+    *system.interface.at(block + 1, block + 1) += turned(axes, slope);
 }
 
 /// Force that gives a mass the acceleration of a body's step.

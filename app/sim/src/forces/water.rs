@@ -98,7 +98,7 @@ impl WaterAtGear {
         wet: f64,
         system: &mut LinearSystem,
     ) {
-        let BodyAt { index, body, block, trial } = *at;
+        let BodyAt { index, body, block, trial, .. } = *at;
         let WaterAt { acceleration_m_s2: acceleration, surface_m, .. } = self.flow_bodies[index];
         if acceleration == DVec3::ZERO {
             return;

@@ -5,7 +5,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::matrix::cross_matrix;
+use crate::matrix::{cross_matrix, cross_times, times_cross};
 use crate::model::Model;
 use crate::system::sparse::{BlockSparse, Place};
 use crate::trial::plan::{Attachment, Plan};
@@ -119,18 +119,29 @@ impl InterfaceSystem {
         column_arm: DVec3,
         value: DMat3,
     ) {
-        for (row_block, row_turn) in parts(row, row_arm) {
-            let rows = row_turn.map_or(value, |turn| turn.transpose() * value);
-            for (column_block, column_turn) in parts(column, column_arm) {
-                *self.at(row_block, column_block) += column_turn.map_or(rows, |turn| rows * turn);
+        let (Some((row, turns)), Some((column, column_turns))) = (first(row), first(column)) else {
+            return;
+        };
+        *self.at(row, column) += value;
+        if column_turns {
+            *self.at(row, column + 1) -= times_cross(&value, column_arm);
+        }
+        if turns {
+            let moment = cross_times(row_arm, &value);
+            *self.at(row + 1, column) += moment;
+            if column_turns {
+                *self.at(row + 1, column + 1) -= times_cross(&moment, column_arm);
             }
         }
     }
 
     /// Adds a force at the point of an attachment.
     pub fn push(&mut self, attachment: Attachment, arm: DVec3, force: DVec3) {
-        for (block, turn) in parts(attachment, arm) {
-            self.force[block] += turn.map_or(force, |turn| turn.transpose() * force);
+        if let Some((block, turns)) = first(attachment) {
+            self.force[block] += force;
+            if turns {
+                self.force[block + 1] += arm.cross(force);
+            }
         }
     }
 
@@ -178,6 +189,16 @@ pub(super) fn parts(
         }
     };
     list.into_iter().flatten()
+}
+
+/// First block of an attachment, and whether it is that of a body, whose rotation has the next block.
+#[inline]
+fn first(attachment: Attachment) -> Option<(usize, bool)> {
+    match attachment {
+        Attachment::Fixed => None,
+        Attachment::Free(block) => Some((block, false)),
+        Attachment::Body { block, .. } => Some((block, true)),
+    }
 }
 
 #[cfg(test)]

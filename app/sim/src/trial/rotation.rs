@@ -19,7 +19,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::matrix::cross_matrix;
+use crate::matrix::{cross_matrix, times_cross, turned};
 use crate::state::BodyState;
 use crate::trial::BodyTrial;
 use crate::trial::scheme::Scheme;
@@ -50,18 +50,27 @@ pub(crate) fn momentum_rate(
     inertia_kg_m2: DVec3,
     scheme: &Scheme,
 ) -> (DVec3, DMat3) {
-    let turned = |orientation: DQuat| {
-        let axes = DMat3::from_quat(orientation);
-        axes * DMat3::from_diagonal(inertia_kg_m2) * axes.transpose()
-    };
-    let (inertia, spin) = (turned(trial.orientation), trial.spin(scheme));
+    momentum_rate_at(&DMat3::from_quat(trial.orientation), trial.spin(scheme), now, inertia_kg_m2, scheme)
+}
+
+/// As [`momentum_rate`], of a body with these axes that turns at this angular velocity at the end of the step [rad/s].
+pub(crate) fn momentum_rate_at(
+    axes: &DMat3,
+    spin: DVec3,
+    now: &BodyState,
+    inertia_kg_m2: DVec3,
+    scheme: &Scheme,
+) -> (DVec3, DMat3) {
+    let inertia = turned(axes, inertia_kg_m2);
     let momentum = inertia * spin;
-    let history = scheme.history(
-        turned(now.orientation) * now.spin,
-        turned(now.earlier_orientation) * now.earlier_spin,
-    );
-    let growth =
-        inertia * scheme.rate - cross_matrix(momentum) + inertia * cross_matrix(spin) * 0.5;
+    let momentum_of = |orientation: DQuat, spin: DVec3| {
+        turned(&DMat3::from_quat(orientation), inertia_kg_m2) * spin
+    };
+    let mut history = momentum_of(now.orientation, now.spin) * scheme.now;
+    if scheme.earlier > 0.0 {
+        history -= momentum_of(now.earlier_orientation, now.earlier_spin) * scheme.earlier;
+    }
+    let growth = inertia * scheme.rate - cross_matrix(momentum) + times_cross(&inertia, spin) * 0.5;
     ((momentum - history) * scheme.rate, growth * scheme.rate)
 }
 
