@@ -93,8 +93,7 @@ impl Forces {
     ) {
         let StepContext { model, state, scheme } = *context;
         let body = &model.spec.bodies[index];
-        let at =
-            BodyAt::of(index, body, plan.body_block[index], &trial.bodies[index], scheme);
+        let at = BodyAt::of(index, body, plan.body_block[index], &trial.bodies[index], scheme);
         system.interface.force[at.block].z -= body.mass_kg * model.spec.water.gravity_m_s2;
         let [wet, facing] = self.add_floats(model, &at, scheme, system);
         add_body_inertia(state, &at, wet, scheme, system);

@@ -31,7 +31,9 @@ use crate::contact::rope_on_rope::near::RopeOnRope;
 use crate::forces::axial::Axial;
 use crate::model::{Model, Resolution, Rope};
 use crate::state::{RopeState, State};
-use crate::whale::approach::Approach;
+use crate::system::lanes::real::Real;
+use crate::system::lanes::rows::LANES;
+use crate::whale::approach::{Approach, Size};
 use crate::whale::{Bounds, pose};
 
 /// Interval between two remeshings [s].
@@ -310,11 +312,22 @@ const EDGE_M: f64 = 0.2;
 const GRADE: f64 = 0.3;
 
 /// Target length at a distance from skin [m].
-fn size(resolution: &Resolution, gap_m: f64, thin: bool) -> f64 {
-    let at =
-        |least: f64, within: f64| (least + GRADE * (gap_m - within).max(0.0)).min(resolution.far_m);
-    let near = at(resolution.near_m, NEAR_M);
-    if thin { near.min(at(resolution.edge_m, EDGE_M)) } else { near }
+struct Target<'a>(&'a Resolution);
+
+impl Size for Target<'_> {
+    #[inline(always)]
+    fn at<R: Real>(&self, gap_m: R, thin: bool) -> R {
+        let Resolution { near_m, edge_m, far_m } = *self.0;
+        let near = grown([near_m, NEAR_M, far_m], gap_m);
+        if thin { near.min(grown([edge_m, EDGE_M, far_m], gap_m)) } else { near }
+    }
+}
+
+/// A length that is `least` within a distance, and grows beyond it up to `most`.
+#[inline(always)]
+fn grown<R: Real>([least, within, most]: [f64; 3], gap_m: R) -> R {
+    let beyond = (gap_m - gap_m.splat(within)).max(gap_m.splat(0.0));
+    (gap_m.splat(least) + gap_m.splat(GRADE) * beyond).min(gap_m.splat(most))
 }
 
 /// Whether a target length is that of rope far from the whale.
@@ -343,13 +356,17 @@ fn measure(model: &Model, state: &State, resolution: &Resolution, work: &mut Rem
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
     pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);
     work.approach.begin();
+    let (position, size) = (&state.rope.position, Target(resolution));
     for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
-        for (node, segment) in (nodes.start..).zip(segments.clone()) {
-            let place = Bounds::around(&[state.rope.position[node], state.rope.position[node + 1]]);
-            work.wanted[segment] =
-                work.approach.least(&work.bones, &place, resolution.far_m, |gap_m, thin| {
-                    size(resolution, gap_m, thin)
-                });
+        let mut node = nodes.start;
+        for wanted in work.wanted[segments.clone()].chunks_mut(LANES) {
+            let mut places = [Bounds::EMPTY; LANES];
+            for place in &mut places[..wanted.len()] {
+                *place = Bounds::around(&[position[node], position[node + 1]]);
+                node += 1;
+            }
+            let places = &places[..wanted.len()];
+            work.approach.least(&work.bones, places, resolution.far_m, &size, wanted);
         }
     }
 }

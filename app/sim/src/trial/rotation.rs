@@ -50,7 +50,13 @@ pub(crate) fn momentum_rate(
     inertia_kg_m2: DVec3,
     scheme: &Scheme,
 ) -> (DVec3, DMat3) {
-    momentum_rate_at(&DMat3::from_quat(trial.orientation), trial.spin(scheme), now, inertia_kg_m2, scheme)
+    momentum_rate_at(
+        &DMat3::from_quat(trial.orientation),
+        trial.spin(scheme),
+        now,
+        inertia_kg_m2,
+        scheme,
+    )
 }
 
 /// As [`momentum_rate`], of a body with these axes that turns at this angular velocity at the end of the step [rad/s].

@@ -4,15 +4,25 @@
 //!
 //! The box of a child may extend beyond that of its parent, because both are made of bounding spheres. The result of a search
 //! that prunes by boxes therefore depends on its order; [`Approach::least`] is defined by the search in the order of the tree.
-//! A faster search finds the minimum over all clusters. If the search in order would reach that cluster, both results are
-//! equal; otherwise the search in order runs as well.
+//! A faster search, of eight neighbouring places at once in the lanes of the processor, finds the minimum over all clusters. If the
+//! search in order would reach that cluster, both results are equal; otherwise the search in order runs as well.
 
 use std::sync::Arc;
 
 use endline_sdk::Region;
 use glam::DAffine3;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::tree::{Bounds, SkinTree};
+use crate::system::lanes::real::Real;
+use crate::system::lanes::rows::{LANES, Part, Row, Row3};
+
+/// A function of the gap of a cluster to a place [m] and of whether the cluster contains a thin edge. It must not decrease with the
+/// gap, nor be smaller without a thin edge than with one.
+pub(crate) trait Size {
+    /// Its value.
+    fn at<R: Real>(&self, gap_m: R, thin: bool) -> R;
+}
 
 /// Whether a region is a thin edge: edges and tips of flippers and flukes.
 fn is_thin(region: Region) -> bool {
@@ -35,20 +45,36 @@ fn is_thin(region: Region) -> bool {
 /// Boxes of one pose, computed on demand.
 #[derive(Clone, Debug)]
 pub(crate) struct Approach {
+    arch: Arch,
     tree: Arc<SkinTree>,
     /// Whether each node of the tree contains a thin edge.
     thin: Vec<bool>,
     /// Parent of each node; `None` for the root.
     parent: Vec<Option<usize>>,
     boxes: Vec<Option<Bounds>>,
-    /// Boxes around each node and all its descendants, valid if `whole_known`.
-    whole: Vec<Bounds>,
-    whole_known: bool,
-    /// Cluster of the previous minimum: the initial guess for the next, neighbouring box.
+    /// Boxes around the clusters below each node; of a cluster its own box.
+    around: Vec<Option<Bounds>>,
+    radii: Vec<f64>,
+    /// Whether the boxes of all ancestors of a cluster contain its own.
+    is_within: Vec<Option<bool>>,
+    /// Cluster of a previous minimum: the initial guess for the next, neighbouring places.
     guess: Option<usize>,
     todo: Vec<usize>,
-    /// Pending nodes of the fast search, each with a lower bound of its descendants.
-    bounded: Vec<(usize, f64)>,
+    /// Pending nodes of the fast search, each with lower bounds of its descendants.
+    bounded: Vec<(usize, Row)>,
+}
+
+/// The cluster with the minimum of all for each place, and the minima.
+#[derive(Clone, Debug, Default)]
+struct Least {
+    cluster: [usize; LANES],
+    value: Row,
+}
+
+/// Boxes of neighbouring places, one in each lane.
+struct Places {
+    low: Row3,
+    high: Row3,
 }
 
 impl Approach {
@@ -65,11 +91,13 @@ impl Approach {
             at.children.into_iter().flatten().for_each(|child| parent[child] = Some(node));
         }
         Self {
+            arch: Arch::new(),
             thin,
             parent,
             boxes: vec![None; count],
-            whole: vec![Bounds::EMPTY; count],
-            whole_known: false,
+            around: vec![None; count],
+            radii: tree.radii_around_clusters(),
+            is_within: vec![None; count],
             guess: None,
             todo: Vec::with_capacity(count),
             bounded: Vec::with_capacity(count),
@@ -80,33 +108,43 @@ impl Approach {
     /// Starts a new pose.
     pub fn begin(&mut self) {
         self.boxes.fill(None);
-        self.whole_known = false;
+        self.around.fill(None);
+        self.is_within.fill(None);
         self.guess = None;
     }
 
-    /// Returns the minimum of `size` over the clusters that a search in the order of the tree reaches, at most `most`.
-    ///
-    /// `size` is a function of the gap of a cluster to `place` [m] and of whether it contains a thin edge. It must not decrease
-    /// with the gap, nor be smaller without a thin edge than with one. The search prunes the descendants of a node with no
-    /// smaller value.
+    /// Computes, for each of at most eight neighbouring places, the minimum of `size` over the clusters that a search in the order of
+    /// the tree reaches, at most `most`. The search prunes the descendants of a node with no smaller value.
     pub fn least(
         &mut self,
         bones: &[DAffine3],
-        place: &Bounds,
+        places: &[Bounds],
         most: f64,
-        size: impl Fn(f64, bool) -> f64,
-    ) -> f64 {
-        if self.boxes.is_empty() || size(self.bound(0, bones).gap(place), self.thin[0]) >= most {
-            return most;
+        size: &impl Size,
+        out: &mut [f64],
+    ) {
+        debug_assert!(places.len() <= LANES && places.len() == out.len(), "{} places", out.len());
+        out.fill(most);
+        let around = places.iter().fold(Bounds::EMPTY, |all, place| all.join(*place));
+        let is_far = |root: Bounds, place: &Bounds, thin| size.at(root.gap(place), thin) >= most;
+        if self.boxes.is_empty() || is_far(self.bound(0, bones), &around, self.thin[0]) {
+            return;
         }
-        self.compute_whole(bones);
-        // The fast search finds a lower bound of the result of the search in order.
-        let Some((cluster, least)) = self.least_of_all(place, most, &size) else { return most };
-        self.guess = Some(cluster);
-        if self.is_reached(cluster, least, bones, place, &size) {
-            least
-        } else {
-            self.least_in_order(bones, place, most, size)
+        let Some(Least { cluster, value }) = self.least_of_all(bones, places, most, size) else {
+            return;
+        };
+        for (lane, (place, out)) in places.iter().zip(out).enumerate() {
+            let (cluster, least) = (cluster[lane], value.0[lane]);
+            // The fast search finds a lower bound of the result of the search in order.
+            if least >= most || is_far(self.bound(0, bones), place, self.thin[0]) {
+                continue;
+            }
+            self.guess = Some(cluster);
+            *out = if self.is_reached(cluster, least, bones, place, size) {
+                least
+            } else {
+                self.least_in_order(bones, place, most, size)
+            };
         }
     }
 
@@ -116,13 +154,13 @@ impl Approach {
         bones: &[DAffine3],
         place: &Bounds,
         most: f64,
-        size: impl Fn(f64, bool) -> f64,
+        size: &impl Size,
     ) -> f64 {
         let mut least = most;
         self.todo.clear();
         self.todo.extend((!self.boxes.is_empty()).then_some(0));
         while let Some(node) = self.todo.pop() {
-            let here = size(self.bound(node, bones).gap(place), self.thin[node]);
+            let here = size.at(self.bound(node, bones).gap(place), self.thin[node]);
             if here >= least {
                 continue;
             }
@@ -134,32 +172,28 @@ impl Approach {
         least
     }
 
-    /// Returns the cluster with the minimum of all and its value; `None` if no value is below `most`.
+    /// The clusters with the minima of all, where these are below `most`; `None` if there are no places.
     fn least_of_all(
         &mut self,
-        place: &Bounds,
+        bones: &[DAffine3],
+        places: &[Bounds],
         most: f64,
-        size: impl Fn(f64, bool) -> f64,
-    ) -> Option<(usize, f64)> {
-        let Self { tree, thin, whole, bounded, .. } = self;
-        let at = |node: usize| (node, size(whole[node].gap(place), thin[node]));
-        let mut found = self.guess.map(at).filter(|(_, least)| *least < most);
-        bounded.clear();
-        bounded.push(at(0));
-        while let Some((node, here)) = bounded.pop() {
-            if here >= found.map_or(most, |(_, least)| least) {
-                continue;
-            }
-            match tree.nodes()[node].children {
-                Some(children) => {
-                    let [one, other] = children.map(at);
-                    // The nearer child is searched first.
-                    bounded.extend(if one.1 < other.1 { [other, one] } else { [one, other] });
-                }
-                None => found = Some((node, here)),
-            }
+        size: &impl Size,
+    ) -> Option<Least> {
+        let (first, rest) = places.split_first()?;
+        let mut rows = Places { low: Row3::default(), high: Row3::default() };
+        // Lanes to spare repeat the first place.
+        for lane in 0..LANES {
+            let place = lane.checked_sub(1).and_then(|lane| rest.get(lane)).unwrap_or(first);
+            rows.low.set(lane, place.low);
+            rows.high.set(lane, place.high);
         }
-        found
+        let mut least = Least { cluster: [0; LANES], value: Row([most; LANES]) };
+        let Self { arch, tree, thin, around, radii, bounded, guess, .. } = self;
+        let (guess, least_of) = (*guess, &mut least);
+        let boxes = Boxes { tree, radii, around, bones };
+        arch.dispatch(Search { boxes, thin, bounded, guess, places: &rows, size, least: least_of });
+        Some(least)
     }
 
     /// Whether the search in order reaches a cluster or an equal value before it: no ancestor has a greater value.
@@ -169,35 +203,151 @@ impl Approach {
         least: f64,
         bones: &[DAffine3],
         place: &Bounds,
-        size: impl Fn(f64, bool) -> f64,
+        size: &impl Size,
     ) -> bool {
-        let mut node = cluster;
-        while let Some(above) = self.parent[node] {
-            if size(self.bound(above, bones).gap(place), self.thin[above]) > least {
-                return false;
+        // The value of an ancestor whose box contains that of the cluster is not greater.
+        self.is_within(cluster, bones) || {
+            let mut node = cluster;
+            while let Some(above) = self.parent[node] {
+                if size.at(self.bound(above, bones).gap(place), self.thin[above]) > least {
+                    return false;
+                }
+                node = above;
             }
-            node = above;
+            true
         }
-        true
     }
 
-    /// Computes the boxes around nodes and all their descendants.
-    fn compute_whole(&mut self, bones: &[DAffine3]) {
-        if self.whole_known {
-            return;
+    fn is_within(&mut self, cluster: usize, bones: &[DAffine3]) -> bool {
+        if let Some(known) = self.is_within[cluster] {
+            return known;
         }
-        self.whole_known = true;
-        // Children come after their parent.
-        for node in (0..self.boxes.len()).rev() {
-            let children = self.tree.nodes()[node].children.into_iter().flatten();
-            self.whole[node] = children
-                .fold(self.bound(node, bones), |whole, child| whole.join(self.whole[child]));
+        let own = self.bound(cluster, bones);
+        let mut above = self.parent[cluster];
+        while let Some(node) = above
+            && self.bound(node, bones).holds(&own)
+        {
+            above = self.parent[node];
         }
+        *self.is_within[cluster].insert(above.is_none())
     }
 
     fn bound(&mut self, node: usize, bones: &[DAffine3]) -> Bounds {
         *self.boxes[node].get_or_insert_with(|| self.tree.bound_at(node, bones))
     }
+}
+
+/// Boxes around the clusters below nodes, computed on demand.
+struct Boxes<'a> {
+    tree: &'a SkinTree,
+    radii: &'a [f64],
+    around: &'a mut [Option<Bounds>],
+    bones: &'a [DAffine3],
+}
+
+impl Boxes<'_> {
+    fn compute(&mut self, node: usize) -> Bounds {
+        let Self { tree, radii, bones, .. } = self;
+        let is_cluster = tree.nodes()[node].children.is_none();
+        let bounds = if is_cluster {
+            tree.bound_at(node, bones)
+        } else {
+            tree.bound_of_clusters(node, radii, bones)
+        };
+        *self.around[node].insert(bounds)
+    }
+}
+
+/// The search for the minimum over all clusters.
+struct Search<'a, F> {
+    boxes: Boxes<'a>,
+    thin: &'a [bool],
+    bounded: &'a mut Vec<(usize, Row)>,
+    guess: Option<usize>,
+    places: &'a Places,
+    size: &'a F,
+    least: &'a mut Least,
+}
+
+impl<F: Size> Search<'_, F> {
+    /// Value of `size` for the box around the clusters below a node at each place.
+    #[inline(always)]
+    fn at<S: Simd>(&mut self, simd: S, node: usize) -> Row {
+        let bounds = match self.boxes.around[node] {
+            Some(known) => known,
+            None => self.boxes.compute(node),
+        };
+        sizes(simd, &bounds, self.thin[node], self.places, self.size)
+    }
+}
+
+impl<F: Size> WithSimd for Search<'_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        if let Some(guess) = self.guess {
+            take(guess, &self.at(simd, guess), self.least);
+        }
+        let root = self.at(simd, 0);
+        self.bounded.clear();
+        self.bounded.push((0, root));
+        while let Some((node, here)) = self.bounded.pop() {
+            if !is_any_less(simd, &here, &self.least.value) {
+                continue;
+            }
+            let Some([one, other]) = self.boxes.tree.nodes()[node].children else {
+                take(node, &here, self.least);
+                continue;
+            };
+            let (first, second) = ((one, self.at(simd, one)), (other, self.at(simd, other)));
+            // The nearer child is searched first.
+            let middle = LANES / 2;
+            let is_nearer = first.1.0[middle] < second.1.0[middle];
+            self.bounded.extend(if is_nearer { [second, first] } else { [first, second] });
+        }
+    }
+}
+
+/// Notes a cluster where its value is the least so far.
+#[inline(always)]
+fn take(cluster: usize, here: &Row, least: &mut Least) {
+    for lane in 0..LANES {
+        if here.0[lane] < least.value.0[lane] {
+            (least.cluster[lane], least.value.0[lane]) = (cluster, here.0[lane]);
+        }
+    }
+}
+
+/// Whether a lane of the first row is less than that of the second.
+#[inline(always)]
+fn is_any_less<S: Simd>(simd: S, one: &Row, other: &Row) -> bool {
+    let mut greatest = f64::NEG_INFINITY;
+    for part in 0..Part::<S>::COUNT {
+        let part = Part { simd, part };
+        greatest = greatest.max(simd.reduce_max_f64s((part.get(other) - part.get(one)).value));
+    }
+    greatest > 0.0
+}
+
+/// Value of `size` for the gap of a box to each place, with the bits of [`Bounds::gap`].
+#[inline(always)]
+fn sizes<S: Simd>(simd: S, bounds: &Bounds, thin: bool, places: &Places, size: &impl Size) -> Row {
+    let mut out = Row::default();
+    for part in 0..Part::<S>::COUNT {
+        let part = Part { simd, part };
+        let (low, high) = (part.get3(&places.low), part.get3(&places.high));
+        let x = apart([bounds.low.x, bounds.high.x], low.x, high.x);
+        let y = apart([bounds.low.y, bounds.high.y], low.y, high.y);
+        let z = apart([bounds.low.z, bounds.high.z], low.z, high.z);
+        part.put(&mut out, size.at((x * x + y * y + z * z).sqrt(), thin));
+    }
+    out
+}
+
+/// Distance between a range and the range in each lane.
+#[inline(always)]
+fn apart<R: Real>([own_low, own_high]: [f64; 2], low: R, high: R) -> R {
+    (low.splat(own_low) - high).max(low - low.splat(own_high)).max(low.splat(0.0))
 }
 
 #[cfg(test)]
@@ -208,9 +358,16 @@ mod tests {
     use super::*;
 
     /// Like target lengths of segments: a minimum, a slope, a maximum, and smaller at thin edges.
-    fn size(gap_m: f64, thin: bool) -> f64 {
-        let at = |least: f64, within: f64| (least + 0.3 * (gap_m - within).max(0.0)).min(MOST);
-        if thin { at(0.02, 0.2) } else { at(0.05, 0.3) }
+    struct Target;
+
+    impl Size for Target {
+        fn at<R: Real>(&self, gap_m: R, thin: bool) -> R {
+            let all = |value: f64| gap_m.splat(value);
+            let at = |least: f64, within: f64| {
+                (all(least) + all(0.3) * (gap_m - all(within)).max(all(0.0))).min(all(MOST))
+            };
+            if thin { at(0.02, 0.2) } else { at(0.05, 0.3) }
+        }
     }
 
     const MOST: f64 = 1.0;
@@ -228,24 +385,32 @@ mod tests {
             let bones = random_bones(tree.skin(), &mut dice);
             let mut at = dice.point() * 7.0;
             approach.begin();
-            for _ in 0..100 {
-                let next = at + dice.point() * 0.3;
-                let place = Bounds::around(&[at, next]);
-                at = next;
-                let found = approach.least(&bones, &place, MOST, size);
-                let expected =
-                    Approach::new(Arc::clone(&tree)).least_in_order(&bones, &place, MOST, size);
-                assert_eq!(found.to_bits(), expected.to_bits());
-                let of_cluster = |(index, thin): (usize, &bool)| {
-                    let is_leaf = tree.nodes()[index].children.is_none();
-                    is_leaf.then(|| size(tree.bound_at(index, &bones).gap(&place), *thin))
-                };
-                let all = approach.thin.iter().enumerate().filter_map(of_cluster);
-                let least = all.fold(MOST, f64::min);
-                assert!(least <= found);
-                counts[0] += usize::from(found < MOST);
-                counts[1] += usize::from(found < 0.06);
-                counts[2] += usize::from(least < found);
+            for count in 0..25 {
+                // Runs of one to eight places.
+                let places: Vec<Bounds> = (0..1 + count % LANES)
+                    .map(|_| {
+                        let next = at + dice.point() * 0.3;
+                        Bounds::around(&[std::mem::replace(&mut at, next), next])
+                    })
+                    .collect();
+                let mut all_found = vec![0.0; places.len()];
+                approach.least(&bones, &places, MOST, &Target, &mut all_found);
+                for (place, found) in places.iter().zip(all_found) {
+                    let expected = Approach::new(Arc::clone(&tree))
+                        .least_in_order(&bones, place, MOST, &Target);
+                    assert_eq!(found.to_bits(), expected.to_bits());
+                    let of_cluster = |(index, thin): (usize, &bool)| {
+                        let is_leaf = tree.nodes()[index].children.is_none();
+                        let gap_m = || tree.bound_at(index, &bones).gap(place);
+                        is_leaf.then(|| Target.at(gap_m(), *thin))
+                    };
+                    let all = approach.thin.iter().enumerate().filter_map(of_cluster);
+                    let least = all.fold(MOST, f64::min);
+                    assert!(least <= found);
+                    counts[0] += usize::from(found < MOST);
+                    counts[1] += usize::from(found < 0.06);
+                    counts[2] += usize::from(least < found);
+                }
             }
         }
         assert!(
@@ -254,11 +419,34 @@ mod tests {
         );
     }
 
+    /// The box of every node contains those of all clusters below it, in random postures.
+    #[test]
+    fn boxes_contain_the_clusters_below_them() {
+        let tree = SkinTree::new(Arc::new(tube()));
+        let approach = Approach::new(Arc::new(tree.clone()));
+        let mut dice = Dice(5);
+        for _ in 0..10 {
+            let bones = random_bones(tree.skin(), &mut dice);
+            let clusters =
+                (0..tree.nodes().len()).filter(|node| tree.nodes()[*node].children.is_none());
+            for cluster in clusters {
+                let own = tree.bound_at(cluster, &bones);
+                let mut above = approach.parent[cluster];
+                while let Some(node) = above {
+                    let around = tree.bound_of_clusters(node, &approach.radii, &bones);
+                    assert!(around.holds(&own), "cluster {cluster} in node {node}");
+                    above = approach.parent[node];
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_whale_without_skin_has_no_distance() {
         let mut approach = Approach::new(Arc::new(SkinTree::new(Arc::default())));
         approach.begin();
-        let place = Bounds::around(&[DVec3::ZERO]);
-        assert!((approach.least(&[], &place, MOST, size) - MOST).abs() < 1e-15);
+        let mut found = [0.0];
+        approach.least(&[], &[Bounds::around(&[DVec3::ZERO])], MOST, &Target, &mut found);
+        assert!((found[0] - MOST).abs() < 1e-15);
     }
 }

@@ -181,6 +181,49 @@ impl SkinTree {
         bounds.grown(ROUNDING)
     }
 
+    /// Radius of a sphere with the centre of each sphere of a node that contains the spheres of the same bone of all clusters below
+    /// the node [m].
+    pub(super) fn radii_around_clusters(&self) -> Vec<f64> {
+        let mut parent = vec![None; self.nodes.len()];
+        for (node, at) in self.nodes.iter().enumerate() {
+            at.children.into_iter().flatten().for_each(|child| parent[child] = Some(node));
+        }
+        let mut radii = vec![0.0_f64; self.spheres.len()];
+        let clusters = (0..self.nodes.len()).filter(|node| self.nodes[*node].children.is_none());
+        for cluster in clusters {
+            let mut node = Some(cluster);
+            while let Some(at) = node {
+                for inner in &self.spheres[self.nodes[cluster].spheres.clone()] {
+                    let own = self.nodes[at].spheres.clone();
+                    for (outer, radius) in self.spheres[own.clone()].iter().zip(&mut radii[own]) {
+                        if outer.bone == inner.bone {
+                            let reach = outer.centre.distance(inner.centre) + inner.radius;
+                            *radius = radius.max(reach);
+                        }
+                    }
+                }
+                node = parent[at];
+            }
+        }
+        radii
+    }
+
+    /// Box around the boxes ([`bound_at`](Self::bound_at)) of all clusters below a node under bone transforms, by the radii of
+    /// [`radii_around_clusters`](Self::radii_around_clusters).
+    pub(super) fn bound_of_clusters(
+        &self,
+        node: usize,
+        radii: &[f64],
+        bones: &[DAffine3],
+    ) -> Bounds {
+        let spheres = self.nodes[node].spheres.clone();
+        let mut bounds = Bounds::EMPTY;
+        for (sphere, radius) in self.spheres[spheres.clone()].iter().zip(&radii[spheres]) {
+            Sphere { radius: *radius, ..*sphere }.add_to(&mut bounds, bones);
+        }
+        bounds.grown(2.0 * ROUNDING)
+    }
+
     /// Adds the node of a range of triangles and its descendants; returns its index.
     fn grow(
         &mut self,

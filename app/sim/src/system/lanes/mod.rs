@@ -9,7 +9,7 @@ mod exchange;
 mod kept;
 mod layout;
 pub(crate) mod real;
-mod rows;
+pub(crate) mod rows;
 pub(crate) mod space;
 mod sweep;
 

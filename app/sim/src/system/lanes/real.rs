@@ -133,11 +133,11 @@ impl<S: Simd> Real for Lane<S> {
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        (self - other).positive(self, other)
+        Self { simd: self.simd, value: self.simd.max_f64s(self.value, other.value) }
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        (other - self).positive(self, other)
+        Self { simd: self.simd, value: self.simd.min_f64s(self.value, other.value) }
     }
     #[inline(always)]
     fn positive(self, yes: Self, no: Self) -> Self {
