@@ -211,8 +211,8 @@ impl LawTable {
         let bits = height.max(self.least).to_bits();
         let number = ((bits >> SHIFT) - (self.least.to_bits() >> SHIFT)) as usize;
         let place = f64::from_bits(1.0_f64.to_bits() | (bits << (52 - SHIFT) & FRACTION)) - 1.0;
-        let [one, two, three, four] =
-            self.pieces.get(number).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        // The last piece begins at a height of 1.
+        let [one, two, three, four] = &self.pieces[number.min(self.pieces.len() - 1)];
         let share = one + place * (two + place * (three + place * four));
         if height < self.least { share * (height / self.least) } else { share }
     }

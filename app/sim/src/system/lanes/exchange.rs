@@ -6,11 +6,12 @@ use crate::forces::rope::Lengths;
 use crate::model::Model;
 use crate::state::RopeState;
 use crate::system::lanes::Lanes;
-use crate::system::lanes::layout::Piece;
-use crate::system::lanes::rows::{ContactRow, GroundRow, LANES, NodeRow, SegmentRow};
+use crate::system::lanes::layout::{Group, Piece};
+use crate::system::lanes::rows::{ContactRow, GroundRow, NodeRow, SegmentRow};
 use crate::trial::Trial;
 use crate::trial::scheme::Scheme;
 use glam::{DMat3, DVec3};
+use pulp::{Simd, WithSimd};
 
 impl Lanes {
     /// Copies lengths, laws and cuts of segments, if they have changed.
@@ -36,37 +37,16 @@ impl Lanes {
 
     /// Copies the rope at the start of a step: the predictor of its places, and the velocity of the water there.
     pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
-        for group in &self.groups {
-            let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
-            let last_nodes = group
-                .pieces
-                .map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
-            for (k, row) in
-                self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate()
-            {
-                for lane in 0..LANES {
-                    let node = (first_nodes[lane] + k).min(last_nodes[lane]);
-                    row.place.set(lane, guess[node]);
-                    row.place_history.set(
-                        lane,
-                        scheme.history(state.position[node], state.earlier_position[node]),
-                    );
-                    row.velocity_history.set(
-                        lane,
-                        scheme.history(state.velocity[node], state.earlier_velocity[node]),
-                    );
-                    row.flow.set(lane, flow[node]);
-                }
-            }
-            for lane in 0..group.used {
-                let piece = &self.pieces[group.pieces[lane]];
-                let segments = &mut self.segments[group.segment_row..][..piece.segments];
-                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..])
-                {
-                    row.tension.0[lane] = *tension;
-                }
-            }
-        }
+        self.arch.dispatch(Gather {
+            pieces: &self.pieces,
+            groups: &self.groups,
+            nodes: &mut self.nodes,
+            segments: &mut self.segments,
+            state,
+            scheme,
+            guess,
+            flow,
+        });
         self.refresh_ghosts();
     }
 
@@ -144,6 +124,64 @@ impl Lanes {
             let first = self.groups[piece.group].node_row;
             self.nodes[first].place.set(piece.lane, before);
             self.nodes[first + piece.segments + 2].place.set(piece.lane, behind);
+        }
+    }
+}
+
+/// The copy of rope at the start of a step, compiled for the instructions that the processor has; its bits do not depend on them.
+struct Gather<'a> {
+    pieces: &'a [Piece],
+    groups: &'a [Group],
+    nodes: &'a mut [NodeRow],
+    segments: &'a mut [SegmentRow],
+    state: &'a RopeState,
+    scheme: &'a Scheme,
+    guess: &'a [DVec3],
+    flow: &'a [DVec3],
+}
+
+impl WithSimd for Gather<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { pieces, groups, nodes, segments, state, .. } = self;
+        for group in groups {
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let piece = &pieces[*piece];
+                let rows = &mut nodes[group.node_row + 1..][..=group.longest];
+                let (own, beyond) = rows.split_at_mut(piece.segments + 1);
+                let range = piece.first_node..piece.first_node + own.len();
+                let ends = state.position[range.clone()]
+                    .iter()
+                    .zip(&state.earlier_position[range.clone()]);
+                let speeds = state.velocity[range.clone()]
+                    .iter()
+                    .zip(&state.earlier_velocity[range.clone()]);
+                let inputs = self.guess[range.clone()].iter().zip(&self.flow[range]);
+                for (row, ((places, speeds), (guess, flow))) in
+                    own.iter_mut().zip(ends.zip(speeds).zip(inputs))
+                {
+                    row.place.set(lane, *guess);
+                    row.place_history.set(lane, self.scheme.history(*places.0, *places.1));
+                    row.velocity_history.set(lane, self.scheme.history(*speeds.0, *speeds.1));
+                    row.flow.set(lane, *flow);
+                }
+                // Rows beyond its end hold copies of its last node.
+                let last = own[piece.segments];
+                for row in beyond {
+                    row.place.set(lane, last.place.vector(lane));
+                    row.place_history.set(lane, last.place_history.vector(lane));
+                    row.velocity_history.set(lane, last.velocity_history.vector(lane));
+                    row.flow.set(lane, last.flow.vector(lane));
+                }
+            }
+            for (lane, piece) in group.pieces[..group.used].iter().enumerate() {
+                let piece = &pieces[*piece];
+                let rows = &mut segments[group.segment_row..][..piece.segments];
+                for (row, tension) in rows.iter_mut().zip(&state.tension[piece.first_segment..]) {
+                    row.tension.0[lane] = *tension;
+                }
+            }
         }
     }
 }
@@ -235,10 +273,12 @@ impl Lanes {
         for piece in &self.pieces {
             let group = &self.groups[piece.group];
             let rows = &self.nodes[group.node_row + 1..][..=piece.segments];
-            for (row, node) in rows.iter().zip(piece.first_node..) {
+            let nodes = piece.first_node..piece.first_node + rows.len();
+            let places = state.position[nodes.clone()].iter_mut();
+            for (row, (to, velocity)) in rows.iter().zip(places.zip(&mut state.velocity[nodes])) {
                 let place = row.place.vector(piece.lane);
-                state.position[node] = place;
-                state.velocity[node] = (place - row.place_history.vector(piece.lane)) * scheme.rate;
+                *to = place;
+                *velocity = (place - row.place_history.vector(piece.lane)) * scheme.rate;
             }
         }
         self.give_tension(&mut state.tension);
