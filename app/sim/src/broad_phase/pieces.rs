@@ -12,8 +12,12 @@
 use crate::bits::same_bits;
 use crate::model::Model;
 use crate::state::State;
+use crate::system::lanes::real::{Lane, Real};
+use crate::system::lanes::rows::{LANES, Part, Row, Row3};
+use crate::system::lanes::space::Vec3;
 use crate::whale::Bounds;
 use glam::DVec3;
+use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 
 /// Segments in one piece.
@@ -61,6 +65,10 @@ pub(crate) struct Pieces {
     /// Unstretched lengths of the segments, and how often these have changed [m].
     lengths: Vec<f64>,
     pub lengths_number: u64,
+    arch: Arch,
+    rows: Rows,
+    /// Scratch: where nodes are at the end of a step in which they keep their velocities.
+    ends: Vec<DVec3>,
     /// Time and length of the step that they were measured over last, where rope went on as it moved [s].
     measured: Option<[f64; 2]>,
 }
@@ -73,7 +81,8 @@ impl Pieces {
         let on_solids = on_bodies || !model.spec.obstacles.is_empty();
         let holds = on_solids || settings.rope_on_rope.is_some();
         let wanted = holds || model.spec.whale.is_some();
-        let mut all = Self { wanted, holds, ..Self::default() };
+        let ends = Vec::with_capacity(model.node_count);
+        let mut all = Self { wanted, holds, ends, ..Self::default() };
         for (line, (nodes, segments)) in
             model.line_nodes.iter().zip(&model.line_segments).enumerate()
         {
@@ -100,16 +109,31 @@ impl Pieces {
 
     /// Measures rope that goes from one place to another in a step, its segments of these unstretched lengths, if any search uses them.
     pub fn measure(&mut self, from: &[DVec3], to: impl Fn(usize) -> DVec3, lengths: &[f64]) {
-        self.measured = None;
-        if !self.wanted {
-            return;
+        if self.wanted {
+            let mut ends = std::mem::take(&mut self.ends);
+            ends.clear();
+            ends.extend((0..from.len()).map(to));
+            self.measure_between(from, &ends, lengths);
+            self.ends = ends;
         }
+        self.measured = None;
+    }
+
+    fn measure_between(&mut self, from: &[DVec3], to: &[DVec3], lengths: &[f64]) {
         self.take_lengths(lengths);
+        for pieces in self.pieces.chunks_mut(AT_ONCE) {
+            for (piece, lane) in pieces.iter_mut().zip((0..).step_by(GROUPS)) {
+                piece.give(&mut self.rows, lane, [from, to], lengths);
+            }
+            self.arch.dispatch(Measure(&mut self.rows));
+            for (piece, lane) in pieces.iter_mut().zip((0..).step_by(GROUPS)) {
+                piece.take(&self.rows, lane);
+            }
+        }
         let mut is_held = true;
         for (pieces, whole) in &mut self.lines {
             *whole = Bounds::EMPTY;
-            for piece in &mut self.pieces[pieces.clone()] {
-                piece.measure(from, &to, lengths);
+            for piece in &self.pieces[pieces.clone()] {
                 *whole = whole.join(piece.bounds);
                 is_held &= !self.holds || piece.is_held();
             }
@@ -137,10 +161,17 @@ impl Pieces {
         if self.measured.is_some_and(is_same) {
             return;
         }
-        let rope = &state.rope;
-        let drift = |node: usize| rope.position[node] + rope.velocity[node] * dt;
-        self.measure(&rope.position, drift, &rope.segment_length);
         self.measured = Some([state.time_s, dt]);
+        if !self.wanted {
+            return;
+        }
+        let rope = &state.rope;
+        let mut ends = std::mem::take(&mut self.ends);
+        let nodes = rope.position.iter().zip(&rope.velocity);
+        ends.clear();
+        ends.extend(nodes.map(|(place, velocity)| *place + *velocity * dt));
+        self.measure_between(&rope.position, &ends, &rope.segment_length);
+        self.ends = ends;
     }
 
     /// Forgets which step was measured: rope is another.
@@ -149,32 +180,124 @@ impl Pieces {
     }
 }
 
-impl Piece {
-    fn measure(&mut self, places: &[DVec3], to: &impl Fn(usize) -> DVec3, lengths: &[f64]) {
-        let (first, last) = (self.nodes.start, self.nodes.end - 1);
-        let both = |node: usize| Both::of(places[node], to(node));
-        let mut here = both(first);
-        let directions = both(last).less(&here).normalized();
-        let (mut is_straight, mut node) = (true, first);
-        self.bounds = Bounds::EMPTY;
-        let lengths = lengths[self.segments.clone()].chunks(IN_A_GROUP);
-        for (group, lengths) in self.groups.iter_mut().zip(lengths) {
-            let (mut low, mut high) = (here, here);
-            for length in lengths {
-                node += 1;
-                let next = both(node);
-                let [from, end] = next.less(&here).dot(&directions);
-                let least = STRAIGHT * length;
-                is_straight &= (from >= least) & (end >= least);
-                here = next;
-                low = low.joined(&here, |a, b| if b < a { b } else { a });
-                high = high.joined(&here, |a, b| if b > a { b } else { a });
+/// Pieces that are measured at once.
+const AT_ONCE: usize = LANES / GROUPS;
+
+/// Groups of some pieces, one in each lane of the processor, and what is measured of them.
+#[derive(Clone, Debug, Default)]
+struct Rows {
+    /// Nodes of each group where the step begins and where it ends; a group that is shorter repeats its last node.
+    nodes: [[Row3; 2]; IN_A_GROUP + 1],
+    /// Length along the piece's direction that each segment has at least in a straight piece.
+    least: [Row; IN_A_GROUP],
+    /// Direction of the piece, where the step begins and where it ends.
+    directions: [Row3; 2],
+    /// Box of each group.
+    low: Row3,
+    high: Row3,
+    /// Least of the lengths along the direction beyond `least`.
+    spare: Row,
+}
+
+impl Rows {
+    /// Writes nodes and lengths of a piece, its first group into this lane.
+    fn set(
+        &mut self,
+        lane: usize,
+        [from, to]: [&[DVec3; IN_A_PIECE + 1]; 2],
+        lengths: &[f64; IN_A_PIECE],
+    ) {
+        for group in 0..GROUPS {
+            let first = group * IN_A_GROUP;
+            for (k, row) in self.nodes.iter_mut().enumerate() {
+                row[0].set(lane + group, from[first + k]);
+                row[1].set(lane + group, to[first + k]);
             }
-            let ([low_from, low_end], [high_from, high_end]) = (low.two(), high.two());
-            *group = Bounds { low: low_from.min(low_end), high: high_from.max(high_end) };
-            self.bounds = self.bounds.join(*group);
+            for (k, row) in self.least.iter_mut().enumerate() {
+                row.0[lane + group] = STRAIGHT * lengths[first + k];
+            }
         }
-        (self.directions, self.is_straight) = (directions.two(), is_straight);
+    }
+}
+
+/// Measures all groups in the rows.
+struct Measure<'a>(&'a mut Rows);
+
+impl WithSimd for Measure<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(rows) = self;
+        for part in 0..Part::<S>::COUNT {
+            let part = Part { simd, part };
+            let [from, end] = &rows.directions;
+            let directions = [part.get3(from), part.get3(end)];
+            let [mut from, mut end] = [part.get3(&rows.nodes[0][0]), part.get3(&rows.nodes[0][1])];
+            let (mut low, mut high) = (least(from, end), greatest(from, end));
+            let mut spare = Lane::new(simd, f64::INFINITY);
+            for (nodes, length) in rows.nodes[1..].iter().zip(&rows.least) {
+                let next = [part.get3(&nodes[0]), part.get3(&nodes[1])];
+                let length = part.get(length);
+                spare = spare.min(along(next[0].sub(from), directions[0]) - length);
+                spare = spare.min(along(next[1].sub(end), directions[1]) - length);
+                [from, end] = next;
+                low = least(low, least(from, end));
+                high = greatest(high, greatest(from, end));
+            }
+            part.put3(&mut rows.low, low);
+            part.put3(&mut rows.high, high);
+            part.put(&mut rows.spare, spare);
+        }
+    }
+}
+
+/// The length of a vector along a direction, each product rounded.
+#[inline(always)]
+fn along<R: Real>(v: Vec3<R>, direction: Vec3<R>) -> R {
+    v.x * direction.x + v.y * direction.y + v.z * direction.z
+}
+
+#[inline(always)]
+fn least<R: Real>(one: Vec3<R>, other: Vec3<R>) -> Vec3<R> {
+    Vec3 { x: one.x.min(other.x), y: one.y.min(other.y), z: one.z.min(other.z) }
+}
+
+#[inline(always)]
+fn greatest<R: Real>(one: Vec3<R>, other: Vec3<R>) -> Vec3<R> {
+    Vec3 { x: one.x.max(other.x), y: one.y.max(other.y), z: one.z.max(other.z) }
+}
+
+impl Piece {
+    /// Copies it to the rows, its first group into this lane.
+    fn give(&mut self, rows: &mut Rows, lane: usize, [from, to]: [&[DVec3]; 2], lengths: &[f64]) {
+        let [from, to] = [from, to].map(|places| &places[self.nodes.clone()]);
+        let (last, own) = (self.nodes.len() - 1, &lengths[self.segments.clone()]);
+        self.directions = [from, to].map(|places| (places[last] - places[0]).normalize_or_zero());
+        let lane = lane.min(LANES - GROUPS);
+        for group in lane..lane + GROUPS {
+            rows.directions[0].set(group, self.directions[0]);
+            rows.directions[1].set(group, self.directions[1]);
+        }
+        if let (Some(from), Some(to), Some(own)) =
+            (from.first_chunk(), to.first_chunk(), own.first_chunk())
+        {
+            rows.set(lane, [from, to], own);
+        } else {
+            let all = |places: &[DVec3]| std::array::from_fn(|node| places[node.min(last)]);
+            let lengths = std::array::from_fn(|k| own.get(k).copied().unwrap_or(0.0));
+            rows.set(lane, [&all(from), &all(to)], &lengths);
+        }
+    }
+
+    /// Takes what was measured of it.
+    fn take(&mut self, rows: &Rows, lane: usize) {
+        let used = self.segments.len().div_ceil(IN_A_GROUP);
+        (self.bounds, self.is_straight) = (Bounds::EMPTY, true);
+        for (group, lane) in self.groups[..used].iter_mut().zip(lane..) {
+            *group = Bounds { low: rows.low.vector(lane), high: rows.high.vector(lane) };
+            self.bounds = self.bounds.join(*group);
+            self.is_straight &= rows.spare.0[lane] >= 0.0;
+        }
     }
 
     /// Segments of a group, and the first node of these.
@@ -200,44 +323,6 @@ impl Piece {
     }
 }
 
-/// A vector where a step begins and one where it ends, component by component, so that the processor works on both at once.
-#[derive(Clone, Copy)]
-struct Both([[f64; 2]; 3]);
-
-impl Both {
-    #[inline(always)]
-    fn of(from: DVec3, end: DVec3) -> Self {
-        Self([[from.x, end.x], [from.y, end.y], [from.z, end.z]])
-    }
-
-    #[inline(always)]
-    fn two(&self) -> [DVec3; 2] {
-        let Self([x, y, z]) = self;
-        [0, 1].map(|k| DVec3::new(x[k], y[k], z[k]))
-    }
-
-    #[inline(always)]
-    fn joined(&self, other: &Self, join: impl Fn(f64, f64) -> f64) -> Self {
-        Self([0, 1, 2].map(|axis| [0, 1].map(|k| join(self.0[axis][k], other.0[axis][k]))))
-    }
-
-    #[inline(always)]
-    fn less(&self, other: &Self) -> Self {
-        self.joined(other, |a, b| a - b)
-    }
-
-    #[inline(always)]
-    fn dot(&self, other: &Self) -> [f64; 2] {
-        let Self([x, y, z]) = self.joined(other, |a, b| a * b);
-        [0, 1].map(|k| x[k] + y[k] + z[k])
-    }
-
-    fn normalized(&self) -> Self {
-        let [from, end] = self.two().map(DVec3::normalize_or_zero);
-        Self::of(from, end)
-    }
-}
-
 /// Steps of the present speed for which held boxes are laid out.
 const STEPS: f64 = 10.0;
 /// Least slack [m].
@@ -248,8 +333,8 @@ const MOST_SLACK_M: f64 = 0.4;
 impl Pieces {
     /// Lays out the held boxes around the boxes of a step.
     #[cold]
-    pub(crate) fn hold(&mut self, from: &[DVec3], to: impl Fn(usize) -> DVec3) {
-        let moves = from.iter().enumerate().map(|(node, place)| place.distance_squared(to(node)));
+    pub(crate) fn hold(&mut self, from: &[DVec3], to: &[DVec3]) {
+        let moves = from.iter().zip(to).map(|(place, to)| place.distance_squared(*to));
         let slack_m = STEPS * moves.fold(0.0, f64::max).sqrt();
         let slack_m = if slack_m <= MOST_SLACK_M { slack_m.max(LEAST_SLACK_M) } else { 0.0 };
         for piece in &mut self.pieces {
