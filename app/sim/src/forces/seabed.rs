@@ -6,7 +6,7 @@
 //! Friction is an elastic grip (`contact/law/elastic_grip.rs`). The foot of a body starts to slide at `μ_start` and slides at `μ_slide`
 //! until it is at rest again; lifted, it is held back until it has broken out (`suction.rs`).
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::contact::law::elastic_grip::{Grip, Push};
 use crate::forces::{Forces, suction};
@@ -28,6 +28,7 @@ const TRUSTED_MASS: f64 = 0.01;
 const FOOT_DAMPING: f64 = 0.5;
 
 /// Push of the seabed at a depth.
+#[inline(always)]
 fn push_at(depth: f64, stiffness: f64) -> Push {
     if depth <= 0.0 {
         Push::default()
@@ -102,12 +103,13 @@ impl Forces {
     ) {
         let StepContext { model, state, scheme } = *context;
         let Some(seabed) = &model.spec.seabed else { return };
+        let across = outer(seabed.normal, seabed.normal);
+        let plane = DMat3::IDENTITY - across;
         for node in 0..model.node_count {
-            let Some((push, grip)) = self.seabed_at(seabed, state, scheme, trial, node) else {
-                continue;
-            };
+            let at = self.seabed_in_plane(seabed, &plane, state, scheme, trial, node);
+            let Some((push, grip)) = at else { continue };
             system.rope.force[node] += seabed.normal * push.force;
-            system.rope.diagonal[node] += outer(seabed.normal, seabed.normal) * push.rate;
+            system.rope.diagonal[node] += across * push.rate;
             if let Some(grip) = grip {
                 system.rope.force[node] += grip.force;
                 system.rope.diagonal[node] += grip.block;
@@ -124,13 +126,28 @@ impl Forces {
         trial: &Trial,
         node: usize,
     ) -> Option<(Push, Option<Grip>)> {
+        let plane = DMat3::IDENTITY - outer(seabed.normal, seabed.normal);
+        self.seabed_in_plane(seabed, &plane, state, scheme, trial, node)
+    }
+
+    /// As [`seabed_at`](Self::seabed_at), where the projection on the plane of the seabed is known.
+    #[inline(always)]
+    fn seabed_in_plane(
+        &self,
+        seabed: &Seabed,
+        plane: &DMat3,
+        state: &State,
+        scheme: &Scheme,
+        trial: &Trial,
+        node: usize,
+    ) -> Option<(Push, Option<Grip>)> {
         let depth = seabed.depth_of(trial.place[node]);
         if depth <= 0.0 {
             return None;
         }
         let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
         let grip = grips_rope(seabed, state, node, scheme)
-            .then(|| rope_grip(seabed, state, scheme, (node, trial.place[node]), stiffness));
+            .then(|| rope_grip(seabed, plane, state, scheme, (node, trial.place[node]), stiffness));
         Some((push_at(depth, stiffness), grip))
     }
 
@@ -223,12 +240,13 @@ impl Forces {
         state: &mut State,
     ) {
         let Some(seabed) = &model.spec.seabed else { return };
+        let plane = DMat3::IDENTITY - outer(seabed.normal, seabed.normal);
         for node in 0..model.node_count {
             let on_ground =
                 seabed.depth_of(trial.place[node]) > 0.0 && grips_rope(seabed, state, node, scheme);
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             state.rope.seabed_grip[node] = if on_ground {
-                rope_grip(seabed, state, scheme, (node, trial.place[node]), stiffness).kept
+                rope_grip(seabed, &plane, state, scheme, (node, trial.place[node]), stiffness).kept
             } else {
                 DVec3::ZERO
             };
@@ -291,8 +309,10 @@ fn keep_foot(
 }
 
 /// Friction of the seabed on a node at a place.
+#[inline(always)]
 fn rope_grip(
     seabed: &Seabed,
+    plane: &DMat3,
     state: &State,
     scheme: &Scheme,
     (node, place): (usize, DVec3),
@@ -309,7 +329,7 @@ fn rope_grip(
             trust(scheme),
         );
     }
-    Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
+    Grip::in_plane(plane, stretch, seabed.normal, [stiffness, seabed.rope_friction], push)
 }
 
 /// Share of the yielding of a slipping grip that the block of statics holds: small in rough iterations, one at the end.

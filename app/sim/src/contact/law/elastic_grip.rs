@@ -42,6 +42,19 @@ impl Grip {
         debug_assert!(is_unit || !normal.is_finite(), "a unit normal: {normal}");
         debug_assert!(stiffness > 0.0 && friction >= 0.0, "{stiffness} N/m, friction {friction}");
         let plane = DMat3::IDENTITY - outer(normal, normal);
+        Self::in_plane(&plane, stretch, normal, [stiffness, friction], push)
+    }
+
+    /// As [`Grip::new`], where the projection `1 - n nᵀ` on the plane across the normal is known.
+    #[inline(always)]
+    pub fn in_plane(
+        plane: &DMat3,
+        stretch: DVec3,
+        normal: DVec3,
+        [stiffness, friction]: [f64; 2],
+        push: Push,
+    ) -> Self {
+        let plane = *plane;
         let stretch = plane * stretch;
         let (length, limit) = (stretch.length(), friction * push.force);
         if stiffness * length <= limit || length <= 0.0 {
