@@ -146,8 +146,12 @@ impl Forces {
             return None;
         }
         let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
-        let grip = grips_rope(seabed, state, node, scheme)
-            .then(|| rope_grip(seabed, plane, state, scheme, (node, trial.place[node]), stiffness));
+        let grip = if grips_rope(seabed, state, node, scheme) {
+            let at = (node, trial.place[node]);
+            Some(rope_grip(seabed, plane, state, scheme, at, stiffness))
+        } else {
+            None
+        };
         Some((push_at(depth, stiffness), grip))
     }
 

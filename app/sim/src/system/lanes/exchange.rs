@@ -70,14 +70,14 @@ impl Lanes {
         self.ground.resize(self.nodes.len(), GroundRow::default());
         for piece in &self.pieces {
             let rows = &mut self.ground[self.groups[piece.group].node_row + 1..][..=piece.segments];
-            for (k, row) in rows.iter_mut().enumerate() {
-                let node = piece.first_node + k;
+            let nodes = piece.first_node..piece.first_node + rows.len();
+            let values = force[nodes.clone()].iter().zip(&block[nodes]);
+            for (row, (force, block)) in rows.iter_mut().zip(values) {
+                row.set(piece.lane, (*force, *block));
+            }
+            if piece.follows {
                 // Where two pieces meet, the first carries it.
-                let carried = k > 0 || !piece.follows;
-                row.set(
-                    piece.lane,
-                    if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) },
-                );
+                rows[0].set(piece.lane, (DVec3::ZERO, DMat3::ZERO));
             }
         }
     }
