@@ -28,7 +28,7 @@ impl SpikeWatch {
     pub fn take(&mut self, model: &Model, tension_n: &[f64]) -> u64 {
         let mut spikes = 0;
         for (earlier, segments) in self.earlier.iter_mut().zip(&model.line_segments) {
-            let now = tension_n[segments.clone()].iter().copied().fold(0.0, f64::max);
+            let now = tension_n[segments.clone()].iter().copied().fold(0.0, greater);
             if let [Some(before), Some(peak)] = *earlier {
                 spikes += u64::from(is_spike(before, peak, now));
             }
@@ -47,8 +47,13 @@ fn is_spike(before: f64, peak: f64, after: f64) -> bool {
 /// Raises each peak to a tension above it [N].
 pub(super) fn raise(peaks_n: &mut [f64], tension_n: &[f64]) {
     for (peak, tension) in peaks_n.iter_mut().zip(tension_n) {
-        *peak = peak.max(*tension);
+        *peak = greater(*peak, *tension);
     }
+}
+
+/// The second number if it is greater, or else the first. Unlike `f64::max`, it is one instruction of the processor.
+fn greater(one: f64, other: f64) -> f64 {
+    if other > one { other } else { one }
 }
 
 #[cfg(test)]
