@@ -93,6 +93,19 @@ impl SolidShape {
         }
     }
 
+    /// A lower bound of the bend radius at the places between two [m].
+    pub(crate) fn least_bend_radius(&self, a: DVec3, b: DVec3) -> f64 {
+        match self {
+            Self::Plane | Self::Sphere(_) | Self::Capsule { .. } => self.bend_radius(a),
+            Self::Cylinder { radius_m, half_length_m }
+                if a.z.abs().max(b.z.abs()) < *half_length_m =>
+            {
+                *radius_m
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Least thickness: rope that moves less in a step cannot have passed through [m].
     pub(crate) fn thickness(&self) -> f64 {
         match self {

@@ -70,6 +70,9 @@ impl RopeOnSolid {
             return [None; 2];
         }
         let (a, b) = (pose.inward(a), pose.inward(b));
+        if solid.shape.least_bend_radius(a, b) >= length {
+            return [None; 2];
+        }
         if least_by_tangents(&solid.shape, a, b) > self.radius_m[pair.line] + MARGIN_M {
             return [None; 2];
         }
