@@ -32,9 +32,7 @@ impl<T: Copy> BucketSort<T> {
         for number in 0..buckets {
             self.begins[number + 1] += self.begins[number];
         }
-        self.sorted.clear();
-        self.sorted.reserve(list.capacity());
-        self.sorted.resize(list.len(), *first);
+        self.fill(list, *first);
         for item in &*list {
             let at = &mut self.begins[bucket(item)];
             self.sorted[*at] = *item;
@@ -61,8 +59,7 @@ impl<T: Copy> BucketSort<T> {
             return self.sort(list, bucket, rank);
         }
         if self.sorted.len() < list.len() {
-            self.sorted.reserve(list.capacity());
-            self.sorted.resize(list.len(), *first);
+            self.fill(list, *first);
         }
         self.begins.clear();
         self.begins.resize(buckets + ranks, 0);
@@ -79,6 +76,13 @@ impl<T: Copy> BucketSort<T> {
         scatter(sorted, of_buckets, list, bucket);
     }
 
+    /// Gives the scratch the length of a list. Lists that are exchanged with it have the same capacity, so that none grows without need.
+    fn fill(&mut self, list: &Vec<T>, item: T) {
+        self.sorted.clear();
+        self.sorted.reserve_exact(list.capacity());
+        self.sorted.resize(list.len(), item);
+    }
+
     /// Sorts a list by bucket alone; items of a bucket keep their order.
     pub fn place(&mut self, list: &mut Vec<T>, bucket: impl Fn(&T) -> usize) {
         let Some(first) = list.first() else { return };
@@ -93,9 +97,7 @@ impl<T: Copy> BucketSort<T> {
             sum += *begin;
             *begin = sum;
         }
-        self.sorted.clear();
-        self.sorted.reserve(list.capacity());
-        self.sorted.resize(list.len(), *first);
+        self.fill(list, *first);
         for item in &*list {
             let at = &mut self.begins[bucket(item) - low];
             self.sorted[*at] = *item;
@@ -147,6 +149,22 @@ mod tests {
             assert_eq!(list, wanted);
             sort.sort_by_both(&mut other, (|item| item[0], 11), (|item| item[1], 97));
             assert_eq!(other, wanted);
+        }
+    }
+
+    /// Lists of changing length, sorted in each way in turn: capacity was doubled each time.
+    #[test]
+    fn sorts_in_turn_keep_the_capacity() {
+        let (mut sort, mut list) = (BucketSort::default(), Vec::new());
+        for count in (1..2_000_usize).map(|k| 1 + k * 7919 % 150) {
+            list.clear();
+            list.extend((0..count).map(|k| [k % 11, k * 104_729 % 97]));
+            match count % 3 {
+                0 => sort.sort(&mut list, |item| item[0], |item| item[1]),
+                1 => sort.sort_by_both(&mut list, (|item| item[0], 11), (|item| item[1], 97)),
+                _ => sort.place(&mut list, |item| item[0]),
+            }
+            assert!(list.capacity().max(sort.sorted.capacity()) <= 512, "after {count} items");
         }
     }
 }
