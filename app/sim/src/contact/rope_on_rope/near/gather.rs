@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::state::State;
 
 /// Distance beyond contact within which pairs of ropes are gathered [m].
-const MARGIN_M: f64 = 0.012;
+const MARGIN_M: f64 = 0.03;
 
 /// Ropes closer than this share of the contact distance at the start of a step pass through each other, and are ignored.
 const THROUGH_SHARE: f64 = 0.01;

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::state::State;
 
 /// Rope closer than this to its drift has reached nothing that was not gathered: two ropes together stay within the margin [m].
-const UNWATCHED_M: f64 = 0.005;
+const UNWATCHED_M: f64 = 0.014;
 
 /// That move as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
