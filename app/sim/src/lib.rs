@@ -25,6 +25,7 @@ pub mod metrics;
 pub mod model;
 pub mod parting;
 mod remesh;
+mod simd;
 pub mod solids;
 mod solver;
 mod start;

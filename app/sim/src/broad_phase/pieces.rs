@@ -11,10 +11,10 @@
 
 use crate::bits::same_bits;
 use crate::model::Model;
+use crate::simd::real::{Lane, Real};
+use crate::simd::rows::{LANES, Part, Row, Row3};
+use crate::simd::space::Vec3;
 use crate::state::State;
-use crate::system::lanes::real::{Lane, Real};
-use crate::system::lanes::rows::{LANES, Part, Row, Row3};
-use crate::system::lanes::space::Vec3;
 use crate::whale::Bounds;
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};

@@ -15,7 +15,7 @@
 //! a fit to fishing rope (docs/physics.md, Rope law).
 
 use crate::model::Rope;
-use crate::system::lanes::real::Real;
+use crate::simd::real::Real;
 
 /// Axial law of one segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -14,8 +14,8 @@ use core::f64::consts::PI;
 
 use crate::forces::axial::Axial;
 use crate::model::{Model, Rope};
-use crate::system::lanes::real::Real;
-use crate::system::lanes::space::{Sym3, Vec3};
+use crate::simd::real::Real;
+use crate::simd::space::{Sym3, Vec3};
 use crate::trial::scheme::Scheme;
 use crate::water::Water;
 

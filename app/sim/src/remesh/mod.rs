@@ -30,9 +30,9 @@ use crate::broad_phase::pieces::Pieces;
 use crate::contact::rope_on_rope::near::RopeOnRope;
 use crate::forces::axial::Axial;
 use crate::model::{Model, Resolution, Rope};
+use crate::simd::real::Real;
+use crate::simd::rows::LANES;
 use crate::state::{RopeState, State};
-use crate::system::lanes::real::Real;
-use crate::system::lanes::rows::LANES;
 use crate::whale::approach::{Approach, Size};
 use crate::whale::{Bounds, pose};
 

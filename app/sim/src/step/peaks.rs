@@ -5,6 +5,7 @@
 //! before and of the one after, and [`SPIKE_N`] above both. No mesh and no step follows so short a pull, whether the gear had one or not.
 
 use crate::model::Model;
+use crate::simd::greater;
 
 /// How many times the greatest tension of a line is that of the solver steps before and after, in a spike.
 pub const SPIKE_RATIO: f64 = 3.0;
@@ -49,11 +50,6 @@ pub(super) fn raise(peaks_n: &mut [f64], tension_n: &[f64]) {
     for (peak, tension) in peaks_n.iter_mut().zip(tension_n) {
         *peak = greater(*peak, *tension);
     }
-}
-
-/// The second number if it is greater, or else the first. Unlike `f64::max`, it is one instruction of the processor.
-fn greater(one: f64, other: f64) -> f64 {
-    if other > one { other } else { one }
 }
 
 #[cfg(test)]

@@ -14,8 +14,8 @@ use glam::DAffine3;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::tree::{Bounds, SkinTree};
-use crate::system::lanes::real::Real;
-use crate::system::lanes::rows::{LANES, Part, Row, Row3};
+use crate::simd::real::Real;
+use crate::simd::rows::{LANES, Part, Row, Row3};
 
 /// A function of the gap of a cluster to a place [m] and of whether the cluster contains a thin edge. It must not decrease with the
 /// gap, nor be smaller without a thin edge than with one.

@@ -4,8 +4,9 @@
 
 use glam::DVec3;
 
+use crate::simd::rows::{Row, Row3};
 use crate::system::lanes::layout::{Group, Piece};
-use crate::system::lanes::rows::{EndRows, Row, Row3};
+use crate::system::lanes::rows::EndRows;
 
 /// Kept nodes in one row of a group.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,7 @@
 //! length, so that few rows are idle.
 
 use crate::model::{Joint, JointKind, Model};
-use crate::system::lanes::rows::{LANES, Row};
+use crate::simd::rows::{LANES, Row};
 
 /// Least segments of a piece that is cut from a longer line.
 const LEAST_SEGMENTS: usize = 12;

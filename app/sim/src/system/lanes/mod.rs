@@ -8,9 +8,7 @@
 mod exchange;
 mod kept;
 mod layout;
-pub(crate) mod real;
-pub(crate) mod rows;
-pub(crate) mod space;
+mod rows;
 mod sweep;
 
 use glam::DVec3;
@@ -18,12 +16,11 @@ use pulp::Arch;
 
 use crate::forces::laws::{PerMetre, Shared};
 use crate::model::Model;
+use crate::simd::rows::{LANES, Row, Row3};
 use crate::system::block_tridiagonal::{BlockTridiagonal, Ends};
 use kept::Kept;
 use layout::{Group, Piece};
-use rows::{
-    ContactRow, EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, SegmentRow, Solved,
-};
+use rows::{ContactRow, EndRows, GroundRow, MoveRows, NodeRow, SegmentRow, Solved};
 use sweep::{Backward, Forward, ForwardContact, GroupRows};
 
 /// Rows of all groups, and the chains of their ends.

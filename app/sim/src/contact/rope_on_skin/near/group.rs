@@ -10,6 +10,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::geometry::sweep::SweptTriangle;
+use crate::simd::greater;
 
 /// Least separation on a path, as a share of the rope's radius.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
@@ -92,8 +93,7 @@ impl Group {
         let mean = low.midpoint(high);
         let mut greatest = 0.0_f64;
         for corner_move in skin.flat_map(|triangle| &triangle.corners) {
-            let square = corner_move.distance_squared(mean);
-            greatest = if square > greatest { square } else { greatest };
+            greatest = greater(greatest, corner_move.distance_squared(mean));
         }
         (self.skin_move, self.spread) = (mean, greatest.sqrt());
     }

@@ -12,6 +12,7 @@ use crate::geometry::crossing::first_meeting;
 use crate::geometry::distance::{Nearest, segment_triangle};
 use crate::geometry::placed::on_triangle;
 use crate::geometry::sweep::{SweptSegment, safe_fraction_from, triangle_at};
+use crate::simd::lesser;
 
 /// Margin of the search beyond the reach of rope and its move [m].
 const SEARCH_M: f64 = 1.5e-3;
@@ -56,7 +57,6 @@ impl WithSimd for FindActive<'_> {
 fn least_beyond((gap_bound, measured_at): (&[f64], &[f64]), moved: f64, look: f64) -> Option<f64> {
     let (gaps, at) = (gap_bound.first_chunk::<TOGETHER>()?, measured_at.first_chunk::<TOGETHER>()?);
     let bounds: [f64; TOGETHER] = std::array::from_fn(|lane| gaps[lane] - (moved - at[lane]));
-    let lesser = |one: f64, other: f64| if one < other { one } else { other };
     let beyond = bounds.iter().fold(true, |all, bound| all & (*bound > look));
     let least = lesser(lesser(bounds[0], bounds[1]), lesser(bounds[2], bounds[3]));
     beyond.then_some(least)
@@ -89,7 +89,7 @@ impl Near {
                 let measured = (&self.gap_bound[pairs.clone()], &self.measured_at[pairs.clone()]);
                 let beyond = least_beyond(measured, group.moved, look);
                 if let Some(bound) = beyond {
-                    far = if bound < far { bound } else { far };
+                    far = lesser(far, bound);
                     continue;
                 }
                 for index in pairs {

@@ -2,10 +2,11 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::simd::real::{Lane, Real};
+use crate::simd::rows::{Part, Row3};
+use crate::simd::space::Vec3;
 use crate::system::lanes::kept::{KeptRow, KeptRows};
-use crate::system::lanes::real::{Lane, Real};
-use crate::system::lanes::rows::{MoveRows, NodeRow, Part, Row3, SegmentRow, Solved};
-use crate::system::lanes::space::Vec3;
+use crate::system::lanes::rows::{MoveRows, NodeRow, SegmentRow, Solved};
 use crate::system::lanes::sweep::GroupRows;
 
 /// Backward sweep from the moves of the ends A and B.

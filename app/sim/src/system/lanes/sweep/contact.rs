@@ -7,10 +7,11 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::simd::real::{Lane, Real};
+use crate::simd::rows::Part;
+use crate::simd::space::{Mat3, Sym3, Vec3};
 use crate::system::lanes::kept::{KeptRow, KeptRows};
-use crate::system::lanes::real::{Lane, Real};
-use crate::system::lanes::rows::{ContactRow, EndRows, Part, Solved};
-use crate::system::lanes::space::{Mat3, Sym3, Vec3};
+use crate::system::lanes::rows::{ContactRow, EndRows, Solved};
 use crate::system::lanes::sweep::GroupRows;
 use crate::system::lanes::sweep::forward::{Inputs, keep_pull};
 

@@ -4,9 +4,10 @@ use pulp::{Simd, WithSimd};
 
 use crate::forces::axial::Axial;
 use crate::forces::laws::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
-use crate::system::lanes::real::{Lane, Real};
-use crate::system::lanes::rows::{EndRows, GroundRow, NodeRow, Part, Row, SegmentRow, Solved};
-use crate::system::lanes::space::{Mat3, Sym3, Vec3};
+use crate::simd::real::{Lane, Real};
+use crate::simd::rows::{Part, Row};
+use crate::simd::space::{Mat3, Sym3, Vec3};
+use crate::system::lanes::rows::{EndRows, GroundRow, NodeRow, SegmentRow, Solved};
 use crate::system::lanes::sweep::GroupRows;
 
 /// Forward sweep.

@@ -11,7 +11,8 @@ mod contact;
 mod forward;
 
 use crate::forces::laws::{PerMetre, Shared};
-use crate::system::lanes::rows::{GroundRow, NodeRow, Row, SegmentRow, Solved};
+use crate::simd::rows::Row;
+use crate::system::lanes::rows::{GroundRow, NodeRow, SegmentRow, Solved};
 pub(crate) use backward::Backward;
 pub(crate) use contact::ForwardContact;
 pub(crate) use forward::Forward;

@@ -27,7 +27,7 @@ pub(crate) trait Real:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// The greater, of numbers that are finite.
+    /// The greater, of numbers that are finite; the other of equal numbers, so that the sign of a zero does not depend on the processor.
     fn max(self, other: Self) -> Self;
     /// The lesser, of numbers that are finite.
     fn min(self, other: Self) -> Self;
@@ -133,11 +133,15 @@ impl<S: Simd> Real for Lane<S> {
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self { simd: self.simd, value: self.simd.max_f64s(self.value, other.value) }
+        let is_greater = self.simd.greater_than_f64s(self.value, other.value);
+        let value = self.simd.select_f64s(is_greater, self.value, other.value);
+        Self { simd: self.simd, value }
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self { simd: self.simd, value: self.simd.min_f64s(self.value, other.value) }
+        let is_less = self.simd.greater_than_f64s(other.value, self.value);
+        let value = self.simd.select_f64s(is_less, self.value, other.value);
+        Self { simd: self.simd, value }
     }
     #[inline(always)]
     fn positive(self, yes: Self, no: Self) -> Self {

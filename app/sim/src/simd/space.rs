@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::system::lanes::real::Real;
+use crate::simd::real::Real;
 
 /// A vector.
 #[derive(Clone, Copy)]
