@@ -22,29 +22,16 @@ impl<T: Copy> BucketSort<T> {
         bucket: impl Fn(&T) -> usize,
         rank: impl Fn(&T) -> usize,
     ) {
-        let Some(first) = list.first() else { return };
-        let buckets = 1 + list.iter().map(&bucket).max().unwrap_or(0);
-        self.begins.clear();
-        self.begins.resize(buckets + 1, 0);
-        for item in &*list {
-            self.begins[bucket(item) + 1] += 1;
+        if list.is_empty() {
+            return;
         }
-        for number in 0..buckets {
-            self.begins[number + 1] += self.begins[number];
-        }
-        self.fill(list, *first);
-        for item in &*list {
-            let at = &mut self.begins[bucket(item)];
-            self.sorted[*at] = *item;
-            *at += 1;
-        }
+        self.sort_by_bucket(list, bucket);
         // Each begin has become the end of its bucket.
         let mut begin = 0;
-        for end in &self.begins[..buckets] {
-            self.sorted[begin..*end].sort_unstable_by_key(&rank);
+        for end in &self.begins {
+            list[begin..*end].sort_unstable_by_key(&rank);
             begin = *end;
         }
-        std::mem::swap(list, &mut self.sorted);
     }
 
     /// As [`sort`](Self::sort), where ranks are small numbers too; buckets are below `buckets`, and ranks below `ranks`.
@@ -84,25 +71,17 @@ impl<T: Copy> BucketSort<T> {
     }
 
     /// Sorts a list by bucket alone; items of a bucket keep their order.
-    pub fn place(&mut self, list: &mut Vec<T>, bucket: impl Fn(&T) -> usize) {
+    pub fn sort_by_bucket(&mut self, list: &mut Vec<T>, bucket: impl Fn(&T) -> usize) {
         let Some(first) = list.first() else { return };
         let (low, high) = ends(list, &bucket);
         self.begins.clear();
-        self.begins.resize(high - low + 2, 0);
+        self.begins.resize(high - low + 1, 0);
         for item in &*list {
-            self.begins[bucket(item) - low + 1] += 1;
+            self.begins[bucket(item) - low] += 1;
         }
-        let mut sum = 0;
-        for begin in &mut self.begins {
-            sum += *begin;
-            *begin = sum;
-        }
+        add_up(&mut self.begins);
         self.fill(list, *first);
-        for item in &*list {
-            let at = &mut self.begins[bucket(item) - low];
-            self.sorted[*at] = *item;
-            *at += 1;
-        }
+        scatter(list, &mut self.begins, &mut self.sorted, |item| bucket(item) - low);
         std::mem::swap(list, &mut self.sorted);
     }
 }
@@ -110,7 +89,7 @@ impl<T: Copy> BucketSort<T> {
 /// Ranks are counted as buckets are where there are at most this many for each item.
 const MOST_RANKS: usize = 8;
 
-/// Makes of counts the sums of those before.
+/// Replaces each count by the sum of those before it.
 fn add_up(counts: &mut [usize]) {
     let mut sum = 0;
     for count in counts {
@@ -162,7 +141,7 @@ mod tests {
             match count % 3 {
                 0 => sort.sort(&mut list, |item| item[0], |item| item[1]),
                 1 => sort.sort_by_both(&mut list, (|item| item[0], 11), (|item| item[1], 97)),
-                _ => sort.place(&mut list, |item| item[0]),
+                _ => sort.sort_by_bucket(&mut list, |item| item[0]),
             }
             assert!(list.capacity().max(sort.sorted.capacity()) <= 512, "after {count} items");
         }

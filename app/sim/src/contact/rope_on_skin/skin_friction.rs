@@ -110,7 +110,7 @@ impl Touching {
             }
         }
         if friction.laws.len() > 1 {
-            self.sort.place(&mut self.faces, |contact| contact.law);
+            self.sort.sort_by_bucket(&mut self.faces, |contact| contact.law);
         }
         self.in_order.resize(self.faces.len(), 0);
         for (place, contact) in self.faces.iter().enumerate() {
