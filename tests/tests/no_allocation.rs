@@ -151,3 +151,28 @@ fn rope_on_skin_allocates_only_as_its_lists_grow() {
         counted.bytes_total
     );
 }
+
+/// A dead whale with rope wound about it, which touches itself in most steps.
+#[test]
+fn rope_on_rope_allocates_only_as_its_lists_grow() {
+    let mut spec = spec("dead-whale-wraps", &[]);
+    spec.settings.resolution = None;
+    let mut run = Run::new(built(spec));
+    run.state = State::start(&run.model);
+    run.steps(WARM_STEPS);
+    let mut touching = 0;
+    let counted = measure(|| {
+        for _ in 0..STEPS {
+            run.steps(1);
+            touching += u64::from(!run.workspace.rope_touches.is_empty());
+        }
+    });
+    assert!(touching > STEPS / 2, "rope was to touch rope, not only in {touching} steps");
+    println!("{} allocations, {} bytes", counted.count_total, counted.bytes_total);
+    assert!(
+        counted.count_total < GROWTH,
+        "{} allocations, {} bytes",
+        counted.count_total,
+        counted.bytes_total
+    );
+}
