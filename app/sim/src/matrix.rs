@@ -7,6 +7,11 @@ pub(crate) fn outer(one: DVec3, other: DVec3) -> DMat3 {
     DMat3::from_cols(one * other.x, one * other.y, one * other.z)
 }
 
+/// The projection `1 - n nᵀ` on the plane across a unit normal.
+pub(crate) fn plane_across(normal: DVec3) -> DMat3 {
+    DMat3::IDENTITY - outer(normal, normal)
+}
+
 /// The matrix of `arm ×`.
 pub(crate) fn cross_matrix(arm: DVec3) -> DMat3 {
     DMat3::from_cols(

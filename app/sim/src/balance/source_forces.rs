@@ -11,6 +11,7 @@ use crate::contact::body_on_skin::BodyContact;
 use crate::contact::{ContactPoint, Contacts};
 use crate::forces::laws::{self, PerMetre, Shared};
 use crate::forces::{Forces, body, pulled};
+use crate::matrix::plane_across;
 use crate::model::JointKind;
 use crate::system::LinearSystem;
 use crate::trial::plan::{Attachment, Plan};
@@ -150,11 +151,10 @@ impl SourceForces<'_> {
         if self.system.in_lanes() && !self.near_seabed {
             return;
         }
+        let plane = plane_across(seabed.normal);
         for node in 0..self.on_nodes.len() {
-            let Some((push, grip)) = self.forces.seabed_at(seabed, state, scheme, self.trial, node)
-            else {
-                continue;
-            };
+            let at = self.forces.seabed_at((seabed, &plane), state, scheme, self.trial, node);
+            let Some((push, grip)) = at else { continue };
             let friction = grip.map_or(DVec3::ZERO, |grip| grip.force);
             let force = seabed.normal * push.force + friction;
             self.given.at_end.add(Source::Seabed, force, self.velocity_of(node));
@@ -203,9 +203,10 @@ impl SourceForces<'_> {
         let weight = DVec3::Z * -(body.mass_kg * model.spec.water.gravity_m_s2);
         let (trial, mass) =
             (&self.trial.bodies[index], DMat3::from_diagonal(DVec3::splat(body.mass_kg)));
+        let axes = DMat3::from_quat(trial.orientation);
         let inertial = [
             body::inertial(trial, scheme, mass),
-            momentum_rate(trial, now, body.inertia_kg_m2, scheme).0,
+            momentum_rate(&axes, trial.spin(scheme), now, body.inertia_kg_m2, scheme).0,
         ];
         let water =
             [in_water[0] - start[0] + inertial[0] - weight, in_water[1] - start[1] + inertial[1]];

@@ -15,7 +15,7 @@ use crate::model::{Body, Float, Model, Wet};
 use crate::state::State;
 use crate::system::LinearSystem;
 use crate::trial::plan::{Attachment, Plan};
-use crate::trial::rotation::momentum_rate_at;
+use crate::trial::rotation::momentum_rate;
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
 
@@ -213,7 +213,7 @@ fn add_body_inertia(
             system.interface.force[block + 1] -= inertia * (trial.turn() * share);
         }
     } else {
-        let (turning, growth) = momentum_rate_at(axes, spin, now, moments, scheme);
+        let (turning, growth) = momentum_rate(axes, spin, now, moments, scheme);
         system.interface.force[block] -= inertial(trial, scheme, mass);
         system.interface.force[block + 1] -= turning;
         *system.interface.at(block + 1, block + 1) += growth;

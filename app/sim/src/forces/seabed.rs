@@ -10,7 +10,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::contact::law::elastic_grip::{Grip, Push};
 use crate::forces::{Forces, suction};
-use crate::matrix::outer;
+use crate::matrix::{outer, plane_across};
 use crate::model::{Body, Model, Seabed};
 use crate::state::State;
 use crate::system::LinearSystem;
@@ -104,9 +104,9 @@ impl Forces {
         let StepContext { model, state, scheme } = *context;
         let Some(seabed) = &model.spec.seabed else { return };
         let across = outer(seabed.normal, seabed.normal);
-        let plane = DMat3::IDENTITY - across;
+        let plane = plane_across(seabed.normal);
         for node in 0..model.node_count {
-            let at = self.seabed_in_plane(seabed, &plane, state, scheme, trial, node);
+            let at = self.seabed_at((seabed, &plane), state, scheme, trial, node);
             let Some((push, grip)) = at else { continue };
             system.rope.force[node] += seabed.normal * push.force;
             system.rope.diagonal[node] += across * push.rate;
@@ -117,25 +117,11 @@ impl Forces {
         }
     }
 
-    /// Push of the seabed on a rope node that lies on it, and its grip where it grips.
+    /// Push of the seabed on a rope node that lies on it, and its grip where it grips; `plane` is the projection on its plane.
+    #[inline(always)]
     pub(crate) fn seabed_at(
         &self,
-        seabed: &Seabed,
-        state: &State,
-        scheme: &Scheme,
-        trial: &Trial,
-        node: usize,
-    ) -> Option<(Push, Option<Grip>)> {
-        let plane = DMat3::IDENTITY - outer(seabed.normal, seabed.normal);
-        self.seabed_in_plane(seabed, &plane, state, scheme, trial, node)
-    }
-
-    /// As [`seabed_at`](Self::seabed_at), where the projection on the plane of the seabed is known.
-    #[inline(always)]
-    fn seabed_in_plane(
-        &self,
-        seabed: &Seabed,
-        plane: &DMat3,
+        (seabed, plane): (&Seabed, &DMat3),
         state: &State,
         scheme: &Scheme,
         trial: &Trial,
@@ -244,7 +230,7 @@ impl Forces {
         state: &mut State,
     ) {
         let Some(seabed) = &model.spec.seabed else { return };
-        let plane = DMat3::IDENTITY - outer(seabed.normal, seabed.normal);
+        let plane = plane_across(seabed.normal);
         for node in 0..model.node_count {
             let on_ground =
                 seabed.depth_of(trial.place[node]) > 0.0 && grips_rope(seabed, state, node, scheme);

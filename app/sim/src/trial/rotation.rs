@@ -43,24 +43,9 @@ pub(crate) fn turn_history(now: &BodyState, scheme: &Scheme) -> DVec3 {
     scheme.history(DVec3::ZERO, turn_between(now.orientation, now.earlier_orientation))
 }
 
-/// Rate at which a body of these moments of inertia gains angular momentum [N m], and its growth with a turn [N m/rad].
+/// Rate at which a body of these moments of inertia gains angular momentum [N m], and its growth with a turn [N m/rad]. It has these axes
+/// in the world frame, by columns, and this angular velocity at the end of the step [rad/s].
 pub(crate) fn momentum_rate(
-    trial: &BodyTrial,
-    now: &BodyState,
-    inertia_kg_m2: DVec3,
-    scheme: &Scheme,
-) -> (DVec3, DMat3) {
-    momentum_rate_at(
-        &DMat3::from_quat(trial.orientation),
-        trial.spin(scheme),
-        now,
-        inertia_kg_m2,
-        scheme,
-    )
-}
-
-/// As [`momentum_rate`], of a body with these axes that turns at this angular velocity at the end of the step [rad/s].
-pub(crate) fn momentum_rate_at(
     axes: &DMat3,
     spin: DVec3,
     now: &BodyState,
@@ -72,10 +57,13 @@ pub(crate) fn momentum_rate_at(
     let momentum_of = |orientation: DQuat, spin: DVec3| {
         turned(&DMat3::from_quat(orientation), inertia_kg_m2) * spin
     };
-    let mut history = momentum_of(now.orientation, now.spin) * scheme.now;
-    if scheme.earlier > 0.0 {
-        history -= momentum_of(now.earlier_orientation, now.earlier_spin) * scheme.earlier;
-    }
+    // Backward Euler has no earlier step.
+    let earlier = if scheme.earlier > 0.0 {
+        momentum_of(now.earlier_orientation, now.earlier_spin)
+    } else {
+        DVec3::ZERO
+    };
+    let history = scheme.history(momentum_of(now.orientation, now.spin), earlier);
     let growth = inertia * scheme.rate - cross_matrix(momentum) + times_cross(&inertia, spin) * 0.5;
     ((momentum - history) * scheme.rate, growth * scheme.rate)
 }

@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::matrix::outer;
+use crate::matrix::{outer, plane_across};
 
 /// A normal force and its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,15 +37,10 @@ impl Grip {
 
     /// Grip of stiffness `stiffness` stretched to `stretch` across `normal`, under the normal force `push`.
     pub fn new(stretch: DVec3, normal: DVec3, stiffness: f64, friction: f64, push: Push) -> Self {
-        // Of ropes whose centre lines coincide the normal is undefined and shorter; such a trial is refused as overcompressed.
-        let is_unit = normal.length_squared() < 1.0 + 1e-9;
-        debug_assert!(is_unit || !normal.is_finite(), "a unit normal: {normal}");
-        debug_assert!(stiffness > 0.0 && friction >= 0.0, "{stiffness} N/m, friction {friction}");
-        let plane = DMat3::IDENTITY - outer(normal, normal);
-        Self::in_plane(&plane, stretch, normal, [stiffness, friction], push)
+        Self::in_plane(&plane_across(normal), stretch, normal, [stiffness, friction], push)
     }
 
-    /// As [`Grip::new`], where the projection `1 - n nᵀ` on the plane across the normal is known.
+    /// As [`Grip::new`], where the projection on the plane across the normal is known ([`plane_across`]).
     #[inline(always)]
     pub fn in_plane(
         plane: &DMat3,
@@ -54,6 +49,10 @@ impl Grip {
         [stiffness, friction]: [f64; 2],
         push: Push,
     ) -> Self {
+        // Of ropes whose centre lines coincide the normal is undefined and shorter; such a trial is refused as overcompressed.
+        let is_unit = normal.length_squared() < 1.0 + 1e-9;
+        debug_assert!(is_unit || !normal.is_finite(), "a unit normal: {normal}");
+        debug_assert!(stiffness > 0.0 && friction >= 0.0, "{stiffness} N/m, friction {friction}");
         let plane = *plane;
         let stretch = plane * stretch;
         let (length, limit) = (stretch.length(), friction * push.force);
@@ -81,7 +80,7 @@ impl Grip {
     /// With a `trust` below one its block yields less along the slip than the force does; at zero it is the secant `k/√…`,
     /// with which passes never overshoot.
     pub fn smooth(stretch: DVec3, normal: DVec3, stiffness: f64, limit: f64, trust: f64) -> Self {
-        let plane = DMat3::IDENTITY - outer(normal, normal);
+        let plane = plane_across(normal);
         let stretch = plane * stretch;
         if limit <= 0.0 {
             return Self { force: DVec3::ZERO, block: DMat3::ZERO, kept: DVec3::ZERO, slips: true };
