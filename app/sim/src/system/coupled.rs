@@ -25,6 +25,7 @@ use crate::trial::plan::{Attachment, Attachments};
 /// A coupling as the linear system sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactBlock {
+    /// The two segments.
     pub segments: [usize; 2],
     /// First nodes of the two segments.
     pub nodes: [usize; 2],
@@ -95,8 +96,9 @@ pub(crate) struct CoupledRopes {
     pub couplings: Vec<ContactBlock>,
     /// Pairs of first nodes of all couplings of this solver step, in order.
     pairs: Vec<[usize; 2]>,
-    /// The pairs of the layout, and the nodes that were cuts for another reason.
+    /// The pairs of the layout.
     laid_out: Vec<[usize; 2]>,
+    /// Its nodes at which lines are cut although no rope touches there, in rising order.
     cuts: Vec<usize>,
     /// Touched nodes and cuts that are no ends of lines, in order; the unknowns after those of the interface.
     touched: Vec<usize>,
@@ -165,7 +167,8 @@ impl CoupledRopes {
         }
     }
 
-    /// Lays out the system, with further cuts of the lines in rising order, if its layout lacks a pair; returns whether it does.
+    /// Lays out the system for the pairs of this step and further cuts of the lines, in rising order, unless it has that layout; returns
+    /// whether it was laid out.
     pub fn prepare(
         &mut self,
         model: &Model,

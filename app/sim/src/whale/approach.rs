@@ -93,10 +93,10 @@ impl Approach {
         Self {
             arch: Arch::new(),
             thin,
+            radii: tree.radii_around_clusters(&parent),
             parent,
             boxes: vec![None; count],
             around: vec![None; count],
-            radii: tree.radii_around_clusters(),
             is_within: vec![None; count],
             guess: None,
             todo: Vec::with_capacity(count),

@@ -182,12 +182,8 @@ impl SkinTree {
     }
 
     /// Radius of a sphere with the centre of each sphere of a node that contains the spheres of the same bone of all clusters below
-    /// the node [m].
-    pub(super) fn radii_around_clusters(&self) -> Vec<f64> {
-        let mut parent = vec![None; self.nodes.len()];
-        for (node, at) in self.nodes.iter().enumerate() {
-            at.children.into_iter().flatten().for_each(|child| parent[child] = Some(node));
-        }
+    /// the node, by the parent of each node [m].
+    pub(super) fn radii_around_clusters(&self, parent: &[Option<usize>]) -> Vec<f64> {
         let mut radii = vec![0.0_f64; self.spheres.len()];
         let clusters = (0..self.nodes.len()).filter(|node| self.nodes[*node].children.is_none());
         for cluster in clusters {

@@ -36,7 +36,7 @@ pub(crate) struct RopeOnSkin {
     friction: Touching,
     /// Whether rope may touch skin in this solver step.
     pub touching: bool,
-    /// Whether all contact points have been measured at the trial, which has not moved since.
+    /// Whether all contact points have been measured at the trial since they were opened, so that the next measurement is omitted.
     is_measured: bool,
     /// Force of each contact point by the last solution less the force at the trial [N].
     missed: Vec<DVec3>,

@@ -12,7 +12,7 @@ use crate::contact::rope_on_skin::stored_faces::{self, FACE_BITS, MOST_POINTS};
 /// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
 const NEARER_BY: f64 = 0.1;
-/// A search measures this share of the contact distance farther than it need, so that the next search may be spared.
+/// A search measures distances up to this share of the contact distance beyond what it needs, so that the next search may be omitted.
 const BEYOND: f64 = 0.1;
 /// Rounding of distances [m].
 const ROUNDING_M: f64 = 1e-9;
@@ -75,14 +75,14 @@ impl WithSimd for Search<'_> {
 }
 
 impl SkinContactPoints {
-    /// Opens further contact points where a piece of rope is clearly nearer to skin than at those it has; how many.
+    /// Opens further contact points where a piece of rope is clearly nearer to skin than at those it has; returns how many.
     pub fn open_more(&mut self, near: &Near, places: &[DVec3]) -> usize {
         self.opened.clear();
         self.arch.dispatch(Search { points: self, near, places, beside: None });
         self.insert_opened()
     }
 
-    /// Opens further contact points in the pieces in which some were opened last, with rope at the same places; how many. A search in
+    /// Opens further contact points in the pieces in which some were opened last, with rope at the same places; returns how many. A search in
     /// any other piece would find nothing again.
     pub fn open_more_beside_opened(&mut self, near: &Near, places: &[DVec3]) -> usize {
         let count = self.opened.len();
@@ -126,7 +126,7 @@ impl SkinContactPoints {
         self.opened.push((index, point));
     }
 
-    /// Inserts the contact points opened into the list, each behind the others of its piece; how many.
+    /// Inserts the contact points opened into the list, each behind the others of its piece; returns how many.
     fn insert_opened(&mut self) -> usize {
         let opened = self.opened.len();
         if opened == 0 {

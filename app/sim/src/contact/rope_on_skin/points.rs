@@ -126,13 +126,12 @@ impl SkinContactPoints {
                 let faces = &self.kept[kept.clone()];
                 let first = self.list.len();
                 let share = 0.5 * bears_m / length;
-                let of_middle =
-                    if faces.is_empty() { 0..0 } else { stored_faces::of_point(faces, site) };
+                let of_middle = stored_faces::of_point(faces, site);
                 self.pieces.push(Piece {
                     points: first..first + 1,
                     between: [fraction - share, fraction + share],
                     segment_length: length,
-                    beside: if faces.is_empty() { 0 } else { stored_faces::points_beside(faces) },
+                    beside: stored_faces::points_beside(faces),
                     looked: None,
                 });
                 self.list.push(SkinContactPoint {
@@ -311,8 +310,8 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// Adds its touches; returns distance, pair and barycentric place of the nearest triangle within `most`. The nearest triangle of the last evaluation is
-    /// measured first: most others are then excluded by their bounds.
+    /// Adds its touches; returns distance, pair and barycentric place of the nearest triangle within `most`. The nearest triangle of the
+    /// last evaluation is measured first: most others are then excluded by their bounds.
     #[inline(always)]
     fn add_touches(
         &self,

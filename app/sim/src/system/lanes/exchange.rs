@@ -313,34 +313,37 @@ impl Lanes {
 
     /// Adds a force at a fraction of a segment.
     pub fn add_force(&mut self, segment: usize, fraction: f64, force: DVec3) {
-        let piece = &self.pieces[self.piece_of[segment]];
-        let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
+        let (row, lane) = self.contact_row(segment);
         for (row, share) in [(row, 1.0 - fraction), (row + 1, fraction)] {
-            self.contact[row].force.add(piece.lane, force * share);
-            self.contact_rows.push(row);
+            self.contact[row].force.add(lane, force * share);
         }
-        self.touches[piece.group] = true;
     }
 
     /// Adds a force and its block `-dF/dx` at a fraction of a segment.
     pub fn add_contact(&mut self, segment: usize, fraction: f64, force: DVec3, block: &DMat3) {
-        debug_assert_eq!(self.contact.len(), self.nodes.len(), "contact in the layout of nodes");
-        let piece = &self.pieces[self.piece_of[segment]];
-        let row = self.groups[piece.group].node_row + 1 + segment - piece.first_segment;
-        let (lane, first, second) = (piece.lane, 1.0 - fraction, fraction);
+        let (row, lane) = self.contact_row(segment);
+        let (first, second) = (1.0 - fraction, fraction);
         for (row, share) in [(row, first), (row + 1, second)] {
             self.contact[row].force.add(lane, force * share);
             self.contact[row].block.add(lane, &(*block * (share * share)));
         }
         self.contact[row].coupling.add(lane, &(*block * (first * second)));
+    }
+
+    /// Row of contact of a segment's first node, and its lane; this row and the next are in use from now on.
+    fn contact_row(&mut self, segment: usize) -> (usize, usize) {
+        debug_assert_eq!(self.contact.len(), self.nodes.len(), "contact in the layout of nodes");
+        let Piece { group, lane, first_segment, .. } = self.pieces[self.piece_of[segment]];
+        let first = self.groups[group].node_row + 1 + segment - first_segment;
         // A row may be noted twice, which does no harm: points of neighbouring segments come one after the other, so that most rows
         // are found among the last three.
-        for row in [row, row + 1] {
+        for row in [first, first + 1] {
             let last = self.contact_rows.len().saturating_sub(3);
             if !self.contact_rows[last..].contains(&row) {
                 self.contact_rows.push(row);
             }
         }
-        self.touches[piece.group] = true;
+        self.touches[group] = true;
+        (first, lane)
     }
 }
