@@ -220,7 +220,7 @@ pub(crate) trait ContactKind {
     }
 
     /// Begins an iteration at the trial.
-    fn begin_iteration(&mut self, _trial: &Trial) {}
+    fn begin_iteration(&mut self, _context: &StepContext<'_>, _trial: &Trial) {}
 
     /// Adds forces on rope and their blocks.
     fn assemble_on_rope(
@@ -438,8 +438,8 @@ impl Contacts {
     }
 
     /// Begins an iteration at the trial.
-    pub fn begin_iteration(&mut self, trial: &Trial) {
-        self.kinds_mut().for_each(|kind| kind.begin_iteration(trial));
+    pub fn begin_iteration(&mut self, context: &StepContext<'_>, trial: &Trial) {
+        self.kinds_mut().for_each(|kind| kind.begin_iteration(context, trial));
     }
 
     /// Adds the forces on rope of the kinds that add in this order.

@@ -108,7 +108,7 @@ impl Solver {
     /// One iteration with contact as evaluated last: rope is solved, with contact linear, until its tension is the one that the
     /// solution assumed. A half iteration moves the trial by half of its one solution.
     fn iterate(&mut self, context: &StepContext<'_>, rules: &Stopping, share: f64) -> PassDone {
-        self.contacts.begin_iteration(&self.trial);
+        self.contacts.begin_iteration(context, &self.trial);
         let most = if rules.is_in_contact() && share >= 1.0 { MOST_ROPE_SOLUTIONS } else { 1 };
         let mut done = self.solve_rope(context, rules, share);
         for _ in 1..most {

@@ -89,6 +89,8 @@ pub(crate) enum StepKind {
     InContact {
         /// Error as a share of the tolerance of Newton.
         missed: f64,
+        /// Number of iterations.
+        passes: usize,
     },
     /// Something parted at its end.
     Parted,

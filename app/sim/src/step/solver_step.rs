@@ -91,7 +91,7 @@ fn try_solver_step(
     Ok(if untouched {
         StepKind::Free
     } else {
-        StepKind::InContact { missed: solved.missed.unwrap_or(1.0) }
+        StepKind::InContact { missed: solved.missed.unwrap_or(1.0), passes: solved.passes }
     })
 }
 

@@ -14,7 +14,8 @@ use super::rejection::{Rejection, StepKind};
 use crate::model::Settings;
 use crate::state::{LimitedBy, StepControl};
 
-/// Error of Newton, as a share of the tolerance, below which the next contact step is longer, and by which factor.
+/// Error of Newton, as a share of the tolerance, below which the next contact step is longer, and by which factor. After a single
+/// iteration it is longer at any error: a second iteration costs less than a second step.
 const LITTLE_MISSED: f64 = 0.3;
 const GROWTH: f64 = 1.4;
 /// Shortest contact step that is chosen; a shorter step is halved for itself [s].
@@ -109,10 +110,10 @@ impl<'a> SubstepPolicy<'a> {
         kind: StepKind,
         control: &mut StepControl,
     ) {
-        if let (true, StepKind::InContact { missed }) = (substep.by_contact, kind) {
+        if let (true, StepKind::InContact { missed, passes }) = (substep.by_contact, kind) {
             let step_s = self.contact_step(control);
-            control.contact_step_s =
-                if missed < LITTLE_MISSED { step_s.max(GROWTH * dt) } else { step_s };
+            let may_grow = passes == 1 || missed < LITTLE_MISSED;
+            control.contact_step_s = if may_grow { step_s.max(GROWTH * dt) } else { step_s };
         }
         self.halvings = self.halvings.saturating_sub(1);
     }
@@ -194,10 +195,11 @@ mod tests {
     enum Then {
         Free,
         InContact(f64),
+        InContactAtOnce,
         Rejected(Rejection),
         RejectedOnRopes(Rejection),
     }
-    use Then::{Free, InContact, Rejected, RejectedOnRopes};
+    use Then::{Free, InContact, InContactAtOnce, Rejected, RejectedOnRopes};
 
     /// Lengths of the steps that are tried, where `near` says whether the whale is near, and all is never clear of it.
     fn tried(near: bool, events: &[Then]) -> Vec<f64> {
@@ -211,7 +213,8 @@ mod tests {
             lengths.push(dt);
             let kind = match event {
                 Free => StepKind::Free,
-                InContact(missed) => StepKind::InContact { missed: *missed },
+                InContact(missed) => StepKind::InContact { missed: *missed, passes: 2 },
+                InContactAtOnce => StepKind::InContact { missed: 1.0, passes: 1 },
                 Rejected(why) | RejectedOnRopes(why) => {
                     let on_ropes = matches!(event, RejectedOnRopes(_));
                     let after = policy.rejected(why, dt, on_ropes, &mut control);
@@ -247,6 +250,12 @@ mod tests {
                 "near with a small error: the contact step grows again by 1.4",
                 true,
                 vec![not(), InContact(0.1), InContact(1.0)],
+                vec![2.0, 1.0, 9.0 / 7.0],
+            ),
+            (
+                "near and solved in one iteration: the contact step grows at any error",
+                true,
+                vec![not(), InContactAtOnce, InContact(1.0)],
                 vec![2.0, 1.0, 9.0 / 7.0],
             ),
             (

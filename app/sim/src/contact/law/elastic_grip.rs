@@ -2,11 +2,20 @@
 //!
 //! With `z*` the grip stretched by this step's move across the normal, `k` its stiffness and `N` the normal force:
 //! `f = -k z*` while `k|z*| <= μN`, else `f = -μN z*/|z*|`; the grip stores `f/k`. It holds without creep.
+//!
+//! A slipping grip has no stiffness along its slip. Where light rope should hold, a solution with slip one way therefore moves it far the
+//! other way, and iterations alternate between the two. If the friction at a trial opposes that of the solution that led there, the next
+//! solution takes the grip as one that holds, `f = -k z*` at any force; a grip that must slip exceeds its limit in that solution.
+//! The test of convergence always evaluates the law itself. Reference for such active sets of stick and slip: Alart and Curnier 1991
+//! (doi:10.1016/0045-7825(91)90022-X).
 //! Reference: Cundall and Strack 1979 (doi:10.1680/geot.1979.29.1.47).
 
 use glam::{DMat3, DVec3};
 
 use crate::matrix::{outer, plane_across};
+
+/// Ratio of the normal force at a trial to that of the last solution, either way, up to which it is steady.
+const STEADY_RATIO: f64 = 2.0;
 
 /// A normal force and its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,6 +84,21 @@ impl Grip {
         }
     }
 
+    /// Grip that holds at any force.
+    pub fn held(stretch: DVec3, normal: DVec3, stiffness: f64) -> Self {
+        let plane = plane_across(normal);
+        let stretch = plane * stretch;
+        Self { force: stretch * -stiffness, block: plane * stiffness, kept: stretch, slips: false }
+    }
+
+    /// Whether it slips under the normal force `now_n` with a friction that opposes that in the force of the last solution, which had this
+    /// normal; never while the normal force changes as it does when things collide or separate.
+    pub fn is_reversed(&self, now_n: f64, solved: DVec3, normal: DVec3) -> bool {
+        let solved_n = normal.dot(solved);
+        let is_steady = solved_n < STEADY_RATIO * now_n && now_n < STEADY_RATIO * solved_n;
+        self.slips && is_steady && self.force.dot(solved - normal * solved_n) < 0.0
+    }
+
     /// The grip of statics, which has no corner where it begins to slip: `f = -k z / √(1 + (k|z|/μN)²)`.
     ///
     /// With a `trust` below one its block yields less along the slip than the force does; at zero it is the secant `k/√…`,
@@ -105,5 +129,20 @@ mod tests {
         let slips = Grip::new(DVec3::new(0.006, 0.0, 0.0), DVec3::Z, 1e4, 0.5, push);
         assert!(slips.slips && (slips.force - DVec3::new(-50.0, 0.0, 0.0)).length() < 1e-12);
         assert!((slips.kept.x - 0.005).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_grip_that_slips_the_other_way_than_solved_is_reversed() {
+        let push = Push { force: 100.0, rate: 0.0 };
+        let slips = Grip::new(DVec3::new(0.006, 0.0, 0.0), DVec3::Z, 1e4, 0.5, push);
+        let solved = |friction: f64| DVec3::new(friction, 0.0, 100.0);
+        assert!(slips.is_reversed(100.0, solved(50.0), DVec3::Z));
+        assert!(!slips.is_reversed(100.0, solved(-50.0), DVec3::Z), "the same way");
+        assert!(!slips.is_reversed(100.0, DVec3::ZERO, DVec3::Z), "no solution yet");
+        assert!(!slips.is_reversed(300.0, solved(50.0), DVec3::Z), "it collides");
+        let holds = Grip::new(DVec3::new(0.004, 0.0, 0.0), DVec3::Z, 1e4, 0.5, push);
+        assert!(!holds.is_reversed(100.0, solved(50.0), DVec3::Z), "it holds");
+        let held = Grip::held(DVec3::new(0.006, 0.0, 0.3), DVec3::Z, 1e4);
+        assert!((held.force - DVec3::new(-60.0, 0.0, 0.0)).length() < 1e-12);
     }
 }

@@ -18,6 +18,11 @@ use std::ops::Range;
 /// Number of floats before those of the law: number of the law, energy taken, energy returned.
 const KEPT: usize = 3;
 
+/// Normal force under which no contact slips [N].
+const HOLDING_N: f64 = 1e9;
+/// Longest stretch by which a contact that holds may pull [m]; a law that says more has no stiffness to hold with.
+const LONGEST_STRETCH_M: f64 = 0.1;
+
 /// Why friction failed, and whose fault it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Failed {
@@ -77,6 +82,9 @@ pub(crate) struct FrictionArrays {
     account: Vec<Account>,
     /// Results of the laws.
     pub response: Vec<FrictionResponse>,
+    /// Scratch: results under [`HOLDING_N`], and the normal forces meanwhile.
+    held_response: Vec<FrictionResponse>,
+    pushes_n: Vec<f64>,
 }
 
 impl FrictionArrays {
@@ -154,8 +162,19 @@ impl FrictionArrays {
     /// Calls the laws for forces and derivatives.
     pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
         let mut response = std::mem::take(&mut self.response);
+        let answer = self.respond_to(friction, dt_s, &mut response);
+        self.response = response;
+        answer
+    }
+
+    fn respond_to(
+        &self,
+        friction: &Friction,
+        dt_s: f64,
+        response: &mut Vec<FrictionResponse>,
+    ) -> Result<(), Failed> {
         response.resize(self.normal_force.len(), FrictionResponse::default());
-        let answer = self.groups.iter().try_for_each(|group| {
+        self.groups.iter().try_for_each(|group| {
             let law = &friction.laws[group.law];
             let out = &mut response[group.contacts.clone()];
             law.model
@@ -166,9 +185,26 @@ impl FrictionArrays {
             } else {
                 Err(failed(law, "gave a force or derivative that is not a finite number"))
             }
-        });
-        self.response = response;
-        answer
+        })
+    }
+
+    /// Replaces the responses of the contacts at these places by those of contacts that hold at any force, at the same trial. A law that
+    /// fails at such a normal force, or does not hold, keeps its response.
+    pub fn hold(&mut self, friction: &Friction, dt_s: f64, places: &[usize]) {
+        self.pushes_n.clear();
+        self.pushes_n.extend(places.iter().map(|place| self.normal_force[*place]));
+        places.iter().for_each(|place| self.normal_force[*place] = HOLDING_N);
+        let mut held = std::mem::take(&mut self.held_response);
+        held.clear();
+        let answer = self.respond_to(friction, dt_s, &mut held);
+        for (place, push_n) in places.iter().copied().zip(self.pushes_n.iter().copied()) {
+            self.normal_force[place] = push_n;
+            if answer.is_ok() && holds(&held[place]) {
+                self.response[place] =
+                    FrictionResponse { by_normal_force: [0.0; 3], ..held[place] };
+            }
+        }
+        self.held_response = held;
     }
 
     /// Calls the laws for their floats at the end of the step, and adds the work of the step.
@@ -297,6 +333,14 @@ fn stride(friction: &Friction) -> usize {
 
 fn failed(law: &FrictionLaw, message: impl Into<String>) -> Failed {
     Failed { id: law.model.descriptor().id.to_string(), message: message.into() }
+}
+
+/// Whether a response is that of a contact that holds: its force is that of a spring with a stretch that can be.
+fn holds(response: &FrictionResponse) -> bool {
+    let force = DVec3::from_array(response.force_n);
+    let Some(direction) = force.try_normalize() else { return true };
+    let stiffness = -direction.dot(matrix(&response.by_slip) * direction);
+    force.length() < LONGEST_STRETCH_M * stiffness
 }
 
 fn is_finite(answer: &FrictionResponse) -> bool {

@@ -36,13 +36,28 @@ struct Touch {
     barrier: BarrierForce,
     /// Increment of that linear force to this distance [N].
     growth_n: f64,
+    /// Stretch of the grip by this step [m], and its stiffness [N/m].
+    stretch: DVec3,
+    stiffness: f64,
     grip: Grip,
 }
 
 impl Touch {
     /// Force on the first rope [N].
     fn force(&self) -> DVec3 {
-        self.normal * (self.barrier.force + self.growth_n) + self.grip.force
+        self.normal * self.normal_n() + self.grip.force
+    }
+
+    /// Normal force, linear about where it is linearised [N].
+    fn normal_n(&self) -> f64 {
+        self.barrier.force + self.growth_n
+    }
+
+    /// Holds the grip if its slip has reversed since the last solution (`law/elastic_grip.rs`).
+    fn hold_if_reversed(&mut self, point: &RopeContactPoint) {
+        if self.grip.is_reversed(self.normal_n(), point.solved, point.normal) {
+            self.grip = Grip::held(self.stretch, self.normal, self.stiffness);
+        }
     }
 
     fn block(&self) -> DMat3 {
@@ -83,7 +98,7 @@ fn touch_at(
         law.friction,
         Push { force: barrier.force + growth_n, rate: barrier.stiffness },
     );
-    Some(Touch { fractions, normal, distance, moved, barrier, growth_n, grip })
+    Some(Touch { fractions, normal, distance, moved, barrier, growth_n, stretch, stiffness, grip })
 }
 
 impl ContactKind for RopeOnRope {
@@ -134,7 +149,7 @@ impl ContactKind for RopeOnRope {
         self.check_compressed(trial, CRUSHED_SHARE)
     }
 
-    fn begin_iteration(&mut self, _: &Trial) {
+    fn begin_iteration(&mut self, _: &StepContext<'_>, _: &Trial) {
         self.iterations += 1;
     }
 
@@ -157,8 +172,9 @@ impl ContactKind for RopeOnRope {
             let pair = &mut pairs[*index];
             for k in 0..pair.points.len() {
                 let at = |node: usize| trial.place[node];
-                let touch = touch_at(&law, context.state, pair, &pair.points[k], at);
+                let mut touch = touch_at(&law, context.state, pair, &pair.points[k], at);
                 let point = &mut pair.points[k];
+                touch.iter_mut().for_each(|touch| touch.hold_if_reversed(point));
                 (point.force, point.block) = touch
                     .as_ref()
                     .map_or((DVec3::ZERO, DMat3::ZERO), |touch| (touch.force(), touch.block()));

@@ -50,11 +50,16 @@ impl ContactKind for RopeOnSkin {
             self.near.follow(&state.rope.position, &trial.place);
             self.open_active_points(model, state, &trial.place);
             self.is_measured = true;
+            self.solved_friction.clear();
         }
     }
 
     fn open_more(&mut self, _: &StepContext<'_>, trial: &Trial) -> bool {
-        self.touching && self.points.open_more(&self.near, &trial.place) > 0
+        let opened = self.touching && self.points.open_more(&self.near, &trial.place) > 0;
+        if opened {
+            self.solved_friction.clear();
+        }
+        opened
     }
 
     fn measure(
@@ -86,9 +91,10 @@ impl ContactKind for RopeOnSkin {
         touching.arrays.respond(friction, scheme.dt).map_err(ContactFailure::Plugin)
     }
 
-    fn begin_iteration(&mut self, trial: &Trial) {
+    fn begin_iteration(&mut self, context: &StepContext<'_>, trial: &Trial) {
         self.is_measured = false;
         if self.touching {
+            self.hold_reversed(context.model, context.scheme.dt);
             self.before.clone_from(&trial.place);
             self.store_blocks();
         }

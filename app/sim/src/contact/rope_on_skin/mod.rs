@@ -40,6 +40,10 @@ pub(crate) struct RopeOnSkin {
     is_measured: bool,
     /// Force of each contact point by the last solution less the force at the trial [N].
     missed: Vec<DVec3>,
+    /// Friction of each contact point by the last solution [N]; empty where there was none with these points.
+    solved_friction: Vec<DVec3>,
+    /// Scratch: contacts whose friction has reversed.
+    reversed: Vec<usize>,
     /// Places where contact was measured last.
     before: Vec<DVec3>,
     /// Places of rope by its velocities.
@@ -59,6 +63,8 @@ impl RopeOnSkin {
             touching: false,
             is_measured: false,
             missed: Vec::new(),
+            solved_friction: Vec::new(),
+            reversed: Vec::new(),
             before: Vec::new(),
             target: Vec::new(),
             greatest_contact_distance: model
@@ -89,6 +95,25 @@ impl RopeOnSkin {
         );
         self.near.find_active(&rope.position, &self.target, goal);
         self.near.may_touch()
+    }
+
+    /// Holds the contacts at which the friction at the trial opposes that of the solution that led there: iterations would alternate
+    /// between slip one way and the other (`law/elastic_grip.rs`).
+    fn hold_reversed(&mut self, model: &Model, dt_s: f64) {
+        let Self { points, friction: touching, solved_friction, reversed, .. } = self;
+        let Some(friction) = &model.spec.friction else { return };
+        if solved_friction.is_empty() {
+            return;
+        }
+        debug_assert_eq!(solved_friction.len(), points.list.len(), "solved with these points");
+        reversed.clear();
+        reversed.extend(touching.faces.iter().enumerate().filter_map(|(place, contact)| {
+            let friction = touching.arrays.friction_of(place);
+            (friction.dot(solved_friction[contact.point]) < 0.0).then_some(place)
+        }));
+        if !reversed.is_empty() {
+            touching.arrays.hold(friction, dt_s, reversed);
+        }
     }
 
     /// Stores the block `-dF/dx` of every contact as measured last.
@@ -148,12 +173,17 @@ impl RopeOnSkin {
 
     /// After a solution: push and friction of every contact point by it.
     fn store_solved(&mut self, places: &[DVec3]) {
-        let Self { points, friction: touching, before, missed, .. } = self;
-        missed.clear();
-        missed.resize(points.list.len(), DVec3::ZERO);
+        let Self { points, friction: touching, before, missed, solved_friction, .. } = self;
+        for sums in [&mut *missed, &mut *solved_friction] {
+            sums.clear();
+            sums.resize(points.list.len(), DVec3::ZERO);
+        }
         for (place, contact) in touching.faces.iter().enumerate() {
             let step = points.list[contact.point].on_rope(|node| places[node] - before[node]);
-            missed[contact.point] += touching.force[place] - touching.block[place] * step;
+            let force = touching.force[place] - touching.block[place] * step;
+            let normal = touching.arrays.normal_of(place);
+            missed[contact.point] += force;
+            solved_friction[contact.point] += force - normal * normal.dot(force);
             points.note_solved(contact.point, contact.face, step);
         }
     }
