@@ -49,7 +49,8 @@ impl BodyOnSkin {
         self.blocks.clear();
         for (place, touch) in self.touches.iter().enumerate() {
             let along = (touch.normal, touch.normal);
-            self.blocks.push(self.arrays.block_of(place, along, touch.stiffness));
+            let (normal, away) = along;
+            self.blocks.push(self.arrays.block_of(place, normal, away * touch.stiffness));
         }
         Ok(())
     }

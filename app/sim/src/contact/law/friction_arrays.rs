@@ -255,12 +255,10 @@ impl FrictionArrays {
         kept.resize(end, 0.0);
     }
 
-    /// `-d force / d place` of a contact with normal force along `normal`, its derivative `stiffness` by depth, and the gradient `away` of
-    /// distance [N/m].
-    pub fn block_of(&self, place: usize, (normal, away): (DVec3, DVec3), stiffness: f64) -> DMat3 {
+    /// `-d force / d place` of a contact with normal force along `normal`, which decreases by `decrease` with a move [N/m].
+    pub fn block_of(&self, place: usize, normal: DVec3, decrease: DVec3) -> DMat3 {
         let response = &self.response[place];
-        let growth = away * stiffness;
-        outer(normal + DVec3::from_array(response.by_normal_force), growth)
+        outer(normal + DVec3::from_array(response.by_normal_force), decrease)
             - matrix(&response.by_slip)
     }
 

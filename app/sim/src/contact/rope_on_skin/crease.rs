@@ -13,6 +13,7 @@
 //!
 //! so that nothing jumps as rope slides into a crease or out of it. Two walls at a right angle each press in full. Two facets of
 //! a shallow fold together have the force of one: over the few micrometres in which `s` grows there, the force only turns.
+//! Without the gradient of the share, iterations would turn the force to and fro between two walls.
 //! A face is pressed by its share of the rope's length: normal force, friction and the energy stored by friction are in proportion to it.
 
 use glam::DVec3;
@@ -64,13 +65,20 @@ pub(crate) fn keep_faces(touches: &mut Vec<Touch>, first: usize, nearest: usize)
     }
     touches.truncate(first + faces);
     if faces > 1 {
-        share_out(&mut touches[first..]);
+        let gradient =
+            if faces == 2 { own_gradient(&nearest, &touches[first + 1]) } else { DVec3::ZERO };
+        share_out(&mut touches[first..], gradient);
         touches[first..].sort_unstable_by_key(|touch| touch.pair);
     }
 }
 
-/// Makes of how much each face is a wall of its own its share of the push.
-fn share_out(faces: &mut [Touch]) {
+/// Makes of how much each face is a wall of its own its share of the push; `gradient` is that of the second of two.
+fn share_out(faces: &mut [Touch], gradient: DVec3) {
+    if let [nearest, other] = faces {
+        let alike = nearest.normal.dot(other.normal).max(0.0);
+        let slope = gradient / (1.0 + alike * other.share).powi(2);
+        (nearest.share_gradient, other.share_gradient) = (slope * -alike, slope);
+    }
     let mut walls = [(DVec3::ZERO, 0.0); MOST_FACES];
     for (wall, face) in walls.iter_mut().zip(&*faces) {
         *wall = (face.normal, face.share);
@@ -94,6 +102,19 @@ fn own(nearer: &Touch, other: &Touch) -> f64 {
         / (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
     ((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0)
         * ((risen - RISEN.0) / (RISEN.1 - RISEN.0)).clamp(0.0, 1.0)
+}
+
+/// Gradient of [`own`] [1/m].
+fn own_gradient(nearer: &Touch, other: &Touch) -> DVec3 {
+    let alike = nearer.normal.dot(other.normal);
+    let room = (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
+    let risen = (nearer.distance - other.distance * alike) / room;
+    if alike >= ALIKE.0 || risen <= RISEN.0 {
+        return DVec3::ZERO;
+    }
+    let by_place =
+        (nearer.away - other.away * alike) / room - nearer.away * (risen / nearer.distance);
+    by_place * (((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0) / (RISEN.1 - RISEN.0))
 }
 
 #[cfg(test)]
@@ -184,6 +205,34 @@ mod tests {
                 assert!(
                     (together / alone - 1.0).abs() < 0.005,
                     "{degrees}, {step}: {together}, {alone}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn gradients_of_two_shares_are_their_differences() {
+        for (degrees, x_m) in [(40.0_f64, -1e-4), (40.0, -5e-4), (17.0, -1e-4), (60.0, -2e-3)] {
+            let angle = degrees.to_radians();
+            let faces = |place: DVec3| {
+                let rising = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
+                let level = touch(7, place, DVec3::X * place.x.min(0.0));
+                let raised = touch(3, place, rising * rising.dot(place).max(0.0));
+                let nearest = usize::from(raised.distance < level.distance);
+                let mut faces = vec![level, raised];
+                keep_faces(&mut faces, 0, nearest);
+                faces
+            };
+            let (place, step_m) = (DVec3::new(x_m, 0.0, 0.003), 1e-8);
+            let here = faces(place);
+            assert_eq!(here.len(), 2, "{degrees} degrees, {x_m} m");
+            for (face, axis) in [(0, DVec3::X), (0, DVec3::Z), (1, DVec3::X), (1, DVec3::Z)] {
+                let share = |sign: f64| faces(place + axis * sign * step_m)[face].share;
+                let slope = (share(1.0) - share(-1.0)) / (2.0 * step_m);
+                let gradient = here[face].share_gradient.dot(axis);
+                assert!(
+                    (slope - gradient).abs() < 1e-3 * slope.abs().max(1.0),
+                    "{slope} {gradient}"
                 );
             }
         }

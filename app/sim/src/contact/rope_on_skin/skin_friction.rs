@@ -188,7 +188,7 @@ impl Touching {
 
     /// `-d force / d place` of a contact [N/m].
     pub fn block_of(&self, place: usize, touch: &Touch) -> DMat3 {
-        self.arrays.block_of(place, (touch.normal, touch.away), touch.barrier.stiffness)
+        self.arrays.block_of(place, touch.normal, touch.decrease())
     }
 
     /// Makes the normal force of a contact linear about another force; friction stays linear about its evaluation.

@@ -21,6 +21,10 @@ pub(crate) struct Touch {
     pub growth_n: f64,
     /// Share of the push that this face has beside others, and of the rope's length that lies on it.
     pub share: f64,
+    /// Gradient of its share beside one other face; zero beside several [1/m].
+    pub share_gradient: DVec3,
+    /// Growth of the normal force by a move that changes the share [N/m].
+    share_slope: DVec3,
     /// Normal force of the last solution, or expected before the first [N].
     pub solved_n: Option<f64>,
     /// Index of the stored face of the last solver step in `SkinContactPoints::kept`, in the order of `FrictionState`.
@@ -29,6 +33,8 @@ pub(crate) struct Touch {
 
 /// Length of `away` across the rope up to which the normal force is along `away`, and from which it is wholly across the rope.
 const ACROSS: (f64, f64) = (0.2, 0.4);
+/// Least share that a solution may leave a face.
+const LEAST_SHARE: f64 = 1e-3;
 /// Cosine of the angle of two normals above which a face is the one that was touched before.
 pub(crate) const SAME_FACE: f64 = 0.7;
 
@@ -49,6 +55,8 @@ impl Touch {
             barrier: BarrierForce::default(),
             growth_n: 0.0,
             share: 1.0,
+            share_gradient: DVec3::ZERO,
+            share_slope: DVec3::ZERO,
             solved_n: None,
             kept: None,
         }
@@ -84,18 +92,20 @@ impl Touch {
     pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
         let law = (self.distance, contact_distance, stiffness * self.share);
         (self.barrier, self.growth_n) = self.barrier.about_solved(self.solved_n, law);
+        self.share_slope =
+            self.share_gradient * ((self.barrier.force + self.growth_n) / self.share);
     }
 
     /// Difference between the normal force of a solution that moves rope by `step` and the law there [N].
     pub fn law_missed(&self, step: DVec3, contact_distance: f64, stiffness: f64) -> f64 {
         let distance = self.distance + self.away.dot(step);
-        let law = BarrierForce::new(distance, contact_distance, stiffness * self.share);
+        let law = BarrierForce::new(distance, contact_distance, stiffness * self.share_after(step));
         (self.push_after(step) - law.force).abs()
     }
 
     /// Makes the normal force linear about a solution that moves rope by `step`; if that force is negative, about the law there.
     pub fn follow_law(&mut self, step: DVec3, contact_distance: f64, stiffness: f64) {
-        let (stiffness, solved_n) = (stiffness * self.share, self.push_after(step));
+        let (stiffness, solved_n) = (stiffness * self.share_after(step), self.push_after(step));
         let depth = contact_distance - self.distance;
         let (depth_there, barrier) = if solved_n > 0.0 {
             BarrierForce::at_force(solved_n, contact_distance, stiffness)
@@ -105,11 +115,21 @@ impl Touch {
             (contact_distance - distance, law)
         };
         self.barrier = barrier;
-        self.growth_n = barrier.stiffness * (depth - depth_there);
+        self.growth_n = barrier.stiffness * (depth - depth_there) - self.share_slope.dot(step);
+    }
+
+    /// Its share after a move, within what a share can be.
+    fn share_after(&self, step: DVec3) -> f64 {
+        (self.share + self.share_gradient.dot(step)).clamp(LEAST_SHARE, 1.0)
+    }
+
+    /// Decrease of the normal force by a move [N/m].
+    pub fn decrease(&self) -> DVec3 {
+        self.away * self.barrier.stiffness - self.share_slope
     }
 
     /// The push here after the rope has moved by a solved step [N].
     pub fn push_after(&self, step: DVec3) -> f64 {
-        self.barrier.force + self.growth_n - self.barrier.stiffness * self.away.dot(step)
+        self.barrier.force + self.growth_n - self.decrease().dot(step)
     }
 }
