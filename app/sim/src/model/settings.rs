@@ -68,7 +68,7 @@ impl Default for Settings {
         Self {
             step_s: 0.01,
             auto_step: false,
-            contact_step_s: 0.002,
+            contact_step_s: 0.01 / 3.0,
             contact_tolerance: CONTACT_TOLERANCE,
             least_step_s: 1e-6,
             resolution: None,

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | nothing may touch | the rest of the model's step, or less if accuracy asks for it (`step_control.rs`) |
 //! | rope or a body may be near the whale, or rope may touch rope | at most the contact step, which adapts to the error of Newton |
+//! | rope near the whale touches rope at many points | the same, at most 2 ms |
 //! | near the whale, and all stays clear of skin until the end of the model's step | as if nothing may touch |
 //! | after a rejection near the whale | the contact step becomes half of the rejected step, down to 0.1 ms |
 //! | after any other rejection | half of the rejected step; after each accepted step twice as long again |
@@ -18,6 +19,10 @@ use crate::state::{LimitedBy, StepControl};
 /// iteration it is longer at any error: a second iteration costs less than a second step.
 const LITTLE_MISSED: f64 = 0.3;
 const GROWTH: f64 = 1.4;
+/// Longest contact step where rope touches rope at more points than these [s]: in longer steps, the solutions for the sets of taut
+/// segments cost more than is saved (docs/lab-notebook.md).
+const ROPES_STEP_S: f64 = 0.002;
+const FEW_ROPE_TOUCHES: usize = 4;
 /// Shortest contact step that is chosen; a shorter step is halved for itself [s].
 const LEAST_CHOSEN_S: f64 = 1e-4;
 
@@ -64,10 +69,15 @@ pub(super) struct SubstepPolicy<'a> {
 }
 
 impl<'a> SubstepPolicy<'a> {
-    /// The policy at the start of a step of the model. A line attached to the whale uses the contact step throughout, because its
-    /// momentum goes to the whale by backward Euler.
-    pub fn new(settings: &'a Settings, near: bool, whale_is_towed: bool) -> Self {
-        let contact_s = settings.contact_step_s.min(settings.step_s);
+    /// The policy at the start of a step of the model, where rope touches rope at `rope_touches` points. A line attached to the whale
+    /// uses the contact step throughout, because its momentum goes to the whale by backward Euler.
+    pub fn new(
+        settings: &'a Settings,
+        [near, whale_is_towed]: [bool; 2],
+        rope_touches: usize,
+    ) -> Self {
+        let longest_s = if rope_touches > FEW_ROPE_TOUCHES { ROPES_STEP_S } else { f64::INFINITY };
+        let contact_s = settings.contact_step_s.min(settings.step_s).min(longest_s);
         Self {
             settings,
             longest_s: if near { contact_s } else { settings.step_s },
@@ -205,7 +215,7 @@ mod tests {
     fn tried(near: bool, events: &[Then]) -> Vec<f64> {
         let settings = settings();
         let (mut policy, mut control) =
-            (SubstepPolicy::new(&settings, near, false), StepControl::default());
+            (SubstepPolicy::new(&settings, [near, false], 0), StepControl::default());
         let (mut left_s, mut lengths) = (STEP_S, Vec::new());
         for event in events {
             let substep = policy.next(&control, left_s, || false);
@@ -289,18 +299,28 @@ mod tests {
     #[test]
     fn what_stays_clear_of_the_whale_takes_one_long_step() {
         let (settings, control) = (settings(), StepControl::default());
-        let mut policy = SubstepPolicy::new(&settings, true, false);
+        let mut policy = SubstepPolicy::new(&settings, [true, false], 0);
         let substep = policy.next(&control, STEP_S, || true);
         assert!(substep.length_s == STEP_S && !substep.by_contact);
-        let mut towed = SubstepPolicy::new(&settings, true, true);
+        let mut towed = SubstepPolicy::new(&settings, [true, true], 0);
         let substep = towed.next(&control, STEP_S, || panic!("a towed whale is not asked"));
         assert!(substep.length_s == CONTACT_S && substep.by_contact);
     }
 
     #[test]
+    fn rope_that_touches_rope_at_many_points_takes_short_steps() {
+        let settings = Settings { contact_step_s: 0.005, ..settings() };
+        for (touches, step_s) in [(FEW_ROPE_TOUCHES, 0.005), (FEW_ROPE_TOUCHES + 1, ROPES_STEP_S)] {
+            let mut policy = SubstepPolicy::new(&settings, [true, false], touches);
+            let substep = policy.next(&StepControl::default(), STEP_S, || false);
+            assert!((substep.length_s - step_s).abs() < 1e-9, "{touches}: {} s", substep.length_s);
+        }
+    }
+
+    #[test]
     fn a_run_ends_at_the_shortest_step_and_where_no_shorter_step_helps() {
         let (settings, mut control) = (settings(), StepControl::default());
-        let mut policy = SubstepPolicy::new(&settings, false, false);
+        let mut policy = SubstepPolicy::new(&settings, [false; 2], 0);
         let shortest_s = 1.9 * settings.least_step_s;
         let end = policy.rejected(&Rejection::NotConverged, shortest_s, false, &mut control);
         assert_eq!(end, AfterRejection::End);

@@ -76,7 +76,8 @@ pub(crate) fn keep_faces(touches: &mut Vec<Touch>, first: usize, nearest: usize)
 fn share_out(faces: &mut [Touch], gradient: DVec3) {
     if let [nearest, other] = faces {
         let alike = nearest.normal.dot(other.normal).max(0.0);
-        let slope = gradient / (1.0 + alike * other.share).powi(2);
+        let beside = 1.0 + alike * other.share;
+        let slope = gradient / (beside * beside);
         (nearest.share_gradient, other.share_gradient) = (slope * -alike, slope);
     }
     let mut walls = [(DVec3::ZERO, 0.0); MOST_FACES];

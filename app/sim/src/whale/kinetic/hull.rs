@@ -36,8 +36,8 @@ pub struct Hull {
     pub volume_m3: f64,
     /// Centroid of that volume [m].
     pub middle_m: DVec3,
-    /// Greatest distance of a vertex from the frame's origin [m].
-    pub reach_m: f64,
+    /// Least and greatest coordinates of its vertices [m].
+    box_m: [DVec3; 2],
 }
 
 /// Submerged volume.
@@ -62,8 +62,18 @@ impl Hull {
     /// A closed surface with these vertices.
     fn new(places: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
         let held = Measures::of_triangles(&places, &triangles, 1.0);
-        let reach_m = places.iter().map(|place| place.length()).fold(0.0, f64::max);
-        Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, reach_m }
+        let box_m =
+            places.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], place| {
+                [low.min(*place), high.max(*place)]
+            });
+        Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, box_m }
+    }
+
+    /// Bound of how high it reaches above the point `centre` of its frame at this orientation [m].
+    pub fn top_m(&self, centre: DVec3, orientation: DQuat) -> f64 {
+        let up = orientation.conjugate() * DVec3::Z;
+        let [low, high] = self.box_m;
+        (up * low).max(up * high).element_sum() - up.dot(centre)
     }
 
     /// Computes the submerged volume with the point `centre` of its frame `height_m` above the surface, at this orientation.
@@ -269,6 +279,18 @@ mod tests {
         let triangles =
             faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
         Hull::new((0..8).map(corner).collect(), triangles)
+    }
+
+    #[test]
+    fn the_top_of_a_box_is_its_highest_corner() {
+        let (hull, centre) = (crate_of(DVec3::new(4.0, 1.5, 0.5)), DVec3::new(1.0, 0.2, 0.1));
+        for orientation in
+            [DQuat::IDENTITY, DQuat::from_rotation_y(0.4) * DQuat::from_rotation_x(-2.0)]
+        {
+            let heights = hull.places.iter().map(|place| (orientation * (*place - centre)).z);
+            let highest = heights.fold(f64::NEG_INFINITY, f64::max);
+            assert!((hull.top_m(centre, orientation) - highest).abs() < 1e-12);
+        }
     }
 
     #[test]

@@ -176,12 +176,12 @@ pub(crate) fn weight_out(
     hull_scratch: &mut Vec<DVec3>,
 ) -> Weight {
     let (hull, centre) = (&kinetic.hull, centre_of(kinetic, whale));
-    let reach_m = hull.reach_m + kinetic.centre_m.length();
-    if hull.volume_m3 <= 0.0 || centre.z + reach_m < -HIGHEST_WAVE_M {
+    let top_m = hull.top_m(kinetic.centre_m, whale.orientation);
+    if hull.volume_m3 <= 0.0 || centre.z + top_m < -HIGHEST_WAVE_M {
         return Weight::default();
     }
     let height_m = centre.z - model.sea.at(centre, time_s).surface_m;
-    if height_m + reach_m < 0.0 {
+    if height_m + top_m < 0.0 {
         return Weight::default();
     }
     let wet = hull.wetted(kinetic.centre_m, whale.orientation, height_m, hull_scratch);
