@@ -16,7 +16,7 @@ impl Contacts {
         let step_s = model.spec.settings.step_s;
         let [start, end] = bones;
         pieces.measure_drift(state, step_s);
-        let near = on_skin.near.any(
+        let may_be_near = on_skin.near.begin_search(
             [start, end],
             pieces,
             &state.rope.position,
@@ -24,7 +24,14 @@ impl Contacts {
             NEAR_M,
         );
         on_skin.near.pairs.clear();
-        if near {
+        // Rope that touched skin is near, unless no pair is found: the pairs are gathered without asking first.
+        let touched = !state.rope.friction.sites.is_empty();
+        if may_be_near && touched {
+            on_skin.near.gather_swept(model, (&state.rope.cut, 0.0));
+        }
+        let found = !on_skin.near.pairs.is_empty();
+        let near = found || may_be_near && on_skin.near.is_any_near(NEAR_M);
+        if near && !found {
             on_skin.near.gather_swept(model, (&state.rope.cut, 0.0));
         }
         let skin = ([&start[..], &end[..]], &on_skin.near.whole());

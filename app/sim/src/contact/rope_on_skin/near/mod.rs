@@ -101,8 +101,9 @@ impl Near {
         }
     }
 
-    /// Whether rope that moves from `places` by `moves` may come near skin between two poses; its pieces are measured over that move.
-    pub fn any(
+    /// Begins a search for rope that moves from `places` by `moves`, near skin that moves between two poses; its pieces are measured over
+    /// that move. Returns `false` if by their boxes none comes near.
+    pub fn begin_search(
         &mut self,
         bones: [&[DAffine3]; 2],
         pieces: &Pieces,
@@ -119,6 +120,11 @@ impl Near {
             return false;
         }
         self.sweep(places, moves);
+        true
+    }
+
+    /// Whether any rope of the search that was begun may come near skin.
+    pub fn is_any_near(&mut self, margin: f64) -> bool {
         self.surface.is_any_near(&self.sweeps, margin)
     }
 

@@ -62,7 +62,8 @@ fn rope_clear_of_the_whole_skin_is_near_none_of_it() {
         pose(skin, DVec3::ZERO, DQuat::from_rotation_z(0.3), &Posture::default(), &mut bones);
         let places = places(&model, shift);
         pieces.measure(&places, |node| places[node] + moves(node), &vec![0.2; 100]);
-        let found = near.any([&bones, &bones], &pieces, &places, moves, 0.2);
+        let found = near.begin_search([&bones, &bones], &pieces, &places, moves, 0.2)
+            && near.is_any_near(0.2);
         near.surface.begin(&bones, &bones);
         near.sweep(&places, moves);
         assert_eq!(found, near.surface.is_any_near(&near.sweeps, 0.2));
