@@ -1,7 +1,6 @@
 //! The search for rope and bodies near the whale over a step of the model.
 
 use crate::contact::Contacts;
-use crate::contact::rope_on_skin::RopeOnSkin;
 use crate::model::Model;
 use crate::state::State;
 
@@ -66,10 +65,5 @@ impl Contacts {
         }
         let rope = self.rope_on_skin.as_mut().filter(|rope| rope.is_near());
         rope.is_none_or(|rope| !rope.find_active_pairs(state, 1.0, left_s))
-    }
-
-    /// Whether rope is near the whale in this step of the model.
-    pub fn rope_is_near_whale(&self) -> bool {
-        self.rope_on_skin.as_ref().is_some_and(RopeOnSkin::is_near)
     }
 }

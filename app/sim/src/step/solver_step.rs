@@ -107,7 +107,7 @@ fn choose_scheme(
     let by_rope_alone = !contacts.is_touching_besides_ropes();
     let untouched = by_rope_alone && !contacts.rope_on_rope.touching;
     let rests = untouched || by_rope_alone && contacts.rope_on_rope.rest(model, state);
-    let gives_momentum = contacts.rope_is_near_whale() && model.whale_is_towed();
+    let gives_momentum = model.whale_is_towed();
     let scheme = match way {
         Way::Multistep if rests && !gives_momentum => Scheme::bdf2(dt, state.rope.earlier_dt_s),
         _ if !untouched || gives_momentum => Scheme::backward_euler(dt),
