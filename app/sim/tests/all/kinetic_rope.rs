@@ -38,7 +38,7 @@ fn towing(
     towing_at(STAND_OFF_M, whale, density_kg_m3, rope, end)
 }
 
-/// The same, with the rope fast at a distance from skin.
+/// A spec as that of `towing`, with the rope fast at a distance from skin.
 fn towing_at(
     stand_off_m: f64,
     whale: Whale,
