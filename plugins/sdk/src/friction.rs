@@ -67,8 +67,8 @@ pub trait FrictionModel: Send + Sync {
 
     /// Forces and derivatives for all contacts of one solver pass.
     ///
-    /// It is also called with normal forces of 1e9 N, at which rope should not slip: the solver so finds the stiffness of a contact that
-    /// holds. If a law fails there, the run continues without it.
+    /// The solver also calls it with a normal force of 1e9 N, under which rope should not slip. From that response it takes the stiffness of
+    /// a contact that holds. An error there is ignored.
     ///
     /// # Errors
     /// With a message for the user; the run ends with it.

@@ -14,7 +14,7 @@ use glam::{DMat3, DVec3};
 
 use crate::matrix::{outer, plane_across};
 
-/// Ratio of the normal force at a trial to that of the last solution, either way, up to which it is steady.
+/// A normal force is steady if those of the trial and of the last solution differ by less than this factor.
 const STEADY_RATIO: f64 = 2.0;
 
 /// A normal force and its derivative.
@@ -91,8 +91,10 @@ impl Grip {
         Self { force: stretch * -stiffness, block: plane * stiffness, kept: stretch, slips: false }
     }
 
-    /// Whether it slips under the normal force `now_n` with a friction that opposes that in the force of the last solution, which had this
-    /// normal; never while the normal force changes as it does when things collide or separate.
+    /// Whether it slips at the trial and its friction opposes the friction of the last solution.
+    ///
+    /// `now_n` is the normal force at the trial, `solved` the force of the last solution on a contact with this normal. Never true where
+    /// the two normal forces differ by more than [`STEADY_RATIO`], as they do when bodies collide or separate.
     pub fn is_reversed(&self, now_n: f64, solved: DVec3, normal: DVec3) -> bool {
         let solved_n = normal.dot(solved);
         let is_steady = solved_n < STEADY_RATIO * now_n && now_n < STEADY_RATIO * solved_n;

@@ -20,7 +20,7 @@ const KEPT: usize = 3;
 
 /// Normal force under which no contact slips [N].
 const HOLDING_N: f64 = 1e9;
-/// Longest stretch by which a contact that holds may pull [m]; a law that says more has no stiffness to hold with.
+/// Longest stretch of a contact that holds [m]. A law with a force that needs a longer one is not elastic.
 const LONGEST_STRETCH_M: f64 = 0.1;
 
 /// Why friction failed, and whose fault it is.
@@ -162,47 +162,57 @@ impl FrictionArrays {
     /// Calls the laws for forces and derivatives.
     pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
         let mut response = std::mem::take(&mut self.response);
-        let answer = self.respond_to(friction, dt_s, &mut response);
+        response.resize(self.normal_force.len(), FrictionResponse::default());
+        let answer = self.groups.iter().try_for_each(|group| {
+            self.respond_to(friction, dt_s, group, &mut response[group.contacts.clone()])
+        });
         self.response = response;
         answer
     }
 
+    /// Calls the law of one group.
     fn respond_to(
         &self,
         friction: &Friction,
         dt_s: f64,
-        response: &mut Vec<FrictionResponse>,
+        group: &Group,
+        out: &mut [FrictionResponse],
     ) -> Result<(), Failed> {
-        response.resize(self.normal_force.len(), FrictionResponse::default());
-        self.groups.iter().try_for_each(|group| {
-            let law = &friction.laws[group.law];
-            let out = &mut response[group.contacts.clone()];
-            law.model
-                .respond(&law.attributes, &self.contacts(group, dt_s), out)
-                .map_err(|error| failed(law, error.message))?;
-            if out.iter().all(is_finite) {
-                Ok(())
-            } else {
-                Err(failed(law, "gave a force or derivative that is not a finite number"))
-            }
-        })
+        let law = &friction.laws[group.law];
+        law.model
+            .respond(&law.attributes, &self.contacts(group, dt_s), out)
+            .map_err(|error| failed(law, error.message))?;
+        if out.iter().all(is_finite) {
+            Ok(())
+        } else {
+            Err(failed(law, "gave a force or derivative that is not a finite number"))
+        }
     }
 
-    /// Replaces the responses of the contacts at these places by those of contacts that hold at any force, at the same trial. A law that
-    /// fails at such a normal force, or does not hold, keeps its response.
+    /// Replaces the responses of the contacts at these places, in rising order, by those of contacts that hold at any force, at the same
+    /// trial. A law that fails at such a normal force, or does not hold, keeps its response.
     pub fn hold(&mut self, friction: &Friction, dt_s: f64, places: &[usize]) {
+        debug_assert!(places.is_sorted(), "{places:?}");
         self.pushes_n.clear();
         self.pushes_n.extend(places.iter().map(|place| self.normal_force[*place]));
         places.iter().for_each(|place| self.normal_force[*place] = HOLDING_N);
         let mut held = std::mem::take(&mut self.held_response);
-        held.clear();
-        let answer = self.respond_to(friction, dt_s, &mut held);
-        for (place, push_n) in places.iter().copied().zip(self.pushes_n.iter().copied()) {
-            self.normal_force[place] = push_n;
-            if answer.is_ok() && holds(&held[place]) {
+        held.resize(self.normal_force.len(), FrictionResponse::default());
+        for group in 0..self.groups.len() {
+            let group = &self.groups[group];
+            let [from, end] = [group.contacts.start, group.contacts.end]
+                .map(|contact| places.partition_point(|place| *place < contact));
+            let out = &mut held[group.contacts.clone()];
+            if from == end || self.respond_to(friction, dt_s, group, out).is_err() {
+                continue;
+            }
+            for place in places[from..end].iter().copied().filter(|place| holds(&held[*place])) {
                 self.response[place] =
                     FrictionResponse { by_normal_force: [0.0; 3], ..held[place] };
             }
+        }
+        for (place, push_n) in places.iter().zip(&self.pushes_n) {
+            self.normal_force[*place] = *push_n;
         }
         self.held_response = held;
     }
@@ -333,7 +343,7 @@ fn failed(law: &FrictionLaw, message: impl Into<String>) -> Failed {
     Failed { id: law.model.descriptor().id.to_string(), message: message.into() }
 }
 
-/// Whether a response is that of a contact that holds: its force is that of a spring with a stretch that can be.
+/// Whether a response is that of a contact that holds: its force is at most that of its stiffness over [`LONGEST_STRETCH_M`].
 fn holds(response: &FrictionResponse) -> bool {
     let force = DVec3::from_array(response.force_n);
     let Some(direction) = force.try_normalize() else { return true };

@@ -97,22 +97,22 @@ impl RopeOnSkin {
         self.near.may_touch()
     }
 
-    /// Holds the contacts at which the friction at the trial opposes that of the solution that led there: iterations would alternate
+    /// Holds the contacts whose friction at the trial opposes that of the solution that led there. Otherwise iterations would alternate
     /// between slip one way and the other (`law/elastic_grip.rs`).
     fn hold_reversed(&mut self, model: &Model, dt_s: f64) {
         let Self { points, friction: touching, solved_friction, reversed, .. } = self;
-        let Some(friction) = &model.spec.friction else { return };
+        let Some(laws) = &model.spec.friction else { return };
         if solved_friction.is_empty() {
             return;
         }
         debug_assert_eq!(solved_friction.len(), points.list.len(), "solved with these points");
         reversed.clear();
         reversed.extend(touching.faces.iter().enumerate().filter_map(|(place, contact)| {
-            let friction = touching.arrays.friction_of(place);
-            (friction.dot(solved_friction[contact.point]) < 0.0).then_some(place)
+            let at_trial = touching.arrays.friction_of(place);
+            (at_trial.dot(solved_friction[contact.point]) < 0.0).then_some(place)
         }));
         if !reversed.is_empty() {
-            touching.arrays.hold(friction, dt_s, reversed);
+            touching.arrays.hold(laws, dt_s, reversed);
         }
     }
 
