@@ -13,7 +13,8 @@
 //!
 //! so that nothing jumps as rope slides into a crease or out of it. Two walls at a right angle each press in full. Two facets of
 //! a shallow fold together have the force of one: over the few micrometres in which `s` grows there, the force only turns.
-//! Without the gradient of the share, iterations would turn the force to and fro between two walls.
+//! The linear system contains the gradients of the shares of two faces. Without them, the force turns to and fro between two walls
+//! from iteration to iteration.
 //! A face is pressed by its share of the rope's length: normal force, friction and the energy stored by friction are in proportion to it.
 
 use glam::DVec3;
@@ -72,7 +73,8 @@ pub(crate) fn keep_faces(touches: &mut Vec<Touch>, first: usize, nearest: usize)
     }
 }
 
-/// Makes of how much each face is a wall of its own its share of the push; `gradient` is that of the second of two.
+/// Replaces how much each face is a wall of its own by its share of the push. Two faces also get the gradients of their shares;
+/// `gradient` is that of how much the second is a wall of its own.
 fn share_out(faces: &mut [Touch], gradient: DVec3) {
     if let [nearest, other] = faces {
         let alike = nearest.normal.dot(other.normal).max(0.0);
@@ -93,29 +95,50 @@ fn share_out(faces: &mut [Touch], gradient: DVec3) {
     }
 }
 
+/// A face beside a nearer one.
+struct Beside {
+    /// Cosine of the angle of their normals.
+    alike: f64,
+    /// How far they are two by their normals, from 0 to 1.
+    apart: f64,
+    /// Greatest height of its closest point above the plane of the nearer one [m].
+    room_m: f64,
+    /// That height, as a share of the greatest.
+    risen: f64,
+}
+
+impl Beside {
+    /// `None` where the two are one face by their normals.
+    fn of(nearer: &Touch, other: &Touch) -> Option<Self> {
+        let alike = nearer.normal.dot(other.normal);
+        if alike >= ALIKE.0 {
+            return None;
+        }
+        let room_m = (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
+        Some(Self {
+            alike,
+            apart: ((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0),
+            room_m,
+            risen: (nearer.distance - other.distance * alike) / room_m,
+        })
+    }
+}
+
 /// How much a face is a wall of its own beside a nearer one, 0 where both are one.
 fn own(nearer: &Touch, other: &Touch) -> f64 {
-    let alike = nearer.normal.dot(other.normal);
-    if alike >= ALIKE.0 {
-        return 0.0;
-    }
-    let risen = (nearer.distance - other.distance * alike)
-        / (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
-    ((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0)
-        * ((risen - RISEN.0) / (RISEN.1 - RISEN.0)).clamp(0.0, 1.0)
+    Beside::of(nearer, other).map_or(0.0, |Beside { apart, risen, .. }| {
+        apart * ((risen - RISEN.0) / (RISEN.1 - RISEN.0)).clamp(0.0, 1.0)
+    })
 }
 
 /// Gradient of [`own`] [1/m].
 fn own_gradient(nearer: &Touch, other: &Touch) -> DVec3 {
-    let alike = nearer.normal.dot(other.normal);
-    let room = (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
-    let risen = (nearer.distance - other.distance * alike) / room;
-    if alike >= ALIKE.0 || risen <= RISEN.0 {
-        return DVec3::ZERO;
-    }
-    let by_place =
-        (nearer.away - other.away * alike) / room - nearer.away * (risen / nearer.distance);
-    by_place * (((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0) / (RISEN.1 - RISEN.0))
+    let beside = Beside::of(nearer, other).filter(|beside| beside.risen > RISEN.0);
+    beside.map_or(DVec3::ZERO, |Beside { alike, apart, room_m, risen }| {
+        let by_place =
+            (nearer.away - other.away * alike) / room_m - nearer.away * (risen / nearer.distance);
+        by_place * (apart / (RISEN.1 - RISEN.0))
+    })
 }
 
 #[cfg(test)]
@@ -166,15 +189,20 @@ mod tests {
         }
     }
 
-    /// Force of the faces touched, over two walls that meet at the y axis and rise from each other by an angle.
-    fn force_over_crease(place: DVec3, angle: f64) -> DVec3 {
+    /// Faces touched, over two walls that meet at the y axis and rise from each other by an angle.
+    fn faces_over_crease(place: DVec3, angle: f64) -> Vec<Touch> {
         let rising = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
         let level = touch(7, place, DVec3::X * place.x.min(0.0));
         let raised = touch(3, place, rising * rising.dot(place).max(0.0));
         let nearest = usize::from(raised.distance < level.distance);
         let mut faces = vec![level, raised];
         keep_faces(&mut faces, 0, nearest);
-        force_of(faces)
+        faces
+    }
+
+    /// Force of these faces.
+    fn force_over_crease(place: DVec3, angle: f64) -> DVec3 {
+        force_of(faces_over_crease(place, angle))
     }
 
     /// Rope rests where two walls are equally near: if the force turned there at once, there would be no balance.
@@ -214,16 +242,7 @@ mod tests {
     #[test]
     fn gradients_of_two_shares_are_their_differences() {
         for (degrees, x_m) in [(40.0_f64, -1e-4), (40.0, -5e-4), (17.0, -1e-4), (60.0, -2e-3)] {
-            let angle = degrees.to_radians();
-            let faces = |place: DVec3| {
-                let rising = DVec3::new(libm::cos(angle), 0.0, libm::sin(angle));
-                let level = touch(7, place, DVec3::X * place.x.min(0.0));
-                let raised = touch(3, place, rising * rising.dot(place).max(0.0));
-                let nearest = usize::from(raised.distance < level.distance);
-                let mut faces = vec![level, raised];
-                keep_faces(&mut faces, 0, nearest);
-                faces
-            };
+            let faces = |place| faces_over_crease(place, degrees.to_radians());
             let (place, step_m) = (DVec3::new(x_m, 0.0, 0.003), 1e-8);
             let here = faces(place);
             assert_eq!(here.len(), 2, "{degrees} degrees, {x_m} m");
