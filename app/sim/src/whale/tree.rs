@@ -19,6 +19,13 @@ pub struct Bounds {
     pub high: DVec3,
 }
 
+impl Default for Bounds {
+    /// The empty box.
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl Bounds {
     /// The empty box.
     pub const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };

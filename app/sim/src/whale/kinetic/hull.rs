@@ -25,7 +25,7 @@
 use endline_sdk::Posture;
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::whale::{Measures, Skin, pose, skin_vertex};
+use crate::whale::{Bounds, Measures, Skin, pose, skin_vertex};
 
 /// A closed surface of flat triangles in the whale's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,8 +36,8 @@ pub struct Hull {
     pub volume_m3: f64,
     /// Centroid of that volume [m].
     pub middle_m: DVec3,
-    /// Least and greatest coordinates of its vertices [m].
-    box_m: [DVec3; 2],
+    /// The box around its vertices.
+    bounds: Bounds,
 }
 
 /// Submerged volume.
@@ -62,17 +62,14 @@ impl Hull {
     /// A closed surface with these vertices.
     fn new(places: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
         let held = Measures::of_triangles(&places, &triangles, 1.0);
-        let box_m =
-            places.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], place| {
-                [low.min(*place), high.max(*place)]
-            });
-        Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, box_m }
+        let bounds = Bounds::around(&places);
+        Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, bounds }
     }
 
     /// Bound of how high it reaches above the point `centre` of its frame at this orientation [m].
     pub fn top_m(&self, centre: DVec3, orientation: DQuat) -> f64 {
         let up = orientation.conjugate() * DVec3::Z;
-        let [low, high] = self.box_m;
+        let Bounds { low, high } = self.bounds;
         (up * low).max(up * high).element_sum() - up.dot(centre)
     }
 
