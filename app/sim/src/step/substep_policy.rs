@@ -4,7 +4,7 @@
 //! |---|---|
 //! | nothing may touch | the rest of the model's step, or less if accuracy asks for it (`step_control.rs`) |
 //! | rope or a body may be near the whale, or rope may touch rope | at most the contact step, which adapts to the error of Newton |
-//! | rope near the whale touches rope at many points | the same, at most 2 ms |
+//! | the same, and rope touches rope at more than four points | the same, at most 2 ms |
 //! | near the whale, and all stays clear of skin until the end of the model's step | as if nothing may touch |
 //! | after a rejection near the whale | the contact step becomes half of the rejected step, down to 0.1 ms |
 //! | after any other rejection | half of the rejected step; after each accepted step twice as long again |
@@ -54,8 +54,10 @@ pub(super) enum AfterRejection {
 #[derive(Clone, Debug)]
 pub(super) struct SubstepPolicy<'a> {
     settings: &'a Settings,
-    /// Longest solver step if anything may touch [s].
+    /// Longest solver step at present [s].
     longest_s: f64,
+    /// Longest solver step if anything may touch [s].
+    longest_contact_s: f64,
     /// Whether rope or a body may be near the whale.
     near: bool,
     /// Whether all may stay clear of skin until the end of the model's step.
@@ -73,14 +75,16 @@ impl<'a> SubstepPolicy<'a> {
     /// uses the contact step throughout, because its momentum goes to the whale by backward Euler.
     pub fn new(
         settings: &'a Settings,
-        [near, whale_is_towed]: [bool; 2],
+        near: bool,
+        whale_is_towed: bool,
         rope_touches: usize,
     ) -> Self {
-        let longest_s = if rope_touches > FEW_ROPE_TOUCHES { ROPES_STEP_S } else { f64::INFINITY };
-        let contact_s = settings.contact_step_s.min(settings.step_s).min(longest_s);
+        let most_s = if rope_touches > FEW_ROPE_TOUCHES { ROPES_STEP_S } else { f64::INFINITY };
+        let longest_contact_s = settings.contact_step_s.min(settings.step_s).min(most_s);
         Self {
             settings,
-            longest_s: if near { contact_s } else { settings.step_s },
+            longest_s: if near { longest_contact_s } else { settings.step_s },
+            longest_contact_s,
             near,
             may_stay_clear: near && !whale_is_towed,
             ropes_meet: false,
@@ -161,14 +165,13 @@ impl<'a> SubstepPolicy<'a> {
 
     fn limit_by_ropes(&mut self) {
         self.ropes_meet = true;
-        self.longest_s = self.settings.contact_step_s.min(self.longest_s);
+        self.longest_s = self.longest_contact_s;
     }
 
     /// The contact step, which adapts to the error of Newton.
     fn contact_step(&self, control: &StepControl) -> f64 {
-        let longest_s = self.settings.contact_step_s.min(self.settings.step_s);
         let chosen_s = control.contact_step_s;
-        if chosen_s > 0.0 { chosen_s.min(longest_s) } else { longest_s }
+        if chosen_s > 0.0 { chosen_s.min(self.longest_contact_s) } else { self.longest_contact_s }
     }
 
     /// The longest solver step to try, and what limits it.
@@ -215,7 +218,7 @@ mod tests {
     fn tried(near: bool, events: &[Then]) -> Vec<f64> {
         let settings = settings();
         let (mut policy, mut control) =
-            (SubstepPolicy::new(&settings, [near, false], 0), StepControl::default());
+            (SubstepPolicy::new(&settings, near, false, 0), StepControl::default());
         let (mut left_s, mut lengths) = (STEP_S, Vec::new());
         for event in events {
             let substep = policy.next(&control, left_s, || false);
@@ -299,10 +302,10 @@ mod tests {
     #[test]
     fn what_stays_clear_of_the_whale_takes_one_long_step() {
         let (settings, control) = (settings(), StepControl::default());
-        let mut policy = SubstepPolicy::new(&settings, [true, false], 0);
+        let mut policy = SubstepPolicy::new(&settings, true, false, 0);
         let substep = policy.next(&control, STEP_S, || true);
         assert!(substep.length_s == STEP_S && !substep.by_contact);
-        let mut towed = SubstepPolicy::new(&settings, [true, true], 0);
+        let mut towed = SubstepPolicy::new(&settings, true, true, 0);
         let substep = towed.next(&control, STEP_S, || panic!("a towed whale is not asked"));
         assert!(substep.length_s == CONTACT_S && substep.by_contact);
     }
@@ -311,7 +314,7 @@ mod tests {
     fn rope_that_touches_rope_at_many_points_takes_short_steps() {
         let settings = Settings { contact_step_s: 0.005, ..settings() };
         for (touches, step_s) in [(FEW_ROPE_TOUCHES, 0.005), (FEW_ROPE_TOUCHES + 1, ROPES_STEP_S)] {
-            let mut policy = SubstepPolicy::new(&settings, [true, false], touches);
+            let mut policy = SubstepPolicy::new(&settings, true, false, touches);
             let substep = policy.next(&StepControl::default(), STEP_S, || false);
             assert!((substep.length_s - step_s).abs() < 1e-9, "{touches}: {} s", substep.length_s);
         }
@@ -320,7 +323,7 @@ mod tests {
     #[test]
     fn a_run_ends_at_the_shortest_step_and_where_no_shorter_step_helps() {
         let (settings, mut control) = (settings(), StepControl::default());
-        let mut policy = SubstepPolicy::new(&settings, [false; 2], 0);
+        let mut policy = SubstepPolicy::new(&settings, false, false, 0);
         let shortest_s = 1.9 * settings.least_step_s;
         let end = policy.rejected(&Rejection::NotConverged, shortest_s, false, &mut control);
         assert_eq!(end, AfterRejection::End);

@@ -53,7 +53,7 @@ pub(super) fn advance(
         workspace.solver.contacts.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
         let rope_touches = state.rope.rope_grips.len();
-        let policy = SubstepPolicy::new(settings, [near, model.whale_is_towed()], rope_touches);
+        let policy = SubstepPolicy::new(settings, near, model.whale_is_towed(), rope_touches);
         let may_take_back = taken_back < MOST_TAKEN_BACK;
         if solver_steps(model, state, workspace, whale, policy, may_take_back)? {
             break;
