@@ -7,7 +7,7 @@ mod linked;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-use allocation_counter::measure;
+use allocation_counter::{AllocationInfo, measure};
 use endline_sim::geometry::shape::SolidShape;
 use endline_sim::model::{Obstacle, ROPE_ON_HARD_N_M2, Resolution};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
@@ -59,6 +59,12 @@ impl Run {
     }
 }
 
+/// Asserts that no more was allocated than lists that grow need.
+fn assert_only_grew(counted: &AllocationInfo) {
+    let AllocationInfo { count_total, bytes_total, .. } = counted;
+    assert!(*count_total < GROWTH, "{count_total} allocations, {bytes_total} bytes");
+}
+
 #[test]
 fn free_rope_allocates_nothing() {
     let mut run = Run::new(encounter(DVec3::new(11.4, -60.0, -12.0)));
@@ -96,12 +102,7 @@ fn a_body_on_skin_allocates_only_as_its_lists_grow() {
     run.steps(WARM_STEPS);
     let counted = measure(|| run.steps(STEPS));
     assert!(!run.workspace.body_contacts.is_empty(), "the buoy was to stay on the skin");
-    assert!(
-        counted.count_total < GROWTH,
-        "{} allocations, {} bytes",
-        counted.count_total,
-        counted.bytes_total
-    );
+    assert_only_grew(&counted);
 }
 
 /// The trap of the encounter on a plane in place of the seabed.
@@ -125,12 +126,7 @@ fn a_body_on_an_obstacle_allocates_only_as_its_lists_grow() {
     run.steps(5 * WARM_STEPS);
     let counted = measure(|| run.steps(STEPS));
     assert!(!run.state.pair_grips.is_empty(), "the trap was to stay on the plane");
-    assert!(
-        counted.count_total < GROWTH,
-        "{} allocations, {} bytes",
-        counted.count_total,
-        counted.bytes_total
-    );
+    assert_only_grew(&counted);
 }
 
 #[test]
@@ -144,12 +140,7 @@ fn rope_on_skin_allocates_only_as_its_lists_grow() {
     let counted = measure(|| run.steps(STEPS));
     assert!(run.workspace.audit.contact_steps - before > STEPS, "rope was to stay on the skin");
     println!("{} allocations, {} bytes", counted.count_total, counted.bytes_total);
-    assert!(
-        counted.count_total < GROWTH,
-        "{} allocations, {} bytes",
-        counted.count_total,
-        counted.bytes_total
-    );
+    assert_only_grew(&counted);
 }
 
 /// A dead whale with rope wound about it, which touches itself in most steps.
@@ -169,10 +160,5 @@ fn rope_on_rope_allocates_only_as_its_lists_grow() {
     });
     assert!(touching > STEPS / 2, "rope was to touch rope, not only in {touching} steps");
     println!("{} allocations, {} bytes", counted.count_total, counted.bytes_total);
-    assert!(
-        counted.count_total < GROWTH,
-        "{} allocations, {} bytes",
-        counted.count_total,
-        counted.bytes_total
-    );
+    assert_only_grew(&counted);
 }

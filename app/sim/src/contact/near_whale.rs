@@ -15,28 +15,25 @@ impl Contacts {
         let step_s = model.spec.settings.step_s;
         let [start, end] = bones;
         pieces.measure_drift(state, step_s);
-        let may_be_near = on_skin.near.begin_search(
+        let near = &mut on_skin.near;
+        near.pairs.clear();
+        let may_be_near = near.begin_search(
             [start, end],
             pieces,
             &state.rope.position,
             |node| state.rope.velocity[node] * step_s,
             NEAR_M,
         );
-        on_skin.near.pairs.clear();
-        // Rope that touched skin is near, unless no pair is found: the pairs are gathered without asking first.
+        // Rope that touched skin is expected to be near it still; other rope is gathered only if it is.
         let touched = !state.rope.friction.sites.is_empty();
-        if may_be_near && touched {
-            on_skin.near.gather_swept(model, (&state.rope.cut, 0.0));
-        }
-        let found = !on_skin.near.pairs.is_empty();
-        let near = found || may_be_near && on_skin.near.is_any_near(NEAR_M);
-        if near && !found {
-            on_skin.near.gather_swept(model, (&state.rope.cut, 0.0));
-        }
+        let rope_near = may_be_near && (touched || near.is_any_near(NEAR_M)) && {
+            near.gather_swept(model, (&state.rope.cut, 0.0));
+            !touched || !near.pairs.is_empty() || near.is_any_near(NEAR_M)
+        };
         let skin = ([&start[..], &end[..]], &on_skin.near.whole());
         let body_near =
             body_on_skin.as_mut().is_some_and(|bodies| bodies.gather(model, state, skin, 0.0));
-        near || body_near
+        rope_near || body_near
     }
 
     /// Searches again, for the rest of a step of the model of which a share has passed.

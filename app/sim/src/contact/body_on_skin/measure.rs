@@ -48,9 +48,8 @@ impl BodyOnSkin {
         self.arrays.respond(friction, dt).map_err(Unmeasured::Plugin)?;
         self.blocks.clear();
         for (place, touch) in self.touches.iter().enumerate() {
-            let along = (touch.normal, touch.normal);
-            let (normal, away) = along;
-            self.blocks.push(self.arrays.block_of(place, normal, away * touch.stiffness));
+            let decrease = touch.normal * touch.stiffness;
+            self.blocks.push(self.arrays.block_of(place, touch.normal, decrease));
         }
         Ok(())
     }
