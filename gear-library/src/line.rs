@@ -20,7 +20,7 @@ pub struct LineMake {
     pub wear_factor: Option<f64>,
     /// Required mean strength at the weakest place, for which the rope is scaled [N].
     pub delivered_n: Option<f64>,
-    /// Whether the stiffness is not scaled with the strength; by default the stretch at break is constant.
+    /// Whether the rope keeps the stiffness of its item; otherwise it is scaled with the strength, so that the stretch at break is constant.
     pub keeps_stiffness: Option<bool>,
     /// Knot or splice at end A.
     pub from_knot: Option<At<String>>,

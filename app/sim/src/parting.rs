@@ -21,9 +21,12 @@ pub fn link_segment(model: &Model, link: &Link) -> usize {
     }
 }
 
-/// Whether no tension exceeds the rating or strength of the weakest link or line end.
+/// Whether no tension exceeds the rating or strength of the weakest link or line end, or nothing can part.
 fn holds(model: &Model, tension: &[f64]) -> bool {
     debug_assert_eq!(tension.len(), model.segment_count, "one tension per segment");
+    if model.spec.settings.unbreakable {
+        return true;
+    }
     let links = model.spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n);
     let lines = model.spec.lines.iter().map(|line| {
         let Strength { all, end_a, end_b } = line.strength;

@@ -153,6 +153,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         rope_on_bodies: scenario.rope_on_bodies,
         bodies_on_whale: scenario.bodies_on_whale,
         bodies_on_bodies: scenario.bodies_on_bodies,
+        unbreakable: scenario.unbreakable,
         rope_on_rope: scenario.rope_on_rope.then(|| rope_on_rope(scenario)),
         as_placed: scenario.as_placed,
         balance: scenario.balance.unwrap_or(options.balance),

@@ -1,7 +1,7 @@
 //! Strength of lines and weak links: their budgets ([`StrengthBudget`]), required delivered strengths, random variation.
 //!
 //! A line that delivers `S` needs rope with a mean new strength of `S / (w · e)`, where `e` is the smallest along the line.
-//! Its stiffness is scaled alike, so that the stretch at break is unchanged.
+//! Its stiffness is that of its item, or scaled with the strength where `keeps_stiffness = false`, so that the stretch at break is unchanged.
 //!
 //! The variation of a line or weak link is `1 + c z` with the coefficient of variation `c` and a standard normal `z`
 //! (Box and Muller 1958, doi:10.1214/aoms/1177706645) from two uniform numbers, the BLAKE3 hash of seed, id and attempt.
@@ -44,7 +44,7 @@ impl Builder<'_> {
         let usual_n =
             item.strength_n * item.mean_factor * wear(&item, line.make, condition) * weakest;
         let strength = wanted_n / usual_n;
-        let keeps = line.make.keeps_stiffness.unwrap_or(false);
+        let keeps = line.make.keeps_stiffness.unwrap_or(true);
         Some(Scale { strength, stiffness: if keeps { 1.0 } else { strength } })
     }
 

@@ -53,6 +53,8 @@ pub struct Scenario {
     pub resolution: Option<Resolution>,
     /// Whether weak links can part.
     pub weak_links: bool,
+    /// Whether neither rope nor weak link parts, whatever its tension.
+    pub unbreakable: bool,
     /// Whether rope touches the bodies of the rig.
     pub rope_on_bodies: bool,
     /// Whether the bodies of the rig touch the whale.
@@ -130,6 +132,7 @@ impl Scenario {
             segment_m: fields.value("segment", Quantity::Length, Range::Within(&limits::SEGMENT)),
             line_segments: fields.each("segments", LineSegments::read),
             weak_links: flag("weak_links", true),
+            unbreakable: flag("unbreakable", false),
             rope_on_bodies: flag("rope_on_bodies", true),
             bodies_on_whale: flag("bodies_on_whale", true),
             bodies_on_bodies: flag("bodies_on_bodies", true),

@@ -10,7 +10,7 @@ fn endline(lbf: u32, nodes: u32) -> Model {
     let text = std::fs::read_to_string(root().join("scenarios/study-endline-held.toml")).unwrap();
     let text = text.replace("speed = \"0.25 m/s\"\ntoward", "speed = \"0 m/s\"\ntoward");
     let text = text.replace("rope_nodes = 500", &format!("rope_nodes = {nodes}"));
-    let made = format!("\ndelivered_strength = \"{lbf} lbf\"\n");
+    let made = format!("\ndelivered_strength = \"{lbf} lbf\"\nkeeps_stiffness = false\n");
     let text = ["pp-3-8", "sink-3-8"].iter().fold(text, |text, rope| {
         text.replace(&format!("rope = \"{rope}\"\n"), &format!("rope = \"{rope}\"{made}"))
     });

@@ -18,5 +18,6 @@ mod replay;
 mod rules;
 mod search;
 mod shared;
+mod shared_runs;
 mod studies;
 mod threat;

@@ -122,70 +122,6 @@ fn the_table_is_the_same_for_any_threads_and_shards() {
     bundle(&place, &place.folder.join("one"), &whole);
 }
 
-/// Links of four ratings in a rope that is drawn apart.
-const PULL: &str = r#"
-format = 1
-kind = "study"
-name = "Pull"
-scenario = "weak-link-pull"
-encounters = 1
-baseline = "never"
-
-[[option]]
-id = "never"
-set = { weak_links = false }
-
-[[option]]
-id = "late"
-set = { "link.0.rating" = "6 kN" }
-
-[[option]]
-id = "middle"
-set = { "link.0.rating" = "3 kN" }
-
-[[option]]
-id = "rope"
-set = { weak_links = false, "ropes/polysteel-7-16.strength" = "400 lbf" }
-
-[encounter.tide]
-value = "0.1 m/s"
-source = "assumed"
-"#;
-
-/// Options that part ways midway are run from there on only; each ends in the state of its whole run, that of a replay.
-#[test]
-fn a_run_begun_where_options_part_ways_is_the_whole_run() {
-    let place = Place::new("study-branches");
-    small(&place);
-    let study = place.write("gear-library/studies/pull.toml", PULL).display().to_string();
-    let out = place.folder.join("pull").display().to_string();
-    place.endline(&["study", "run", &study, "--out", &out]).done();
-    place.endline(&["study", "merge", &study, "--out", &out]).done();
-    let rows = fs::read_to_string(place.path("pull/table.csv")).unwrap();
-    let heads: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
-    let cell = |option: &str, column: &str| {
-        let place = heads.iter().position(|head| *head == column).unwrap();
-        let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
-        row.split(',').nth(place).unwrap().to_owned()
-    };
-    let at: Vec<f64> = ["rope", "middle", "late"]
-        .map(|option| cell(option, "parted_at_s").parse().unwrap())
-        .to_vec();
-    assert!(
-        0.5 < at[0] && at[0] + 0.5 < at[1] && at[1] + 0.5 < at[2],
-        "each parts after a look at the run: {at:?}"
-    );
-    for option in ["middle", "late", "rope"] {
-        let replayed = place
-            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
-            .done();
-        assert!(
-            replayed.stderr.contains("ends in the state that the table has"),
-            "{option}: {replayed}"
-        );
-    }
-}
-
 /// Moments spread over 0 to 1 by the golden section, as good as random and the same each time.
 fn moments(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|index| (f64::from(index) * 0.618_033_988_749_895).fract())
@@ -557,19 +493,23 @@ fn every_shipped_study_assembles() {
     for file in files {
         let plan =
             place.endline(&["study", "plan", &file.display().to_string(), "--json"]).done().json();
-        // Only options that differ in strengths alone share runs: the same sleeves that part, and that do not. Weaker rope is softer,
-        // and a link has a size.
+        // Only options that differ in strengths alone share runs: all of weak-links, and in threat the same sleeves that part and
+        // that do not.
         let families = plan["families"].as_array().unwrap();
         let id = plan["study"].as_str().unwrap();
-        assert!(families.len() > 1 || is_searched(id), "{id} compares nothing");
+        let options: usize = families.iter().map(|family| family.as_array().unwrap().len()).sum();
+        assert!(options > 1 || is_searched(id), "{id} compares nothing");
         for family in families {
             let ids: Vec<&str> =
                 family.as_array().unwrap().iter().map(|id| id.as_str().unwrap()).collect();
-            let shares = match ids.as_slice() {
-                [none, sleeves] => none.strip_prefix("none") == sleeves.strip_prefix("sleeves"),
-                _ => ids.len() == 1,
+            let shares = match (id, ids.as_slice()) {
+                ("weak-links", ids) => ids.len() == options,
+                ("threat", [none, sleeves]) => {
+                    none.strip_prefix("none") == sleeves.strip_prefix("sleeves")
+                }
+                (_, ids) => id != "threat" && ids.len() == 1,
             };
-            assert!(shares && (id == "threat") == (ids.len() == 2), "{plan}");
+            assert!(shares, "{plan}");
         }
         assert_eq!(plan["study"], file.file_stem().unwrap().to_string_lossy().as_ref());
     }

@@ -251,6 +251,24 @@ pub static RUN: &[Figure<Report>] = &[
     )
     .not_in_json()
     .column(305),
+    Figure::new(
+        "needed_rope_N",
+        "strength of rope needed",
+        "Least strength that every line must deliver at its weakest place so that no rope parts in this run.",
+        Quantity::Force,
+        |run: &Report| run.needed.needed_rope_n.into(),
+    )
+    .not_in_json()
+    .column(308),
+    Figure::new(
+        "needed_link_N",
+        "rating of weak links needed",
+        "Least mean rating of every weak link with which none parts in this run.",
+        Quantity::Force,
+        |run: &Report| run.needed.needed_link_n.into(),
+    )
+    .not_in_json()
+    .column(309),
 ];
 
 /// A run that a study asked for, whether or not there is one.

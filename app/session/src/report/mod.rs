@@ -3,12 +3,14 @@
 //! Scripts depend on its JSON, schema `endline.run/1`: keys may be added, never renamed. Which keys
 //! exist, their meanings and how they are read is declared in [`figures`](crate::figures).
 
+pub mod needed;
 pub mod validity;
 
 use endline_sim::Audit;
 use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{Event, LineSummary, Summary};
 
+use self::needed::NeededStrength;
 use crate::error::Error;
 use crate::plugins::PluginUsed;
 use crate::run::{Run, by_line};
@@ -50,6 +52,8 @@ pub struct Report {
     pub summary: Summary,
     /// Greatest tension of each line in the settled state [N].
     pub settled_tension_n: Vec<f64>,
+    /// Strengths with which nothing parts in this run.
+    pub needed: NeededStrength,
     /// The statics before the run.
     pub settled: SettledReport,
     /// Events in the order in which they were noticed.
@@ -124,6 +128,7 @@ impl Report {
             stopped,
             audit,
             balance: run.balance(),
+            needed: NeededStrength::of(model, &summary, &prepared.strengths),
             summary,
             settled_tension_n: by_line(model, &run.settled().state.rope.tension),
             settled: SettledReport {

@@ -382,6 +382,13 @@ pub struct Moment {
     steps: usize,
 }
 
+impl Moment {
+    /// Steps so far.
+    pub fn step(&self) -> usize {
+        self.steps
+    }
+}
+
 impl Run {
     /// This moment.
     pub fn moment(&self) -> Moment {

@@ -1,14 +1,14 @@
 //! Equivalence of runs: options that differ in strengths alone share a run until something parts.
 //!
 //! Ratings and breaking strengths enter the physics only where a tension exceeds them. Take a run in which nothing parted. An option
-//! whose model differs from that of the run in strengths alone, all of them above every tension of the run, has the same run to the
-//! bit; its row is copied. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above
+//! whose model differs from that of the run in strengths alone, all of them above every tension at their place in the run, has the same
+//! run to the bit; its row is copied. So it is if something parted whose strength is the same in both. An option with `unbreakable = true` has no strengths, and is the strongest of all. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above
 //! them changes nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its
 //! tensions; [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;
-use endline_sim::metrics::{LinkSummary, Summary};
-use endline_sim::model::{Friction, FrictionLaw, GearHook, Line, Link, Rope, Whale};
+use endline_sim::metrics::{LineSummary, LinkSummary, Summary};
+use endline_sim::model::{Friction, FrictionLaw, GearHook, Line, Link, Rope, Settings, Whale};
 use endline_sim::{Model, ModelSpec};
 
 use super::plan::OptionPlan;
@@ -23,14 +23,30 @@ fn margin(spec: &ModelSpec) -> f64 {
     if spec.settings.auto_step { PACED_MARGIN } else { MARGIN }
 }
 
-/// Whether a model has the run of another, whose summary this is and in which nothing parted.
+/// Whether a model has the run of another with this summary.
 pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool {
-    same_so_far(model, summary) && same_until_parting(model, other)
+    same_so_far(model, other, summary) && same_until_parting(model, other)
 }
 
-/// Whether a model, known to differ from that of a run in strengths alone, shares the run up to this summary.
-pub(super) fn same_so_far(model: &Model, summary: &Summary) -> bool {
-    nothing_parted(summary) && holds(&model.spec, summary, margin(&model.spec))
+/// Whether a model, known to differ in strengths alone from that of a run, shares the run up to this summary: each part has the strength
+/// that it has in the run, or bears less than its strength in both.
+pub(super) fn same_so_far(model: &Model, other: &Model, summary: &Summary) -> bool {
+    let (one, other) = (&model.spec, &other.spec);
+    let share = margin(one);
+    if one.settings.unbreakable || other.settings.unbreakable {
+        return nothing_parted(summary) && holds(one, summary, share);
+    }
+    let lines = one.lines.iter().zip(&other.lines).zip(&summary.lines);
+    let links = one.links.iter().zip(&other.links).zip(&summary.links);
+    lines.into_iter().all(|((line, other_line), borne)| {
+        let is_same = line.strength == other_line.strength
+            && rope_n(one, line).to_bits() == rope_n(other, other_line).to_bits();
+        is_same || (borne.parted_at_s.is_none() && line_holds(one, line, borne, share))
+    }) && links.into_iter().all(|((link, other_link), borne)| {
+        let is_same = link.enabled == other_link.enabled
+            && link.rating_n.to_bits() == other_link.rating_n.to_bits();
+        is_same || (borne.parted_at_s.is_none() && link_holds(link, borne, share))
+    })
 }
 
 /// Bound of the ratio of a part's strengths in two encounters, by scatter: factors are above 0.2, and 1.6 is six standard deviations
@@ -54,22 +70,52 @@ pub(super) fn is_certainly_same_run(
     nothing_parted(summary) && holds(bare, summary, margin(bare) * drawn)
 }
 
-/// Whether every tension of a run is below a share of a model's strengths: of the rope along a line, of the rating at a link. Run
-/// and model have the same lines and links.
+/// Whether every tension of a run is below a share of a model's strengths. Run and model have the same lines and links.
 fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
-    let lines = summary.lines.iter().zip(ropes(spec)).all(|(line, strength_n)| {
-        line.peak_tension_n.max(line.unconverged_peak_n) < share * strength_n
-    });
-    let at_link = |(link, borne): (&Link, &LinkSummary)| {
-        let greatest_n = borne.peak_tension_n.max(borne.unconverged_peak_n);
-        !link.enabled || greatest_n < share * link.rating_n
-    };
-    lines && spec.links.iter().zip(&summary.links).all(at_link)
+    let lines = spec.lines.iter().zip(&summary.lines);
+    let links = spec.links.iter().zip(&summary.links);
+    spec.settings.unbreakable
+        || lines.into_iter().all(|(line, borne)| line_holds(spec, line, borne, share))
+            && links.into_iter().all(|(link, borne)| link_holds(link, borne, share))
+}
+
+/// Whether the tensions of a line are below a share of its rope's strength, at its ends and between them.
+fn line_holds(spec: &ModelSpec, line: &Line, borne: &LineSummary, share: f64) -> bool {
+    let along_n = share * rope_n(spec, line) * line.strength.all;
+    let factors = [line.strength.end_a, 1.0, line.strength.end_b];
+    borne.place_peaks_n.iter().zip(factors).all(|(peak_n, left)| *peak_n < along_n * left)
+}
+
+/// Whether the tensions of a weak link are below a share of its rating.
+fn link_holds(link: &Link, borne: &LinkSummary, share: f64) -> bool {
+    let greatest_n = borne.peak_tension_n.max(borne.unconverged_peak_n);
+    !link.enabled || greatest_n < share * link.rating_n
+}
+
+/// Strength of a line's rope [N].
+fn rope_n(spec: &ModelSpec, line: &Line) -> f64 {
+    spec.ropes[line.rope].strength_n
 }
 
 /// Last parts of the paths of strengths. Other settings may change a run without a trace in the model, such as the response of a
 /// whale's motion to touch.
-const STRENGTHS: [&str; 4] = ["rating", "strength", "weak_link", "weak_links"];
+const STRENGTHS: [&str; 8] = [
+    "delivered_strength",
+    "keeps_stiffness",
+    "rating",
+    "strength",
+    "unbreakable",
+    "wear_factor",
+    "weak_link",
+    "weak_links",
+];
+
+/// Whether a setting at a path can change nothing but strengths, and what the models show: the item of a weak link is such a setting.
+fn is_strength(path: &str) -> bool {
+    let mut parts = path.rsplit('.');
+    let last = parts.next().unwrap_or_default();
+    STRENGTHS.contains(&last) || (last == "item" && parts.next_back() == Some("link"))
+}
 
 /// Whether two options differ in strengths alone in every encounter: they differ in settings of strengths only, their models differ in
 /// strengths alone in one encounter, and drawn values reach both in the same fields.
@@ -85,13 +131,14 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
         own.sort();
         own
     };
-    let is_strength =
-        |path: &str| path.rsplit('.').next().is_some_and(|last| STRENGTHS.contains(&last));
     let only_strengths = |one: &OptionPlan, other: &OptionPlan| {
         one.sets.iter().all(|set| other.sets.contains(set) || is_strength(&set.0))
     };
+    let removes = |plan: &OptionPlan| -> Vec<String> {
+        plan.removes.iter().filter(|field| !is_strength(field)).cloned().collect()
+    };
     let strengths =
-        only_strengths(one, other) && only_strengths(other, one) && one.removes == other.removes;
+        only_strengths(one, other) && only_strengths(other, one) && removes(one) == removes(other);
     strengths
         && own(one).is_empty()
         && own(other).is_empty()
@@ -106,7 +153,7 @@ fn nothing_parted(summary: &Summary) -> bool {
 /// Strength of each line at its weakest place [N].
 fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
     let holds = |line: &Line| {
-        spec.ropes[line.rope].strength_n
+        rope_n(spec, line)
             * line.strength.all
             * line.strength.end_a.min(line.strength.end_b).min(1.0)
     };
@@ -118,8 +165,11 @@ fn strengths(spec: &ModelSpec) -> impl Iterator<Item = f64> {
     ropes(spec).chain(spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n))
 }
 
-/// The least strength of a model, by which options are sorted [N].
+/// The least strength of a model, by which options are sorted; infinite if nothing can part [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
+    if spec.settings.unbreakable {
+        return f64::INFINITY;
+    }
     strengths(spec).fold(f64::INFINITY, f64::min)
 }
 
@@ -158,7 +208,7 @@ fn differ_only_in_strength(one: &ModelSpec, other: &ModelSpec) -> bool {
         && *joints == other.joints
         && *bodies == other.bodies
         && *obstacles == other.obstacles
-        && *settings == other.settings
+        && *settings == Settings { unbreakable: settings.unbreakable, ..other.settings.clone() }
         && *water == other.water
         && *seabed == other.seabed
         && both(friction.as_ref(), other.friction.as_ref(), same_friction)

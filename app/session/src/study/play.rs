@@ -1,8 +1,8 @@
 //! One encounter with every option, and one run alone.
 //!
-//! Options that differ in strengths alone share a run until the first of their strengths is exceeded (`equivalence.rs`). During a run
-//! we test whether the other options of its family still share its trajectory. When one diverges, its run starts from the last
-//! shared snapshot.
+//! Options that differ in strengths alone share a run until a part of different strength is overloaded (`equivalence.rs`). During a run
+//! we test whether the weaker options of its family still share its trajectory. When one diverges, its run starts from the last
+//! shared snapshot, of whichever run it shares longest.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -87,7 +87,8 @@ impl PreparedStudy {
         is_wanted: &dyn Fn() -> bool,
     ) -> Result<OptionRun, String> {
         let prepared = models.option(option)?;
-        let branched = earlier.iter().find_map(|run| run.branch(option, prepared));
+        let latest = earlier.iter().max_by_key(|run| run.shared_until(option).map(Moment::step));
+        let branched = latest.and_then(|run| run.branch(option, prepared));
         let begin = || {
             self.begin(option, &models.encounter, prepared.clone(), 0.0)
                 .map_err(|error| error.to_string())
@@ -230,9 +231,14 @@ impl<'a> EncounterModels<'a> {
 }
 
 impl OptionRun {
+    /// The last snapshot that an option shares with this run; `None` if it did not diverge from it.
+    fn shared_until(&self, option: usize) -> Option<&Moment> {
+        self.diverged.iter().find(|(other, _)| *other == option).map(|(_, moment)| moment)
+    }
+
     /// The run of an option from the last snapshot that it shares with this one; `None` if it did not diverge from it.
     fn branch(&self, option: usize, prepared: &Prepared) -> Option<Run> {
-        let (_, moment) = self.diverged.iter().find(|(other, _)| *other == option)?;
+        let moment = self.shared_until(option)?;
         let is_same = same_until_parting(&prepared.model, self.run.model());
         is_same.then(|| self.run.branched(moment, prepared.clone()).ok()).flatten()
     }
@@ -284,7 +290,7 @@ impl<'a> Sharing<'a> {
 
     fn is_same(&self, other: &Follower, run: &Run, summary: &Summary) -> bool {
         let exactly = |prepared: &Prepared| {
-            same_so_far(&prepared.model, summary)
+            same_so_far(&prepared.model, run.model(), summary)
                 && *other
                     .differs_only_in_strength
                     .get_or_init(|| same_until_parting(&prepared.model, run.model()))

@@ -21,6 +21,8 @@ use crate::state::State;
 #[derive(Clone, Debug)]
 pub(super) struct LineMeter {
     lines: Vec<Peak>,
+    /// By line: greatest tension of the first segment, of all between, and of the last one [N].
+    places_n: Vec<[f64; 3]>,
     links: Vec<Peak>,
 }
 
@@ -53,6 +55,11 @@ impl Peaks<'_> {
     }
 }
 
+/// Greatest tensions over places of a line, in converged and in unconverged solver steps [N].
+fn over(places: [[f64; 2]; 3]) -> [f64; 2] {
+    [0, 1].map(|kind| places.iter().map(|place| place[kind]).fold(0.0, f64::max))
+}
+
 impl Peak {
     fn take(&mut self, [tension_n, unconverged_n]: [f64; 2], time_s: f64) {
         if tension_n > self.tension_n {
@@ -71,6 +78,7 @@ impl LineMeter {
     pub(super) fn new(model: &Model) -> Self {
         Self {
             lines: vec![Peak::default(); model.spec.lines.len()],
+            places_n: vec![[0.0; 3]; model.spec.lines.len()],
             links: vec![Peak::default(); model.spec.links.len()],
         }
     }
@@ -79,7 +87,16 @@ impl LineMeter {
     pub(super) fn fold(&mut self, model: &Model, state: &State, peaks: &Peaks<'_>, log: &mut Log) {
         debug_assert_eq!(peaks.converged_n.len(), model.segment_count, "one peak per segment");
         for (line, peak) in self.lines.iter_mut().enumerate() {
-            peak.take(peaks.of(model.line_segments[line].clone()), state.time_s);
+            let Range { start, end } = model.line_segments[line];
+            let last = end.saturating_sub(1).max(start);
+            let by_place =
+                [start..end.min(start + 1), start + 1..last, last..end].map(|own| peaks.of(own));
+            for (greatest_n, [converged_n, unconverged_n]) in
+                self.places_n[line].iter_mut().zip(by_place)
+            {
+                *greatest_n = greatest_n.max(converged_n).max(unconverged_n);
+            }
+            peak.take(over(by_place), state.time_s);
             if state.line_parted[line].is_some() && !peak.reported {
                 peak.reported = true;
                 log.record(
@@ -121,6 +138,7 @@ impl LineMeter {
                 peak_tension_n: peak.tension_n,
                 peak_at_s: peak.at_s,
                 unconverged_peak_n: peak.unconverged_n,
+                place_peaks_n: self.places_n[index],
                 end_a_tension_n: end_tension(model, state, index, LineEnd::A),
                 end_b_tension_n: end_tension(model, state, index, LineEnd::B),
                 parted_at_s: state.line_parted[index].map(|(time, _)| time),

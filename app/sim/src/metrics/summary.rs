@@ -47,6 +47,8 @@ pub struct LineSummary {
     pub whale_normal_n: f64,
     /// Sum of the friction forces between it and the whale now [N].
     pub whale_friction_n: f64,
+    /// Greatest tension of its first segment, of all between, and of its last one, in any solver step [N]. Strengths differ there.
+    pub place_peaks_n: [f64; 3],
     /// Turns of the two legs of its strand about each other beyond the whale now; positive if right-handed [turns].
     pub twist: f64,
     /// Twist of the greatest magnitude at any time, signed [turns].

@@ -58,6 +58,8 @@ pub struct Settings {
     /// Whether momentum and energy of the gear are recorded by source ([`Balance`](crate::balance::Balance)); the state does
     /// not depend on it.
     pub balance: bool,
+    /// Whether neither rope nor link parts, whatever its tension.
+    pub unbreakable: bool,
     /// Whether moves near skin are shortened where their path would cross it. Off only to demonstrate what is missed by tests
     /// at the end of each step alone.
     pub swept: bool,
@@ -80,6 +82,7 @@ impl Default for Settings {
             rope_on_rope: None,
             as_placed: false,
             balance: false,
+            unbreakable: false,
             swept: true,
         }
     }

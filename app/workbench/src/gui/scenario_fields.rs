@@ -151,6 +151,12 @@ pub const LINKS_PART: Flag = flag(
 /// Flags of the run.
 pub const FLAGS: &[Flag] = &[
     flag(
+        "Nothing parts",
+        "unbreakable",
+        false,
+        "Neither rope nor weak link parts, whatever its tension",
+    ),
+    flag(
         "Strengths are drawn at random",
         "strength_scatter",
         false,

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use endline_sdk::{BodyPart, Region};
 use endline_session::plugins::PluginUsed;
+use endline_session::report::needed::NeededStrength;
 use endline_session::report::{Report, SettledReport};
 use endline_session::timing::Timing;
 use endline_sim::balance::BalanceSummary;
@@ -51,6 +52,10 @@ pub fn report() -> Report {
         audit: audit(next),
         balance: Some(balance(next)),
         summary: summary(next),
+        needed: NeededStrength {
+            needed_rope_n: Some(next.real()),
+            needed_link_n: Some(next.real()),
+        },
         settled_tension_n: vec![next.real(), next.real()],
         settled: SettledReport {
             converged: true,
@@ -144,6 +149,7 @@ fn line(id: &str, next: &mut Numbers) -> LineSummary {
         peak_tension_n: next.real(),
         peak_at_s: next.real(),
         unconverged_peak_n: next.real(),
+        place_peaks_n: [next.real(), next.real(), next.real()],
         end_a_tension_n: next.real(),
         end_b_tension_n: next.real(),
         parted_at_s: Some(next.real()),

@@ -1,0 +1,112 @@
+//! Options that differ in strengths alone share a run until something parts.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fs;
+
+use crate::common::Place;
+use crate::studies::small;
+
+/// Links of four ratings in a rope that is drawn apart.
+const PULL: &str = r#"
+format = 1
+kind = "study"
+name = "Pull"
+scenario = "weak-link-pull"
+encounters = 1
+baseline = "never"
+
+[[option]]
+id = "never"
+set = { weak_links = false }
+
+[[option]]
+id = "late"
+set = { "link.0.rating" = "6 kN" }
+
+[[option]]
+id = "middle"
+set = { "link.0.rating" = "3 kN" }
+
+[[option]]
+id = "rope"
+set = { weak_links = false, "ropes/polysteel-7-16.strength" = "400 lbf" }
+
+[[option]]
+id = "unbreakable"
+set = { weak_links = false, unbreakable = true }
+
+[[option]]
+id = "made-900"
+strength = "900 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "900 lbf" }
+
+[[option]]
+id = "made-900-link"
+set = { "link.0.rating" = "6 kN", "line.0.delivered_strength" = "900 lbf" }
+
+[[option]]
+id = "made-500"
+strength = "500 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "500 lbf" }
+
+[[option]]
+id = "made-4000"
+strength = "4000 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "4,000 lbf" }
+
+[encounter.tide]
+value = "0.1 m/s"
+source = "assumed"
+"#;
+
+/// Options that part ways midway are run from there on only; each ends in the state of its whole run, that of a replay.
+#[test]
+fn a_run_begun_where_options_part_ways_is_the_whole_run() {
+    let place = Place::new("study-branches");
+    small(&place);
+    let study = place.write("gear-library/studies/pull.toml", PULL).display().to_string();
+    let out = place.folder.join("pull").display().to_string();
+    place.endline(&["study", "run", &study, "--out", &out]).done();
+    place.endline(&["study", "merge", &study, "--out", &out]).done();
+    let rows = fs::read_to_string(place.path("pull/table.csv")).unwrap();
+    let heads: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
+    let cell = |option: &str, column: &str| {
+        let place = heads.iter().position(|head| *head == column).unwrap();
+        let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
+        row.split(',').nth(place).unwrap().to_owned()
+    };
+    let at: Vec<f64> = ["rope", "middle", "late"]
+        .map(|option| cell(option, "parted_at_s").parse().unwrap())
+        .to_vec();
+    assert!(
+        0.5 < at[0] && at[0] + 0.5 < at[1] && at[1] + 0.5 < at[2],
+        "each parts after a look at the run: {at:?}"
+    );
+    let needed_n: f64 = cell("unbreakable", "needed_rope_N").parse().unwrap();
+    assert_eq!(cell("unbreakable", "parted"), "");
+    for (option, lbf) in [("made-500", 500.0), ("made-900", 900.0), ("made-4000", 4000.0)] {
+        let parts = cell(option, "parted") == "warp";
+        assert_eq!(parts, lbf * 4.448_221_615_260_5 < needed_n, "{option}, {needed_n} N needed");
+    }
+    assert_eq!(cell("made-900-link", "state_hash"), cell("made-900", "state_hash"));
+    let all = [
+        "middle",
+        "late",
+        "rope",
+        "unbreakable",
+        "made-500",
+        "made-900",
+        "made-900-link",
+        "made-4000",
+    ];
+    for option in all {
+        let replayed = place
+            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
+            .done();
+        assert!(
+            replayed.stderr.contains("ends in the state that the table has"),
+            "{option}: {replayed}"
+        );
+    }
+}
