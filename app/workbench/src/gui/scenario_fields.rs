@@ -159,7 +159,7 @@ pub const FLAGS: &[Flag] = &[
     flag(
         "Strengths are drawn at random",
         "strength_scatter",
-        false,
+        true,
         "Draws strengths of ropes and links from the distributions in their files, by the seed",
     ),
     flag(
