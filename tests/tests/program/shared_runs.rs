@@ -7,7 +7,7 @@ use std::fs;
 use crate::common::Place;
 use crate::studies::small;
 
-/// Links of four ratings in a rope that is drawn apart.
+/// Links and ropes of several strengths, in a rope that is drawn apart.
 const PULL: &str = r#"
 format = 1
 kind = "study"
@@ -89,6 +89,7 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
         let parts = cell(option, "parted") == "warp";
         assert_eq!(parts, lbf * 4.448_221_615_260_5 < needed_n, "{option}, {needed_n} N needed");
     }
+    // The line that parts has the same strength in both; the stronger link does not matter.
     assert_eq!(cell("made-900-link", "state_hash"), cell("made-900", "state_hash"));
     let all = [
         "middle",

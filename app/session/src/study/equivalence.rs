@@ -1,10 +1,15 @@
 //! Equivalence of runs: options that differ in strengths alone share a run until something parts.
 //!
-//! Ratings and breaking strengths enter the physics only where a tension exceeds them. Take a run in which nothing parted. An option
-//! whose model differs from that of the run in strengths alone, all of them above every tension at their place in the run, has the same
-//! run to the bit; its row is copied. So it is if something parted whose strength is the same in both. An option with `unbreakable = true` has no strengths, and is the strongest of all. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above
-//! them changes nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its
-//! tensions; [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
+//! Ratings and breaking strengths enter the physics only where a tension exceeds them. Take a run, and a model that differs from its model
+//! in strengths alone. The model has the same run to the bit if each rope and each weak link
+//!
+//! - has the same strength in both, or
+//! - did not part, is no weaker in the run, and is stronger in the model than its greatest tension at that place.
+//!
+//! A part that is weaker in the run could have shortened a step there without parting. An option with `unbreakable = true` has infinite
+//! strengths. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above them changes
+//! nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its tensions;
+//! [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::{LineSummary, LinkSummary, Summary};
@@ -28,35 +33,24 @@ pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool 
     same_so_far(model, other, summary) && same_until_parting(model, other)
 }
 
-/// Whether a model, known to differ in strengths alone from that of a run, shares the run up to this summary: each part has the strength
-/// that it has in the run, or bears less than its strength in both.
+/// Whether a model, known to differ in strengths alone from that of a run, shares the run up to this summary.
 pub(super) fn same_so_far(model: &Model, other: &Model, summary: &Summary) -> bool {
     let (one, other) = (&model.spec, &other.spec);
     let share = margin(one);
-    if one.settings.unbreakable || other.settings.unbreakable {
-        return nothing_parted(summary) && holds(one, summary, share);
-    }
-    let lines = one.lines.iter().zip(&other.lines).zip(&summary.lines);
-    let links = one.links.iter().zip(&other.links).zip(&summary.links);
-    lines.into_iter().all(|((line, other_line), borne)| {
-        let is_same = line.strength == other_line.strength
-            && rope_n(one, line).to_bits() == rope_n(other, other_line).to_bits();
-        is_same || (borne.parted_at_s.is_none() && line_holds(one, line, borne, share))
-    }) && links.into_iter().all(|((link, other_link), borne)| {
-        let is_same = link.enabled == other_link.enabled
-            && link.rating_n.to_bits() == other_link.rating_n.to_bits();
-        is_same || (borne.parted_at_s.is_none() && link_holds(link, borne, share))
-    })
+    parts(one)
+        .zip(parts(other))
+        .zip(borne(summary))
+        .all(|((own_n, run_n), borne)| shares(own_n, run_n, &borne, share))
 }
-
-/// Bound of the ratio of a part's strengths in two encounters, by scatter: factors are above 0.2, and 1.6 is six standard deviations
-/// above the mean for the widest scatter in the library.
-const SCATTER: f64 = 0.2 / 1.6;
 
 /// Whether two models have the same run up to the moment when something first parts.
 pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
     differ_only_in_strength(&one.spec, &other.spec)
 }
+
+/// Bound of the ratio of a part's strengths in two encounters, by scatter: factors are above 0.2, and 1.6 is six standard deviations
+/// above the mean for the widest scatter in the library.
+const SCATTER: f64 = 0.2 / 1.6;
 
 /// Whether an option certainly has the run of another of its [`family`], whose summary this is. Decided without assembling its model:
 /// by the models of both options in any encounter, its own first.
@@ -67,34 +61,59 @@ pub(super) fn is_certainly_same_run(
 ) -> bool {
     // The other has the same strengths in both encounters only if none are drawn.
     let drawn = if strengths(&other.spec).eq(strengths(other_bare)) { 1.0 } else { SCATTER };
-    nothing_parted(summary) && holds(bare, summary, margin(bare) * drawn)
+    let share = margin(bare) * drawn;
+    parts(bare).zip(parts(other_bare)).zip(borne(summary)).all(|((own_n, run_n), borne)| {
+        !borne.parted && is_no_weaker(run_n, own_n) && holds(own_n, &borne, share)
+    })
 }
 
-/// Whether every tension of a run is below a share of a model's strengths. Run and model have the same lines and links.
-fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
-    let lines = spec.lines.iter().zip(&summary.lines);
-    let links = spec.links.iter().zip(&summary.links);
-    spec.settings.unbreakable
-        || lines.into_iter().all(|(line, borne)| line_holds(spec, line, borne, share))
-            && links.into_iter().all(|(link, borne)| link_holds(link, borne, share))
+/// What a rope or weak link bore in a run.
+struct Borne {
+    /// Greatest tension of each place [N].
+    peaks_n: [f64; 3],
+    parted: bool,
 }
 
-/// Whether the tensions of a line are below a share of its rope's strength, at its ends and between them.
-fn line_holds(spec: &ModelSpec, line: &Line, borne: &LineSummary, share: f64) -> bool {
-    let along_n = share * rope_n(spec, line) * line.strength.all;
-    let factors = [line.strength.end_a, 1.0, line.strength.end_b];
-    borne.place_peaks_n.iter().zip(factors).all(|(peak_n, left)| *peak_n < along_n * left)
+/// What every line and then every link bore.
+fn borne(summary: &Summary) -> impl Iterator<Item = Borne> {
+    let line = |line: &LineSummary| Borne {
+        peaks_n: line.place_peaks_n,
+        parted: line.parted_at_s.is_some(),
+    };
+    let link = |link: &LinkSummary| Borne {
+        peaks_n: [link.peak_tension_n.max(link.unconverged_peak_n); 3],
+        parted: link.parted_at_s.is_some(),
+    };
+    summary.lines.iter().map(line).chain(summary.links.iter().map(link))
 }
 
-/// Whether the tensions of a weak link are below a share of its rating.
-fn link_holds(link: &Link, borne: &LinkSummary, share: f64) -> bool {
-    let greatest_n = borne.peak_tension_n.max(borne.unconverged_peak_n);
-    !link.enabled || greatest_n < share * link.rating_n
+/// Strengths of every line, in its first segment, between, and in its last one, and then of every link; infinite if it cannot part [N].
+fn parts(spec: &ModelSpec) -> impl Iterator<Item = [f64; 3]> {
+    let unbreakable = spec.settings.unbreakable;
+    let line = |line: &Line| {
+        let along_n = spec.ropes[line.rope].strength_n * line.strength.all;
+        [line.strength.end_a, 1.0, line.strength.end_b].map(|left| along_n * left)
+    };
+    let link = |link: &Link| [if link.enabled { link.rating_n } else { f64::INFINITY }; 3];
+    let all = spec.lines.iter().map(line).chain(spec.links.iter().map(link));
+    all.map(move |strengths| if unbreakable { [f64::INFINITY; 3] } else { strengths })
 }
 
-/// Strength of a line's rope [N].
-fn rope_n(spec: &ModelSpec, line: &Line) -> f64 {
-    spec.ropes[line.rope].strength_n
+/// Whether a part of a model behaves as that of a run, in which it bore this.
+fn shares(own_n: [f64; 3], run_n: [f64; 3], borne: &Borne, share: f64) -> bool {
+    let is_weaker_in_run = !is_no_weaker(run_n, own_n);
+    let is_same = !is_weaker_in_run && is_no_weaker(own_n, run_n);
+    is_same || (!borne.parted && !is_weaker_in_run && holds(own_n, borne, share))
+}
+
+/// Whether strengths are at least others at each place.
+fn is_no_weaker(one_n: [f64; 3], other_n: [f64; 3]) -> bool {
+    one_n.iter().zip(other_n).all(|(one, other)| *one >= other)
+}
+
+/// Whether every tension that a part bore is below a share of its strength there.
+fn holds(strengths_n: [f64; 3], borne: &Borne, share: f64) -> bool {
+    borne.peaks_n.iter().zip(strengths_n).all(|(peak_n, strength_n)| *peak_n < share * strength_n)
 }
 
 /// Last parts of the paths of strengths. Other settings may change a run without a trace in the model, such as the response of a
@@ -145,32 +164,15 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
         && differ_only_in_strength(&one.prepared.model.spec, &other.prepared.model.spec)
 }
 
-fn nothing_parted(summary: &Summary) -> bool {
-    summary.lines.iter().all(|line| line.parted_at_s.is_none())
-        && summary.links.iter().all(|link| link.parted_at_s.is_none())
-}
-
-/// Strength of each line at its weakest place [N].
-fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
-    let holds = |line: &Line| {
-        rope_n(spec, line)
-            * line.strength.all
-            * line.strength.end_a.min(line.strength.end_b).min(1.0)
-    };
-    spec.lines.iter().map(holds)
-}
-
-/// Strengths of lines and enabled links [N].
-fn strengths(spec: &ModelSpec) -> impl Iterator<Item = f64> {
-    ropes(spec).chain(spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n))
-}
-
 /// The least strength of a model, by which options are sorted; infinite if nothing can part [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
-    if spec.settings.unbreakable {
-        return f64::INFINITY;
-    }
-    strengths(spec).fold(f64::INFINITY, f64::min)
+    parts(spec).flatten().fold(f64::INFINITY, f64::min)
+}
+
+/// Strengths of lines and links, whether or not they can part [N].
+fn strengths(spec: &ModelSpec) -> impl Iterator<Item = f64> {
+    let line = |line: &Line| spec.ropes[line.rope].strength_n * line.strength.all;
+    spec.lines.iter().map(line).chain(spec.links.iter().map(|link| link.rating_n))
 }
 
 /// Whether two models differ in nothing but the strengths of links and ropes. Structs are taken apart without `..`, so that a new
@@ -302,6 +304,20 @@ mod tests {
 
     fn whale(jaws: Option<JawStrength>) -> Whale {
         Whale { jaws, ..still(Skin::default()) }
+    }
+
+    #[test]
+    fn a_part_is_shared_if_it_is_the_same_or_holds_and_is_no_weaker_in_the_run() {
+        let borne = |parted| Borne { peaks_n: [50.0, 100.0, 80.0], parted };
+        let shares = |own_n, run_n, parted| shares(own_n, run_n, &borne(parted), MARGIN);
+        let (strong, weak) = ([200.0; 3], [60.0, 120.0, 90.0]);
+        assert!(shares(strong, strong, true), "the same strength, parted in both");
+        assert!(shares(weak, strong, false), "weaker than in the run, and holds");
+        assert!(shares(weak, [f64::INFINITY; 3], false), "the run is unbreakable");
+        assert!(!shares(strong, weak, false), "weaker in the run, where it could shorten a step");
+        assert!(!shares(weak, strong, true), "parted in the run");
+        assert!(!shares([60.0, 100.5, 90.0], strong, false), "within the margin of rounding");
+        assert!(!shares([49.0, 120.0, 90.0], strong, false), "overloaded in its first segment");
     }
 
     #[test]
