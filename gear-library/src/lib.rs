@@ -63,6 +63,6 @@ pub use sources::Sources;
 pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
     Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
-    ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study, StudyEvent,
-    StudyOption, Target, ThreatLabels, ThreatRow,
+    ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study,
+    StudyEvent, StudyOption, Target, ThreatLabels, ThreatRow,
 };

@@ -1,5 +1,5 @@
-//! Comparisons of a study: claims (one rate is greater than another), shares observed on real whales, and the effect of
-//! finer segments and steps found by another study.
+//! Comparisons of a study: claims (one rate is greater than another), shares observed on real whales, how observed whales are
+//! held, and the effect of finer segments and steps found by another study.
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Range};
@@ -165,6 +165,42 @@ fn observed(fields: &Fields<'_>) -> Option<[f64; 2]> {
     }
 }
 
+/// Observed whales by the places at which gear held them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObservedRoutes {
+    /// Whales held by the mouth or head alone.
+    pub mouth: u64,
+    /// Whales held by flippers or the body alone.
+    pub flipper: u64,
+    /// Whales held by the tail alone.
+    pub tail: u64,
+    /// Whales held by at least two of these.
+    pub several: u64,
+    /// Source of the numbers.
+    pub source: String,
+}
+
+/// Reads `[routes]`.
+pub(super) fn read_routes(fields: &Fields<'_>) -> Option<ObservedRoutes> {
+    fields.inside("routes", read_observed_routes).flatten()
+}
+
+fn read_observed_routes(fields: &Fields<'_>) -> Option<ObservedRoutes> {
+    let number = |key| {
+        fields.require(key, "write the number of observed whales held in this way, such as 21");
+        fields.count(key, &limits::COUNTED)
+    };
+    let [mouth, flipper, tail, several] = ["mouth", "flipper", "tail", "several"].map(number);
+    let source = fields.need_text("source", "name the source of the numbers");
+    let (mouth, flipper, tail) = (mouth?, flipper?.value, tail?.value);
+    let several = several?.value;
+    if mouth.value == 0 && flipper == 0 && tail == 0 && several == 0 {
+        let help = "write the numbers of observed whales, or remove the table [routes]";
+        return fields.refuse(mouth.place.error("no whale was observed", help));
+    }
+    Some(ObservedRoutes { mouth: mouth.value, flipper, tail, several, source: source?.value })
+}
+
 /// Frequency of an event with the segments and steps of this study and with finer ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discretisation {
@@ -253,6 +289,30 @@ mod tests {
                 problems.iter().any(|problem| problem.message.contains(expected)),
                 "{expected}: {problems:?}"
             );
+        }
+    }
+
+    #[test]
+    fn routes_are_read_and_change_no_run_and_their_problems_are_reported() {
+        let plain = &OBSERVED_STUDY[..OBSERVED_STUDY.find("[[observation]]").unwrap()];
+        let with = |routes: &str| Study::read("s.toml", &format!("{plain}[routes]\n{routes}"));
+        let all = "mouth = 21\nflipper = 8\ntail = 7\nseveral = 48\nsource = \"a table\"\n";
+        let study = with(all).unwrap();
+        let routes = study.routes.unwrap();
+        assert_eq!([routes.mouth, routes.flipper, routes.tail, routes.several], [21, 8, 7, 48]);
+        assert_eq!(Study::read("s.toml", plain).unwrap().canonical, study.canonical);
+        for (routes, expected) in [
+            (all.replace("tail = 7\n", ""), "`tail` is missing"),
+            (all.replace("tail = 7", "tail = -7"), "`tail`"),
+            (all.replace("source = \"a table\"\n", ""), "`source` is missing"),
+            (
+                "mouth = 0\nflipper = 0\ntail = 0\nseveral = 0\nsource = \"a\"\n".to_owned(),
+                "no whale was observed",
+            ),
+        ] {
+            let problems = with(&routes).unwrap_err();
+            let is_it = |problem: &crate::Diagnostic| problem.message.contains(expected);
+            assert!(problems.iter().any(is_it), "{expected}: {problems:?}");
         }
     }
 

@@ -246,6 +246,12 @@ impl StudyEvent {
         }
     }
 
+    /// Whether the event says that rope holds the whale at the end.
+    pub fn is_held(&self) -> bool {
+        use StudyEvent::{Anchored, Entangled, HeldFast, HeldLodged, HeldTurn, Towing};
+        matches!(self, Entangled | HeldFast | HeldLodged | HeldTurn | Anchored | Towing)
+    }
+
     fn declared(&self) -> Option<&'static Declared> {
         WHOLE.iter().find(|declared| declared.event == *self)
     }

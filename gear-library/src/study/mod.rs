@@ -18,7 +18,7 @@ use crate::tree::{Content, Node};
 use crate::units::Quantity;
 use crate::{limits, names};
 
-pub use comparison::{Claim, Discretisation, ObservedShare};
+pub use comparison::{Claim, Discretisation, ObservedRoutes, ObservedShare};
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
 pub(crate) use option::texts;
 pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow};
@@ -71,6 +71,8 @@ pub struct Study {
     pub claims: Vec<Claim>,
     /// Shares observed on real whales, by id.
     pub observations: Vec<ObservedShare>,
+    /// How observed whales are held, if the study states it.
+    pub routes: Option<ObservedRoutes>,
     /// Effects of finer segments and steps.
     pub discretisations: Vec<Discretisation>,
     /// Canonical text of the definition of the runs, for the hash of the study.
@@ -138,6 +140,7 @@ impl Study {
         let (aim, priors, from_priors) = encounter(&fields);
         let claims = comparison::read_claims(&fields, &options);
         let observations = comparison::read_observations(&fields, &options);
+        let routes = comparison::read_routes(&fields);
         let discretisations = comparison::read_discretisations(&fields);
         fields.finish();
         let study = Self {
@@ -160,6 +163,7 @@ impl Study {
             from_priors,
             claims,
             observations,
+            routes,
             discretisations,
             canonical: defining_text(node),
         };

@@ -122,6 +122,20 @@ impl Svg {
         );
     }
 
+    /// A pale area inside points, in the colour of a number.
+    pub(crate) fn area(&mut self, points: &[[f64; 2]], kind: usize) {
+        let mut data = String::new();
+        for [x, y] in points {
+            let _ = write!(data, "{x:.1},{y:.1} ");
+        }
+        let fill = colour_of(kind);
+        let _ = write!(
+            self.body,
+            r#"<polygon points="{}" fill="{fill}" fill-opacity="0.14"/>"#,
+            data.trim_end()
+        );
+    }
+
     /// The picture's text.
     pub(crate) fn done(self) -> String {
         let Self { body, width, height, title } = self;

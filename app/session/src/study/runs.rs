@@ -162,6 +162,10 @@ row! {
         resolution_looks: u64 = "resolution_looks",
         /// Checks that left a segment longer than requested by a quarter or more.
         resolution_missed: u64 = "resolution_missed",
+        /// Strength that every line must deliver for nothing to part [N].
+        needed_rope_n: Option<f64> = "needed_rope_N",
+        /// Rating that every weak link must have for nothing to part [N].
+        needed_link_n: Option<f64> = "needed_link_N",
     } {
         /// Rope on the parts of the whale, in the order of [`BodyPart::ALL`].
         parts: Vec<PartRow>

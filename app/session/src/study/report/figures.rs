@@ -305,7 +305,7 @@ fn curve(option: &OptionFinding) -> &str {
 }
 
 /// Shares upwards, strengths across in both units.
-fn break_away_scales(svg: &mut Svg, across: &Axis, up: &Axis) {
+pub(super) fn break_away_scales(svg: &mut Svg, across: &Axis, up: &Axis) {
     let ([left, right], [bottom, _]) = (across.places, up.places);
     for tick in up.ticks() {
         svg.line([left, up.at(tick)], [right, up.at(tick)], "grid");

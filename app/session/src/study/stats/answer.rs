@@ -1,4 +1,5 @@
-//! The answer of a study about an event, in sentences, for the head of its report and of the panel *Results*.
+//! The answer of a study about an event, in sentences, for the head of its report and of the panel *Results*. About whales that are held
+//! it is in counts of whales (`verdict.rs`).
 //!
 //! An option differs from the baseline if the 95 % interval of their difference in the same encounters excludes zero. If
 //! several registered comparisons are made, Holm's probability is beside it.
@@ -8,18 +9,21 @@
 
 use endline_gear::StudyEvent;
 
-use super::{Findings, Paired};
+use super::{Findings, Paired, verdict};
 
 /// Encounters below which a study is called small.
 const SMALL: u64 = 314;
 
 /// The question.
-struct Asked<'a> {
-    event: String,
-    baseline: &'a str,
-    encounters: u64,
+pub(super) struct Asked<'a> {
+    /// The event in words.
+    pub event: String,
+    /// Name of the baseline.
+    pub baseline: &'a str,
+    /// Encounters in the table.
+    pub encounters: u64,
     /// Registered comparisons.
-    comparisons: u64,
+    pub comparisons: u64,
 }
 
 /// An option beside the baseline.
@@ -39,6 +43,9 @@ pub fn answer(findings: &Findings, event: &str) -> Vec<String> {
         encounters: findings.encounters,
         comparisons: findings.comparisons,
     };
+    if let Some(held) = findings.held_whales.as_ref().filter(|held| held.event == event) {
+        return verdict::sentences(findings, held, &asked);
+    }
     let compared = findings.others().filter_map(|option| {
         let adjusted = option.adjusted(event);
         Some(Compared { name: &option.name, paired: option.against(event)?, adjusted })
@@ -50,7 +57,8 @@ fn sentences(asked: &Asked<'_>, compared: Vec<Compared<'_>>) -> Vec<String> {
     if compared.is_empty() {
         return Vec::new();
     }
-    let (distinct, open): (Vec<_>, Vec<_>) = compared.into_iter().partition(Compared::is_distinct);
+    let (distinct, open): (Vec<_>, Vec<_>) =
+        compared.into_iter().partition(|option| option.paired.is_distinct());
     let nothing = distinct.is_empty().then(|| {
         let Asked { event, baseline, encounters, .. } = asked;
         match encounters {
@@ -72,11 +80,6 @@ fn sentences(asked: &Asked<'_>, compared: Vec<Compared<'_>>) -> Vec<String> {
 }
 
 impl Compared<'_> {
-    fn is_distinct(&self) -> bool {
-        let interval = self.paired.difference_interval;
-        interval.low > 0.0 || interval.high < 0.0
-    }
-
     /// Greatest difference within the interval [points].
     fn reach(&self) -> f64 {
         let interval = self.paired.difference_interval;
@@ -90,22 +93,27 @@ impl Compared<'_> {
         let [low, high] =
             [difference_interval.low, difference_interval.high].map(|side| 100.0 * side);
         let Asked { event, baseline, comparisons, .. } = asked;
-        let among = match self.adjusted {
-            Some(p) if *comparisons > 1 && p > 0.05 => format!(
-                "; among {comparisons} registered comparisons this may be chance (p = {p:.2} by Holm)"
-            ),
-            Some(p) if *comparisons > 1 => {
-                let p = if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") };
-                format!("; {p} among {comparisons} registered comparisons")
-            }
-            Some(_) => String::new(),
-            None => "; this comparison was not registered beforehand".to_owned(),
-        };
+        let among = holm_words(self.adjusted, *comparisons);
         format!(
             "With {}, “{event}” is {way} than with {baseline} by {:.1} points [{low:.1}, {high:.1}]{among}.",
             self.name,
             100.0 * difference.abs()
         )
+    }
+}
+
+/// What the number of comparisons means for one of them, by Holm's probability; none was registered if that is absent.
+pub(super) fn holm_words(adjusted: Option<f64>, comparisons: u64) -> String {
+    match adjusted {
+        Some(p) if comparisons > 1 && p > 0.05 => format!(
+            "; among {comparisons} registered comparisons this may be chance (p = {p:.2} by Holm)"
+        ),
+        Some(p) if comparisons > 1 => {
+            let p = if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") };
+            format!("; {p} among {comparisons} registered comparisons")
+        }
+        Some(_) => String::new(),
+        None => "; this comparison was not registered beforehand".to_owned(),
     }
 }
 

@@ -15,12 +15,14 @@ use crate::table::Column;
 use super::bands::{self, Bands};
 use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
+use super::held_whales::HeldWhales;
 use super::indicators::EventIndicators;
 use super::interval::Rate;
 use super::multiplicity::holm;
 use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
 use super::sensitivity::{self, InputFinding, Lowest};
+use super::strength_curve::{self, StrengthCurve};
 use super::survival::Survival;
 use super::tensions::Tensions;
 
@@ -49,6 +51,10 @@ pub struct Findings {
     pub baseline: usize,
     /// The options.
     pub options: Vec<OptionFinding>,
+    /// What each option does for the whales held with the baseline; `None` if the event does not say that a whale is held.
+    pub held_whales: Option<HeldWhales>,
+    /// Rates against any strength of rope or weak links, if an option cannot part.
+    pub strength_curves: Vec<StrengthCurve>,
     /// Levels of the prior by which results are separated.
     pub levels: Vec<LevelFinding>,
     /// Uncertainty of the rates of registered events: chance, assumed inputs, segments.
@@ -168,6 +174,8 @@ impl Findings {
             registration: registration.clone(),
             comparisons,
             baseline: opened.baseline,
+            held_whales: held_whales(opened, runs),
+            strength_curves: strength_curve::of_study(opened, runs, event),
             options,
             levels: levels(opened, runs, &indicators),
             bands: bands::of_registered(opened, runs, registration),
@@ -189,6 +197,13 @@ impl Findings {
             ),
         }
     }
+}
+
+fn held_whales(opened: &PreparedStudy, runs: &Runs) -> Option<HeldWhales> {
+    let options: Vec<(String, String)> =
+        opened.options.iter().map(|option| (option.id.clone(), option.name.clone())).collect();
+    let observed = opened.study.routes.as_ref();
+    HeldWhales::of(runs, &options, opened.baseline, &opened.study.event, observed)
 }
 
 /// Adjusts the probabilities of all comparisons of registered events with the baseline; answers how many there are.

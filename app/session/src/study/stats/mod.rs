@@ -11,6 +11,7 @@ pub(super) mod bootstrap;
 mod changes;
 mod claims;
 mod findings;
+mod held_whales;
 mod indicators;
 mod interval;
 mod multiplicity;
@@ -18,8 +19,10 @@ mod observations;
 mod paired;
 mod sensitivity;
 mod sobol;
+mod strength_curve;
 mod survival;
 mod tensions;
+mod verdict;
 mod weighted;
 
 #[cfg(test)]
@@ -30,14 +33,17 @@ pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
+pub use held_whales::{HeldWhales, OptionOnHeld, Route, RouteFinding, Weighted};
 pub use indicators::{EventIndicator, EventIndicators};
 pub use interval::{Interval, Rate};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
 pub use sensitivity::{InputFinding, Lowest, Part};
 pub use sobol::SobolIndex;
+pub use strength_curve::{Banded, StrengthCurve};
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
+pub use verdict::{WORTH_FINDING, encounters_missing, encounters_to_tell, rounded};
 
 use endline_gear::StudyEvent;
 

@@ -68,6 +68,12 @@ impl Paired {
         Self::from_effective(counts, times(effective), times(for_ratio)).widened(&both, shares)
     }
 
+    /// Whether the interval of the difference excludes zero.
+    pub fn is_distinct(&self) -> bool {
+        let Interval { low, high } = self.difference_interval;
+        low > 0.0 || high < 0.0
+    }
+
     /// With intervals that reach as far as those of the two rates of encounters that differ, where there are few of them.
     fn widened(mut self, both: &[([bool; 2], f64)], [[_, c], [_, a]]: [[f64; 2]; 2]) -> Self {
         let rate = |wanted: [bool; 2]| {

@@ -1,0 +1,263 @@
+//! Rates at any strength of rope, from the run in which nothing can part.
+//!
+//! In encounter `i` with weight `w_i`, whole rope parts if and only if it delivers less than the strength needed there, `N_i`
+//! (`report/needed.rs`). The rate of parting is therefore known for every strength `S` from the same runs:
+//!
+//! ```text
+//! P(parts | S) = Σ w_i [N_i > S] / Σ w_i            n = (Σ w_i)² / Σ w_i²            half-width = √(ln(2/0.05) / (2 n))
+//! ```
+//!
+//! The band of that half-width contains the whole curve with a probability of 95 % (Dvoretzky, Kiefer and Wolfowitz, with Massart's
+//! constant). Weighted encounters count by Kish's effective number `n`, for which the band is wider than needed where events are of
+//! small weight. The curve given held is that of the encounters in which a whale is held if nothing parts.
+//!
+//! What follows the parting is known at the strengths that were simulated. `P(held | S)` takes, where rope parts, the run of the option
+//! whose strength is nearest on a scale of ratios among those that part too.
+//! References: Massart 1990 (doi:10.1214/aop/1176990746); Kish 1965, Survey Sampling, section 11.2.
+
+use endline_gear::StudyEvent;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::study::plan::OptionPlan;
+use crate::study::prepared::PreparedStudy;
+use crate::study::runs::{RunRow, Runs};
+use crate::units::N_PER_LBF;
+
+use super::indicators::EventIndicators;
+use super::weighted::kish;
+
+/// Least and greatest strength of a curve [lbf], and the step between its points.
+const FROM_LBF: u32 = 200;
+const TO_LBF: u32 = 10_000;
+const STEP_LBF: usize = 50;
+
+/// Probability that a band does not contain its whole curve.
+const OUTSIDE: f64 = 0.05;
+
+/// Rates against the strength of rope or links.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct StrengthCurve {
+    /// Which part is as strong as stated: whole rope, or weak links.
+    pub part: String,
+    /// Option in which nothing can part.
+    pub option: String,
+    /// Share of encounters in which the part parts.
+    pub parts: Banded,
+    /// The same among the encounters in which a whale is held if nothing parts.
+    pub parts_given_held: Banded,
+    /// Share of encounters in which a whale is held, by strength; none for a part whose options have no strengths.
+    pub held: Vec<f64>,
+    /// The strengths [N].
+    pub strengths_n: Vec<f64>,
+}
+
+/// A curve with its band.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct Banded {
+    /// Encounters.
+    pub encounters: u64,
+    /// Number of encounters of equal weight that would give the same precision.
+    pub effective: f64,
+    /// Half-width of the band.
+    pub half_width: f64,
+    /// The share at each strength.
+    pub shares: Vec<f64>,
+}
+
+impl Banded {
+    /// The share of encounters that need more than each strength, from needed strengths [N] with weights.
+    fn of(needed: &[(f64, f64)], strengths_n: &[f64]) -> Self {
+        let all: f64 = needed.iter().map(|(_, weight)| weight).sum();
+        let effective = kish(needed.iter().map(|(_, weight)| *weight));
+        let above = |strength_n: &f64| {
+            let own = needed.iter().filter(|(needed_n, _)| needed_n > strength_n);
+            own.map(|(_, weight)| weight).sum::<f64>() / all.max(f64::MIN_POSITIVE)
+        };
+        Self {
+            encounters: needed.len() as u64,
+            effective,
+            half_width: if effective > 0.0 {
+                ((2.0 / OUTSIDE).ln() / (2.0 * effective)).sqrt().min(1.0)
+            } else {
+                1.0
+            },
+            shares: strengths_n.iter().map(above).collect(),
+        }
+    }
+
+    /// The band at a strength, by its place.
+    pub fn band(&self, place: usize) -> [f64; 2] {
+        let share = self.shares[place];
+        [(share - self.half_width).max(0.0), (share + self.half_width).min(1.0)]
+    }
+}
+
+/// An option that states a strength, for the runs after a parting.
+struct Simulated {
+    strength_n: f64,
+    /// By encounter: whether the whale is held.
+    held: EventIndicators,
+}
+
+/// Curves of a study: one for whole rope and one for weak links, if an option cannot part.
+pub(super) fn of_study(
+    opened: &PreparedStudy,
+    runs: &Runs,
+    event: &StudyEvent,
+) -> Vec<StrengthCurve> {
+    let is_unbreakable = |option: &&OptionPlan| option.prepared.model.spec.settings.unbreakable;
+    let Some(option) = opened.options.iter().find(is_unbreakable) else { return Vec::new() };
+    let may_part =
+        |option: &OptionPlan| option.prepared.model.spec.links.iter().any(|link| link.enabled);
+    let simulated = |by_link: bool| -> Vec<Simulated> {
+        let own = opened.options.iter().filter(|option| may_part(option) == by_link);
+        let with_strength = own.filter_map(|option| Some((option.strength_n?, option)));
+        with_strength
+            .map(|(strength_n, option)| Simulated {
+                strength_n,
+                held: EventIndicators::of(runs, &option.id, event),
+            })
+            .collect()
+    };
+    type Needed = fn(&RunRow) -> Option<f64>;
+    let kinds: [(&str, bool, Needed); 2] = [
+        ("whole rope", false, |run| run.needed_rope_n),
+        ("weak link", true, |run| run.needed_link_n),
+    ];
+    let curve = |(part, by_link, needed): (&str, bool, Needed)| {
+        let needed = runs.by_encounter(&option.id, |run| Some((needed(run)?, run.weight)));
+        let held = EventIndicators::of(runs, &option.id, event);
+        let known = needed.iter().any(Option::is_some);
+        known.then(|| curve(part, &option.id, &needed, &held, &simulated(by_link)))
+    };
+    kinds.into_iter().filter_map(curve).collect()
+}
+
+fn curve(
+    part: &str,
+    option: &str,
+    needed: &[Option<(f64, f64)>],
+    held: &EventIndicators,
+    simulated: &[Simulated],
+) -> StrengthCurve {
+    let strengths_n: Vec<f64> =
+        (FROM_LBF..=TO_LBF).step_by(STEP_LBF).map(|lbf| f64::from(lbf) * N_PER_LBF).collect();
+    let known =
+        || needed.iter().enumerate().filter_map(|(place, needed)| Some((place, (*needed)?)));
+    let is_held =
+        |indicators: &EventIndicators, place: usize| Some((*indicators.0.get(place)?)?.occurred);
+    let all: Vec<(f64, f64)> = known().map(|(_, needed)| needed).collect();
+    let among_held: Vec<(f64, f64)> = known()
+        .filter(|(place, _)| is_held(held, *place) == Some(true))
+        .map(|(_, needed)| needed)
+        .collect();
+    let held_at = |strength_n: &f64| {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (place, (needed_n, weight)) in known() {
+            let run = if needed_n <= *strength_n {
+                Some(held)
+            } else {
+                let part = simulated.iter().filter(|other| other.strength_n < needed_n);
+                let apart = |other: &Simulated| (other.strength_n / strength_n).ln().abs();
+                part.min_by(|one, other| apart(one).total_cmp(&apart(other))).map(|run| &run.held)
+            };
+            if let Some(is_held) = run.and_then(|run| is_held(run, place)) {
+                sum += weight * f64::from(is_held);
+                weights += weight;
+            }
+        }
+        sum / f64::max(weights, f64::MIN_POSITIVE)
+    };
+    StrengthCurve {
+        part: part.to_owned(),
+        option: option.to_owned(),
+        parts: Banded::of(&all, &strengths_n),
+        parts_given_held: Banded::of(&among_held, &strengths_n),
+        held: if simulated.is_empty() {
+            Vec::new()
+        } else {
+            strengths_n.iter().map(held_at).collect()
+        },
+        strengths_n,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bootstrap::Draws;
+    use super::super::indicators::EventIndicator;
+    use super::*;
+
+    fn indicators(held: &[bool]) -> EventIndicators {
+        EventIndicators::even(held.iter().map(|held| Some(*held)))
+    }
+
+    /// Four encounters that need 500, 1,500, 2,500 lbf and almost nothing; the first three hold if nothing parts.
+    #[test]
+    fn a_curve_by_hand() {
+        let needed: Vec<Option<(f64, f64)>> =
+            [500.0, 1500.0, 2500.0, 10.0].map(|lbf| Some((lbf * N_PER_LBF, 1.0))).into();
+        let held = indicators(&[true, true, true, false]);
+        // Rope of 400 lbf frees all; rope of 2,000 lbf parts in the third encounter and leaves the whale held.
+        let simulated = [
+            Simulated { strength_n: 400.0 * N_PER_LBF, held: indicators(&[false; 4]) },
+            Simulated {
+                strength_n: 2000.0 * N_PER_LBF,
+                held: indicators(&[true, true, true, false]),
+            },
+        ];
+        let found = curve("whole rope", "unbreakable", &needed, &held, &simulated);
+        let check = |values: &[f64], expected: [(u32, f64); 4]| {
+            for (lbf, share) in expected {
+                let found = values[((lbf - FROM_LBF) as usize) / STEP_LBF];
+                assert!((found - share).abs() < 1e-12, "{lbf} lbf: {found}, not {share}");
+            }
+        };
+        check(&found.parts.shares, [(400, 0.75), (600, 0.5), (2000, 0.25), (3000, 0.0)]);
+        let third = 1.0 / 3.0;
+        let given_held = [(400, 1.0), (600, 2.0 * third), (2000, third), (3000, 0.0)];
+        check(&found.parts_given_held.shares, given_held);
+        check(&found.held, [(400, 0.0), (700, 0.25), (2000, 0.75), (3000, 0.75)]);
+        assert_eq!((found.parts.encounters, found.parts_given_held.encounters), (4, 3));
+        assert!((found.parts.half_width - (40.0_f64.ln() / 8.0).sqrt()).abs() < 1e-12);
+    }
+
+    /// Needed strengths of an exponential law, alone and with weights that depend on them: the whole curve is inside its band.
+    #[test]
+    fn the_band_covers_the_whole_curve() {
+        let strengths_n: Vec<f64> = (0..200).map(|place| 0.02 * f64::from(place)).collect();
+        for (weighted, expected) in [(false, 0.93..=0.97), (true, 0.93..=1.0)] {
+            let mut draws = Draws::of("strength curve");
+            let mut uniform = || (draws.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
+            let studies = 2000;
+            let covers = |_: &u32| {
+                let encounter = |_| {
+                    // Drawn with mean 2 instead of 1: the weight is the ratio of the densities.
+                    let mean = if weighted { 2.0 } else { 1.0 };
+                    let needed = -mean * uniform().ln();
+                    (needed, mean * (-needed + needed / mean).exp())
+                };
+                let needed: Vec<(f64, f64)> = (0..200).map(encounter).collect();
+                let found = Banded::of(&needed, &strengths_n);
+                strengths_n.iter().enumerate().all(|(place, strength)| {
+                    let [low, high] = found.band(place);
+                    (low..=high).contains(&(-strength).exp())
+                })
+            };
+            let share = f64::from((0..studies).filter(covers).count() as u32) / f64::from(studies);
+            println!("weighted {weighted}: {share}");
+            assert!(expected.contains(&share), "weighted {weighted}: {share}");
+        }
+    }
+
+    #[test]
+    fn a_study_without_encounters_has_a_curve_that_knows_nothing() {
+        let none = Banded::of(&[], &[1.0]);
+        assert_eq!((none.encounters, none.band(0)), (0, [0.0, 1.0]));
+        let missing =
+            EventIndicators(vec![None, Some(EventIndicator { occurred: true, weight: 1.0 })]);
+        let found = curve("weak link", "unbreakable", &[None, Some((5.0, 1.0))], &missing, &[]);
+        assert_eq!((found.parts.encounters, found.held.len()), (1, 0));
+    }
+}
