@@ -54,7 +54,7 @@ impl Study {
 
     /// Its plan, as the JSON of `endline study plan`.
     fn plan(&self) -> String {
-        self.opened.plan_json()
+        self.opened.plan_json(None)
     }
 
     /// Files of the blocks of a part in a folder of results.

@@ -23,6 +23,41 @@ impl Count {
     }
 }
 
+/// Processing time of encounters on one thread.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pace {
+    /// Encounters that were timed.
+    pub encounters: u32,
+    sum_s: f64,
+    squares_s2: f64,
+}
+
+impl Pace {
+    /// Adds an encounter.
+    pub fn add(&mut self, took: Duration) {
+        let took_s = took.as_secs_f64();
+        self.encounters += 1;
+        self.sum_s += took_s;
+        self.squares_s2 += took_s * took_s;
+    }
+
+    /// Mean time of an encounter; `None` before the first [s].
+    pub fn mean_s(&self) -> Option<f64> {
+        (self.encounters > 0).then(|| self.sum_s / f64::from(self.encounters))
+    }
+
+    /// Factor by which the true mean may be greater or smaller, by two standard errors; `None` for fewer than three encounters.
+    /// Times have a long tail, so that the range is one of ratios.
+    pub fn factor(&self) -> Option<f64> {
+        let (count, mean_s) = (f64::from(self.encounters), self.mean_s()?);
+        if self.encounters < 3 || mean_s <= 0.0 {
+            return None;
+        }
+        let variance = (self.squares_s2 - count * mean_s * mean_s).max(0.0) / (count - 1.0);
+        Some(1.0 + 2.0 * (variance / count).sqrt() / mean_s)
+    }
+}
+
 /// The progress of a campaign.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
@@ -30,6 +65,8 @@ pub struct Progress {
     pub encounters: Count,
     /// Blocks of encounters of the shard; a block counts when it is written.
     pub blocks: Count,
+    /// Times of the encounters that this process ran.
+    pub pace: Pace,
     /// Blocks of other processes for which it waits, once all others are done.
     pub elsewhere: u32,
     /// Time at work until the last pause.
@@ -46,6 +83,12 @@ impl Progress {
         let worked = self.worked + self.since.map_or(Duration::ZERO, |since| since.elapsed());
         (fresh > 0)
             .then(|| worked.mul_f64(f64::from(total.saturating_sub(done)) / f64::from(fresh)))
+    }
+
+    /// Range of the time left, by the spread of the encounters' times; `None` before the third encounter is done.
+    pub fn left_range(&self) -> Option<[Duration; 2]> {
+        let (left, factor) = (self.left()?, self.pace.factor()?);
+        Some([left.div_f64(factor), left.mul_f64(factor)])
     }
 
     /// Share of the encounters that are done, 0 to 1.
@@ -187,9 +230,12 @@ impl Control {
         }
     }
 
-    /// Counts an encounter.
-    pub(crate) fn encounter_done(&self) {
-        self.note(|progress| progress.encounters.done += 1);
+    /// Counts an encounter that took this time of a thread.
+    pub(crate) fn encounter_done(&self, took: Duration) {
+        self.note(|progress| {
+            progress.encounters.done += 1;
+            progress.pace.add(took);
+        });
     }
 
     /// Counts a block.
@@ -210,5 +256,23 @@ impl Control {
             *progress
         };
         watcher(&progress);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Encounters of 1, 2 and 6 s: mean 3 s, standard deviation √7 s.
+    #[test]
+    fn the_range_of_a_mean_is_two_standard_errors() {
+        let mut pace = Pace::default();
+        assert_eq!((pace.mean_s(), pace.factor()), (None, None));
+        for seconds in [1, 2, 6] {
+            pace.add(Duration::from_secs(seconds));
+        }
+        let expected = 1.0 + 2.0 * (7.0_f64 / 3.0).sqrt() / 3.0;
+        assert!((pace.mean_s().unwrap() - 3.0).abs() < 1e-12);
+        assert!((pace.factor().unwrap() - expected).abs() < 1e-12);
     }
 }

@@ -17,7 +17,7 @@ pub(crate) mod leases;
 pub(crate) mod pool;
 pub mod threads;
 
-pub use control::{Control, Count, Progress};
+pub use control::{Control, Count, Pace, Progress};
 pub use job::{Job, State};
 pub use leases::{Worker, workers};
 pub use threads::Shard;

@@ -8,6 +8,7 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Instant;
 
 use crate::campaign::control::Control;
 use crate::campaign::pool::{self, Failure, Next, POLL, Work};
@@ -146,8 +147,9 @@ impl<R: Fn(usize, u32) -> RunEnding + Sync> Work for Runs<'_, R> {
     }
 
     fn run(&self, (place, number): (usize, u32)) -> Result<bool, Error> {
+        let start = Instant::now();
         let ended = (self.one)(place, number);
-        self.control.encounter_done();
+        self.control.encounter_done(start.elapsed());
         let is_complete = {
             let mut own = lock(&self.own[place]);
             own.runs.insert(number, ended);

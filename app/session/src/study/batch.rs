@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::sync::Mutex;
+use std::time::Instant;
 
 use crate::campaign::control::{Control, Count, Progress};
 use crate::campaign::leases::{self, Lease, Leases};
@@ -113,11 +114,12 @@ impl<'a> Work for Blocks<'a> {
             if !self.control.may_continue() {
                 return Ok(false);
             }
+            let start = Instant::now();
             let Some(own) = self.opened.rows(encounter, &|| !self.control.is_cancelled()) else {
                 return Ok(false);
             };
             rows.extend(own);
-            self.control.encounter_done();
+            self.control.encounter_done(start.elapsed());
         }
         self.folder.write(lease.block, rows)?;
         self.control.block_done();

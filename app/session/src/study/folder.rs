@@ -100,6 +100,12 @@ impl Folder {
         Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
     }
 
+    /// The folder with the first encounters only, such as those of a pilot; they are the study's own.
+    #[must_use]
+    pub fn first(&self, encounters: u32) -> Self {
+        Self { encounters: self.encounters.min(encounters), ..self.clone() }
+    }
+
     /// Number of blocks.
     pub fn blocks(&self) -> u32 {
         self.encounters.div_ceil(BLOCK)

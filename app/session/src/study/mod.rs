@@ -11,6 +11,7 @@
 //! | `play`, `equivalence` | the runs of an encounter, and which options share one |
 //! | `row`, `runs` | a run's figures as a row of the table, and rows read back as structs |
 //! | `batch`, `folder`, `registration` | blocks of encounters on threads and processes, and their folder |
+//! | `forecast` | cost and precision of a study from its first encounters |
 //! | `merge`, `results` | the table from the blocks, and its results for a window |
 //! | `stats`, `report`, `threat` | statistics, the report and the threat table |
 //! | `queue` | studies behind a window, one after the other |
@@ -24,6 +25,7 @@ pub mod batch;
 mod damaged;
 mod equivalence;
 pub mod folder;
+pub mod forecast;
 pub mod merge;
 mod plan;
 mod play;

@@ -12,6 +12,7 @@ use crate::{json, locate};
 
 use super::equivalence;
 use super::folder::BLOCK;
+use super::forecast::Forecast;
 use super::plan::{Base, OptionPlan};
 use crate::encounters::aim::lines_aimed_at;
 use crate::encounters::equilibria::Equilibria;
@@ -132,6 +133,17 @@ impl PreparedStudy {
         })
     }
 
+    /// The options as a reader expects them: in the order of the file, or by id where axes make them.
+    pub(super) fn reading_order(&self) -> Vec<usize> {
+        let place = |option: &usize| self.study.options[*option].id.place.span.start;
+        let mut order: Vec<usize> = (0..self.options.len()).collect();
+        order.sort_by_key(place);
+        if order.windows(2).all(|pair| place(&pair[0]) < place(&pair[1])) {
+            return order;
+        }
+        (0..self.options.len()).collect()
+    }
+
     /// Text of a library file before anything is set in it.
     pub(crate) fn library_text(&self, path: &str) -> Option<&str> {
         self.sources.get(path)
@@ -226,11 +238,13 @@ pub(crate) struct Plan<'a> {
     baseline: &'a str,
     /// Options that share their runs until something parts.
     families: Vec<Vec<&'a str>>,
+    /// Cost and precision, once some encounters were run.
+    forecast: Option<&'a Forecast>,
 }
 
 impl PreparedStudy {
     /// One line of JSON.
-    pub fn plan_json(&self) -> String {
+    pub fn plan_json(&self, forecast: Option<&Forecast>) -> String {
         let plan = Plan {
             schema: SCHEMA,
             study: &self.study.id,
@@ -240,6 +254,7 @@ impl PreparedStudy {
             options: self.options.iter().map(|option| option.id.as_str()).collect(),
             baseline: &self.options[self.baseline].id,
             families: self.families(),
+            forecast,
         };
         json::line(&plan)
     }

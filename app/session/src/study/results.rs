@@ -105,6 +105,12 @@ fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs,
     if !at_work && folder.path.join("table.parquet").is_file() {
         return Ok((merge::load(opened, folder)?, true));
     }
+    first_runs(folder)
+}
+
+/// The runs of the blocks before the first missing one, and whether no block is missing.
+/// Errors: a block that is damaged or belongs to another study.
+pub(super) fn first_runs(folder: &Folder) -> Result<(Runs, bool), Error> {
     let mut table = Table::default();
     let there = (0..folder.blocks()).take_while(|block| folder.file_of(*block).is_file()).count();
     for block in 0..u32::try_from(there).unwrap_or_default() {

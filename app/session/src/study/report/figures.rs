@@ -309,7 +309,9 @@ pub(super) fn break_away_scales(svg: &mut Svg, across: &Axis, up: &Axis) {
     let ([left, right], [bottom, _]) = (across.places, up.places);
     for tick in up.ticks() {
         svg.line([left, up.at(tick)], [right, up.at(tick)], "grid");
-        svg.text([left - 6.0, up.at(tick) + 4.0], Side::End, &format!("{:.1} %", 100.0 * tick));
+        let decimals = usize::from(up.values[1] < 0.5);
+        let words = format!("{:.decimals$} %", 100.0 * tick);
+        svg.text([left - 6.0, up.at(tick) + 4.0], Side::End, &words);
     }
     for tick in across.ticks() {
         svg.text([across.at(tick), bottom + 18.0], Side::Middle, &format!("{tick:.0} lbf"));

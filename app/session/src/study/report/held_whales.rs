@@ -6,9 +6,12 @@ use crate::study::stats::{
 use crate::units::N_PER_LBF;
 
 use super::figures::{WIDE, break_away_scales, legend};
-use super::words::{event_words, percent_interval, rate};
+use super::words::{event_words, rate};
 use crate::page::svg::{Axis, Svg};
 use crate::page::{Cell, Table};
+
+/// Held whales below which no curve is drawn.
+const LEAST_WHALES: u64 = 5;
 
 /// How whales are held with the baseline, beside observed whales.
 pub(super) fn routes(held: &HeldWhales) -> Table {
@@ -40,7 +43,7 @@ pub(super) fn freed(held: &HeldWhales) -> Table {
             0 => "none".to_owned(),
             count => format!("{:.0} % ({count})", 100.0 * option.newly_held_share),
         };
-        let mut row = vec![Cell::from(&option.name), rate(&option.freed).into(), others.into()];
+        let mut row = vec![Cell::from(&option.name), few(&option.freed).into(), others.into()];
         row.extend(
             met.iter().map(|found| Cell::from(few(&option.freed_by_route[found.route as usize]))),
         );
@@ -59,26 +62,45 @@ pub(super) fn freed(held: &HeldWhales) -> Table {
     )
 }
 
+/// `25` for a quarter.
+fn percent(share: f64) -> String {
+    format!("{:.0}", 100.0 * share)
+}
+
 /// `25 % [7, 59] (1 of 4)`.
 fn few(rate: &Rate) -> String {
-    let percent = |share: f64| format!("{:.0}", 100.0 * share);
     let [low, high] = [rate.interval.low, rate.interval.high].map(percent);
     format!("{} % [{low},\u{a0}{high}] ({} of {})", percent(rate.rate), rate.hits, rate.runs)
 }
 
-/// The share weighted by observed routes, and how much of these the study covers.
+/// The share weighted by observed routes.
 fn weighted(option: &OptionOnHeld) -> Cell {
     let Some(weighted) = option.weighted else { return "no route met".into() };
-    let share = format!("{:.1} % {}", 100.0 * weighted.share, percent_interval(weighted.interval));
-    if weighted.covered > 0.999 {
-        return share.into();
-    }
-    Cell::lines([share, format!("routes of {:.0} % of observed whales", 100.0 * weighted.covered)])
+    let [low, high] = [weighted.interval.low, weighted.interval.high].map(percent);
+    format!("{} % [{low},\u{a0}{high}]", percent(weighted.share)).into()
+}
+
+/// How much of the observed whales the weighted shares stand for.
+pub(super) fn covered(held: &HeldWhales) -> Option<String> {
+    let source = held.observed_from.as_ref()?;
+    let covered = held.options.iter().find_map(|option| option.weighted)?.covered;
+    let rest = if covered > 0.999 {
+        String::new()
+    } else {
+        format!(
+            " No simulated whale is held by the other routes, so that these shares stand for {:.0} % of the observed whales.",
+            100.0 * covered
+        )
+    };
+    Some(format!(
+        "Observed whales: {source}. A share weighted as observed is the mean over the places at which rope holds, each with its share \
+         among observed whales.{rest}"
+    ))
 }
 
 /// Share of the held whales whose rope or link parts, against its strength, with the band, and the share that stays held.
 pub(super) fn curves(findings: &Findings) -> Option<String> {
-    let drawn = |curve: &&StrengthCurve| curve.parts_given_held.encounters > 0;
+    let drawn = |curve: &&StrengthCurve| curve.parts_given_held.encounters >= LEAST_WHALES;
     let curves: Vec<&StrengthCurve> = findings.strength_curves.iter().filter(drawn).collect();
     if curves.is_empty() {
         return None;

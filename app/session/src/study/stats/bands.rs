@@ -82,7 +82,8 @@ pub(super) fn of_registered(
     let of = |event: StudyEvent| {
         let found = opened.study.discretisations.iter().find(|found| found.event == event);
         let divided = &divided;
-        opened.options.iter().map(move |option| {
+        opened.reading_order().into_iter().map(move |option| {
+            let option = &opened.options[option];
             let indicators = EventIndicators::of(runs, &option.id, &event);
             let rate = Rate::of(&indicators);
             Bands {

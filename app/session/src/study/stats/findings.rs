@@ -151,15 +151,19 @@ impl Findings {
 
     /// The findings of a study's runs; `registration` is that of its folder.
     pub fn of(opened: &PreparedStudy, runs: &Runs, registration: &Registration) -> Self {
-        let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
+        let order = opened.reading_order();
+        let ids: Vec<String> =
+            order.iter().map(|option| opened.options[*option].id.clone()).collect();
+        let baseline =
+            order.iter().position(|option| *option == opened.baseline).unwrap_or_default();
         let event = &opened.study.event;
         let indicators: Vec<EventIndicators> =
             ids.iter().map(|id| EventIndicators::of(runs, id, event)).collect();
         let lowest = sensitivity::lowest(&indicators);
         let mut options: Vec<OptionFinding> =
-            (0..ids.len()).map(|option| found(opened, runs, option)).collect();
+            order.iter().map(|option| found(opened, runs, *option)).collect();
         options.iter_mut().zip(lowest).for_each(|(option, lowest)| option.lowest = lowest);
-        let comparisons = adjust(&mut options, opened.baseline, registration);
+        let comparisons = adjust(&mut options, baseline, registration);
         let now = Registration::of(&opened.study);
         let mut claims = claims::assess_all(&opened.study.claims, runs);
         claims
@@ -173,11 +177,11 @@ impl Findings {
             event: event.name(),
             registration: registration.clone(),
             comparisons,
-            baseline: opened.baseline,
-            held_whales: held_whales(opened, runs),
+            baseline,
+            held_whales: held_whales(opened, runs, (&ids, baseline)),
             strength_curves: strength_curve::of_study(opened, runs, event),
             options,
-            levels: levels(opened, runs, &indicators),
+            levels: levels(opened, runs, &indicators, (&ids, baseline)),
             bands: bands::of_registered(opened, runs, registration),
             claims,
             observations: opened
@@ -186,24 +190,26 @@ impl Findings {
                 .iter()
                 .map(|seen| ObservationFinding {
                     registered: registration.has_observation(&now, &seen.id.value),
-                    ..observations::compare(seen, runs, &ids[opened.baseline])
+                    ..observations::compare(seen, runs, &ids[baseline])
                 })
                 .collect(),
-            inputs: sensitivity::of_inputs(
-                runs,
-                &opened.study.priors,
-                &indicators,
-                opened.baseline,
-            ),
+            inputs: sensitivity::of_inputs(runs, &opened.study.priors, &indicators, baseline),
         }
     }
 }
 
-fn held_whales(opened: &PreparedStudy, runs: &Runs) -> Option<HeldWhales> {
-    let options: Vec<(String, String)> =
-        opened.options.iter().map(|option| (option.id.clone(), option.name.clone())).collect();
+fn held_whales(
+    opened: &PreparedStudy,
+    runs: &Runs,
+    (ids, baseline): (&[String], usize),
+) -> Option<HeldWhales> {
+    let name = |id: &String| {
+        let option = opened.options.iter().find(|option| option.id == *id);
+        (id.clone(), option.map_or_else(|| id.clone(), |option| option.name.clone()))
+    };
+    let options: Vec<(String, String)> = ids.iter().map(name).collect();
     let observed = opened.study.routes.as_ref();
-    HeldWhales::of(runs, &options, opened.baseline, &opened.study.event, observed)
+    HeldWhales::of(runs, &options, baseline, &opened.study.event, observed)
 }
 
 /// Adjusts the probabilities of all comparisons of registered events with the baseline; answers how many there are.
@@ -263,17 +269,15 @@ fn levels(
     opened: &PreparedStudy,
     runs: &Runs,
     indicators: &[EventIndicators],
+    (ids, baseline): (&[String], usize),
 ) -> Vec<LevelFinding> {
     let Some(split) = &opened.study.split else { return Vec::new() };
     let Some(column) = runs.drawn(&split.value) else { return Vec::new() };
     let mut levels: Vec<String> = (0..column.len()).map(|row| level(column, row)).collect();
     levels.sort();
     levels.dedup();
-    let parted: Vec<EventIndicators> = opened
-        .options
-        .iter()
-        .map(|option| EventIndicators::of(runs, &option.id, &StudyEvent::Parted))
-        .collect();
+    let parted: Vec<EventIndicators> =
+        ids.iter().map(|id| EventIndicators::of(runs, id, &StudyEvent::Parted)).collect();
     let finding = |level_name: String| {
         let mut keep = vec![false; EventIndicators::longest(indicators)];
         let rows = runs.rows().iter().enumerate();
@@ -283,10 +287,7 @@ fn levels(
             indicators.iter().map(|indicators| indicators.within(&keep)).collect();
         LevelFinding {
             rates: own.iter().map(Rate::of).collect(),
-            against: own
-                .iter()
-                .map(|indicators| Paired::of(indicators, &own[opened.baseline]))
-                .collect(),
+            against: own.iter().map(|indicators| Paired::of(indicators, &own[baseline])).collect(),
             parted: parted.iter().map(|indicators| Rate::of(&indicators.within(&keep))).collect(),
             level: level_words(opened, &split.value, &level_name),
         }

@@ -4,6 +4,8 @@ use endline_gear::{Counted, StudyEvent};
 
 use crate::study::runs::{RunRow, Runs};
 
+use super::weighted::kish;
+
 /// Whether an event occurred in an encounter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EventIndicator {
@@ -55,6 +57,12 @@ impl EventIndicators {
         let kept = self.0.iter().zip(keep);
         Self(kept.map(|(indicator, keep)| indicator.filter(|_| *keep)).collect())
     }
+}
+
+/// Effective number of encounters of equal weight with the event.
+pub fn effective_with(indicators: &EventIndicators) -> f64 {
+    let with = indicators.0.iter().flatten().filter(|indicator| indicator.occurred);
+    kish(with.map(|indicator| indicator.weight))
 }
 
 /// Whether an event occurred in a run.

@@ -34,7 +34,7 @@ pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
 pub use held_whales::{HeldWhales, OptionOnHeld, Route, RouteFinding, Weighted};
-pub use indicators::{EventIndicator, EventIndicators};
+pub use indicators::{EventIndicator, EventIndicators, effective_with};
 pub use interval::{Interval, Rate};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
@@ -43,7 +43,7 @@ pub use sobol::SobolIndex;
 pub use strength_curve::{Banded, StrengthCurve};
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
-pub use verdict::{WORTH_FINDING, encounters_missing, encounters_to_tell, rounded};
+pub use verdict::{WORTH_FINDING, encounters_missing, encounters_to_tell, expected_newly, rounded};
 
 use endline_gear::StudyEvent;
 

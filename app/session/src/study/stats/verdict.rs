@@ -42,6 +42,14 @@ pub fn encounters_missing(held: &Rate, newly: f64) -> Option<f64> {
     Some((needed * runs / held.effective - runs).max(0.0))
 }
 
+/// Share of the held whales that an option is expected to hold newly, from the newly held whales of several options. One of ten, as
+/// assumed before any encounter, counts as much as ten held whales.
+pub fn expected_newly(held: u64, newly: &[u64]) -> f64 {
+    let count = newly.len().max(1) as f64;
+    let mean = newly.iter().map(|newly| *newly as f64).sum::<f64>() / count;
+    (mean + 1.0) / (held as f64 + 10.0)
+}
+
 /// An option with its comparison over all encounters.
 struct Judged<'a> {
     on_held: &'a OptionOnHeld,
@@ -122,7 +130,8 @@ fn untold(rate: &Rate, asked: &Asked<'_>, open: &[Judged<'_>], all: bool) -> Str
         several => format!("the other {} options", several.len()),
     };
     let most = open.iter().map(|option| option.on_held.freed.interval.high).fold(0.0, f64::max);
-    let newly = open.iter().map(|option| option.on_held.newly_held_share).fold(0.0, f64::max);
+    let newly: Vec<u64> = open.iter().map(|option| option.on_held.newly_held).collect();
+    let newly = expected_newly(rate.hits, &newly);
     let head = format!("This study cannot tell {options} from {baseline}");
     let worth = 100.0 * WORTH_FINDING;
     match encounters_missing(rate, newly) {
@@ -234,7 +243,7 @@ mod tests {
         assert_eq!(
             said[1],
             "This study cannot tell rope 1,700 lbf from Rope 2,600 lbf: of 100 held whales up to 49 may be freed. \
-             About 560 more encounters would show an option that frees 30."
+             About 870 more encounters would show an option that frees 30."
         );
         let none = verdict_of(30, 0, 0);
         assert!(

@@ -7,7 +7,7 @@ use endline_session::campaign::Shard;
 
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum StudyCommand {
-    /// Check a study and print its options, encounters, blocks and the first encounters drawn.
+    /// Check a study and print its options, encounters, blocks, the first encounters drawn, and a forecast of its time and precision.
     Plan(PlanArgs),
     /// Run the blocks of a study that are missing; after an interruption, run the same command again. Processes that run at the same time share the blocks.
     Run(RunArgs),
@@ -59,6 +59,12 @@ pub(in crate::cli) struct HindcastArgs {
 pub(in crate::cli) struct PlanArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
+    /// Run the first N encounters, and forecast time and precision from them; they are kept as the study's own.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(super) pilot: Option<u32>,
+    /// Number of threads of the pilot [default: one for each core].
+    #[arg(long, value_name = "N", requires = "pilot", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
     /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,

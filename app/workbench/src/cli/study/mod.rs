@@ -11,12 +11,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use endline_session::campaign::{Control, Count, threads};
+use endline_session::campaign::{Control, Count, Pace, threads};
 use endline_session::encounters::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
-use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, merge, report};
+use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, forecast, merge, report};
 use endline_session::{json, locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
@@ -41,8 +41,29 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
 
 fn plan(args: &PlanArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
-    output::print(&if args.json { opened.plan_json() + "\n" } else { words::plan(&opened) })?;
-    Ok(ExitCode::SUCCESS)
+    let path = folder_of(&args.at, &opened);
+    let threads = args.threads.map_or_else(all_cores, usize::from);
+    let (forecast, interrupted) = match args.pilot {
+        Some(pilot) => {
+            let folder = Folder::open(&path, &opened)?;
+            let watched =
+                |control: &Control| forecast::of_pilot(&opened, &folder, pilot, threads, control);
+            let (forecast, interrupt) = with_progress(watched)?;
+            (Some(forecast), interrupt.exit_code())
+        }
+        // Printing the plan must not begin a study.
+        None if path.join("study.json").is_file() => {
+            let folder = Folder::open(&path, &opened)?;
+            (Some(forecast::of_stored(&opened, &folder, &Pace::default())?), None)
+        }
+        None => (None, None),
+    };
+    output::print(&if args.json {
+        opened.plan_json(forecast.as_ref()) + "\n"
+    } else {
+        words::plan(&opened) + &words::forecast(&opened, forecast.as_ref(), threads)
+    })?;
+    Ok(interrupted.unwrap_or(ExitCode::SUCCESS))
 }
 
 fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
@@ -52,17 +73,8 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
         lower_priority();
     }
     let threads = args.threads.map_or_else(all_cores, usize::from);
-    let bar = Bar::new();
-    let control = Arc::new(Control::new(move |progress| bar.at(progress)));
-    let (interrupt, watched) = (Interrupt::watch(), Arc::downgrade(&control));
-    interrupt.on_asked(move || {
-        if let Some(control) = watched.upgrade() {
-            control.cancel();
-        }
-    });
-    let progress = batch::run(&opened, &folder, args.shard, threads, &control)?;
-    // The bar disappears with its control.
-    drop(control);
+    let (progress, interrupt) =
+        with_progress(|control| batch::run(&opened, &folder, args.shard, threads, control))?;
     if let Some(code) = interrupt.exit_code() {
         let Count { done, total, .. } = progress.blocks;
         output::warn(&format!(
@@ -73,6 +85,21 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     }
     output::print(&words::ran(&opened, &folder, progress.blocks))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Runs encounters with a bar of progress that disappears at the end; a signal cancels them.
+fn with_progress<T>(
+    work: impl FnOnce(&Control) -> Result<T, endline_session::Error>,
+) -> Result<(T, Interrupt), Failure> {
+    let bar = Bar::new();
+    let control = Arc::new(Control::new(move |progress| bar.at(progress)));
+    let (interrupt, watched) = (Interrupt::watch(), Arc::downgrade(&control));
+    interrupt.on_asked(move || {
+        if let Some(control) = watched.upgrade() {
+            control.cancel();
+        }
+    });
+    Ok((work(&control)?, interrupt))
 }
 
 fn merged(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {

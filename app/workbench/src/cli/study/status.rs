@@ -119,7 +119,6 @@ const BETWEEN: Duration = Duration::from_secs(30);
 /// Shows blocks done and the time left.
 pub(super) struct Bar {
     bar: Option<ProgressBar>,
-    start: Instant,
     noted: Mutex<Instant>,
 }
 
@@ -135,12 +134,11 @@ impl Bar {
             }
             bar
         });
-        let now = Instant::now();
-        Self { bar, start: now, noted: Mutex::new(now) }
+        Self { bar, noted: Mutex::new(Instant::now()) }
     }
 
     pub(super) fn at(&self, progress: &Progress) {
-        let Count { done, found, total } = progress.blocks;
+        let Count { done, total, .. } = progress.blocks;
         if let Some(bar) = &self.bar {
             let others = progress.elsewhere;
             let message = match others {
@@ -157,11 +155,13 @@ impl Bar {
             return;
         }
         *noted = Instant::now();
-        let fresh = done - found;
-        let left = if fresh == 0 {
-            String::new()
-        } else {
-            format!(", {} left", duration(self.start.elapsed() / fresh * (total - done)))
+        let left = match (progress.left(), progress.left_range()) {
+            _ if done == total => String::new(),
+            (Some(left), Some([low, high])) => {
+                format!(", {} left [{}, {}]", duration(left), duration(low), duration(high))
+            }
+            (Some(left), None) => format!(", {} left", duration(left)),
+            (None, _) => String::new(),
         };
         let waits = match progress.elsewhere {
             0 => String::new(),

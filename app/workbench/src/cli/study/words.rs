@@ -5,7 +5,8 @@ use endline_session::campaign::Count;
 use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
-use endline_session::study::stats::{Change, Findings, Interval, Rate};
+use endline_session::study::forecast::{Cost, Forecast, duration_words};
+use endline_session::study::stats::{Change, Findings, Interval, Rate, rounded};
 use endline_session::units::newtons_and_lbf;
 
 use super::super::table::columns;
@@ -51,6 +52,83 @@ pub(super) fn plan(opened: &PreparedStudy) -> String {
         );
     }
     text + &columns(&rows)
+}
+
+/// Time and precision of a study, or how to obtain them.
+pub(super) fn forecast(
+    opened: &PreparedStudy,
+    forecast: Option<&Forecast>,
+    threads: usize,
+) -> String {
+    let Some(forecast) = forecast.filter(|forecast| forecast.done > 0) else {
+        return "no encounter has been run; --pilot 12 runs the first twelve and forecasts time and precision from them\n".into();
+    };
+    let Forecast { encounters, done, cost, rate, needed_to_tell, needed_for_band, .. } = forecast;
+    let baseline = &opened.options[opened.baseline].name;
+    let event = opened.study.event.words();
+    let mut rows = vec![vec![
+        "forecast".to_owned(),
+        format!("from the first {done} of {encounters} encounters"),
+    ]];
+    rows.push(vec!["time".into(), time(cost.as_ref(), threads)]);
+    rows.push(vec![
+        "rate".into(),
+        format!("\"{event}\" with {baseline}: {}", in_percent(rate.rate, rate.interval)),
+    ]);
+    let share = 100.0 * forecast.prevented;
+    let (tell, band) = match (needed_to_tell, needed_for_band) {
+        (Some(tell), Some(band)) => {
+            let can = if *tell <= *encounters as f64 { "can" } else { "cannot" };
+            (
+                format!(
+                    "an option that prevents {share:.0} of 100 needs about {} encounters; with {encounters} the study {can} tell it",
+                    rounded(*tell)
+                ),
+                format!(
+                    "such a share is known to ±5 points from about {} encounters",
+                    rounded(*band)
+                ),
+            )
+        }
+        _ => (
+            "not known: the event has not occurred; run more encounters".into(),
+            "not known".into(),
+        ),
+    };
+    rows.push(vec!["difference".into(), tell]);
+    rows.push(vec!["band".into(), band]);
+    columns(&rows)
+}
+
+/// Time of the encounters that are left, with its range.
+fn time(cost: Option<&Cost>, threads: usize) -> String {
+    let Some(cost) = cost else {
+        return "not known: no encounter was timed; --pilot with a greater number times some"
+            .into();
+    };
+    if cost.left == 0 {
+        return format!("{:.1} s of a core for each encounter; none is left", cost.encounter_s);
+    }
+    let range = |seconds: f64| {
+        cost.factor.map_or_else(String::new, |factor| {
+            format!(" [{}, {}]", duration_words(seconds / factor), duration_words(seconds * factor))
+        })
+    };
+    let (whole_s, count) = (cost.left_s(), threads as f64);
+    format!(
+        "{:.1} s of a core for each of {} timed encounters; {} left take {} of a core{}, {} on {threads} threads",
+        cost.encounter_s,
+        cost.timed,
+        cost.left,
+        duration_words(whole_s),
+        range(whole_s),
+        duration_words(whole_s / count),
+    )
+}
+
+/// `8.1 % [2.3, 25.0]`.
+fn in_percent(rate: f64, interval: Interval) -> String {
+    format!("{:.1} % [{:.1}, {:.1}]", 100.0 * rate, 100.0 * interval.low, 100.0 * interval.high)
 }
 
 pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> String {

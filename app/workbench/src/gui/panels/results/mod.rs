@@ -181,10 +181,18 @@ impl ResultsPanel {
         );
     }
 
-    /// Replays a run in the 3-D view.
-    fn replay(&mut self, shared: &mut Shared, option: usize, encounter: u32) {
-        self.replayed = Some((option, encounter));
-        shared.give(StudyAction::Replay { option, encounter });
+    /// Replays a run in the 3-D view; the option is by its place among the findings.
+    fn replay(
+        &mut self,
+        shared: &mut Shared,
+        shown: &StudyResults,
+        (place, encounter): (usize, u32),
+    ) {
+        self.replayed = Some((place, encounter));
+        let id = &shown.findings.options[place].id;
+        if let Ok(option) = shown.opened.option(id) {
+            shared.give(StudyAction::Replay { option, encounter });
+        }
     }
 }
 

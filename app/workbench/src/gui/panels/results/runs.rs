@@ -100,7 +100,7 @@ pub(super) fn show(
         });
     panel.sort = sort;
     if let Some((option, encounter)) = wanted {
-        panel.replay(shared, option, encounter);
+        panel.replay(shared, shown, (option, encounter));
     }
 }
 

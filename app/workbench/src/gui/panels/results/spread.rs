@@ -71,7 +71,7 @@ pub(super) fn show(
         nearest.outcome.replace('_', " ")
     );
     if response.response.clicked() {
-        panel.replay(shared, nearest.option, nearest.encounter);
+        panel.replay(shared, shown, (nearest.option, nearest.encounter));
     }
     response.response.on_hover_text_at_pointer(text);
 }
