@@ -69,7 +69,7 @@ impl Route {
     }
 
     /// The route at the end of a run.
-    pub(super) fn of(run: &RunRow) -> Self {
+    pub(in crate::study) fn of(run: &RunRow) -> Self {
         let turned = |is_it: fn(BodyPart) -> bool| {
             let parts = BodyPart::ALL.into_iter().filter(|part| is_it(*part));
             let turns = parts.filter_map(|part| run.parts.get(part as usize)?.wraps);

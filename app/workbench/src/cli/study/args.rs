@@ -61,9 +61,9 @@ pub(in crate::cli) struct PlanArgs {
     pub(super) at: StudyArgs,
     /// Run the first N encounters, and forecast time and precision from them; they are kept as the study's own.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub(super) pilot: Option<u32>,
-    /// Number of threads of the pilot [default: one for each core].
-    #[arg(long, value_name = "N", requires = "pilot", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) first: Option<u32>,
+    /// Number of threads for them [default: one for each core].
+    #[arg(long, value_name = "N", requires = "first", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Print the result as one JSON object.
     #[arg(long)]

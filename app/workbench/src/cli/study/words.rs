@@ -61,7 +61,7 @@ pub(super) fn forecast(
     threads: usize,
 ) -> String {
     let Some(forecast) = forecast.filter(|forecast| forecast.done > 0) else {
-        return "no encounter has been run; --pilot 12 runs the first twelve and forecasts time and precision from them\n".into();
+        return "no encounter has been run; --first 12 runs the first twelve and forecasts time and precision from them\n".into();
     };
     let Forecast { encounters, done, cost, rate, needed_to_tell, needed_for_band, .. } = forecast;
     let baseline = &opened.options[opened.baseline].name;
@@ -103,7 +103,7 @@ pub(super) fn forecast(
 /// Time of the encounters that are left, with its range.
 fn time(cost: Option<&Cost>, threads: usize) -> String {
     let Some(cost) = cost else {
-        return "not known: no encounter was timed; --pilot with a greater number times some"
+        return "not known: no encounter was timed; --first with a greater number times some"
             .into();
     };
     if cost.left == 0 {
