@@ -1,4 +1,4 @@
-//! What a study will cost and what it can tell, from its first encounters, timed.
+//! Cost and precision of a study, from its first encounters, timed.
 //!
 //! | figure | from |
 //! |---|---|
@@ -45,7 +45,7 @@ pub struct Forecast {
     pub rate: Rate,
     /// Share of the event that an option must prevent to be found.
     pub prevented: f64,
-    /// Encounters in all with which such an option is told from the baseline with a probability of 80 %.
+    /// Encounters in all with which such an option is distinguished from the baseline with a probability of 80 %.
     pub needed_to_tell: Option<f64>,
     /// Whether the study has as many.
     pub tells: Option<bool>,
