@@ -31,6 +31,7 @@ pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
 pub use indicators::{EventIndicator, EventIndicators};
+pub(super) use interval::z95;
 pub use interval::{Interval, Rate};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
