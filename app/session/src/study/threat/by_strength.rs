@@ -7,7 +7,7 @@
 //!
 //! NOAA's threat is a relative selectivity: the tool compares sums of threats, so that a common factor has no effect. Two comparisons are
 //! made. The first is of the values as they are. The second is of their shapes: each relative to its own value at the greatest simulated
-//! strength that NOAA's table has too.
+//! strength that lies in NOAA's table.
 
 use endline_gear::{Setting, Study, StudyEvent, StudyOption};
 use schemars::JsonSchema;
@@ -64,7 +64,7 @@ pub struct StrengthThreat {
     pub noaa: ThreatRange,
     /// Whether the simulated interval and NOAA's bounds have a value in common.
     pub overlaps: bool,
-    /// Both relative to their values at the reference strength; none where the simulated threat is 0 there.
+    /// Both relative to their values at the reference strength; none where the simulated threat or NOAA's is 0 there.
     pub relative: Option<RelativeThreat>,
 }
 
@@ -116,8 +116,8 @@ pub struct NoaaModel<'a> {
     pub threats: &'a StrengthThreatTable,
     /// Breaking strengths of lines by traps.
     pub lines: &'a LineStrengthTable,
-    /// Greatest strength of a line [lbf]; none without a cap.
-    pub cap_lbf: Option<f64>,
+    /// Greatest strength of a line [N]; none without a cap.
+    pub cap_n: Option<f64>,
 }
 
 /// The options of a curve with what happened in each encounter.
@@ -160,7 +160,7 @@ impl StrengthThreats {
             let indicators = EventIndicators::of(runs, &option.id.value, event);
             let threat = OptionThreat {
                 option: option.id.value.clone(),
-                strength_lbf: option.strength_n? / N_PER_LBF,
+                strength_lbf: lbf_of(option.strength_n?),
                 rate: Rate::of(&indicators),
                 priors: AssumedBand::of_study(opened, runs, &indicators),
             };
@@ -169,7 +169,8 @@ impl StrengthThreats {
         let in_study = |message: String| format!("{}: {message}", opened.study.id);
         let simulated = SimulatedCurve::of(options.collect()).map_err(in_study)?;
         let (reference_lbf, strengths) = simulated.beside(noaa.threats).map_err(in_study)?;
-        if let Some(cap_lbf) = noaa.cap_lbf.filter(|cap| !simulated.strengths.contains(*cap)) {
+        let cap_lbf = noaa.cap_n.map(lbf_of);
+        if let Some(cap_lbf) = cap_lbf.filter(|cap| !simulated.strengths.contains(*cap)) {
             let (least, greatest) = (simulated.strengths.least(), simulated.strengths.greatest());
             return Err(in_study(format!(
                 "a cap of {cap_lbf:.0} lbf is outside the simulated strengths; choose one from {least:.0} to {greatest:.0} lbf"
@@ -187,11 +188,16 @@ impl StrengthThreats {
             reference_lbf,
             strengths,
             omitted_lbf: omitted.filter(|lbf| !simulated.strengths.contains(*lbf)).collect(),
-            cap_lbf: noaa.cap_lbf,
-            trawls: of_trawls(&simulated, noaa.threats, noaa.lines, noaa.cap_lbf),
+            cap_lbf,
+            trawls: of_trawls(&simulated, noaa.threats, noaa.lines, cap_lbf),
             options: simulated.options,
         })
     }
+}
+
+/// A strength [N] in pounds-force, to a millionth: files state strengths in lbf, which SI units do not give back exactly.
+fn lbf_of(strength_n: f64) -> f64 {
+    (1e6 * strength_n / N_PER_LBF).round() / 1e6
 }
 
 /// The option without a strength in which nothing can part.
@@ -271,11 +277,24 @@ impl SimulatedCurve {
         };
         let at_reference = self.strengths.coefficients(reference_lbf);
         let noaa_reference = noaa.at(reference_lbf);
+        let has_reference = noaa_reference.iter().all(|value| *value > 0.0);
+        let ratio = |strength_lbf: &f64| {
+            self.ratio(&self.strengths.coefficients(*strength_lbf), &at_reference)
+        };
+        let ratios: Option<Vec<ThreatRange>> =
+            self.strengths.all().iter().map(ratio).collect::<Option<_>>().filter(|_| has_reference);
         let beside = |strength_lbf: f64| {
             let coefficients = self.strengths.coefficients(strength_lbf);
             let (simulated, values) = (self.range(&coefficients), noaa.at(strength_lbf));
             let noaa = ThreatRange::of_curves(values);
-            let relative = self.ratio(&coefficients, &at_reference).map(|simulated| {
+            let relative = ratios.as_ref().map(|ratios| {
+                let mean =
+                    |of: fn(&ThreatRange) -> f64| combined(&coefficients, ratios.iter().map(of));
+                let simulated = ThreatRange {
+                    threat: mean(|ratio| ratio.threat),
+                    lower: mean(|ratio| ratio.lower),
+                    upper: mean(|ratio| ratio.upper),
+                };
                 let share = |curve: usize| values[curve] / noaa_reference[curve];
                 let noaa = ThreatRange::of_curves([0, 1, 2].map(share));
                 RelativeThreat { simulated, noaa, overlaps: simulated.overlaps(&noaa) }
@@ -375,6 +394,20 @@ pub(super) mod tests {
         assert!(
             relative.simulated.lower > 0.1 && relative.simulated.upper < 0.5 && relative.overlaps
         );
+    }
+
+    /// Between a strength without the event, whose ratio is 0 to some upper end, and the reference, both ends of the ratio are linear.
+    #[test]
+    fn relative_threats_between_simulated_strengths_are_linear_with_their_intervals() {
+        let simulated = curve(&[(1000.0, 0), (2000.0, 20)], 100);
+        let (_, rows) = simulated.beside(&threats()).unwrap();
+        let first = rows[0].relative.clone().unwrap().simulated;
+        assert!(first.threat == 0.0 && first.lower == 0.0 && first.upper > 0.1, "{first:?}");
+        let middle = rows.iter().find(|row| row.strength_lbf == 1500.0).unwrap();
+        let middle = middle.relative.clone().unwrap().simulated;
+        assert!((middle.threat - 0.5).abs() < 1e-12 && (middle.lower - 0.5).abs() < 1e-12);
+        assert!((middle.upper - 0.5 * (first.upper + 1.0)).abs() < 1e-12, "{middle:?}");
+        assert_eq!([1132.0, 5200.0].map(|lbf| lbf_of(lbf * N_PER_LBF)), [1132.0, 5200.0]);
     }
 
     #[test]

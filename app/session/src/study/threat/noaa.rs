@@ -225,7 +225,8 @@ impl TrawlLines {
     pub fn share_of(&self, meets: impl Fn(f64) -> bool) -> f64 {
         let all: f64 = self.lines.iter().map(|line| line.share).sum();
         let found = self.lines.iter().filter(|line| meets(line.strength_lbf));
-        found.map(|line| line.share / all).sum()
+        // The sum of an empty list of floats is -0.
+        found.fold(0.0, |sum, line| sum + line.share / all)
     }
 }
 
