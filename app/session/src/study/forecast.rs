@@ -22,15 +22,12 @@ use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::stats::{
     EventIndicators, Rate, WORTH_FINDING, effective_with, encounters_missing, encounters_to_tell,
-    expected_newly,
+    expected_newly, z95,
 };
 use super::{batch, results};
 
 /// Half-width of the band about a share of held whales.
 const BAND: f64 = 0.05;
-
-/// Standard normal quantile of an interval of 95 %.
-const Z95: f64 = 1.959_964;
 
 /// The forecast of a study.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -121,7 +118,7 @@ fn of_event(encounters: u64, done: u64, indicators: &EventIndicators, newly: &[u
     let needed_to_tell = encounters_missing(&rate, newly).map(|_| {
         encounters_to_tell(rate.rate, WORTH_FINDING, newly) * rate.runs as f64 / rate.effective
     });
-    let whales = WORTH_FINDING * (1.0 - WORTH_FINDING) * (Z95 / BAND).powi(2);
+    let whales = WORTH_FINDING * (1.0 - WORTH_FINDING) * (z95() / BAND).powi(2);
     let with_event = effective_with(indicators);
     Forecast {
         encounters,

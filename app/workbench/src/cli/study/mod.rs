@@ -5,6 +5,7 @@ mod hindcast;
 pub(super) mod status;
 mod submit;
 mod threat;
+mod threat_strength;
 mod words;
 
 use std::path::{Path, PathBuf};
