@@ -19,8 +19,7 @@ mod export;
 mod model;
 mod notice;
 pub mod plugins;
-pub mod preferences;
-mod program;
+pub mod program;
 pub mod project;
 mod recordings;
 mod replay;
@@ -34,6 +33,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_sdk::{Act, GearType};
+use serde::{Deserialize, Serialize};
 
 use crate::edit::Documents;
 use crate::edit::recovery::{Autosave, UnsavedEdits};
@@ -44,7 +44,6 @@ use crate::units::Units;
 pub use comparison::Comparison;
 pub use notice::{Event, Notice, NoticeKind};
 pub use plugins::{Load, Plugins};
-pub use preferences::Preferences;
 pub use project::Project;
 pub use rules::{RuleAnswer, RuleChecks, RuleQuestion};
 pub use run::{CurrentRun, Direction, SPEEDS, Speed};
@@ -290,5 +289,27 @@ impl Workbench {
     /// The scenario's name without folder and extension.
     pub fn scenario_stem(&self) -> String {
         self.project.scenario_stem()
+    }
+}
+
+/// Scenarios kept as opened last.
+const RECENT: usize = 8;
+
+/// What a user prefers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// Units that values are shown in.
+    pub units: Units,
+    /// Scenarios opened last, the newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Preferences {
+    /// Puts a scenario first among those opened last.
+    fn remember(&mut self, path: &Path) {
+        self.recent.retain(|known| known != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(RECENT);
     }
 }

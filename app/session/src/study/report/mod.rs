@@ -4,7 +4,6 @@ mod bundle;
 mod figures;
 pub mod hauled;
 mod held;
-mod held_whales;
 pub mod hindcast;
 mod inputs;
 mod page;

@@ -7,7 +7,7 @@ use crate::study::stats::{Findings, OptionFinding, answer};
 
 use super::hauled::HauledLoad;
 use super::words::event_words;
-use super::{bundle, figures, held, held_whales, inputs, results};
+use super::{bundle, figures, held, inputs, results};
 use crate::page::{Line, STYLE};
 
 /// All that the page shows: the template takes tables, figures and names from these. It escapes texts; figures are markup.

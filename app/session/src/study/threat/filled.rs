@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::experts::{COLUMNS, ExpertRow, ExpertTable};
+use super::reading::{COLUMNS, ExpertRow, ExpertTable};
 use super::{Threat, Threats};
 
 /// Columns of the table with bands.

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::study::stats::{EventIndicator, EventIndicators, Interval, bootstrap};
 
 use super::Threat;
-use super::experts::ExpertTable;
+use super::reading::ExpertTable;
 
 /// Agreement in order.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 //!
 //! | form | columns | from options with | source |
 //! |---|---|---|---|
-//! | of 2019, by rope, length of trawl and device | `Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk` | `threat = { ... }` | a poll of experts (`experts.rs`) |
+//! | of 2019, by rope, length of trawl and device | `Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk` | `threat = { ... }` | a poll of experts (`reading.rs`) |
 //! | since V2.1, by breaking strength | `RopeStrength, Threat, Threat_Lower, Threat_Upper` | `strength` on a `curve` | a logistic curve fitted to ropes taken off right whales (`noaa.rs`) |
 //!
 //! A risk or threat is the rate of the event given an encounter. The tool multiplies endlines by risks and compares sums, so that a
@@ -12,14 +12,12 @@
 //! averages both over the lines of trawls.
 
 mod by_strength;
-mod experts;
 mod filled;
 mod interpolation;
 mod kendall;
 mod noaa;
 mod reading;
 mod trawls;
-mod written;
 
 use endline_gear::{StudyEvent, ThreatRow};
 use schemars::JsonSchema;
@@ -34,11 +32,11 @@ pub use by_strength::{
     NoaaModel, OptionThreat, Origin, RelativeThreat, STRENGTH_SCHEMA, StrengthThreat,
     StrengthThreats, curves,
 };
-pub use experts::{ExpertRow, ExpertTable};
 pub use filled::{Filled, How, as_own, with_bands};
 pub use kendall::Tau;
 pub use noaa::{LineShare, LineStrengthTable, StrengthThreatTable, ThreatRange, TrawlLines};
 pub(crate) use reading::at_line;
+pub use reading::{ExpertRow, ExpertTable};
 pub use trawls::{CappedTrawl, TrawlThreat};
 
 /// Name and version of the JSON form.

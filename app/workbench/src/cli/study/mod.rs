@@ -5,7 +5,6 @@ mod hindcast;
 pub(super) mod status;
 mod submit;
 mod threat;
-mod threat_strength;
 mod words;
 
 use std::path::{Path, PathBuf};

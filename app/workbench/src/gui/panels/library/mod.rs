@@ -6,7 +6,6 @@ mod paste;
 mod picture;
 mod rows;
 mod table;
-mod walk;
 
 use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command;

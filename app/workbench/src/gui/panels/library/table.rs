@@ -7,7 +7,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::library_table;
 
 use super::rows::Row;
-use super::{LibraryPanel, walk};
+use super::{LibraryPanel, rows};
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
     let kind = panel.kind;
     let (words, figures) = (kind.words(), kind.fields());
     let shown = panel.shown_rows(shared);
-    let went = walk::asked(ui, kind, &shown);
+    let went = rows::asked(ui, kind, &shown);
     let mut builder = TableBuilder::new(ui)
         .id_salt(kind.folder())
         .striped(true)
