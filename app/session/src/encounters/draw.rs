@@ -155,7 +155,7 @@ pub fn number(name: String, value: f64, quantity: units::Quantity) -> Drawn {
 }
 
 /// The value below which a share lies, where each range between two edges has a share of its own.
-fn binned(edges: &[f64], shares: &[f64], share: f64) -> f64 {
+pub(super) fn binned(edges: &[f64], shares: &[f64], share: f64) -> f64 {
     let mut below = 0.0;
     for (ends, own) in edges.windows(2).zip(shares) {
         if share < below + own {

@@ -89,7 +89,9 @@ impl Fitted {
     pub fn draw(&self, study: &Study, component: usize, shares: &[f64]) -> Vec<Drawn> {
         let Component { steps } = &self.components[component];
         let value = |((prior, steps), share): ((&Prior, &Option<Steps>), &f64)| {
-            let share = steps.as_ref().map_or(*share, |steps| steps.inverse(*share));
+            let share = steps
+                .as_ref()
+                .map_or(*share, |steps| draw::binned(&steps.edges, &steps.shares, *share));
             draw::at_share(prior, share)
         };
         study.priors.iter().zip(steps).zip(shares).map(value).collect()
@@ -137,22 +139,6 @@ impl Component {
             Some(steps.shares[step] / (steps.edges[step + 1] - steps.edges[step]))
         };
         priors.iter().zip(&self.steps).zip(drawn).filter_map(of).product()
-    }
-}
-
-impl Steps {
-    /// The share of the prior below which a share of this density lies.
-    fn inverse(&self, share: f64) -> f64 {
-        let mut below = 0.0;
-        for (ends, own) in self.edges.windows(2).zip(&self.shares) {
-            if share < below + own {
-                return ends[0] + (ends[1] - ends[0]) * (share - below) / own;
-            }
-            below += own;
-        }
-        // The shares add up to 1 but for rounding.
-        let last = self.edges.len() - 1;
-        0.5 * (self.edges[last - 1] + self.edges[last])
     }
 }
 

@@ -5,7 +5,7 @@
 //! (`encounters/fitted.rs`). The numbers are part of the study's hash and the fit depends on rows alone, so that any number of
 //! machines draws the same encounters, and an interrupted study continues. A stage begins once all blocks of the earlier ones are stored.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 
 use endline_gear::{Adapt, Study, StudyEvent};
 
@@ -13,6 +13,7 @@ use crate::encounters::Encounter;
 use crate::encounters::fitted::{Fitted, Held};
 use crate::error::Error;
 use crate::table::Table;
+use crate::task::lock;
 
 use super::folder::Folder;
 use super::prepared::PreparedStudy;
@@ -43,14 +44,13 @@ impl PreparedStudy {
     /// Errors: blocks of earlier stages that are missing or damaged.
     pub fn encounter(&self, folder: &Folder, index: u32) -> Result<Encounter, Error> {
         let stage = stage_of(&self.study, index);
-        while self.fitted.read().unwrap_or_else(PoisonError::into_inner).len() < stage {
+        while lock(&self.fitted).len() < stage {
             self.fit_next(folder, index)?;
         }
         Ok(match stage.checked_sub(1) {
             None => Encounter::of(&self.study, index),
             Some(place) => {
-                let fitted =
-                    Arc::clone(&self.fitted.read().unwrap_or_else(PoisonError::into_inner)[place]);
+                let fitted = Arc::clone(&lock(&self.fitted)[place]);
                 Encounter::with(&self.study, index, &fitted)
             }
         })
@@ -70,7 +70,7 @@ impl PreparedStudy {
 
     /// Fits the proposals of the next stage, unless another thread does.
     fn fit_next(&self, folder: &Folder, index: u32) -> Result<(), Error> {
-        let known = self.fitted.read().unwrap_or_else(PoisonError::into_inner).clone();
+        let known = lock(&self.fitted).clone();
         let own = before(&self.study, known.len() + 1);
         let mut table = Table::default();
         for block in 0..folder.blocks_of(own) {
@@ -85,7 +85,7 @@ impl PreparedStudy {
         }
         let runs = Runs::read(table).map_err(|wrong| Error::at(&folder.path, wrong.to_string()))?;
         let held = self.held(&runs, own, &known);
-        let mut fitted = self.fitted.write().unwrap_or_else(PoisonError::into_inner);
+        let mut fitted = lock(&self.fitted);
         if fitted.len() == known.len() {
             fitted.push(Arc::new(Fitted::to(&self.study, &held)));
         }

@@ -1,7 +1,7 @@
 //! A prepared study: its file, the baseline scenario and library, and the plan of each option; what it will run, as JSON.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, Mutex};
 
 use endline_gear::{Library, Sources, Study, hint};
 use schemars::JsonSchema;
@@ -40,7 +40,7 @@ pub struct PreparedStudy {
     /// By option: the first option that it differs from in strengths alone, itself if there is none.
     pub(super) families: Vec<usize>,
     /// Proposals of the stages after the first, as far as they were fitted.
-    pub(super) fitted: RwLock<Vec<Arc<Fitted>>>,
+    pub(super) fitted: Mutex<Vec<Arc<Fitted>>>,
 }
 
 /// Files that a study is read with.
@@ -119,7 +119,7 @@ impl PreparedStudy {
             sources,
             equilibria: Equilibria::default(),
             families,
-            fitted: RwLock::default(),
+            fitted: Mutex::default(),
             study,
         })
     }

@@ -12,22 +12,21 @@
 //! encounters of equal weight. Reference: Connor 1987 (Biometrics 43:207). For `r = 0` and `f = 0.3` this gives 2,620, 650 and 260
 //! encounters at `p` of 1, 4 and 10 %; the exact McNemar test needs 2,650, 660 and 264.
 
+use statrs::distribution::{ContinuousCDF, Normal};
+
 use super::answer::{Asked, holm_words};
 use super::held_whales::{HeldWhales, OptionOnHeld};
-use super::{Findings, Interval, Paired, Rate};
+use super::{Findings, Interval, Paired, Rate, z95};
 
 /// Share of held whales that an option must free to be worth finding.
 pub const WORTH_FINDING: f64 = 0.3;
-
-/// Standard normal quantiles for a two-sided test at 5 % and a power of 80 %.
-const Z_TEST: f64 = 1.959_964;
-const Z_POWER: f64 = 0.841_621;
 
 /// Encounters of equal weight in which an option that frees a share `freed` of the held whales, and newly holds a share `newly`, is distinguished
 /// from the baseline with a probability of 80 %; `held` is the rate of holding.
 pub fn encounters_to_tell(held: f64, freed: f64, newly: f64) -> f64 {
     let (difference, apart) = (freed * held, (freed + 2.0 * newly) * held);
-    let reach = Z_TEST * apart.sqrt() + Z_POWER * (apart - difference * difference).max(0.0).sqrt();
+    let power = Normal::standard().inverse_cdf(0.8);
+    let reach = z95() * apart.sqrt() + power * (apart - difference * difference).max(0.0).sqrt();
     (reach / difference).powi(2)
 }
 
