@@ -96,19 +96,14 @@ pub fn of_stored(opened: &PreparedStudy, folder: &Folder, pace: &Pace) -> Result
         |option: usize| EventIndicators::of(&runs, &opened.options[option].id, &opened.study.event);
     let own = indicators(opened.baseline);
     let others = (0..opened.options.len()).filter(|option| *option != opened.baseline);
-    let newly: Vec<u64> = others.map(|option| newly_with(&indicators(option), &own)).collect();
+    let newly: Vec<u64> =
+        others.map(|option| Rate::of(&indicators(option).absent_in(&own)).hits).collect();
     let done = runs.encounters() as u64;
     let left = opened.study.encounters.saturating_sub(done);
     Ok(Forecast {
         cost: Cost::of(pace, left),
         ..of_event(opened.study.encounters, done, &own, &newly)
     })
-}
-
-/// Encounters with the event with an option and not with the baseline.
-fn newly_with(option: &EventIndicators, baseline: &EventIndicators) -> u64 {
-    let both = option.occurred().into_iter().zip(baseline.occurred());
-    both.filter(|(option, baseline)| *option && !baseline).count() as u64
 }
 
 /// What encounters with an event can tell, with the counts of newly held whales by option.

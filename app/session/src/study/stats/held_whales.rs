@@ -166,13 +166,20 @@ impl HeldWhales {
         let routes = runs.by_encounter(id, |run| Some(Route::of(run)));
         let others = options.iter().enumerate().filter(|(place, _)| *place != baseline);
         let shares = observed.map(observed_shares);
+        let on_route = |route: Route| {
+            let held = own.0.iter().zip(&routes).map(|(indicator, known)| {
+                let held = indicator.filter(|indicator| indicator.occurred)?;
+                Some(EventIndicator { occurred: *known == Some(route), weight: held.weight })
+            });
+            Rate::of(&EventIndicators(held.collect()))
+        };
         Some(Self {
             event: event.name(),
             rate: Rate::of(&own),
             routes: Route::ALL
                 .map(|route| RouteFinding {
                     route,
-                    share: Rate::of(&among(&own, &own, |place| routes[place] == Some(route), true)),
+                    share: on_route(route),
                     observed: shares.map(|shares| shares[route as usize]),
                 })
                 .into(),
@@ -186,22 +193,6 @@ impl HeldWhales {
     }
 }
 
-/// By encounter of `selected` with the event: whether `is_it`, with the weight there.
-fn among(
-    selected: &EventIndicators,
-    compared: &EventIndicators,
-    is_it: impl Fn(usize) -> bool,
-    occurred: bool,
-) -> EventIndicators {
-    let indicator =
-        |(place, (own, other)): (usize, (&Option<EventIndicator>, &Option<EventIndicator>))| {
-            let (own, other) = ((*own)?, (*other)?);
-            let occurred = other.occurred == occurred && is_it(place);
-            own.occurred.then_some(EventIndicator { occurred, weight: own.weight })
-        };
-    EventIndicators(selected.0.iter().zip(&compared.0).enumerate().map(indicator).collect())
-}
-
 fn option_on_held(
     id: &str,
     name: &str,
@@ -209,14 +200,12 @@ fn option_on_held(
     routes: &[Option<Route>],
     observed: Option<[f64; 5]>,
 ) -> OptionOnHeld {
-    let freed = among(baseline, this, |_| true, false);
-    let newly = among(this, baseline, |_| true, false);
+    let (freed, newly) = (baseline.absent_in(this), this.absent_in(baseline));
     let weight_of = |indicators: &EventIndicators| {
         let values = indicators.values();
         values.iter().map(|(occurred, weight)| occurred * weight).sum::<f64>()
     };
     let held: f64 = freed.values().iter().map(|(_, weight)| weight).sum();
-    let newly_held = newly.occurred().iter().filter(|occurred| **occurred).count() as u64;
     let on = |route: Route| {
         let keep: Vec<bool> = routes.iter().map(|known| *known == Some(route)).collect();
         Rate::of(&freed.within(&keep))
@@ -226,7 +215,7 @@ fn option_on_held(
         id: id.to_owned(),
         name: name.to_owned(),
         freed: Rate::of(&freed),
-        newly_held,
+        newly_held: Rate::of(&newly).hits,
         newly_held_share: if held > 0.0 { weight_of(&newly) / held } else { 0.0 },
         weighted: observed.and_then(|shares| Weighted::of(&freed_by_route, &shares)),
         freed_by_route,

@@ -52,6 +52,17 @@ impl EventIndicators {
         lists.into_iter().map(|list| list.0.len()).max().unwrap_or_default()
     }
 
+    /// By encounter with the event here: whether it does not occur in `other`. Other encounters are left out.
+    pub fn absent_in(&self, other: &Self) -> Self {
+        let both = self.0.iter().zip(&other.0);
+        let absent = both.map(|(own, other)| {
+            let (own, other) = ((*own)?, (*other)?);
+            let absent = EventIndicator { occurred: !other.occurred, weight: own.weight };
+            own.occurred.then_some(absent)
+        });
+        Self(absent.collect())
+    }
+
     /// Only the indicators of some encounters.
     pub fn within(&self, keep: &[bool]) -> Self {
         let kept = self.0.iter().zip(keep);
