@@ -222,13 +222,15 @@ fn edits_become_an_option_results_are_summarised_in_words_and_the_bundle_is_save
     let shown = Arc::clone(harness.workbench().studies().results.shown().unwrap());
     assert_eq!(shown.findings.options.len(), 3);
     let sentences = answer(&shown.findings, &shown.findings.event);
-    assert!(sentences[0].contains("held no whale in 6 valid encounters"), "{sentences:?}");
+    assert!(sentences[0].contains("no whale was held in 6 valid encounters"), "{sentences:?}");
     for sentence in &sentences {
         harness.get_by_label(sentence);
     }
     let report = harness.workbench().report_shown().expect("a report");
     assert!(
-        std::fs::read_to_string(report).unwrap().contains("held no whale in 6 valid encounters")
+        std::fs::read_to_string(report)
+            .unwrap()
+            .contains("no whale was held in 6 valid encounters")
     );
     let out = folder.0.join("out");
     give(&mut harness, StudyAction::SaveBundle(out.clone()));

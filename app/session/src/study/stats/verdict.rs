@@ -84,13 +84,12 @@ fn holds(rate: &Rate, asked: &Asked<'_>) -> String {
     let range = of_hundred(rate.interval);
     match rate.hits {
         0 => format!(
-            "{baseline} held no whale in {encounters}; it may hold up to {:.1} of 100.",
+            "With {baseline}, no whale was held in {encounters}; up to {:.1} of 100 may be.",
             100.0 * rate.interval.high
         ),
         hits => format!(
-            "{baseline} holds {:.1} of 100 whales {range}; {hits} {} held in {encounters}.",
-            100.0 * rate.rate,
-            if hits == 1 { "was" } else { "were" }
+            "With {baseline}, {:.1} of 100 whales are held {range}: {hits} in {encounters}.",
+            100.0 * rate.rate
         ),
     }
 }
@@ -125,6 +124,7 @@ fn undecided(rate: &Rate, asked: &Asked<'_>, open: &[Judged<'_>], all: bool) -> 
     let Asked { baseline, .. } = asked;
     let options = match open {
         [one] => one.on_held.name.clone(),
+        [_, _] if all => "either of the 2 options".to_owned(),
         several if all => format!("any of the {} options", several.len()),
         several => format!("the other {} options", several.len()),
     };
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(
             said,
             [
-                "Rope 2,600 lbf holds 5.0 of 100 whales [3.8, 6.5]; 50 were held in 1,000 valid encounters.",
+                "With Rope 2,600 lbf, 5.0 of 100 whales are held [3.8, 6.5]: 50 in 1,000 valid encounters.",
                 "Of 100 whales held with Rope 2,600 lbf, rope 1,700 lbf frees 34 [22, 48].",
             ]
         );
@@ -237,7 +237,7 @@ mod tests {
         let said = verdict_of(100, 4, 0);
         assert_eq!(
             said[0],
-            "Rope 2,600 lbf holds 4.0 of 100 whales [1.6, 9.8]; 4 were held in 100 valid encounters."
+            "With Rope 2,600 lbf, 4.0 of 100 whales are held [1.6, 9.8]: 4 in 100 valid encounters."
         );
         assert_eq!(
             said[1],
@@ -246,7 +246,7 @@ mod tests {
         );
         let none = verdict_of(30, 0, 0);
         assert!(
-            none[0].starts_with("Rope 2,600 lbf held no whale in 30 valid encounters"),
+            none[0].starts_with("With Rope 2,600 lbf, no whale was held in 30 valid encounters"),
             "{none:?}"
         );
         assert!(none[1].contains("no whale was held. At least "), "{none:?}");
