@@ -41,14 +41,20 @@ choice = ["0 m/s", "0.1 m/s"]
 source = "assumed"
 "#;
 
-#[test]
-fn a_study_becomes_a_table_that_the_tool_reads() {
-    let place = Place::new("threat");
-    let study = place.write("threat.toml", STUDY).display().to_string();
+/// A study in a place of its own, run and merged, with its file and its folder of results.
+fn merged(name: &str, text: &str) -> (Place, String, String) {
+    let place = Place::new(name);
+    let study = place.write("study.toml", text).display().to_string();
     let out = place.path("out").display().to_string();
     for what in ["run", "merge"] {
         place.endline(&["study", what, &study, "--out", &out]).done();
     }
+    (place, study, out)
+}
+
+#[test]
+fn a_study_becomes_a_table_that_the_tool_reads() {
+    let (place, study, out) = merged("threat", STUDY);
     let to = place.path("risk.csv").display().to_string();
     let called = place.endline(&["study", "threat", &study, "--out", &out, "--to", &to]).done();
     assert!(called.stdout.contains("table of 2019 share no rows in an order"), "{}", called.stdout);
@@ -115,12 +121,7 @@ source = "assumed"
 
 #[test]
 fn a_study_of_strengths_becomes_the_threat_by_strength_that_the_present_tool_reads() {
-    let place = Place::new("threat-strength");
-    let study = place.write("strengths.toml", STRENGTHS).display().to_string();
-    let out = place.path("out").display().to_string();
-    for what in ["run", "merge"] {
-        place.endline(&["study", what, &study, "--out", &out]).done();
-    }
+    let (place, study, out) = merged("threat-strength", STRENGTHS);
     let to = place.path("threat.csv").display().to_string();
     let base = ["study", "threat", &study, "--out", &out];
     let called = place.endline(&[&base[..], &["--to", &to]].concat()).done();

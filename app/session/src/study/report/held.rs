@@ -199,9 +199,9 @@ pub(super) fn covered(held: &HeldWhales) -> Option<String> {
 }
 
 /// Share of the held whales whose rope or link parts, against its strength, with the band, and the share that stays held.
-pub(super) fn curves(findings: &Findings) -> Option<String> {
+pub(super) fn curves(all: &[StrengthCurve]) -> Option<String> {
     let drawn = |curve: &&StrengthCurve| curve.parts_given_held.encounters >= LEAST_WHALES;
-    let curves: Vec<&StrengthCurve> = findings.strength_curves.iter().filter(drawn).collect();
+    let curves: Vec<&StrengthCurve> = all.iter().filter(drawn).collect();
     if curves.is_empty() {
         return None;
     }
@@ -249,12 +249,51 @@ fn greatest_n(curves: &[&StrengthCurve]) -> f64 {
 }
 
 /// Caption of the figure of [`curves`].
-pub(super) fn curves_caption(findings: &Findings) -> String {
-    let whales = findings.strength_curves.iter().map(|curve| curve.parts_given_held.encounters);
+pub(super) fn curves_caption(all: &[StrengthCurve]) -> String {
+    let whales = all.iter().map(|curve| curve.parts_given_held.encounters);
     format!(
         "Of the {} whales that are held if nothing can part: share in which the part parts if it delivers this strength, with a band that \
          contains the whole curve with a probability of 95 %. Every strength is known from the same runs. \"Still held\" is the rate of \
          holding as a share of that of the greatest strength; between the strengths that were simulated it is that of the nearest.",
         whales.max().unwrap_or_default()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A curve of held whales that need from 0 to 4,000 lbf, evenly; rope of half their strength leaves them held.
+    fn curve(part: &str, encounters: u64) -> StrengthCurve {
+        let strengths_n: Vec<f64> =
+            (4..=200).map(|step| f64::from(step) * 50.0 * N_PER_LBF).collect();
+        let shares = || strengths_n.iter().map(|n| (1.0 - n / (4000.0 * N_PER_LBF)).max(0.0));
+        let banded = || Banded {
+            encounters,
+            effective: encounters as f64,
+            half_width: 0.17,
+            shares: shares().collect(),
+        };
+        StrengthCurve {
+            part: part.to_owned(),
+            option: "unbreakable".to_owned(),
+            parts: banded(),
+            parts_given_held: banded(),
+            held: shares().map(|parts| 0.06 * (1.0 - 0.5 * parts)).collect(),
+            strengths_n: strengths_n.clone(),
+        }
+    }
+
+    #[test]
+    fn a_figure_has_a_band_for_each_part_and_none_of_few_whales() {
+        let all =
+            [curve("whole rope", 60), curve("weak link", 60), curve("other", LEAST_WHALES - 1)];
+        let figure = curves(&all).unwrap();
+        assert_eq!(figure.matches("<polygon").count(), 2);
+        for words in ["whole rope parts", "still held, weak link", "100 %", "4000 lbf"] {
+            assert!(figure.contains(words), "{words}");
+        }
+        assert!(!figure.contains("other"));
+        assert_eq!(curves(&all[2..]), None);
+    }
 }
