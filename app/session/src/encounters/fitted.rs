@@ -269,12 +269,14 @@ proposal = { bins = ["2 m", "3 m", "20 m"], weights = [0.5, 0.5] }
 source = "assumed"
 "#;
 
+    /// A drawn number, by name.
+    fn number(drawn: &[Drawn], name: &str) -> f64 {
+        drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number).unwrap()
+    }
+
     fn held(study: &Study) -> Vec<Held> {
         // Two routes: fast whales that skim, and slow ones near the surface.
         let all = (0..2000).map(|index| draw::draw(study, index, &Fitted::default()));
-        let number = |drawn: &[Drawn], name: &str| {
-            drawn.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number).unwrap()
-        };
         all.filter_map(|draw| {
             let skims = draw.values.iter().any(|drawn| drawn.text == "skim-feed");
             let (speed, depth) = (number(&draw.values, "speed"), number(&draw.values, "depth"));
@@ -299,9 +301,6 @@ source = "assumed"
         assert!(draws.iter().all(|draw| draw.weight > 0.0 && draw.weight <= 5.0));
         let mean = |of: &dyn Fn(&[Drawn]) -> f64| {
             draws.iter().map(|draw| draw.weight * of(&draw.values)).sum::<f64>() / 16_384.0
-        };
-        let number = |values: &[Drawn], name: &str| {
-            values.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number).unwrap()
         };
         let skims =
             |values: &[Drawn]| f64::from(values.iter().any(|drawn| drawn.text == "skim-feed"));
