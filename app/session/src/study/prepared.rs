@@ -138,6 +138,11 @@ impl PreparedStudy {
         })
     }
 
+    /// The first option in which nothing can part.
+    pub(super) fn unbreakable(&self) -> Option<&OptionPlan> {
+        self.options.iter().find(|option| option.prepared.model.spec.settings.unbreakable)
+    }
+
     /// The options as a reader expects them: in the order of the file, or by id where axes make them.
     pub(super) fn reading_order(&self) -> Vec<usize> {
         let place = |option: &usize| self.study.options[*option].id.place.span.start;

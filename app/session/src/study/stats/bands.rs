@@ -175,6 +175,11 @@ impl AssumedBand {
         })
     }
 
+    /// The least and greatest rate of a band, or the rate itself where no assumed input varies.
+    pub fn or_rate(band: Option<&Self>, rate: f64) -> Interval {
+        band.map_or(Interval { low: rate, high: rate }, Self::rates)
+    }
+
     /// Least and greatest rate.
     pub fn rates(&self) -> Interval {
         Interval { low: self.least, high: self.greatest }

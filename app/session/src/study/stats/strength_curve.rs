@@ -106,8 +106,7 @@ pub(super) fn of_study(
     runs: &Runs,
     event: &StudyEvent,
 ) -> Vec<StrengthCurve> {
-    let is_unbreakable = |option: &&OptionPlan| option.prepared.model.spec.settings.unbreakable;
-    let Some(option) = opened.options.iter().find(is_unbreakable) else { return Vec::new() };
+    let Some(option) = opened.unbreakable() else { return Vec::new() };
     let may_part =
         |option: &OptionPlan| option.prepared.model.spec.links.iter().any(|link| link.enabled);
     let simulated = |by_link: bool| -> Vec<Simulated> {

@@ -9,7 +9,7 @@
 //! made. The first is of the values as they are. The second is of their shapes: each relative to its own value at the greatest simulated
 //! strength that lies in NOAA's table.
 
-use endline_gear::{Setting, Study, StudyEvent, StudyOption};
+use endline_gear::{Study, StudyEvent, StudyOption};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -184,8 +184,9 @@ impl StrengthThreats {
             hash: opened.hash.clone(),
             event: event.name(),
             curve: curve.map(str::to_owned),
-            unbreakable: unbreakable(&opened.study)
-                .map(|option| Rate::of(&EventIndicators::of(runs, &option.id.value, event))),
+            unbreakable: opened
+                .unbreakable()
+                .map(|option| Rate::of(&EventIndicators::of(runs, &option.id, event))),
             reference_lbf,
             strengths,
             omitted_lbf: omitted.filter(|lbf| !simulated.strengths.contains(*lbf)).collect(),
@@ -199,17 +200,6 @@ impl StrengthThreats {
 /// A strength [N] in pounds-force, to a millionth: files state strengths in lbf, which SI units do not give back exactly.
 fn lbf_of(strength_n: f64) -> f64 {
     (1e6 * strength_n / N_PER_LBF).round() / 1e6
-}
-
-/// The option without a strength in which nothing can part.
-fn unbreakable(study: &Study) -> Option<&StudyOption> {
-    study.options.iter().find(|option| {
-        let mut settings = option.settings.iter();
-        option.strength_n.is_none()
-            && settings.any(|setting| {
-                setting.field.value == "unbreakable" && setting.value == Setting::plain("true")
-            })
-    })
 }
 
 impl SimulatedCurve {
@@ -318,13 +308,8 @@ impl SimulatedCurve {
     /// Least and greatest threat at the levels of the assumed inputs.
     fn priors(&self, coefficients: &[f64]) -> Interval {
         let rates = || {
-            self.options.iter().map(|option| {
-                let Rate { rate, .. } = option.rate;
-                option
-                    .priors
-                    .as_ref()
-                    .map_or(Interval { low: rate, high: rate }, AssumedBand::rates)
-            })
+            let options = self.options.iter();
+            options.map(|option| AssumedBand::or_rate(option.priors.as_ref(), option.rate.rate))
         };
         Interval {
             low: combined(coefficients, rates().map(|rates| rates.low)),

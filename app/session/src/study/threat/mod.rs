@@ -153,8 +153,7 @@ impl Threat {
 
     /// Least and greatest rate at the levels of the assumed inputs; the rate itself where none varies.
     pub fn by_priors(&self) -> Interval {
-        let rate = self.rate.rate;
-        self.priors.as_ref().map_or(Interval { low: rate, high: rate }, AssumedBand::rates)
+        AssumedBand::or_rate(self.priors.as_ref(), self.rate.rate)
     }
 }
 
