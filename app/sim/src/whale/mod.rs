@@ -6,6 +6,7 @@ pub mod axes;
 pub mod drive;
 pub mod hitch;
 pub mod jaws;
+mod kept_candidates;
 pub mod kinetic;
 pub mod pilot;
 pub mod pose;

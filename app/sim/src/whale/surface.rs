@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
+use super::kept_candidates::{KeptCandidates, SLACK_M};
 use super::pose::skin_vertex;
 use super::tree::{Bounds, SkinTree};
 use crate::bucket_sort::BucketSort;
@@ -21,7 +22,7 @@ pub struct Candidate {
     pub triangle: u32,
 }
 
-/// The moving surface of a whale, with its buffers; no state is transferred from step to step.
+/// The moving surface of a whale, with its buffers; no result depends on the steps before.
 #[derive(Clone, Debug)]
 pub struct Surface {
     tree: Arc<SkinTree>,
@@ -34,15 +35,16 @@ pub struct Surface {
     /// Triangles near a group of segments.
     close: Vec<(u32, Bounds)>,
     sort: BucketSort<Candidate>,
+    pub(super) kept: KeptCandidates,
 }
 
 /// Values of the current step; an entry is valid if its stamp is the step's number.
 #[derive(Clone, Debug, Default)]
-struct Step {
-    number: u64,
-    starts: Vec<DAffine3>,
-    ends: Vec<DAffine3>,
-    nodes: Vec<(u64, Bounds)>,
+pub(super) struct Step {
+    pub number: u64,
+    pub starts: Vec<DAffine3>,
+    pub ends: Vec<DAffine3>,
+    pub nodes: Vec<(u64, Bounds)>,
     clusters: Vec<u64>,
     triangles: Vec<Bounds>,
     vertices: Vec<(u64, [DVec3; 2])>,
@@ -66,13 +68,28 @@ struct Pair {
 }
 
 /// Neighbouring segments with their boxes and their common box.
-struct Group<'a> {
+pub(super) struct Group<'a> {
     whole: Bounds,
-    first: usize,
-    boxes: &'a [Bounds],
+    pub first: usize,
+    pub boxes: &'a [Bounds],
 }
 
 impl Group<'_> {
+    /// Its place among all groups.
+    pub fn index(&self) -> usize {
+        Group::of(self.first)
+    }
+
+    /// The place of the group of a segment.
+    pub fn of(segment: usize) -> usize {
+        segment / GROUP
+    }
+
+    /// Number of groups of this many segments.
+    pub fn count(segments: usize) -> usize {
+        segments.div_ceil(GROUP)
+    }
+
     /// Segments with their boxes.
     fn segments(&self) -> impl Iterator<Item = (u32, &Bounds)> {
         let number = |place: usize| u32::try_from(self.first + place).unwrap_or(u32::MAX);
@@ -101,6 +118,7 @@ impl Surface {
             nodes: Vec::new(),
             close: Vec::new(),
             sort: BucketSort::default(),
+            kept: KeptCandidates::default(),
         };
         surface.step.number = 1;
         surface
@@ -151,11 +169,7 @@ impl Surface {
         out.clear();
         let mut close = std::mem::take(&mut self.close);
         self.search(segments, margin, |step, tree, node, group| {
-            step.find_close(tree, node, &group.whole, &mut close);
-            for (segment, rope_box) in group.segments() {
-                let meeting = close.iter().filter(|(_, bounds)| bounds.meets(rope_box));
-                out.extend(meeting.map(|(triangle, _)| Candidate { segment, triangle: *triangle }));
-            }
+            step.add_pairs((tree, node), group, &mut close, out);
             true
         });
         self.close = close;
@@ -164,6 +178,39 @@ impl Surface {
             (|pair| pair.segment as usize, segments.len()),
             (|pair| pair.triangle as usize, self.tree.order().len()),
         );
+    }
+
+    /// As [`gather`](Self::gather), for rope that moves little relative to skin between two searches with the same margin.
+    pub fn gather_keeping(
+        &mut self,
+        segments: &[SweptSegment],
+        margin: f64,
+        out: &mut Vec<Candidate>,
+    ) {
+        let mut kept = std::mem::take(&mut self.kept);
+        if kept.serves(&self.step, segments, margin) {
+            let mut close = std::mem::take(&mut self.close);
+            out.clear();
+            self.search(segments, margin, |step, tree, node, group| {
+                if !kept.covers(step, (tree, node), (group, segments)) {
+                    step.add_pairs((tree, node), group, &mut close, out);
+                }
+                true
+            });
+            self.close = close;
+            let triangle = |pair: &Candidate| pair.triangle as usize;
+            self.sort.sort(out, |pair| pair.segment as usize, triangle);
+            kept.give(&mut self.step, &self.tree, &self.rope.levels[0], out);
+        } else if kept.begin() {
+            self.gather(segments, margin + SLACK_M, out);
+            kept.keep(&self.step, &self.tree, (segments, margin), out);
+            self.rope.fill(segments, margin);
+            out.clear();
+            kept.give(&mut self.step, &self.tree, &self.rope.levels[0], out);
+        } else {
+            self.gather(segments, margin, out);
+        }
+        self.kept = kept;
     }
 
     /// Whether any pair of a segment and a triangle has boxes over the step within `margin`.
@@ -245,13 +292,18 @@ impl Step {
         if self.clusters[node] != self.number {
             self.clusters[node] = self.number;
             for place in range.clone() {
-                let corners = tree.skin().triangles[tree.order()[place] as usize];
-                self.triangles[place] = corners.iter().fold(Bounds::EMPTY, |bounds, &vertex| {
-                    bounds.join(Bounds::around(&self.vertex(tree, vertex as usize)))
-                });
+                self.triangles[place] = self.triangle(tree, tree.order()[place]);
             }
         }
         &self.triangles[range]
+    }
+
+    /// Box of a triangle over the step.
+    pub fn triangle(&mut self, tree: &SkinTree, triangle: u32) -> Bounds {
+        let corners = tree.skin().triangles[triangle as usize];
+        corners.iter().fold(Bounds::EMPTY, |bounds, &vertex| {
+            bounds.join(Bounds::around(&self.vertex(tree, vertex as usize)))
+        })
     }
 
     fn vertex(&mut self, tree: &SkinTree, vertex: usize) -> [DVec3; 2] {
@@ -262,6 +314,21 @@ impl Step {
             self.vertices[vertex] = (self.number, ends);
         }
         self.vertices[vertex].1
+    }
+
+    /// Appends the pairs of a leaf and a group of segments whose boxes intersect.
+    fn add_pairs(
+        &mut self,
+        (tree, node): (&SkinTree, usize),
+        group: &Group<'_>,
+        close: &mut Vec<(u32, Bounds)>,
+        out: &mut Vec<Candidate>,
+    ) {
+        self.find_close(tree, node, &group.whole, close);
+        for (segment, rope_box) in group.segments() {
+            let meeting = close.iter().filter(|(_, bounds)| bounds.meets(rope_box));
+            out.extend(meeting.map(|(triangle, _)| Candidate { segment, triangle: *triangle }));
+        }
     }
 
     /// Finds the triangles of a leaf whose boxes intersect that of a group of segments.

@@ -116,6 +116,27 @@ struct Sphere {
     radius: f64,
 }
 
+/// Move of a bone between two poses.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoneMove {
+    /// Difference of its transforms.
+    difference: DAffine3,
+    /// Greatest length by which the difference of the rotations stretches a vector.
+    stretch: f64,
+}
+
+impl BoneMove {
+    /// The move from one transform to another. Bones turn and are not stretched: the difference of two rotations by an angle `a` apart has
+    /// the singular values `2 sin(a/2)` twice and zero.
+    pub fn between(from: &DAffine3, to: &DAffine3) -> Self {
+        let turned = to.matrix3 - from.matrix3;
+        let square: f64 = turned.to_cols_array().iter().map(|entry| entry * entry).sum();
+        let difference =
+            DAffine3 { matrix3: turned, translation: to.translation - from.translation };
+        Self { difference, stretch: (0.5 * square).sqrt() }
+    }
+}
+
 impl SkinTree {
     /// Builds the tree, deterministically.
     pub fn new(skin: Arc<Skin>) -> Self {
@@ -164,6 +185,18 @@ impl SkinTree {
         levels.into_iter().max().unwrap_or(0)
     }
 
+    /// Node of the leaf of each triangle.
+    pub(super) fn leaf_of_triangles(&self) -> Vec<usize> {
+        let mut leaf_of = vec![0; self.order.len()];
+        let leaves = self.nodes.iter().enumerate().filter(|(_, node)| node.children.is_none());
+        for (index, leaf) in leaves {
+            for triangle in &self.order[leaf.triangles.clone()] {
+                leaf_of[*triangle as usize] = index;
+            }
+        }
+        leaf_of
+    }
+
     /// Triangles in the order of leaves.
     pub(super) fn order(&self) -> &[u32] {
         &self.order
@@ -177,6 +210,20 @@ impl SkinTree {
             sphere.add_to(&mut bounds, ends);
         }
         bounds.grown(ROUNDING)
+    }
+
+    /// Box around the moves of all vertices of a node, by the moves of the bones in each of two poses.
+    pub(super) fn moves(&self, node: usize, bones: &[[BoneMove; 2]]) -> Bounds {
+        let mut moves = Bounds::EMPTY;
+        for sphere in &self.spheres[self.nodes[node].spheres.clone()] {
+            for bone in &bones[sphere.bone] {
+                let centre = bone.difference.transform_point3(sphere.centre);
+                let radius = sphere.radius * bone.stretch;
+                moves.low = moves.low.min(centre - radius);
+                moves.high = moves.high.max(centre + radius);
+            }
+        }
+        moves.grown(ROUNDING)
     }
 
     /// Box around all vertices of a node in one pose.

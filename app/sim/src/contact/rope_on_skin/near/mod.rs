@@ -156,7 +156,7 @@ impl Near {
 
     /// Gathers the pairs of uncut rope near skin for the moves that were swept last.
     pub fn gather_swept(&mut self, model: &Model, (cut, passed): (&[bool], f64)) {
-        self.surface.gather(&self.sweeps, self.margin_m, &mut self.candidates);
+        self.surface.gather_keeping(&self.sweeps, self.margin_m, &mut self.candidates);
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
         self.number += 1;
         self.skin.clear();
