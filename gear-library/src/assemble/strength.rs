@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use endline_sim::model::Strength;
+use endline_sim::model::{Strength, WeakPlace};
 
 use crate::diagnostic::At;
 use crate::entry::Entry;
@@ -20,7 +20,7 @@ use crate::schema::Kind;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 
 use super::builder::{Builder, Scale};
-use super::line::{NewLine, Piece, Tied};
+use super::line::{NewLine, Piece, Tied, weak_lengths};
 
 impl Builder<'_> {
     /// Condition of a line's rope: its own, else that of the scenario.
@@ -75,6 +75,38 @@ impl Builder<'_> {
         };
         self.strengths.push(budget);
         strength
+    }
+
+    /// Weak places of a line, which vary with its rope: one draw applies to all of them. Records their budget.
+    pub fn weak_places(&mut self, rope: usize, line: &NewLine<'_>) -> Vec<WeakPlace> {
+        // Both together are refused where the line is cut at its inserts.
+        let Some(weak) = line.make.weak_places.as_ref().filter(|_| line.make.inserts.is_none())
+        else {
+            return Vec::new();
+        };
+        let lengths = match weak_lengths(weak, &line.id.value, line.length_m) {
+            Ok(lengths) => lengths,
+            Err(problem) => {
+                self.problems.push(problem);
+                return Vec::new();
+            }
+        };
+        let item = &self.stock[rope];
+        let drawn = self.strength_factor(item.strength_cv, &line.id.value);
+        let budget = StrengthBudget {
+            part: format!("{}.weak-places", line.id.value),
+            item: match lengths.len() {
+                1 => "1 weak place".to_owned(),
+                count => format!("{count} weak places"),
+            },
+            stated: StrengthFigure::chosen(weak.strength_n, "weak_places of the line"),
+            factors: Vec::new(),
+            variation: StrengthFigure::of(&item.entry, "strength_cv"),
+            drawn,
+        };
+        let strength_n = budget.drawn_n();
+        self.strengths.push(budget);
+        lengths.into_iter().map(|at_m| WeakPlace { at_m, strength_n }).collect()
     }
 
     /// Drawn rating of a weak link of the library [N]. Records its budget.

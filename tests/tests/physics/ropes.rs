@@ -170,9 +170,9 @@ fn the_segment_at_a_knot_goes_and_a_line_may_name_its_own_wear() {
     // The rope's usual 0.90 at the other end, nothing between.
     for (segment, share) in [(0, 0.5 * 0.9), (last / 2, 0.5), (last, 0.5 * 0.6)] {
         assert!(
-            (model.segment_strength_n[segment] / new - share).abs() < 1e-12,
+            (model.rope_strength_n[segment] / new - share).abs() < 1e-12,
             "{segment}: {}",
-            model.segment_strength_n[segment] / new
+            model.rope_strength_n[segment] / new
         );
     }
 }

@@ -10,6 +10,7 @@ use std::ops::Range;
 use endline_sdk::LineEnd;
 use glam::DVec3;
 
+use super::bins::BinMeter;
 use super::events::{EventKind, Log};
 use super::loads::line_drag;
 use super::summary::{LineSummary, LinkSummary};
@@ -23,6 +24,7 @@ pub(super) struct LineMeter {
     lines: Vec<Peak>,
     /// By line: greatest tension of the first segment, of all between, and of the last one [N].
     places_n: Vec<[f64; 3]>,
+    bins: BinMeter,
     links: Vec<Peak>,
 }
 
@@ -79,6 +81,7 @@ impl LineMeter {
         Self {
             lines: vec![Peak::default(); model.spec.lines.len()],
             places_n: vec![[0.0; 3]; model.spec.lines.len()],
+            bins: BinMeter::new(model),
             links: vec![Peak::default(); model.spec.links.len()],
         }
     }
@@ -86,6 +89,7 @@ impl LineMeter {
     /// Adds a step with the greatest tension of each segment during it.
     pub(super) fn fold(&mut self, model: &Model, state: &State, peaks: &Peaks<'_>, log: &mut Log) {
         debug_assert_eq!(peaks.converged_n.len(), model.segment_count, "one peak per segment");
+        self.bins.fold(model, state, peaks);
         for (line, peak) in self.lines.iter_mut().enumerate() {
             let Range { start, end } = model.line_segments[line];
             let last = end.saturating_sub(1).max(start);
@@ -139,6 +143,7 @@ impl LineMeter {
                 peak_at_s: peak.at_s,
                 unconverged_peak_n: peak.unconverged_n,
                 place_peaks_n: self.places_n[index],
+                bin_peaks_n: self.bins.of_line(model, index),
                 end_a_tension_n: end_tension(model, state, index, LineEnd::A),
                 end_b_tension_n: end_tension(model, state, index, LineEnd::B),
                 parted_at_s: state.line_parted[index].map(|(time, _)| time),
