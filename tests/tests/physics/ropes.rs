@@ -324,6 +324,53 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
             "start = \"catenary\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
             vec!["cannot have inserts"],
         ),
+        ("", "[line.weak_places]\nevery = \"60 ft\"\n", vec!["`strength` is missing"]),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"1700 lbf\"\n",
+            vec!["`every` is missing in `line.0.weak_places`", "or at = [\"10 m\""],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"-5 N\"\nevery = \"60 ft\"\n",
+            vec!["`strength` is -5 N", "above zero"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"60 ft\"\nat = [\"5 m\"]\n",
+            vec!["both `every` and `at` are present", "keep one"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nfirst = \"6 m\"\nat = [\"5 m\"]\n",
+            vec!["`first` is present without `every`"],
+        ),
+        ("", "[line.weak_places]\nstrength = \"5 N\"\nat = []\n", vec!["`at` has no values"]),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nat = [\"5 m\", \"0 m\"]\n",
+            vec!["`at` is 0 m", "between 0.01 m"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nat = [\"5 m\", \"40 m\"]\n",
+            vec!["a weak place at 40.00 m is beyond the 40.00 m of line `warp`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"90 m\"\n",
+            vec!["no weak place is on the 40.00 m of line `warp`", "a shorter `first` or `every`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"9 m\"\nevry = 1\n",
+            vec!["unknown field `evry`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"9 m\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
+            vec!["line `warp` has both inserts and weak places", "keep one of them"],
+        ),
     ] {
         let problems = refused(&pulled(head, line));
         for part in parts {
