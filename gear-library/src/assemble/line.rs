@@ -255,7 +255,7 @@ pub(super) fn weak_lengths(
     weak: &WeakPlaces,
     line: &str,
     line_m: f64,
-) -> Result<Vec<f64>, Diagnostic> {
+) -> Result<Vec<f64>, Box<Diagnostic>> {
     match &weak.positions {
         WeakPositions::Spaced { every_m, first_m } => {
             let number = ((line_m - first_m) / every_m).ceil();
@@ -263,13 +263,14 @@ pub(super) fn weak_lengths(
                 let message = format!("line `{line}` has {number:.0} weak places");
                 let help =
                     format!("at most {} are possible: write a longer `every`", limits::PARTS.most);
-                return Err(weak.place.error(message, help));
+                return Err(Box::new(weak.place.error(message, help)));
             }
             let lengths = (0..).map(|index| first_m + f64::from(index) * every_m);
             let lengths: Vec<f64> = lengths.take_while(|at_m| *at_m < line_m).collect();
             if lengths.is_empty() {
                 let message = format!("no weak place is on the {line_m:.2} m of line `{line}`");
-                return Err(weak.place.error(message, "write a shorter `first` or `every`"));
+                let help = "write a shorter `first` or `every`";
+                return Err(Box::new(weak.place.error(message, help)));
             }
             Ok(lengths)
         }
@@ -280,7 +281,7 @@ pub(super) fn weak_lengths(
                     beyond.value
                 );
                 let help = "write a length from the `from` end that is less than the line's";
-                return Err(beyond.place.error(message, help));
+                return Err(Box::new(beyond.place.error(message, help)));
             }
             let mut lengths: Vec<f64> = at.iter().map(|at| at.value).collect();
             lengths.sort_by(f64::total_cmp);

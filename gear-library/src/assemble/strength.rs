@@ -87,7 +87,7 @@ impl Builder<'_> {
         let lengths = match weak_lengths(weak, &line.id.value, line.length_m) {
             Ok(lengths) => lengths,
             Err(problem) => {
-                self.problems.push(problem);
+                self.problems.push(*problem);
                 return Vec::new();
             }
         };

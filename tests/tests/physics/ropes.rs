@@ -385,6 +385,25 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
 }
 
 #[test]
+fn gear_of_a_gear_type_takes_weak_places_and_keeps_its_lines() {
+    let text = std::fs::read_to_string(root().join("scenarios/hello-endline.toml")).unwrap();
+    let places = "[gear.lines.endline-top.weak_places]\nstrength = \"500 lbf\"\nfirst = \"12 ft\"\nevery = \"30 ft\"\n";
+    let weak =
+        text.replace("assembly = \"single\"\n", &format!("assembly = \"single\"\n\n{places}"));
+    let [bare, weak] = [&text, &weak].map(|text| assembled(text, None));
+    let line = weak.lines.iter().position(|line| line.id == "endline-top").unwrap();
+    let found = &weak.lines[line].weak_places;
+    assert!(!found.is_empty() && found[0].strength_n > 0.0);
+    for (index, place) in found.iter().enumerate() {
+        assert!((place.at_m - 0.3048 * (12.0 + 30.0 * index as f64)).abs() < 1e-9, "{found:?}");
+    }
+    let mut lines = weak.lines.clone();
+    lines[line].weak_places.clear();
+    assert_eq!(lines, bare.lines, "nothing but strength");
+    assert_eq!(weak.ropes, bare.ropes);
+}
+
+#[test]
 fn the_hauled_endline_parts_at_an_insert() {
     let text = std::fs::read_to_string(root().join("scenarios/hauled-inserts.toml")).unwrap();
     let (_, parted) = until_it_parts(assembled(&text, None));
