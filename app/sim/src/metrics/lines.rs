@@ -16,6 +16,7 @@ use super::loads::line_drag;
 use super::summary::{LineSummary, LinkSummary};
 use super::whale::WhaleMeter;
 use crate::model::Model;
+use crate::simd::greater;
 use crate::state::State;
 
 /// Peaks of every line and weak link.
@@ -52,7 +53,7 @@ impl Peaks<'_> {
     fn of(&self, segments: Range<usize>) -> [f64; 2] {
         [self.converged_n, self.unconverged_n].map(|peaks| {
             let own = peaks.get(segments.clone()).unwrap_or_default();
-            own.iter().copied().fold(0.0, f64::max)
+            own.iter().copied().fold(0.0, greater)
         })
     }
 }
