@@ -24,7 +24,7 @@ const NINE_OF_TEN: f64 = 1.645;
 pub struct StrengthBudget {
     /// Its id in the model, such as `endline-top`; weak places are `endline-top.weak-places`.
     pub part: String,
-    /// Id of its rope or weak link, or the number of weak places, such as `3 weak places`.
+    /// Id of its rope or weak link, or the number and lengths of weak places, such as `1 weak place at 9.14 m`.
     pub item: String,
     /// Strength as stated by the item's source.
     pub stated: StrengthFigure,

@@ -163,7 +163,7 @@ fn as_figures<S: Serializer>(probes: &[ProbeSummary], serializer: S) -> Result<S
 pub struct PartStrength {
     /// Its id in the model.
     pub part: String,
-    /// The rope or weak link it is of, or the number of weak places.
+    /// The rope or weak link it is of, or the number and lengths of weak places.
     pub item: String,
     /// Strength as its source states it [N].
     pub stated: Sourced,

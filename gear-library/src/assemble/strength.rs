@@ -95,10 +95,7 @@ impl Builder<'_> {
         let drawn = self.strength_factor(item.strength_cv, &line.id.value);
         let budget = StrengthBudget {
             part: format!("{}.weak-places", line.id.value),
-            item: match lengths.len() {
-                1 => "1 weak place".to_owned(),
-                count => format!("{count} weak places"),
-            },
+            item: weak_places_in_words(&lengths),
             stated: StrengthFigure::chosen(weak.strength_n, "weak_places of the line"),
             factors: Vec::new(),
             variation: StrengthFigure::of(&item.entry, "strength_cv"),
@@ -143,6 +140,24 @@ impl Builder<'_> {
             bulk: knot.bulk,
             source: source.map(|figure| (knot.entry.name.clone(), figure)),
         })
+    }
+}
+
+/// Greatest number of weak places whose lengths are all listed.
+const MOST_LISTED: usize = 6;
+
+/// Number and lengths of weak places, such as `2 weak places at 9.14 m, 27.43 m`.
+fn weak_places_in_words(lengths_m: &[f64]) -> String {
+    let text = |at_m: &f64| format!("{at_m:.2} m");
+    match lengths_m {
+        [only] => format!("1 weak place at {}", text(only)),
+        [first, .., last] if lengths_m.len() > MOST_LISTED => {
+            format!("{} weak places from {} to {}", lengths_m.len(), text(first), text(last))
+        }
+        all => {
+            let listed: Vec<String> = all.iter().map(text).collect();
+            format!("{} weak places at {}", all.len(), listed.join(", "))
+        }
     }
 }
 
@@ -267,5 +282,13 @@ mod tests {
         assert!((factor(3, "a", 0.1) - factor(4, "a", 0.1)).abs() > 1e-9);
         assert!((factor(3, "a", 0.1) - factor(3, "b", 0.1)).abs() > 1e-9);
         assert_eq!(factor(3, "a", 0.0).to_bits(), 1.0_f64.to_bits());
+    }
+
+    #[test]
+    fn weak_places_are_listed_or_counted() {
+        assert_eq!(weak_places_in_words(&[9.144]), "1 weak place at 9.14 m");
+        assert_eq!(weak_places_in_words(&[8.9, 18.04]), "2 weak places at 8.90 m, 18.04 m");
+        let many: Vec<f64> = (1..=7).map(f64::from).collect();
+        assert_eq!(weak_places_in_words(&many), "7 weak places from 1.00 m to 7.00 m");
     }
 }

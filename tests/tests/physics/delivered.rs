@@ -96,7 +96,10 @@ fn weak_places_deliver_their_strength_with_the_variation_of_the_line() {
     let found = budgets(&pulled(PLAIN, places));
     let parts: Vec<(&str, &str)> =
         found.iter().map(|budget| (budget.part.as_str(), budget.item.as_str())).collect();
-    assert_eq!(parts, [("warp", "polysteel-1-2"), ("warp.weak-places", "2 weak places")]);
+    assert_eq!(
+        parts,
+        [("warp", "polysteel-1-2"), ("warp.weak-places", "2 weak places at 9.14 m, 27.43 m")]
+    );
     let own = of(&found, "warp.weak-places");
     assert!((own.delivered_n() / (1700.0 * LBF_N) - 1.0).abs() < 1e-9, "{}", own.delivered_n());
     assert_eq!(own.variation, of(&found, "warp").variation);
