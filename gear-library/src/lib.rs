@@ -62,7 +62,7 @@ pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
-    Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
+    Adapt, Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
     ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study,
     StudyEvent, StudyOption, Target, ThreatLabels, ThreatRow,
 };

@@ -30,6 +30,9 @@ pub const MOST_ENCOUNTERS: u64 = limits::ENCOUNTERS.most as u64;
 /// Default share of encounters drawn from the priors: no weight then exceeds four times the mean.
 const FROM_PRIORS: f64 = 0.25;
 
+/// Default share of encounters drawn from the priors by a study that adapts.
+const FROM_PRIORS_ADAPTED: f64 = 0.15;
+
 /// A study as read; the session resolves the names of library items.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
@@ -67,6 +70,8 @@ pub struct Study {
     pub priors: Vec<Prior>,
     /// Share of encounters drawn from the priors, if a prior has a proposal.
     pub from_priors: f64,
+    /// When proposals are fitted to the encounters so far, if the study adapts.
+    pub adapt: Option<Adapt>,
     /// Claims, by id.
     pub claims: Vec<Claim>,
     /// Shares observed on real whales, by id.
@@ -107,6 +112,15 @@ pub struct Enough {
     pub least: u64,
 }
 
+/// Stages of a study that adapts: before each, proposals are fitted to the encounters of the earlier ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Adapt {
+    /// Encounters before each stage but the first, ascending.
+    pub after: Vec<u64>,
+    /// Event whose encounters the proposals favour.
+    pub event: StudyEvent,
+}
+
 /// Aim of the whale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Aim {
@@ -137,7 +151,9 @@ impl Study {
         let run = run_rule(&fields);
         let enough = fields.inside("enough", enough).flatten();
         let options = option::read_options(&fields);
+        let adapt = fields.inside("adapt", adapt).flatten();
         let (aim, priors, from_priors) = encounter(&fields);
+        let usual = if adapt.is_some() { FROM_PRIORS_ADAPTED } else { FROM_PRIORS };
         let claims = comparison::read_claims(&fields, &options);
         let observations = comparison::read_observations(&fields, &options);
         let routes = comparison::read_routes(&fields);
@@ -160,7 +176,8 @@ impl Study {
             options,
             aim,
             priors,
-            from_priors,
+            from_priors: from_priors.unwrap_or(usual),
+            adapt,
             claims,
             observations,
             routes,
@@ -246,11 +263,45 @@ fn enough(table: &Fields<'_>) -> Option<Enough> {
     })
 }
 
+/// Least number of encounters to which proposals are fitted.
+const LEAST_FITTED: u64 = 20;
+
+/// `[adapt]`: stages and their event.
+fn adapt(table: &Fields<'_>) -> Option<Adapt> {
+    let help = "write the numbers of encounters after which proposals are fitted, such as after = [100, 300, 600]";
+    table.require("after", help);
+    let event = event::need(table, "event");
+    let node = table.get("after")?;
+    let Content::List(items) = &node.content else {
+        return table.refuse(node.place.error("`after` is not a list of numbers", help));
+    };
+    let most = MOST_ENCOUNTERS as f64;
+    let number = |item: &Node| match item.content {
+        Content::Number(number) if number.fract() == 0.0 && (1.0..=most).contains(&number) =>
+        {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested")]
+            Some(number as u64)
+        }
+        _ => None,
+    };
+    let after: Option<Vec<u64>> = items.iter().map(number).collect();
+    let rises = |after: &Vec<u64>| after.windows(2).all(|pair| pair[0] < pair[1]);
+    let fits = after
+        .filter(rises)
+        .filter(|after| after.first().is_some_and(|first| *first >= LEAST_FITTED));
+    let Some(after) = fits else {
+        let message =
+            format!("`after` is not a rising list of whole numbers from {LEAST_FITTED} on");
+        return table.refuse(node.place.error(message, help));
+    };
+    Some(Adapt { after, event: event? })
+}
+
 /// `[encounter]`: aim of the whale, and one table per prior.
-fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
+fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, Option<f64>) {
     let Some(table) = fields.table("encounter") else {
         fields.missing("encounter", "write the distribution of encounters, such as [encounter.speed] with uniform = [\"0.5 m/s\", \"1.6 m/s\"]");
-        return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), FROM_PRIORS);
+        return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), None);
     };
     let lines = texts(&table, "aim");
     let by = table.choice("aim_by", &[("baseline", false), ("own", true)]);
@@ -260,11 +311,11 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
     let from_priors = table.value("from_priors", Quantity::Ratio, Range::Between(0.05, 1.0));
     let priors = prior::read_all(&table);
     table.finish();
-    (aim, priors, from_priors.map_or(FROM_PRIORS, |share| share.value))
+    (aim, priors, from_priors.map(|share| share.value))
 }
 
 /// Top-level tables and keys that define the runs.
-const DEFINING: [&str; 6] = ["scenario", "seed", "run", "option", "axis", "encounter"];
+const DEFINING: [&str; 7] = ["scenario", "seed", "run", "option", "axis", "encounter", "adapt"];
 
 /// Keys that do not affect the runs.
 const EXPLAINING: [&str; 7] =
@@ -306,4 +357,39 @@ fn list(items: &[Node]) -> String {
         texts.sort();
     }
     format!("[{}]", texts.join(","))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ADAPTS: &str = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 400\nbaseline = \"a\"\n\
+        [[option]]\nid = \"a\"\n[adapt]\nafter = [100, 300]\nevent = \"entangled\"\n\
+        [encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n";
+
+    #[test]
+    fn stages_are_read_and_define_the_runs() {
+        let study = Study::read("s.toml", ADAPTS).unwrap();
+        let adapt = study.adapt.unwrap();
+        assert_eq!((adapt.after.as_slice(), adapt.event), (&[100, 300][..], StudyEvent::Entangled));
+        assert!((study.from_priors - FROM_PRIORS_ADAPTED).abs() < 1e-15);
+        let other = Study::read("s.toml", &ADAPTS.replace("300", "200")).unwrap();
+        assert_ne!(other.canonical, study.canonical);
+    }
+
+    #[test]
+    fn stages_that_make_no_sense_are_reported() {
+        for (from, to, expected) in [
+            ("[100, 300]", "[300, 100]", "not a rising list of whole numbers"),
+            ("[100, 300]", "[5, 100]", "from 20 on"),
+            ("[100, 300]", "[100.5]", "not a rising list"),
+            ("[100, 300]", "100", "is not a list of numbers"),
+            ("after = [100, 300]\n", "", "`after` is missing"),
+            ("event = \"entangled\"\n[enc", "[enc", "`event` is missing"),
+        ] {
+            let problems = Study::read("s.toml", &ADAPTS.replace(from, to)).unwrap_err();
+            let is_it = |problem: &Diagnostic| problem.message.contains(expected);
+            assert!(problems.iter().any(is_it), "{to}: {problems:?}");
+        }
+    }
 }

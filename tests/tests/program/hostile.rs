@@ -134,7 +134,7 @@ fn a_recording_that_contradicts_itself_is_refused_and_nothing_is_written_over_it
 }
 
 /// Commands that take a file: `FILE` is its path, `OUT` a path to write; the ending that the file's name gets.
-const TAKING: [(&str, &str); 33] = [
+const TAKING: [(&str, &str); 35] = [
     ("toml", "run FILE"),
     ("endline", "run hello-endline --from FILE --at 0.05s --out OUT"),
     ("toml", "settle FILE"),
@@ -167,6 +167,8 @@ const TAKING: [(&str, &str); 33] = [
     ("json", "study report buoy-contact --out OUT --haul FILE"),
     ("toml", "study hindcast FILE --out OUT"),
     ("csv", "study threat threat --out OUT --poll FILE"),
+    ("csv", "study threat weak-links --out OUT --model FILE"),
+    ("csv", "study threat weak-links --out OUT --strengths FILE"),
     ("toml", "study replay FILE --row 0 --out OUT"),
 ];
 

@@ -264,7 +264,7 @@ impl ThreatOfGear {
     pub fn find(file: &str, text: &str, gear: &RuleGear) -> Result<Self, Error> {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let rows: Result<Vec<Row>, csv::Error> = reader.deserialize().collect();
-        let help = "give the file with bands that `endline study threat STUDY --to FILE.csv` writes: FILE-bands.csv";
+        let help = "give the file with bands that `endline study threat STUDY --to FILE.csv` writes of a study whose options name rows of the table of 2019, such as `threat`: FILE-bands.csv";
         let rows = rows.map_err(|error| at_line(file, text, &error, help))?;
         let failed = |message: String| Error::Message(format!("{file}: {message}"));
         let endline = gear.endline().ok_or_else(|| {

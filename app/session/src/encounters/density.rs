@@ -10,16 +10,13 @@ use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 use super::Drawn;
 
-/// The weight of an encounter drawn from the mixture.
-pub(crate) fn weight(priors: &[Prior], drawn: &[Drawn], from_priors: f64) -> f64 {
+/// Density of the proposals over that of the priors, over the priors that have one.
+pub(super) fn ratio_of_proposals(priors: &[Prior], drawn: &[Drawn]) -> f64 {
     let ratio = |(prior, drawn): (&Prior, &Drawn)| {
         let proposal = prior.proposal.as_ref()?;
         Some(density(proposal, drawn) / density(&prior.law, drawn))
     };
-    let ratio: f64 = priors.iter().zip(drawn).filter_map(ratio).product();
-    let weight = 1.0 / (from_priors + (1.0 - from_priors) * ratio);
-    // A value at the end of a range may have density 0 under the prior: its weight is 0.
-    if weight.is_finite() { weight } else { 0.0 }
+    priors.iter().zip(drawn).filter_map(ratio).product()
 }
 
 /// Density of a law at a number, or the share of a level.

@@ -1,14 +1,14 @@
 //! Draws of an encounter: point `i` of a scrambled Sobol sequence, one dimension for each prior.
 //!
 //! A point depends on the seed, the priors' names and `i` alone: any encounter can be drawn without those before it, by
-//! any machine, and every option of a study meets the same ones. Where priors have proposals, one more dimension says from which
-//! of the two all values of an encounter come.
+//! any machine, and every option of a study meets the same ones. Where there are proposals, of the file or fitted (`fitted.rs`), one more
+//! dimension decides from which part of the mixture all values of an encounter come.
 //! Reference: Burley 2020, Practical hash-based Owen scrambling (JCGT 9(4)).
 
 use endline_gear::{Law, Level, Prior, Setting, Study, units};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::density::weight;
+use super::fitted::{Fitted, Mixture, Part};
 
 /// A drawn value.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,25 +39,38 @@ pub struct Draw {
     pub weight: f64,
 }
 
-/// Draws encounter `index` of a study.
-pub fn draw(study: &Study, index: u32) -> Draw {
-    let priors = &study.priors;
+/// Draws encounter `index` of a study, from priors, proposals and what was fitted to earlier stages.
+pub(crate) fn draw(study: &Study, index: u32, fitted: &Fitted) -> Draw {
     let mut point = Point::of(study.seed, index);
+    draw_from(study, fitted, || point.share())
+}
+
+/// Draws an encounter from the coordinates of a point of the unit cube.
+pub(crate) fn draw_from(
+    study: &Study,
+    fitted: &Fitted,
+    mut coordinate: impl FnMut() -> f64,
+) -> Draw {
+    let priors = &study.priors;
     let shares: Vec<f64> =
-        priors.iter().map(|prior| if is_fixed(prior) { 0.5 } else { point.share() }).collect();
-    let mixed = priors.iter().any(|prior| prior.proposal.is_some()) && study.from_priors < 1.0;
-    // The last dimension decides between priors and proposals, so that a proposal changes no other draw.
-    let proposes = mixed && point.share() >= study.from_priors;
+        priors.iter().map(|prior| if is_fixed(prior) { 0.5 } else { coordinate() }).collect();
+    let has_proposal = priors.iter().any(|prior| prior.proposal.is_some());
+    let mixture = Mixture { from_priors: study.from_priors, has_proposal, fitted };
+    // The last dimension decides between the parts of the mixture, so that a proposal changes no other draw.
+    let part = if mixture.is_plain() { Part::Priors } else { mixture.part(coordinate()) };
     let law = |prior: &'_ Prior| match &prior.proposal {
-        Some(proposal) if proposes => proposal.clone(),
+        Some(proposal) if part == Part::Proposals => proposal.clone(),
         _ => prior.law.clone(),
     };
-    let values: Vec<Drawn> = priors
-        .iter()
-        .zip(shares)
-        .map(|(prior, share)| value(&prior.name.value, &law(prior), share))
-        .collect();
-    let weight = if mixed { weight(priors, &values, study.from_priors) } else { 1.0 };
+    let values: Vec<Drawn> = match part {
+        Part::Fitted(component) => fitted.draw(study, component, &shares),
+        Part::Priors | Part::Proposals => priors
+            .iter()
+            .zip(shares)
+            .map(|(prior, share)| value(&prior.name.value, &law(prior), share))
+            .collect(),
+    };
+    let weight = mixture.weight(priors, &values);
     Draw { values, weight }
 }
 
@@ -86,7 +99,8 @@ pub fn sobol_point(seed: u64, index: u32, dimensions: usize) -> Vec<f64> {
     (0..dimensions).map(|_| point.share()).collect()
 }
 
-fn is_fixed(prior: &Prior) -> bool {
+/// Whether a prior has one value.
+pub(super) fn is_fixed(prior: &Prior) -> bool {
     matches!(&prior.law, Law::Choice(levels) if levels.len() == 1)
 }
 
@@ -234,7 +248,7 @@ source = "assumed"
     fn numbers(name: &str, count: u32) -> Vec<f64> {
         let study = study();
         let one = |index| {
-            draw(&study, index)
+            draw(&study, index, &Fitted::default())
                 .values
                 .into_iter()
                 .find(|drawn| drawn.name == name)
@@ -267,7 +281,12 @@ source = "assumed"
             assert!((share(low, high) - expected).abs() < 2e-3, "{low}: {}", share(low, high));
         }
         let swims = (0..4096)
-            .filter(|index| draw(&study(), *index).values.iter().any(|drawn| drawn.text == "swim"))
+            .filter(|index| {
+                draw(&study(), *index, &Fitted::default())
+                    .values
+                    .iter()
+                    .any(|drawn| drawn.text == "swim")
+            })
             .count();
         assert!((swims as f64 / 4096.0 - 0.7).abs() < 2e-3, "{swims}");
     }
@@ -275,10 +294,10 @@ source = "assumed"
     #[test]
     fn a_draw_depends_on_index_and_seed_alone() {
         let (study, mut other) = (study(), study());
-        assert_eq!(draw(&study, 123), draw(&study, 123));
+        assert_eq!(draw(&study, 123, &Fitted::default()), draw(&study, 123, &Fitted::default()));
         other.seed += 1;
-        assert_ne!(draw(&study, 123), draw(&other, 123));
-        assert_ne!(draw(&study, 123), draw(&study, 124));
+        assert_ne!(draw(&study, 123, &Fitted::default()), draw(&other, 123, &Fitted::default()));
+        assert_ne!(draw(&study, 123, &Fitted::default()), draw(&study, 124, &Fitted::default()));
     }
 
     #[test]
@@ -289,7 +308,7 @@ source = "assumed"
         let [one, other] =
             [STUDY, turned.as_str()].map(|text| Study::read("draws.toml", text).unwrap());
         assert_eq!(one.canonical, other.canonical);
-        assert_eq!(draw(&one, 5), draw(&other, 5));
+        assert_eq!(draw(&one, 5, &Fitted::default()), draw(&other, 5, &Fitted::default()));
     }
 
     /// Means of a proposal's draws by their weights are those of the prior; a weight alone is at most four.
@@ -309,7 +328,8 @@ source = "assumed"
                 "between = [\"9 m\", \"15 m\"]\nproposal = { uniform = [\"9 m\", \"15 m\"] }",
             );
         let study = Study::read("draws.toml", &proposed).unwrap();
-        let draws: Vec<Draw> = (0..16_384).map(|index| draw(&study, index)).collect();
+        let draws: Vec<Draw> =
+            (0..16_384).map(|index| draw(&study, index, &Fitted::default())).collect();
         assert!(draws.iter().all(|draw| draw.weight > 0.0 && draw.weight <= 4.0));
         let mean = |of: &dyn Fn(&[Drawn]) -> f64| {
             let sum: f64 = draws.iter().map(|draw| draw.weight * of(&draw.values)).sum();

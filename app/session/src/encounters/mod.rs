@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `draw` | values drawn from the priors of a study |
 //! | `density` | weights of encounters that are drawn from proposals |
+//! | `fitted` | proposals fitted to the held encounters of earlier stages, and the mixture from which encounters are drawn |
 //! | `priors` | the fields that a prior sets in scenario and library |
 //! | `equilibria` | gear at rest in the sea of an encounter |
 //! | `aim` | the lines at which the whale is aimed, and its start |
@@ -12,11 +13,13 @@ pub(crate) mod aim;
 pub(crate) mod density;
 pub mod draw;
 pub(crate) mod equilibria;
+pub(crate) mod fitted;
 pub(crate) mod priors;
 
 use endline_gear::Study;
 
 use draw::Draw;
+use fitted::Fitted;
 
 pub use draw::{Drawn, in_words};
 
@@ -32,9 +35,14 @@ pub struct Encounter {
 }
 
 impl Encounter {
-    /// Draws encounter `index` of a study.
+    /// Draws encounter `index` of the first stage of a study, which is all of it unless the study adapts.
     pub fn of(study: &Study, index: u32) -> Self {
-        let Draw { values: drawn, weight } = draw::draw(study, index);
+        Self::with(study, index, &Fitted::default())
+    }
+
+    /// Draws encounter `index` of a study, in a stage with these fitted proposals.
+    pub(crate) fn with(study: &Study, index: u32, fitted: &Fitted) -> Self {
+        let Draw { values: drawn, weight } = draw::draw(study, index, fitted);
         Self { index, drawn, weight }
     }
 

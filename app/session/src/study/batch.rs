@@ -12,8 +12,8 @@ use crate::error::Error;
 use crate::task::lock;
 
 use super::folder::{BLOCK, Folder};
-use super::merge;
 use super::prepared::PreparedStudy;
+use super::{adapt, merge};
 
 /// Runs the missing blocks of a shard, or fewer if the study reaches the interval that it asks for. Other processes on the same
 /// folder share the work, and the blocks of a process that has ended are run here; at the end, all blocks are stored. The control
@@ -21,7 +21,7 @@ use super::prepared::PreparedStudy;
 ///
 /// A cancelled study is no error: stored blocks stay, encounters of unfinished blocks are dropped, and a second call continues
 /// from the blocks.
-/// Errors: where a block cannot be written. The other blocks are finished or dropped, and a second call
+/// Errors: a shard of a study that adapts; where a block cannot be written. The other blocks are finished or dropped, and a second call
 /// continues from those that are written.
 pub fn run(
     opened: &PreparedStudy,
@@ -30,6 +30,10 @@ pub fn run(
     threads: usize,
     control: &Control,
 ) -> Result<Progress, Error> {
+    if opened.study.adapt.is_some() && shard != Shard::WHOLE {
+        let message = "a study that adapts cannot be divided into shards, because each stage needs all encounters of the earlier ones; run it without --shard, on several machines in one shared folder";
+        return Err(Error::Message(format!("{}: {message}", opened.study.place.source.path)));
+    }
     let own: Vec<u32> = (0..folder.blocks()).filter(|block| shard.holds(*block)).collect();
     let missing: Vec<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
     let encounters = |blocks: &[u32]| {
@@ -88,7 +92,13 @@ impl<'a> Work for Blocks<'a> {
 
     fn next(&self) -> Result<Next<Lease<'a>>, Error> {
         while !merge::is_enough(self.opened, self.folder) {
-            match self.leases.next(&self.left()?)? {
+            let left = self.left()?;
+            let open = self.open(&left)?;
+            if open.is_empty() && !left.is_empty() {
+                // Other threads run the last encounters of a stage, to which the next one is fitted.
+                return Ok(Next::Wait);
+            }
+            match self.leases.next(&open)? {
                 leases::Next::Run(lease) => {
                     let is_here = lock(&self.left).remove(&lease.block);
                     self.control.waits_for(0);
@@ -102,6 +112,7 @@ impl<'a> Work for Blocks<'a> {
                     self.control.waits_for(others);
                     return Ok(Next::Wait);
                 }
+                leases::Next::Nothing if open.len() < left.len() => return Ok(Next::Wait),
                 leases::Next::Nothing => return Ok(Next::Nothing),
             }
         }
@@ -115,7 +126,8 @@ impl<'a> Work for Blocks<'a> {
                 return Ok(false);
             }
             let start = Instant::now();
-            let Some(own) = self.opened.rows(encounter, &|| !self.control.is_cancelled()) else {
+            let drawn = self.opened.encounter(self.folder, encounter)?;
+            let Some(own) = self.opened.rows(drawn, &|| !self.control.is_cancelled()) else {
                 return Ok(false);
             };
             rows.extend(own);
@@ -128,6 +140,23 @@ impl<'a> Work for Blocks<'a> {
 }
 
 impl Blocks<'_> {
+    /// Those of the blocks left whose stage has begun.
+    fn open(&self, left: &[u32]) -> Result<Vec<u32>, Error> {
+        let study = &self.opened.study;
+        if study.adapt.is_none() {
+            return Ok(left.to_vec());
+        }
+        let written = self.folder.written()?;
+        let is_stored = |encounter: u32| {
+            let block = encounter / BLOCK;
+            // A damaged block is run again.
+            let is_whole = !self.damaged.contains(&block) || self.folder.has(block);
+            written.contains(&block) && is_whole
+        };
+        let end = self.folder.blocks_of(adapt::open_until(study, is_stored));
+        Ok(left.iter().copied().filter(|block| *block < end).collect())
+    }
+
     /// Blocks without a file, now that other processes may have run some.
     fn left(&self) -> Result<Vec<u32>, Error> {
         let written = self.folder.written()?;

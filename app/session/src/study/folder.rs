@@ -100,7 +100,7 @@ impl Folder {
         Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
     }
 
-    /// The folder with the first encounters only, such as those of a pilot; they are the study's own.
+    /// The folder with the first encounters only.
     #[must_use]
     pub fn first(&self, encounters: u32) -> Self {
         Self { encounters: self.encounters.min(encounters), ..self.clone() }
@@ -108,7 +108,12 @@ impl Folder {
 
     /// Number of blocks.
     pub fn blocks(&self) -> u32 {
-        self.encounters.div_ceil(BLOCK)
+        self.blocks_of(self.encounters)
+    }
+
+    /// Number of blocks of the first encounters.
+    pub fn blocks_of(&self, encounters: u32) -> u32 {
+        encounters.div_ceil(BLOCK)
     }
 
     /// The encounters of a block.

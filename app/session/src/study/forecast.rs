@@ -1,4 +1,4 @@
-//! What a study will cost and what it can tell, from a pilot: the first encounters of the study, timed.
+//! Cost and precision of a study, from its first encounters, timed.
 //!
 //! | figure | from |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | encounters for a difference | the rate of the study's event with the baseline (`stats/verdict.rs`) |
 //! | encounters for a band | `n = p (1 - p) (1.96 / d)²` whales with the event for a share `p = 0.3` known to `±d = 0.05`: 323 |
 //!
-//! Encounters of a pilot are the study's own and are stored in its folder, so that no work is lost. With weighted encounters, numbers
+//! These encounters are stored in the study's folder, so that no work is lost. With weighted encounters, numbers
 //! are scaled by the effective numbers of those that were run.
 
 use std::time::Duration;
@@ -22,15 +22,12 @@ use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::stats::{
     EventIndicators, Rate, WORTH_FINDING, effective_with, encounters_missing, encounters_to_tell,
-    expected_newly,
+    expected_newly, z95,
 };
 use super::{batch, results};
 
 /// Half-width of the band about a share of held whales.
 const BAND: f64 = 0.05;
-
-/// Standard normal quantile of an interval of 95 %.
-const Z95: f64 = 1.959_964;
 
 /// The forecast of a study.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -45,7 +42,7 @@ pub struct Forecast {
     pub rate: Rate,
     /// Share of the event that an option must prevent to be found.
     pub prevented: f64,
-    /// Encounters in all with which such an option is told from the baseline with a probability of 80 %.
+    /// Encounters in all with which such an option is distinguished from the baseline with a probability of 80 %.
     pub needed_to_tell: Option<f64>,
     /// Whether the study has as many.
     pub tells: Option<bool>,
@@ -78,16 +75,16 @@ impl Cost {
     }
 }
 
-/// Runs the first `pilot` encounters of a study that are missing in its folder, and forecasts the rest.
+/// Runs those of the first `count` encounters of a study that are missing in its folder, and forecasts the rest.
 /// Errors: blocks that cannot be written or read.
-pub fn of_pilot(
+pub fn of_first(
     opened: &PreparedStudy,
     folder: &Folder,
-    pilot: u32,
+    count: u32,
     threads: usize,
     control: &Control,
 ) -> Result<Forecast, Error> {
-    let progress = batch::run(opened, &folder.first(pilot), Shard::WHOLE, threads, control)?;
+    let progress = batch::run(opened, &folder.first(count), Shard::WHOLE, threads, control)?;
     of_stored(opened, folder, &progress.pace)
 }
 
@@ -121,7 +118,7 @@ fn of_event(encounters: u64, done: u64, indicators: &EventIndicators, newly: &[u
     let needed_to_tell = encounters_missing(&rate, newly).map(|_| {
         encounters_to_tell(rate.rate, WORTH_FINDING, newly) * rate.runs as f64 / rate.effective
     });
-    let whales = WORTH_FINDING * (1.0 - WORTH_FINDING) * (Z95 / BAND).powi(2);
+    let whales = WORTH_FINDING * (1.0 - WORTH_FINDING) * (z95() / BAND).powi(2);
     let with_event = effective_with(indicators);
     Forecast {
         encounters,
@@ -170,7 +167,9 @@ mod tests {
     fn the_cost_is_the_mean_time_of_what_is_left() {
         let mut pace = Pace::default();
         assert_eq!(Cost::of(&pace, 10), None);
-        [2.0, 4.0, 6.0].map(|seconds| pace.add(Duration::from_secs_f64(seconds)));
+        for seconds in [2.0, 4.0, 6.0] {
+            pace.add(Duration::from_secs_f64(seconds));
+        }
         let cost = Cost::of(&pace, 100).unwrap();
         assert!((cost.left_s() - 400.0).abs() < 1e-9 && cost.factor.unwrap() > 1.0);
         assert_eq!([90.0, 600.0, 9000.0].map(duration_words), ["90 s", "10 min", "2.5 h"]);

@@ -8,6 +8,7 @@
 //! | `prepared` | the study read, each option planned and checked |
 //! | `plan` | an option as an edited scenario and library |
 //! | `prepare` | an option in an encounter: drawn values, gear at rest, the aim of the whale, assembled |
+//! | `adapt` | stages whose proposals are fitted to earlier encounters |
 //! | `play`, `equivalence` | the runs of an encounter, and which options share one |
 //! | `row`, `runs` | a run's figures as a row of the table, and rows read back as structs |
 //! | `batch`, `folder`, `registration` | blocks of encounters on threads and processes, and their folder |
@@ -20,6 +21,7 @@
 //! a killed study continues from its blocks, on one machine or on many, and the merged table has the same bytes.
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
+mod adapt;
 pub mod batch;
 #[cfg(test)]
 mod damaged;

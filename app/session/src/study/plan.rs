@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Prepared, Source};
 
-use crate::encounters::draw::{self, Drawn};
 use crate::encounters::priors::{field_of, put_drawn};
+use crate::encounters::{Drawn, Encounter};
 
 /// An option as a scenario and a library.
 pub struct OptionPlan {
@@ -157,7 +157,7 @@ impl Base<'_> {
     ) -> Result<Prepared, Error> {
         // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
         let mut text = scenario.clone();
-        let drawn = draw::draw(self.study, 0).values;
+        let drawn = Encounter::of(self.study, 0).drawn;
         let mut sources = sources.clone();
         put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(&drawn), &own(option))?;
         let source = Source::new(&self.name, text.text(), sources);

@@ -55,9 +55,9 @@ struct OptionRun {
 }
 
 impl PreparedStudy {
-    /// Rows of every option in encounter `index`, in the order of the options; `None` if `is_wanted` becomes false.
-    pub fn rows(&self, index: u32, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
-        let models = EncounterModels::new(self, index);
+    /// Rows of every option in an encounter, in the order of the options; `None` if `is_wanted` becomes false.
+    pub fn rows(&self, encounter: Encounter, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
+        let models = EncounterModels::new(self, encounter);
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
         let mut runs: Vec<OptionRun> = Vec::new();
         let order = self.by_falling_strength();
@@ -208,9 +208,9 @@ impl PreparedStudy {
 }
 
 impl<'a> EncounterModels<'a> {
-    fn new(study: &'a PreparedStudy, index: u32) -> Self {
+    fn new(study: &'a PreparedStudy, encounter: Encounter) -> Self {
         let options = study.options.iter().map(|_| OnceCell::new()).collect();
-        Self { study, encounter: Encounter::of(&study.study, index), options }
+        Self { study, encounter, options }
     }
 
     /// An option ready to run, or why it is not.

@@ -1,6 +1,7 @@
 //! A prepared study: its file, the baseline scenario and library, and the plan of each option; what it will run, as JSON.
 
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, RwLock};
 
 use endline_gear::{Library, Sources, Study, hint};
 use schemars::JsonSchema;
@@ -16,6 +17,7 @@ use super::forecast::Forecast;
 use super::plan::{Base, OptionPlan};
 use crate::encounters::aim::lines_aimed_at;
 use crate::encounters::equilibria::Equilibria;
+use crate::encounters::fitted::Fitted;
 use crate::encounters::priors::field_of;
 
 /// A study ready to run.
@@ -37,6 +39,8 @@ pub struct PreparedStudy {
     pub(super) equilibria: Equilibria,
     /// By option: the first option that it differs from in strengths alone, itself if there is none.
     pub(super) families: Vec<usize>,
+    /// Proposals of the stages after the first, as far as they were fitted.
+    pub(super) fitted: RwLock<Vec<Arc<Fitted>>>,
 }
 
 /// Files that a study is read with.
@@ -115,6 +119,7 @@ impl PreparedStudy {
             sources,
             equilibria: Equilibria::default(),
             families,
+            fitted: RwLock::default(),
             study,
         })
     }

@@ -18,7 +18,6 @@ use super::prepared::PreparedStudy;
 use super::runs::Runs;
 use super::stats::Findings;
 use super::{merge, prepare};
-use crate::encounters::Encounter;
 use crate::table::Table;
 
 /// Which results are read.
@@ -87,8 +86,9 @@ impl StudyResults {
         encounter: u32,
         host: &PluginHost,
     ) -> Result<Prepared, Error> {
-        let prepared =
-            self.opened.prepare(option, &Encounter::of(&self.opened.study, encounter))?;
+        let folder = Folder::open(&self.folder, &self.opened)?;
+        let drawn = self.opened.encounter(&folder, encounter)?;
+        let prepared = self.opened.prepare(option, &drawn)?;
         let Some(end_s) = self.end_s(option, encounter) else { return Ok(prepared) };
         prepare::until(&prepared, end_s, host)
     }

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use endline_session::forms::{FORMS, Form, schema_of};
+use endline_session::study::threat::{STRENGTH_SCHEMA, StrengthThreats};
 
 use super::args::Args;
 use super::table::columns;
@@ -25,6 +26,11 @@ static OWN: &[Form] = &[
         name: study::status::SCHEMA,
         commands: &["study status"],
         schema: schema_of::<study::status::Status>,
+    },
+    Form {
+        name: STRENGTH_SCHEMA,
+        commands: &["study threat"],
+        schema: schema_of::<StrengthThreats>,
     },
 ];
 

@@ -224,9 +224,11 @@ fn edits_become_an_option_results_are_summarised_in_words_and_the_bundle_is_save
     for sentence in answer(&shown.findings, &shown.findings.event) {
         harness.get_by_label(&sentence);
     }
-    harness.get_by_label_contains("6 encounters are few");
+    harness.get_by_label_contains("held no whale in 6 valid encounters");
     let report = harness.workbench().report_shown().expect("a report");
-    assert!(std::fs::read_to_string(report).unwrap().contains("6 encounters are few"));
+    assert!(
+        std::fs::read_to_string(report).unwrap().contains("held no whale in 6 valid encounters")
+    );
     let out = folder.0.join("out");
     give(&mut harness, StudyAction::SaveBundle(out.clone()));
     for part in ["report.html", "findings.json", "bundle/study.toml", "bundle/gear-library/ropes"] {

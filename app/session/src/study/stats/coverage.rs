@@ -2,8 +2,8 @@
 
 use endline_gear::Study;
 
-use crate::encounters::density::weight;
-use crate::encounters::draw::Drawn;
+use crate::encounters::draw::{Drawn, draw_from};
+use crate::encounters::fitted::{Fitted, Held, Mixture};
 
 use super::bootstrap::Draws;
 use super::indicators::{EventIndicator, EventIndicators};
@@ -132,7 +132,12 @@ fn rare_study(
             number: Some(offset),
             plain: false,
         };
-        let weight = if plain { 1.0 } else { weight(&study.priors, &[drawn], study.from_priors) };
+        let mixture = Mixture {
+            from_priors: study.from_priors,
+            has_proposal: !plain,
+            fitted: &Fitted::default(),
+        };
+        let weight = mixture.weight(&study.priors, &[drawn]);
         let by_chance = uniform();
         for (indicators, chance) in indicators.iter_mut().zip([0.8, 0.5]) {
             let chance = if offset < 0.02 { chance } else { elsewhere * chance };
@@ -191,4 +196,80 @@ fn events_that_a_small_study_has_not_met_are_allowed_for() {
     let held = held.map(|count| f64::from(count) / STUDIES as f64);
     println!("rate and difference covered: {held:?}");
     assert!(held.iter().all(|share| *share >= 0.93), "{held:?}");
+}
+
+/// A study of which one encounter in forty may hold a whale, by two routes.
+const TWO_ROUTES: &str = r#"
+format = 1
+kind = "study"
+name = "Two routes"
+scenario = "hello-endline"
+encounters = 400
+baseline = "a"
+[[option]]
+id = "a"
+[encounter]
+from_priors = 0.15
+[encounter.offset]
+uniform = ["0 m", "1 m"]
+source = "assumed"
+[encounter.behaviour]
+choice = ["swim", "skim-feed"]
+weights = [0.9, 0.1]
+source = "assumed"
+"#;
+
+/// One simulated study of 400 encounters, in stages from 0, 100 and 200 on if it adapts: whether a whale is held, with the weights.
+/// Whales that skim at the left are held by one route, and whales at the right edge by another.
+fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicators {
+    let mut uniform = || (draws.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
+    let (mut fitted, mut held) = (Fitted::default(), Vec::new());
+    let mut indicators = EventIndicators::default();
+    for encounter in 0..400 {
+        if adapts && (encounter == 100 || encounter == 200) {
+            fitted = Fitted::to(study, &held);
+        }
+        let draw = draw_from(study, &fitted, &mut uniform);
+        let skims = draw.values.iter().any(|drawn| drawn.text == "skim-feed");
+        let offset = draw.values.iter().find_map(|drawn| drawn.number).unwrap_or_default();
+        let route = match (skims && offset < 0.25, offset > 0.98) {
+            (true, _) => Some((0, 0.8)),
+            (_, true) => Some((1, 0.5)),
+            _ => None,
+        };
+        let held_by = route.filter(|(_, chance)| uniform() < *chance);
+        let occurred = held_by.is_some();
+        indicators.0.push(Some(EventIndicator { occurred, weight: draw.weight }));
+        held.extend(held_by.map(|(route, _)| Held {
+            drawn: draw.values,
+            weight: draw.weight,
+            route,
+        }));
+    }
+    indicators
+}
+
+/// A rate of 3 %: the interval of an adaptive study covers it as that of plain sampling does, and is narrower.
+#[test]
+fn stages_cover_the_truth_and_hold_more_whales() {
+    let study = Study::read("routes.toml", TWO_ROUTES).unwrap();
+    let truth = 0.1 * 0.25 * 0.8 + 0.02 * 0.5;
+    let mut found = Vec::new();
+    for adapts in [true, false] {
+        let mut draws = Draws::of("stages");
+        let (mut covered, mut width, mut held) = (0_u32, 0.0, 0);
+        for _ in 0..STUDIES {
+            let rate = Rate::of(&adapted_study(&study, &mut draws, adapts));
+            let Interval { low, high } = rate.as_met;
+            covered += u32::from((low..=high).contains(&truth));
+            width += (high - low) / STUDIES as f64;
+            held += rate.hits;
+        }
+        let share = f64::from(covered) / STUDIES as f64;
+        found.push((share, width, held as f64 / STUDIES as f64));
+    }
+    println!("adaptive {:?}, plain {:?}: covered, width, held", found[0], found[1]);
+    let [(adaptive, narrow, many), (plain, wide, few)] = found[..] else { panic!("{found:?}") };
+    assert!([adaptive, plain].iter().all(|share| (0.93..=0.97).contains(share)), "{found:?}");
+    assert!(narrow < 0.85 * wide && many > 3.0 * few, "{found:?}");
 }

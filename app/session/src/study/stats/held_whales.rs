@@ -69,7 +69,7 @@ impl Route {
     }
 
     /// The route at the end of a run.
-    pub(super) fn of(run: &RunRow) -> Self {
+    pub(in crate::study) fn of(run: &RunRow) -> Self {
         let turned = |is_it: fn(BodyPart) -> bool| {
             let parts = BodyPart::ALL.into_iter().filter(|part| is_it(*part));
             let turns = parts.filter_map(|part| run.parts.get(part as usize)?.wraps);
@@ -121,7 +121,7 @@ pub struct OptionOnHeld {
     pub freed: Rate,
     /// Encounters in which it holds a whale that the baseline does not.
     pub newly_held: u64,
-    /// The same as a share of the whales held with the baseline.
+    /// Their weight as a share of that of the whales held with the baseline.
     pub newly_held_share: f64,
     /// Share that the option does not hold by route, in the order of the routes.
     pub freed_by_route: Vec<Rate>,

@@ -57,7 +57,7 @@ pub struct Rate {
 const FEW: usize = 10;
 
 /// Quantile of the standard normal law for an interval of 95 %.
-pub(super) fn z95() -> f64 {
+pub(in crate::study) fn z95() -> f64 {
     Normal::standard().inverse_cdf(0.975)
 }
 

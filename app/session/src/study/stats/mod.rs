@@ -35,6 +35,7 @@ pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
 pub use held_whales::{HeldWhales, OptionOnHeld, Route, RouteFinding, Weighted};
 pub use indicators::{EventIndicator, EventIndicators, effective_with};
+pub(super) use interval::z95;
 pub use interval::{Interval, Rate};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;

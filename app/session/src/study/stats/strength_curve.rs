@@ -44,7 +44,7 @@ pub struct StrengthCurve {
     pub option: String,
     /// Share of encounters in which the part parts.
     pub parts: Banded,
-    /// The same among the encounters in which a whale is held if nothing parts.
+    /// Share among the encounters in which a whale is held if nothing parts.
     pub parts_given_held: Banded,
     /// Share of encounters in which a whale is held, by strength; none for a part whose options have no strengths.
     pub held: Vec<f64>,

@@ -3,7 +3,7 @@
 //!
 //! An option is distinct if the 95 % interval of its difference from the baseline in the same encounters excludes zero.
 //! An option that frees the share `f` of the held whales, and newly holds the share `r`, differs from the baseline by `δ = f p` in the
-//! rate of holding `p`, in `ψ = (f + 2 r) p` of the encounters. It is told from the baseline with a probability of 80 % in
+//! rate of holding `p`, in `ψ = (f + 2 r) p` of the encounters. It is distinguished from the baseline with a probability of 80 % in
 //!
 //! ```text
 //! n = (1.96 √ψ + 0.84 √(ψ - δ²))² / δ²
@@ -23,7 +23,7 @@ pub const WORTH_FINDING: f64 = 0.3;
 const Z_TEST: f64 = 1.959_964;
 const Z_POWER: f64 = 0.841_621;
 
-/// Encounters of equal weight in which an option that frees a share `freed` of the held whales, and newly holds a share `newly`, is told
+/// Encounters of equal weight in which an option that frees a share `freed` of the held whales, and newly holds a share `newly`, is distinguished
 /// from the baseline with a probability of 80 %; `held` is the rate of holding.
 pub fn encounters_to_tell(held: f64, freed: f64, newly: f64) -> f64 {
     let (difference, apart) = (freed * held, (freed + 2.0 * newly) * held);
@@ -32,7 +32,7 @@ pub fn encounters_to_tell(held: f64, freed: f64, newly: f64) -> f64 {
 }
 
 /// Encounters of the study's own distribution, beyond those it has, in which an option that frees [`WORTH_FINDING`] of the held whales would be
-/// told from the baseline; 0 if it has enough, `None` if no whale was held.
+/// distinguished from the baseline; 0 if it has enough, `None` if no whale was held.
 pub fn encounters_missing(held: &Rate, newly: f64) -> Option<f64> {
     if held.hits == 0 || held.effective <= 0.0 {
         return None;
@@ -70,9 +70,9 @@ pub(super) fn sentences(findings: &Findings, held: &HeldWhales, asked: &Asked<'_
 fn verdict(rate: &Rate, asked: &Asked<'_>, judged: Vec<Judged<'_>>) -> Vec<String> {
     let (distinct, open): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|option| option.paired.is_distinct());
-    let told = distinct.iter().map(|option| option.told(asked));
-    let open = (!open.is_empty()).then(|| untold(rate, asked, &open, distinct.is_empty()));
-    std::iter::once(holds(rate, asked)).chain(told).chain(open).collect()
+    let differing = distinct.iter().map(|option| option.frees(asked));
+    let open = (!open.is_empty()).then(|| undecided(rate, asked, &open, distinct.is_empty()));
+    std::iter::once(holds(rate, asked)).chain(differing).chain(open).collect()
 }
 
 /// How many whales the baseline holds.
@@ -98,7 +98,7 @@ fn holds(rate: &Rate, asked: &Asked<'_>) -> String {
 
 impl Judged<'_> {
     /// How many whales a distinct option frees, or that it holds more.
-    fn told(&self, asked: &Asked<'_>) -> String {
+    fn frees(&self, asked: &Asked<'_>) -> String {
         let OptionOnHeld { name, freed, newly_held_share, newly_held, .. } = self.on_held;
         let Asked { baseline, comparisons, .. } = asked;
         let among = holm_words(self.adjusted, *comparisons);
@@ -122,7 +122,7 @@ impl Judged<'_> {
 }
 
 /// What the study cannot tell, and how many more encounters would.
-fn untold(rate: &Rate, asked: &Asked<'_>, open: &[Judged<'_>], all: bool) -> String {
+fn undecided(rate: &Rate, asked: &Asked<'_>, open: &[Judged<'_>], all: bool) -> String {
     let Asked { baseline, .. } = asked;
     let options = match open {
         [one] => one.on_held.name.clone(),
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn an_option_that_differs_is_told_in_counts_of_a_hundred() {
+    fn an_option_that_differs_is_stated_in_counts_of_a_hundred() {
         let said = verdict_of(1000, 50, 17);
         assert_eq!(
             said,

@@ -1,4 +1,4 @@
-//! The rows of the tool's own table with simulated risks.
+//! The rows of the experts' table of 2019 with simulated risks.
 //!
 //! A simulated row has its rate. Rates and bands are interpolated linearly between two lengths of trawl, then between two diameters;
 //! beyond the longest and the shortest simulated trawl they are constant. A row with a thicker or thinner rope, or another device, is
@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::poll::{COLUMNS, Poll, Polled};
+use super::experts::{COLUMNS, ExpertRow, ExpertTable};
 use super::{Threat, Threats};
 
 /// Columns of the table with bands.
@@ -25,11 +25,11 @@ pub enum How {
     Held,
 }
 
-/// A row of the tool's table with a simulated risk.
+/// A row of the table of 2019 with a simulated risk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filled<'a> {
-    /// The row of the tool's table.
-    pub row: &'a Polled,
+    /// The row of the table of 2019.
+    pub row: &'a ExpertRow,
     /// Its origin.
     pub how: How,
     risk: Risk,
@@ -72,16 +72,16 @@ impl Risk {
 }
 
 impl Threats {
-    /// The rows of a table of the tool that the study has something to say of, in that table's order.
-    pub fn fill<'a>(&self, poll: &'a Poll) -> Vec<Filled<'a>> {
-        let filled = |row: &'a Polled| {
+    /// The rows of the experts' table for which the study has a risk, in that table's order.
+    pub fn fill<'a>(&self, experts: &'a ExpertTable) -> Vec<Filled<'a>> {
+        let filled = |row: &'a ExpertRow| {
             let (risk, how) = self.risk_of(row)?;
             Some(Filled { row, how, risk })
         };
-        poll.rows.iter().filter_map(filled).collect()
+        experts.rows.iter().filter_map(filled).collect()
     }
 
-    fn risk_of(&self, row: &Polled) -> Option<(Risk, How)> {
+    fn risk_of(&self, row: &ExpertRow) -> Option<(Risk, How)> {
         let on_rope = |keeps: &dyn Fn(&Threat) -> bool| {
             let own: Vec<&Threat> = self
                 .rows
@@ -124,7 +124,7 @@ fn by_traps(rows: &[&Threat], traps: u64) -> Option<(Risk, How)> {
     }
 }
 
-/// Rows as a file that the tool reads in place of its own.
+/// Rows as a file that the tool of 2019 reads in place of its own.
 /// Errors: where the table cannot be written.
 pub fn as_own(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
     written(&COLUMNS, rows.iter().map(columns))
@@ -143,7 +143,7 @@ pub fn with_bands(rows: &[Filled<'_>]) -> Result<Vec<u8>, String> {
 }
 
 fn columns(filled: &Filled<'_>) -> Vec<String> {
-    let Polled { rope, diameter_in, traps, device, .. } = filled.row;
+    let ExpertRow { rope, diameter_in, traps, device, .. } = filled.row;
     vec![
         rope.clone(),
         diameter_in.to_string(),
@@ -153,11 +153,15 @@ fn columns(filled: &Filled<'_>) -> Vec<String> {
     ]
 }
 
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:.6}")
 }
 
-fn written<R: Serialize>(names: &[&str], rows: impl Iterator<Item = R>) -> Result<Vec<u8>, String> {
+/// A CSV table with a heading.
+pub(super) fn written<R: Serialize>(
+    names: &[&str],
+    rows: impl Iterator<Item = R>,
+) -> Result<Vec<u8>, String> {
     let fault = |error: csv::Error| format!("the threat table: {error}");
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     writer.write_record(names).map_err(fault)?;
@@ -196,7 +200,7 @@ mod tests {
     /// Rates by hand: 0.10 + 4/9 of 0.18, the mean of 0.28 and 0.48, and that of 0.18 and 0.38.
     #[test]
     fn rows_between_are_linear_and_what_was_not_simulated_is_left_out() {
-        let poll = Poll::read("poll.csv", POLL).unwrap();
+        let poll = ExpertTable::read("poll.csv", POLL).unwrap();
         let threats = threats();
         let filled = threats.fill(&poll);
         let expected = [
@@ -216,11 +220,11 @@ mod tests {
 
     #[test]
     fn the_file_reads_as_the_tools_own_and_the_bands_stand_beside() {
-        let poll = Poll::read("poll.csv", POLL).unwrap();
+        let poll = ExpertTable::read("poll.csv", POLL).unwrap();
         let threats = threats();
         let filled = threats.fill(&poll);
         let own = String::from_utf8(as_own(&filled).unwrap()).unwrap();
-        let read = Poll::read("own.csv", &own).unwrap();
+        let read = ExpertTable::read("own.csv", &own).unwrap();
         assert_eq!(read.rows.len(), filled.len());
         assert!(
             (read.rows[1].risk - 0.18).abs() < 1e-6 && read.rows[1].key() == ("3/8in", "NA", 7)

@@ -1,4 +1,4 @@
-//! Kendall's τ between a poll and simulated risks.
+//! Kendall's τ between the experts' table of 2019 and simulated risks.
 //!
 //! `τ_b = (C - D) / √((n₀ - n₁)(n₀ - n₂))`: of the `n₀ = n(n-1)/2` pairs of rows, `C` stand in the same order in both, `D` in
 //! the opposite one; `n₁` and `n₂` are tied in one and in the other. It is 1 where the orders are the same, -1 where they are opposite.
@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::study::stats::{EventIndicator, EventIndicators, Interval, bootstrap};
 
 use super::Threat;
-use super::poll::Poll;
+use super::experts::ExpertTable;
 
 /// Agreement in order.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -26,22 +26,22 @@ pub struct Tau {
     pub ties: usize,
 }
 
-/// The agreement of simulated rows with a poll; none where they share too little for an order.
-pub(super) fn against(poll: &Poll, rows: &[(Threat, EventIndicators)]) -> Option<Tau> {
+/// The agreement of simulated rows with the experts' table; none where they share too little for an order.
+pub(super) fn against(experts: &ExpertTable, rows: &[(Threat, EventIndicators)]) -> Option<Tau> {
     let shared: Vec<(f64, &EventIndicators)> = rows
         .iter()
-        .filter_map(|(row, indicators)| Some((poll.find(row.key())?.risk, indicators)))
+        .filter_map(|(row, indicators)| Some((experts.find(row.key())?.risk, indicators)))
         .collect();
-    let polled: Vec<f64> = shared.iter().map(|(risk, _)| *risk).collect();
+    let opinions: Vec<f64> = shared.iter().map(|(risk, _)| *risk).collect();
     let risks = |indices: Option<&[usize]>| -> Vec<f64> {
         shared.iter().map(|(_, indicators)| rate(indicators, indices)).collect()
     };
     let simulated = risks(None);
     let count = shared.iter().map(|(_, indicators)| indicators.0.len()).max()?;
     Some(Tau {
-        tau: tau(&polled, &simulated)?,
+        tau: tau(&opinions, &simulated)?,
         interval: bootstrap::interval("threat", count, |indices| {
-            tau(&polled, &risks(Some(indices)))
+            tau(&opinions, &risks(Some(indices)))
         }),
         rows: shared.len(),
         ties: pairs(&simulated).filter(|[one, other]| order(*one, *other) == 0).count(),
@@ -102,8 +102,8 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_held_against_those_of_the_poll_by_rope_device_and_traps() {
-        let poll = Poll::read(
+    fn rows_are_compared_with_those_of_the_experts_by_rope_device_and_traps() {
+        let poll = ExpertTable::read(
             "poll.csv",
             "Rope,RopeDiam,TrawlLen,BuoylineDevice,Risk\n3/8in,0.375,3,NA,0.6\n1/2in,0.5,3,NA,0.7\n5/8in,0.625,3,NA,0.8\n",
         )

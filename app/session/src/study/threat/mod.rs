@@ -1,14 +1,25 @@
-//! The threat table of a study: how often an event comes by rope, length of trawl and device, in the columns of NOAA's decision
-//! support tool (`Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk`).
+//! Threat tables of a study, in the two forms of NOAA's decision support tool.
 //!
-//! A risk is the rate of the event given an encounter. The tool multiplies endlines by risks and compares sums, so that a
+//! | form | columns | from options with | source |
+//! |---|---|---|---|
+//! | of 2019, by rope, length of trawl and device | `Rope, RopeDiam, TrawlLen, BuoylineDevice, Risk` | `threat = { ... }` | a poll of experts (`experts.rs`) |
+//! | since V2.1, by breaking strength | `RopeStrength, Threat, Threat_Lower, Threat_Upper` | `strength` on a `curve` | a logistic curve fitted to ropes taken off right whales (`noaa.rs`) |
+//!
+//! A risk or threat is the rate of the event given an encounter. The tool multiplies endlines by risks and compares sums, so that a
 //! factor common to all rows has no effect. There are two bands: that of chance (the number of encounters), and that of the priors
-//! (the rate at the levels of each assumed input). Held against the tool's own table, which asks experts, by Kendall's τ
-//! (`kendall.rs`). Rows of that table that were not simulated lie between those that were (`filled.rs`).
+//! (the rate at the levels of each assumed input). This file has the table of 2019; `kendall.rs` compares it with the experts' by Kendall's
+//! τ, and `filled.rs` interpolates rows that were not simulated. `by_strength.rs` has the table by strength beside NOAA's, and `trawls.rs`
+//! averages both over the lines of trawls.
 
+mod by_strength;
+mod experts;
 mod filled;
+mod interpolation;
 mod kendall;
-mod poll;
+mod noaa;
+mod reading;
+mod trawls;
+mod written;
 
 use endline_gear::{StudyEvent, ThreatRow};
 use schemars::JsonSchema;
@@ -19,10 +30,16 @@ use super::stats::{AssumedBand, EventIndicators, Interval, Rate};
 use crate::study::runs::Runs;
 use crate::units::METRES_PER_INCH;
 
+pub use by_strength::{
+    NoaaModel, OptionThreat, Origin, RelativeThreat, STRENGTH_SCHEMA, StrengthThreat,
+    StrengthThreats, curves,
+};
+pub use experts::{ExpertRow, ExpertTable};
 pub use filled::{Filled, How, as_own, with_bands};
 pub use kendall::Tau;
-pub(crate) use poll::at_line;
-pub use poll::{Poll, Polled};
+pub use noaa::{LineShare, LineStrengthTable, StrengthThreatTable, ThreatRange, TrawlLines};
+pub(crate) use reading::at_line;
+pub use trawls::{CappedTrawl, TrawlThreat};
 
 /// Name and version of the JSON form.
 pub(super) const SCHEMA: &str = "endline.threat/1";
@@ -46,7 +63,7 @@ pub struct Threat {
     pub priors: Option<AssumedBand>,
 }
 
-/// The threat table of a study.
+/// The threat table of a study in the form of 2019.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Threats {
     /// Name and version of this form.
@@ -60,18 +77,18 @@ pub struct Threats {
     pub event: String,
     /// By rope, device and traps.
     pub rows: Vec<Threat>,
-    /// Agreement with a poll, if there is one with two rows in common.
+    /// Agreement with the experts' table of 2019, if two rows are in common.
     pub tau: Option<Tau>,
 }
 
 impl Threats {
-    /// The threats of a merged study by an event, beside a poll.
+    /// The threats of a merged study by an event, beside the experts' table.
     /// Errors: a study without an option that names a row, or with two options that name the same row.
     pub fn of(
         opened: &PreparedStudy,
         runs: &Runs,
         event: &StudyEvent,
-        poll: Option<&Poll>,
+        experts: Option<&ExpertTable>,
     ) -> Result<Self, String> {
         let mut rows: Vec<(Threat, EventIndicators)> = Vec::new();
         for option in &opened.study.options {
@@ -93,7 +110,7 @@ impl Threats {
                 opened.study.id, one.option, other.option
             ));
         }
-        let tau = poll.and_then(|poll| kendall::against(poll, &rows));
+        let tau = experts.and_then(|experts| kendall::against(experts, &rows));
         Ok(Self {
             schema: SCHEMA,
             study: opened.study.id.clone(),

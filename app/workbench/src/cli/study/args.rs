@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use endline_session::campaign::Shard;
 
+use crate::cli::quantity;
+
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum StudyCommand {
     /// Check a study and print its options, encounters, blocks, the first encounters drawn, and a forecast of its time and precision.
@@ -21,7 +23,7 @@ pub(in crate::cli) enum StudyCommand {
     Report(ReportArgs),
     /// Print simulated shares beside those seen on real whales, as Markdown: of a merged study, or of all.
     Hindcast(HindcastArgs),
-    /// Print the threat table of a merged study, beside the poll of NOAA's decision support tool, and write it in that tool's columns.
+    /// Print the threats of a merged study beside those of NOAA's decision support tool, and write them in that tool's columns: by breaking strength as in its present version, or by rope, trawl and device as in that of 2019.
     Threat(ThreatArgs),
     /// Run one row of a study again and compare it with the table.
     Replay(ReplayArgs),
@@ -61,9 +63,9 @@ pub(in crate::cli) struct PlanArgs {
     pub(super) at: StudyArgs,
     /// Run the first N encounters, and forecast time and precision from them; they are kept as the study's own.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub(super) pilot: Option<u32>,
-    /// Number of threads of the pilot [default: one for each core].
-    #[arg(long, value_name = "N", requires = "pilot", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) first: Option<u32>,
+    /// Number of threads for them [default: one for each core].
+    #[arg(long, value_name = "N", requires = "first", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Print the result as one JSON object.
     #[arg(long)]
@@ -141,11 +143,23 @@ pub(in crate::cli) struct ReportArgs {
 pub(in crate::cli) struct ThreatArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Event whose rate is the risk [default: the study's].
+    /// Event whose rate is the threat [default: the study's].
     #[arg(long, value_name = "EVENT")]
     pub(super) event: Option<String>,
-    /// Table of the decision support tool with the rows to be written [default: that of the gear library, of 2019].
+    /// Curve of options with a strength, for the threat by breaking strength [default: that with the most strengths].
+    #[arg(long, value_name = "NAME")]
+    pub(super) curve: Option<String>,
+    /// NOAA's threat by breaking strength [default: that of the gear library, of version 3.1].
     #[arg(long, value_name = "FILE.csv")]
+    pub(super) model: Option<PathBuf>,
+    /// NOAA's breaking strengths of lines by traps of a trawl [default: those of the gear library, of version 3.1].
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) strengths: Option<PathBuf>,
+    /// Also compute the change of the mean threat by traps if each line that is stronger than this has this strength, such as "1700 lbf".
+    #[arg(long, value_name = "FORCE", value_parser = quantity::force)]
+    pub(super) cap: Option<f64>,
+    /// Table of experts' opinion with the rows to be written, for options that name rows of the table of 2019 [default: that of the gear library].
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["curve", "model", "strengths", "cap"])]
     pub(super) poll: Option<PathBuf>,
     /// Write the table for the decision support tool; FILE-bands.csv beside it has the bands.
     #[arg(long, value_name = "FILE.csv")]
@@ -153,6 +167,14 @@ pub(in crate::cli) struct ThreatArgs {
     /// Print the table as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+impl ThreatArgs {
+    /// Whether an argument is for the threat by breaking strength alone.
+    pub(super) fn is_by_strength(&self) -> bool {
+        [self.curve.is_some(), self.model.is_some(), self.strengths.is_some(), self.cap.is_some()]
+            .contains(&true)
+    }
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@ mod hindcast;
 pub(super) mod status;
 mod submit;
 mod threat;
+mod threat_strength;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -12,7 +13,6 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use endline_session::campaign::{Control, Count, Pace, threads};
-use endline_session::encounters::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
@@ -43,11 +43,11 @@ fn plan(args: &PlanArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     let path = folder_of(&args.at, &opened);
     let threads = args.threads.map_or_else(all_cores, usize::from);
-    let (forecast, interrupted) = match args.pilot {
-        Some(pilot) => {
+    let (forecast, interrupted) = match args.first {
+        Some(first) => {
             let folder = Folder::open(&path, &opened)?;
             let watched =
-                |control: &Control| forecast::of_pilot(&opened, &folder, pilot, threads, control);
+                |control: &Control| forecast::of_first(&opened, &folder, first, threads, control);
             let (forecast, interrupt) = with_progress(watched)?;
             (Some(forecast), interrupt.exit_code())
         }
@@ -144,7 +144,14 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     }
     let option = args.option.as_deref().map_or(Ok(opened.baseline), |id| opened.option(id))?;
     let frames_hz = if args.to.is_some() { REPLAY_HZ } else { 0.0 };
-    let played = opened.play(option, &Encounter::of(&opened.study, args.row), frames_hz)?;
+    let path = folder_of(&args.at, &opened);
+    // A replay must not begin a study, and needs its results only where the study adapts.
+    let encounter = if path.join("study.json").is_file() {
+        opened.encounter(&Folder::open(&path, &opened)?, args.row)?
+    } else {
+        opened.first_stage(args.row)?
+    };
+    let played = opened.play(option, &encounter, frames_hz)?;
     if let Some(to) = &args.to {
         save_run(to, &played)?;
     }

@@ -6,7 +6,7 @@ use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::{Cost, Forecast, duration_words};
-use endline_session::study::stats::{Change, Findings, Interval, Rate, rounded};
+use endline_session::study::stats::{Change, Findings, Interval, Rate, answer, rounded};
 use endline_session::units::newtons_and_lbf;
 
 use super::super::table::columns;
@@ -61,7 +61,7 @@ pub(super) fn forecast(
     threads: usize,
 ) -> String {
     let Some(forecast) = forecast.filter(|forecast| forecast.done > 0) else {
-        return "no encounter has been run; --pilot 12 runs the first twelve and forecasts time and precision from them\n".into();
+        return "no encounter has been run; --first 12 runs the first twelve and forecasts time and precision from them\n".into();
     };
     let Forecast { encounters, done, cost, rate, needed_to_tell, needed_for_band, .. } = forecast;
     let baseline = &opened.options[opened.baseline].name;
@@ -103,7 +103,7 @@ pub(super) fn forecast(
 /// Time of the encounters that are left, with its range.
 fn time(cost: Option<&Cost>, threads: usize) -> String {
     let Some(cost) = cost else {
-        return "not known: no encounter was timed; --pilot with a greater number times some"
+        return "not known: no encounter was timed; --first with a greater number times some"
             .into();
     };
     if cost.left == 0 {
@@ -152,6 +152,11 @@ pub(super) fn findings(opened: &PreparedStudy, findings: &Findings) -> String {
         "{}\n{} encounters; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
         opened.study.name, findings.encounters
     );
+    for sentence in answer(findings, &findings.event) {
+        text += &format!("{sentence}\n");
+    }
+    text += "\n";
+    text += &freed(findings);
     text += &rates(findings);
     text += &registered(findings).iter().map(|event| compared(findings, event)).collect::<String>();
     text += &changed(findings);
@@ -162,6 +167,32 @@ pub(super) fn findings(opened: &PreparedStudy, findings: &Findings) -> String {
     text += &bands(findings);
     text += &inputs(findings);
     text + &claims(findings)
+}
+
+/// Share that each option frees of the whales held with the baseline.
+fn freed(findings: &Findings) -> String {
+    let Some(held) = findings.held_whales.as_ref().filter(|held| held.rate.hits > 0) else {
+        return String::new();
+    };
+    let mut rows = vec![
+        ["of the whales held with the baseline", "freed", "others held"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    if held.observed_from.is_some() {
+        rows[0].push("freed, weighted as observed".into());
+    }
+    for option in &held.options {
+        let mut row = vec![option.id.clone(), rate(&option.freed), option.newly_held.to_string()];
+        if held.observed_from.is_some() {
+            row.push(option.weighted.map_or_else(
+                || "no route met".into(),
+                |weighted| in_percent(weighted.share, weighted.interval),
+            ));
+        }
+        rows.push(row);
+    }
+    columns(&rows)
 }
 
 /// Columns of events that a line of a terminal has room for.

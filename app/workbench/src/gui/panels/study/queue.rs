@@ -2,12 +2,14 @@
 
 use endline_session::command::StudyAction;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{ProgressBar, RichText, Ui};
 use endline_session::campaign::{Job, State};
 use endline_session::study::queue::StudyJob;
-use endline_session::study::results;
+use endline_session::study::results::{self, StudyResults};
+use endline_session::study::stats::answer;
 
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -19,6 +21,7 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     for job in &shared.workbench.studies().queue.jobs {
         ui.add_space(3.0);
         row(ui, job, &mut actions);
+        headline(ui, job, shared.workbench.studies().results.shown());
     }
     if shared.workbench.studies().queue.jobs.iter().any(Job::at_work) {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
@@ -42,9 +45,16 @@ fn row(ui: &mut Ui, job: &StudyJob, actions: &mut Vec<StudyAction>) {
                 palette.warning,
             ),
             State::Running => (
-                progress
-                    .left()
-                    .map_or_else(|| "running".into(), |left| format!("{} left", time_left(left))),
+                match (progress.left(), progress.left_range()) {
+                    (Some(left), Some([low, high])) => format!(
+                        "{} left, {} to {}",
+                        time_left(left),
+                        time_left(low),
+                        time_left(high)
+                    ),
+                    (Some(left), None) => format!("{} left", time_left(left)),
+                    (None, _) => "running".into(),
+                },
                 palette.good,
             ),
             State::Paused => ("paused".to_owned(), palette.warning),
@@ -88,6 +98,20 @@ fn row(ui: &mut Ui, job: &StudyJob, actions: &mut Vec<StudyAction>) {
         let full = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
         ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(full);
     });
+}
+
+/// Draws the verdict so far in short, if the results shown are those of the job: how many whales are held, and what is still open.
+fn headline(ui: &mut Ui, job: &StudyJob, shown: Option<&Arc<StudyResults>>) {
+    let own = shown.filter(|shown| job.folder().is_some_and(|folder| folder == shown.folder));
+    let Some(shown) = own else { return };
+    let sentences = answer(&shown.findings, &shown.findings.event);
+    let mut text = sentences.first().cloned().unwrap_or_default();
+    if let [_, .., last] = sentences.as_slice() {
+        text = format!("{text} {last}");
+    }
+    let faint = Theme::palette_of(ui).faint;
+    ui.add(egui::Label::new(RichText::new(text).color(faint)).wrap())
+        .on_hover_text("from the encounters so far; Results has the whole verdict");
 }
 
 fn button(ui: &mut Ui, text: &str, action: StudyAction, actions: &mut Vec<StudyAction>) {
