@@ -4,7 +4,6 @@
 //! a live run and its replay give the same numbers. Fold the initial state first to include it in means and peaks.
 //! Definitions and thresholds: `docs/entanglement.md`.
 
-mod bins;
 mod bodies;
 mod events;
 mod flukes;
@@ -34,12 +33,11 @@ use crate::state::State;
 use crate::step::Workspace;
 use lines::Peaks;
 
-pub use bins::TENSION_BIN_M;
 pub use bodies::{CAUGHT_S, DRAGGED_M};
 pub use events::{Event, EventKind, LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub use flukes::TURN_SHARE;
 pub use knots::HELD_N;
-pub use lines::end_tension;
+pub use lines::{TENSION_BIN_M, end_tension};
 pub use loads::DRAG_WINDOW_S;
 pub use mouth::LODGED_S;
 pub use probes::{energy, reading, unit};

@@ -7,7 +7,7 @@ use endline_sdk::{BodyPart, Region};
 use glam::DVec3;
 use strum::{IntoStaticStr, VariantArray};
 
-use super::bins::bin_at;
+use super::lines::bin_at;
 use super::whale_momentum::MomentumBalance;
 
 /// Metrics of a run so far.
