@@ -20,6 +20,7 @@ mod obstacles;
 mod one_skin;
 mod rig;
 mod right_whale;
+mod routes;
 mod tunnelling;
 mod units;
 mod whale_encounters;
