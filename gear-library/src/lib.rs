@@ -50,7 +50,7 @@ pub use items::{
     SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
-pub use line::{Insert, Inserts, LineMake};
+pub use line::{Insert, Inserts, LineMake, WeakPlaces, WeakPositions};
 pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Site, Size, Trailing};
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use rules::{Area, Date, Parameter, Rule, RuleDraft, RulePack, Standing, Subject};

@@ -1,4 +1,4 @@
-//! The make of a line: condition of its rope, knots at its ends, weak inserts or sleeves.
+//! The make of a line: condition of its rope, knots at its ends, weak inserts or sleeves, weak places.
 //!
 //! The keys occur in `[[line]]` of an assembly or scenario and in `[lines.<line>]` of an assembly with a gear type.
 //! `[gear.lines.<line>]` of a scenario overrides the assembly.
@@ -6,9 +6,9 @@
 use endline_sdk::LineEnd;
 
 use crate::diagnostic::{At, Place};
-use crate::fields::{ENDS, Fields, Range};
+use crate::fields::{ENDS, Fields, Range, read_value};
 use crate::items::Condition;
-use crate::tree::Node;
+use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
 /// The make of a line; missing properties have defaults.
@@ -28,6 +28,8 @@ pub struct LineMake {
     pub to_knot: Option<At<String>>,
     /// Weak inserts or sleeves along it.
     pub inserts: Option<Inserts>,
+    /// Places that are weaker than the rest of it.
+    pub weak_places: Option<WeakPlaces>,
 }
 
 /// Weak inserts or sleeves at equal distances.
@@ -63,6 +65,31 @@ pub enum Insert {
     Sleeve(At<String>),
 }
 
+/// Places of a line that are weaker than the rest of it, such as sleeves, which change nothing but its strength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeakPlaces {
+    /// Where they are.
+    pub positions: WeakPositions,
+    /// Mean strength that the line delivers at each of them [N].
+    pub strength_n: f64,
+    /// Their place in the file.
+    pub place: Place,
+}
+
+/// Positions of weak places, as unstretched lengths from end A.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WeakPositions {
+    /// At equal distances, as many as the line has.
+    Spaced {
+        /// From one to the next [m].
+        every_m: f64,
+        /// From end A to the first [m].
+        first_m: f64,
+    },
+    /// At these lengths, in any order [m].
+    Listed(Vec<At<f64>>),
+}
+
 impl LineMake {
     /// Reads the make of a line.
     pub(crate) fn read(fields: &Fields<'_>) -> Self {
@@ -76,6 +103,7 @@ impl LineMake {
             from_knot: fields.text("from_knot"),
             to_knot: fields.text("to_knot"),
             inserts: fields.inside("inserts", inserts).flatten(),
+            weak_places: fields.inside("weak_places", weak_places).flatten(),
         }
     }
 
@@ -89,6 +117,7 @@ impl LineMake {
             from_knot: self.from_knot.clone().or_else(|| usual.from_knot.clone()),
             to_knot: self.to_knot.clone().or_else(|| usual.to_knot.clone()),
             inserts: self.inserts.clone().or_else(|| usual.inserts.clone()),
+            weak_places: self.weak_places.clone().or_else(|| usual.weak_places.clone()),
         }
     }
 }
@@ -105,12 +134,61 @@ pub(crate) fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
     table.rest().into_iter().map(choice).collect()
 }
 
+/// Distances along a line [m].
+const ALONG: Range = Range::Between(0.01, 20_000.0);
+
+/// Reads `[line.weak_places]`.
+fn weak_places(fields: &Fields<'_>) -> Option<WeakPlaces> {
+    let strength = fields.need_value("strength", Quantity::Force, Range::Positive);
+    let every = fields.value("every", Quantity::Length, ALONG);
+    let first = fields.value("first", Quantity::Length, ALONG);
+    let positions = match (fields.get("at"), fields.get("every").is_some(), first) {
+        (None, true, first) => every.map(|every| WeakPositions::Spaced {
+            every_m: every.value,
+            first_m: first.map_or(0.5 * every.value, |first| first.value),
+        }),
+        (None, false, _) => {
+            fields.missing("every", "write every = \"60 ft\", or at = [\"10 m\", \"25 m\"]");
+            None
+        }
+        (Some(at), true, _) => {
+            fields.refuse(at.place.error("both `every` and `at` are present", "keep one of them"))
+        }
+        (Some(_), false, Some(first)) => fields.refuse(
+            first.place.error("`first` is present without `every`", "remove `first`, or `at`"),
+        ),
+        (Some(at), false, None) => listed(fields, at),
+    };
+    Some(WeakPlaces {
+        positions: positions?,
+        strength_n: strength?.value,
+        place: fields.place.clone(),
+    })
+}
+
+/// A list of lengths from the `from` end of a line.
+fn listed(fields: &Fields<'_>, at: &Node) -> Option<WeakPositions> {
+    let help = "write a list of lengths from the `from` end, such as [\"10 m\", \"25 m\"]";
+    let Content::List(items) = &at.content else {
+        return fields
+            .refuse(at.place.error(format!("`at` is {}, not a list", at.content.noun()), help));
+    };
+    if items.is_empty() {
+        return fields.refuse(at.place.error("`at` has no values", help));
+    }
+    // All items are read, so that each fault is reported.
+    let read: Vec<_> = items
+        .iter()
+        .map(|item| read_value(item, Quantity::Length, ALONG, fields.problems()))
+        .collect();
+    read.into_iter().collect::<Option<_>>().map(WeakPositions::Listed)
+}
+
 /// Reads `[line.inserts]`.
 fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
-    let along = Range::Between(0.01, 20_000.0);
     let what = insert(fields);
-    let every = fields.need_value("every", Quantity::Length, along);
-    let first = fields.value("first", Quantity::Length, along);
+    let every = fields.need_value("every", Quantity::Length, ALONG);
+    let first = fields.value("first", Quantity::Length, ALONG);
     let within = fields.value("within", Quantity::Ratio, Range::Between(0.0, 1.0));
     let end = fields.choice("counted_from", &ENDS);
     let knot = fields.text("knot");

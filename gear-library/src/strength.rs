@@ -19,12 +19,12 @@ use crate::entry::{Confidence, Entry};
 /// Standard deviations on each side that include 90 % of pieces.
 const NINE_OF_TEN: f64 = 1.645;
 
-/// Strength budget of a piece of a line or of a weak link.
+/// Strength budget of a piece of a line, of its weak places together, or of a weak link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrengthBudget {
-    /// Its id in the model, such as `endline-top`.
+    /// Its id in the model, such as `endline-top`; weak places are `endline-top.weak-places`.
     pub part: String,
-    /// Id of its rope or weak link.
+    /// Id of its rope or weak link, or the number and lengths of weak places, such as `1 weak place at 9.14 m`.
     pub item: String,
     /// Strength as stated by the item's source.
     pub stated: StrengthFigure,

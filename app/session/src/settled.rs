@@ -37,7 +37,7 @@ pub struct SettledShape {
     pub nodes: usize,
     /// One for each line.
     pub lines: Vec<LineShape>,
-    /// The strength of each piece of a line and each weak link, with its factors.
+    /// The strength of each piece of a line, of its weak places, and of each weak link, with its factors.
     pub strengths: Vec<PartStrength>,
     /// One for each body.
     pub bodies: Vec<BodyShape>,
@@ -157,13 +157,13 @@ fn as_figures<S: Serializer>(probes: &[ProbeSummary], serializer: S) -> Result<S
     figures::list(PROBE, probes).serialize(serializer)
 }
 
-/// The strength of a piece of a line or a weak link, with its factors.
+/// The strength of a piece of a line, of its weak places together, or of a weak link, with its factors.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct PartStrength {
     /// Its id in the model.
     pub part: String,
-    /// The rope or weak link it is of.
+    /// The rope or weak link it is of, or the number and lengths of weak places.
     pub item: String,
     /// Strength as its source states it [N].
     pub stated: Sourced,

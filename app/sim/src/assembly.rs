@@ -9,7 +9,7 @@ use endline_sdk::LineEnd;
 
 use crate::model::{
     Body, Joint, JointKind, Knot, Line, Link, Model, ModelError, ModelSpec, Obstacle, Resolution,
-    Rope, Settings, Strength,
+    Rope, Settings, Strength, WeakPlace,
 };
 use crate::water::Sea;
 use crate::whale::tree::SkinTree;
@@ -45,7 +45,7 @@ impl Model {
             .enumerate()
             .flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len()))
             .collect();
-        let segment_strength_n = spec
+        let rope_strength_n = spec
             .lines
             .iter()
             .flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n))
@@ -63,7 +63,7 @@ impl Model {
             node_count,
             segment_count,
             segment_line,
-            segment_strength_n,
+            rope_strength_n,
             skin_tree,
             sea,
         }
@@ -337,6 +337,16 @@ fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {
     found.need(
         shares.iter().all(|share| share.is_finite() && *share > 0.0),
         "a share of its strength is not above zero",
+    );
+    let length_m: f64 = line.segments_m.iter().sum();
+    let sound = |place: &WeakPlace| {
+        (0.0..=length_m).contains(&place.at_m)
+            && place.strength_n.is_finite()
+            && place.strength_n > 0.0
+    };
+    found.need(
+        line.weak_places.iter().all(sound) && line.weak_places.is_sorted_by_key(|place| place.at_m),
+        "a weak place is not on it, or its strength is not above zero, or they are not sorted by length",
     );
     found.need(
         line.knots_m.iter().all(|radius| radius.is_finite() && *radius >= 0.0),

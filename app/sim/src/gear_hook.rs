@@ -67,7 +67,7 @@ fn execute(
                 model.line_segments[last].end - 1
             };
             if !state.rope.cut[segment] {
-                record_parted_line(model, state, segment);
+                record_parted_line(model, state, segment, None);
                 cut(state, segment);
             }
         }

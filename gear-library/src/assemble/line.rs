@@ -12,10 +12,10 @@ use endline_sdk::LineEnd;
 use endline_sim::DVec3;
 use endline_sim::model::{Joint, JointKind, Line, Strength};
 
-use crate::diagnostic::{At, hint};
+use crate::diagnostic::{At, Diagnostic, hint};
 use crate::items::USUAL_BULK;
 use crate::limits;
-use crate::line::{Insert, Inserts, LineMake};
+use crate::line::{Insert, Inserts, LineMake, WeakPlaces, WeakPositions};
 use crate::scenario::LineStart;
 use crate::strength::StrengthFigure;
 
@@ -89,6 +89,11 @@ impl Builder<'_> {
             sleeve: None,
         };
         let Some(inserts) = &line.make.inserts else { return vec![whole] };
+        if let Some(weak) = &line.make.weak_places {
+            let message = format!("line `{}` has both inserts and weak places", line.id.value);
+            let help = "keep one of them: inserts are pieces of another rope or weak links, weak places change nothing but strength";
+            self.problems.push(weak.place.error(message, help));
+        }
         if matches!(line.start, LineStart::Catenary | LineStart::Wrapped(_)) {
             let message = "a line that starts as a catenary or in wraps cannot have inserts";
             self.problems.push(
@@ -150,6 +155,7 @@ impl Builder<'_> {
         let strength = rope.map_or_else(Strength::default, |rope| {
             self.piece_strength(rope, &piece, line.make, scale)
         });
+        let weak_places = rope.map_or_else(Vec::new, |rope| self.weak_places(rope, line));
         let index = self.spec.lines.len();
         self.name(piece.id.clone(), Part::Line { first: index, last: index }, &line.id.place);
         let (id, length_m) = (piece.id, piece.length_m);
@@ -164,6 +170,7 @@ impl Builder<'_> {
             to,
             segments_m: Vec::new(),
             strength,
+            weak_places,
             knots_m,
             start_m: Vec::new(),
         });
@@ -240,6 +247,47 @@ fn insert_starts(inserts: &Inserts, line_m: f64) -> Result<Vec<f64>, f64> {
         starts.reverse();
     }
     Ok(starts)
+}
+
+/// Lengths of weak places from end A of a line of this length, in order [m].
+/// Errors: none is on the line, one is beyond it, or there are too many.
+pub(super) fn weak_lengths(
+    weak: &WeakPlaces,
+    line: &str,
+    line_m: f64,
+) -> Result<Vec<f64>, Box<Diagnostic>> {
+    match &weak.positions {
+        WeakPositions::Spaced { every_m, first_m } => {
+            let number = ((line_m - first_m) / every_m).ceil();
+            if number > limits::PARTS.most {
+                let message = format!("line `{line}` has {number:.0} weak places");
+                let help =
+                    format!("at most {} are possible: write a longer `every`", limits::PARTS.most);
+                return Err(Box::new(weak.place.error(message, help)));
+            }
+            let lengths = (0..).map(|index| first_m + f64::from(index) * every_m);
+            let lengths: Vec<f64> = lengths.take_while(|at_m| *at_m < line_m).collect();
+            if lengths.is_empty() {
+                let message = format!("no weak place is on the {line_m:.2} m of line `{line}`");
+                let help = "write a shorter `first` or `every`";
+                return Err(Box::new(weak.place.error(message, help)));
+            }
+            Ok(lengths)
+        }
+        WeakPositions::Listed(at) => {
+            if let Some(beyond) = at.iter().find(|at| at.value >= line_m) {
+                let message = format!(
+                    "a weak place at {:.2} m is beyond the {line_m:.2} m of line `{line}`",
+                    beyond.value
+                );
+                let help = "write a length from the `from` end that is less than the line's";
+                return Err(Box::new(beyond.place.error(message, help)));
+            }
+            let mut lengths: Vec<f64> = at.iter().map(|at| at.value).collect();
+            lengths.sort_by(f64::total_cmp);
+            Ok(lengths)
+        }
+    }
 }
 
 fn insert_length(inserts: &Inserts) -> f64 {
@@ -402,5 +450,45 @@ mod tests {
             insert_starts(&sixty_feet("from", "12 ft", 1.0), line_m - 1.0).unwrap().len(),
             10_000
         );
+    }
+
+    /// Lengths of weak places on a line, or the message and its help.
+    fn weak(text: &str, line_m: f64) -> Result<Vec<f64>, String> {
+        let text = format!("[weak_places]\nstrength = \"1700 lbf\"\n{text}\n");
+        let (node, problems) =
+            (crate::tree::read("test.toml", &text).expect("a TOML text"), Problems::default());
+        let make = LineMake::read(&Fields::of(&node, &problems));
+        let weak = make.weak_places.expect("weak places");
+        weak_lengths(&weak, "warp", line_m).map_err(|problem| problem.to_string())
+    }
+
+    #[test]
+    fn weak_places_lie_at_equal_distances_or_as_listed() {
+        // 60 ft are 18.288 m; the first lies at half of it.
+        let feet = |feet: f64| 0.3048 * feet;
+        let cases: [(&str, f64, &[f64]); 5] = [
+            ("every = \"60 ft\"", 60.0, &[feet(30.0), feet(90.0), feet(150.0)]),
+            ("every = \"60 ft\"\nfirst = \"12 ft\"", 30.0, &[feet(12.0), feet(72.0)]),
+            // A place at the end of the line is none.
+            ("every = \"10 m\"\nfirst = \"10 m\"", 30.0, &[10.0, 20.0]),
+            ("every = \"100 m\"\nfirst = \"7 m\"", 30.0, &[7.0]),
+            ("at = [\"25 m\", \"10 m\"]", 30.0, &[10.0, 25.0]),
+        ];
+        for (text, line_m, expected) in cases {
+            let found = weak(text, line_m).unwrap();
+            let is_near = |(one, other): (&f64, &f64)| (one - other).abs() < 1e-9;
+            assert!(
+                found.len() == expected.len() && found.iter().zip(expected).all(is_near),
+                "{text}: {found:?}"
+            );
+        }
+        for (text, line_m, part) in [
+            ("every = \"60 ft\"", 9.0, "no weak place is on the 9.00 m of line `warp`"),
+            ("every = \"1 cm\"", 200.0, "has 20000 weak places"),
+            ("at = [\"10 m\", \"30 m\"]", 30.0, "at 30.00 m is beyond the 30.00 m of line `warp`"),
+        ] {
+            let message = weak(text, line_m).unwrap_err();
+            assert!(message.contains(part) && message.contains("write"), "{message}");
+        }
     }
 }

@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use endline_sim::model::Strength;
+use endline_sim::model::{Strength, WeakPlace};
 
 use crate::diagnostic::At;
 use crate::entry::Entry;
@@ -20,7 +20,7 @@ use crate::schema::Kind;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 
 use super::builder::{Builder, Scale};
-use super::line::{NewLine, Piece, Tied};
+use super::line::{NewLine, Piece, Tied, weak_lengths};
 
 impl Builder<'_> {
     /// Condition of a line's rope: its own, else that of the scenario.
@@ -77,6 +77,35 @@ impl Builder<'_> {
         strength
     }
 
+    /// Weak places of a line, which vary with its rope: one draw applies to all of them. Records their budget.
+    pub fn weak_places(&mut self, rope: usize, line: &NewLine<'_>) -> Vec<WeakPlace> {
+        // Both together are refused where the line is cut at its inserts.
+        let Some(weak) = line.make.weak_places.as_ref().filter(|_| line.make.inserts.is_none())
+        else {
+            return Vec::new();
+        };
+        let lengths = match weak_lengths(weak, &line.id.value, line.length_m) {
+            Ok(lengths) => lengths,
+            Err(problem) => {
+                self.problems.push(*problem);
+                return Vec::new();
+            }
+        };
+        let item = &self.stock[rope];
+        let drawn = self.strength_factor(item.strength_cv, &line.id.value);
+        let budget = StrengthBudget {
+            part: format!("{}.weak-places", line.id.value),
+            item: weak_places_in_words(&lengths),
+            stated: StrengthFigure::chosen(weak.strength_n, "weak_places of the line"),
+            factors: Vec::new(),
+            variation: StrengthFigure::of(&item.entry, "strength_cv"),
+            drawn,
+        };
+        let strength_n = budget.drawn_n();
+        self.strengths.push(budget);
+        lengths.into_iter().map(|at_m| WeakPlace { at_m, strength_n }).collect()
+    }
+
     /// Drawn rating of a weak link of the library [N]. Records its budget.
     pub fn link_strength(&mut self, link: &WeakLink, id: &str) -> f64 {
         let drawn = self.strength_factor(link.spread, id);
@@ -111,6 +140,24 @@ impl Builder<'_> {
             bulk: knot.bulk,
             source: source.map(|figure| (knot.entry.name.clone(), figure)),
         })
+    }
+}
+
+/// Greatest number of weak places whose lengths are all listed.
+const MOST_LISTED: usize = 6;
+
+/// Number and lengths of weak places, such as `2 weak places at 9.14 m, 27.43 m`.
+fn weak_places_in_words(lengths_m: &[f64]) -> String {
+    let text = |at_m: &f64| format!("{at_m:.2} m");
+    match lengths_m {
+        [only] => format!("1 weak place at {}", text(only)),
+        [first, .., last] if lengths_m.len() > MOST_LISTED => {
+            format!("{} weak places from {} to {}", lengths_m.len(), text(first), text(last))
+        }
+        all => {
+            let listed: Vec<String> = all.iter().map(text).collect();
+            format!("{} weak places at {}", all.len(), listed.join(", "))
+        }
     }
 }
 
@@ -235,5 +282,13 @@ mod tests {
         assert!((factor(3, "a", 0.1) - factor(4, "a", 0.1)).abs() > 1e-9);
         assert!((factor(3, "a", 0.1) - factor(3, "b", 0.1)).abs() > 1e-9);
         assert_eq!(factor(3, "a", 0.0).to_bits(), 1.0_f64.to_bits());
+    }
+
+    #[test]
+    fn weak_places_are_listed_or_counted() {
+        assert_eq!(weak_places_in_words(&[9.144]), "1 weak place at 9.14 m");
+        assert_eq!(weak_places_in_words(&[8.9, 18.04]), "2 weak places at 8.90 m, 18.04 m");
+        let many: Vec<f64> = (1..=7).map(f64::from).collect();
+        assert_eq!(weak_places_in_words(&many), "7 weak places from 1.00 m to 7.00 m");
     }
 }

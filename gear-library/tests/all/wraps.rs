@@ -72,6 +72,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
             to: 1,
             segments_m,
             strength: Strength::default(),
+            weak_places: Vec::new(),
             knots_m: [0.0; 2],
             start_m: Vec::new(),
         }],

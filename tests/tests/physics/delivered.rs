@@ -88,3 +88,32 @@ fn with_inserts_the_line_delivers_at_its_weakest_place_of_own_rope() {
     let insert = of(&found, "warp.insert-1").delivered_n();
     assert!((insert / (1700.0 * 0.74 * LBF_N) - 1.0).abs() < 1e-9, "{insert}");
 }
+
+/// Weak places have a row of their own beside the line, and one draw: at any seed, the line parts there at the drawn strength.
+#[test]
+fn weak_places_deliver_their_strength_with_the_variation_of_the_line() {
+    let places = "[line.weak_places]\nstrength = \"1700 lbf\"\nevery = \"60 ft\"\n";
+    let found = budgets(&pulled(PLAIN, places));
+    let parts: Vec<(&str, &str)> =
+        found.iter().map(|budget| (budget.part.as_str(), budget.item.as_str())).collect();
+    assert_eq!(
+        parts,
+        [("warp", "polysteel-1-2"), ("warp.weak-places", "2 weak places at 9.14 m, 27.43 m")]
+    );
+    let own = of(&found, "warp.weak-places");
+    assert!((own.delivered_n() / (1700.0 * LBF_N) - 1.0).abs() < 1e-9, "{}", own.delivered_n());
+    assert_eq!(own.variation, of(&found, "warp").variation);
+    for nodes in [20, 40, 80] {
+        let text = pulled(&format!("rope_nodes = {nodes}"), places);
+        let found = budgets(&text);
+        let [line, own] = ["warp", "warp.weak-places"].map(|part| of(&found, part).clone());
+        assert!((own.drawn - line.drawn).abs() < 1e-15 && (own.drawn - 1.0).abs() > 1e-6);
+        let (greatest, parted) = until_it_parts(assembled(&text, None));
+        assert_eq!(parted, ["warp"]);
+        assert!((greatest / own.drawn_n() - 1.0).abs() < 0.01, "{greatest} of {}", own.drawn_n());
+    }
+    // A required strength of the line is that of its rope.
+    let made = format!("delivered_strength = \"2600 lbf\"\n{places}");
+    let delivered_n = of(&budgets(&pulled(PLAIN, &made)), "warp").delivered_n();
+    assert!((delivered_n / (2600.0 * LBF_N) - 1.0).abs() < 1e-9, "{delivered_n}");
+}

@@ -170,9 +170,9 @@ fn the_segment_at_a_knot_goes_and_a_line_may_name_its_own_wear() {
     // The rope's usual 0.90 at the other end, nothing between.
     for (segment, share) in [(0, 0.5 * 0.9), (last / 2, 0.5), (last, 0.5 * 0.6)] {
         assert!(
-            (model.segment_strength_n[segment] / new - share).abs() < 1e-12,
+            (model.rope_strength_n[segment] / new - share).abs() < 1e-12,
             "{segment}: {}",
-            model.segment_strength_n[segment] / new
+            model.rope_strength_n[segment] / new
         );
     }
 }
@@ -324,6 +324,53 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
             "start = \"catenary\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
             vec!["cannot have inserts"],
         ),
+        ("", "[line.weak_places]\nevery = \"60 ft\"\n", vec!["`strength` is missing"]),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"1700 lbf\"\n",
+            vec!["`every` is missing in `line.0.weak_places`", "or at = [\"10 m\""],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"-5 N\"\nevery = \"60 ft\"\n",
+            vec!["`strength` is -5 N", "above zero"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"60 ft\"\nat = [\"5 m\"]\n",
+            vec!["both `every` and `at` are present", "keep one"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nfirst = \"6 m\"\nat = [\"5 m\"]\n",
+            vec!["`first` is present without `every`"],
+        ),
+        ("", "[line.weak_places]\nstrength = \"5 N\"\nat = []\n", vec!["`at` has no values"]),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nat = [\"5 m\", \"0 m\"]\n",
+            vec!["`at` is 0 m", "between 0.01 m"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nat = [\"5 m\", \"40 m\"]\n",
+            vec!["a weak place at 40.00 m is beyond the 40.00 m of line `warp`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"90 m\"\n",
+            vec!["no weak place is on the 40.00 m of line `warp`", "a shorter `first` or `every`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"9 m\"\nevry = 1\n",
+            vec!["unknown field `evry`"],
+        ),
+        (
+            "",
+            "[line.weak_places]\nstrength = \"5 N\"\nevery = \"9 m\"\n[line.inserts]\nsleeve = \"wl-600\"\nevery = \"5 m\"\n",
+            vec!["line `warp` has both inserts and weak places", "keep one of them"],
+        ),
     ] {
         let problems = refused(&pulled(head, line));
         for part in parts {
@@ -335,6 +382,25 @@ fn a_mistake_in_a_line_is_reported_with_its_place() {
             report(&problems)
         );
     }
+}
+
+#[test]
+fn gear_of_a_gear_type_takes_weak_places_and_keeps_its_lines() {
+    let text = std::fs::read_to_string(root().join("scenarios/hello-endline.toml")).unwrap();
+    let places = "[gear.lines.endline-top.weak_places]\nstrength = \"500 lbf\"\nfirst = \"12 ft\"\nevery = \"30 ft\"\n";
+    let weak =
+        text.replace("assembly = \"single\"\n", &format!("assembly = \"single\"\n\n{places}"));
+    let [bare, weak] = [&text, &weak].map(|text| assembled(text, None));
+    let line = weak.lines.iter().position(|line| line.id == "endline-top").unwrap();
+    let found = &weak.lines[line].weak_places;
+    assert!(!found.is_empty() && found[0].strength_n > 0.0);
+    for (index, place) in found.iter().enumerate() {
+        assert!((place.at_m - 0.3048 * (12.0 + 30.0 * index as f64)).abs() < 1e-9, "{found:?}");
+    }
+    let mut lines = weak.lines.clone();
+    lines[line].weak_places.clear();
+    assert_eq!(lines, bare.lines, "nothing but strength");
+    assert_eq!(weak.ropes, bare.ropes);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Options that differ in strengths alone share a run until something parts.
+//! Options that differ in strengths alone, weak places of lines included, share a run until something parts.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -55,6 +55,31 @@ id = "made-4000"
 strength = "4000 lbf"
 set = { weak_links = false, "line.0.delivered_strength" = "4,000 lbf" }
 
+[[option]]
+id = "places-hold"
+[option.set]
+weak_links = false
+"line.0.delivered_strength" = "9,000 lbf"
+"line.0.weak_places.strength" = "7,000 lbf"
+"line.0.weak_places.every" = "30 ft"
+
+[[option]]
+id = "places-part"
+[option.set]
+weak_links = false
+"line.0.delivered_strength" = "4,000 lbf"
+"line.0.weak_places.strength" = "700 lbf"
+"line.0.weak_places.every" = "30 ft"
+
+# The tension is the same everywhere: one more place changes only where the line parts.
+[[option]]
+id = "places-part-near"
+[option.set]
+weak_links = false
+"line.0.delivered_strength" = "4,000 lbf"
+"line.0.weak_places.strength" = "700 lbf"
+"line.0.weak_places.at" = ["2 m"]
+
 [encounter.tide]
 value = "0.1 m/s"
 source = "assumed"
@@ -91,6 +116,14 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
     }
     // The line that parts has the same strength in both; the stronger link does not matter.
     assert_eq!(cell("made-900-link", "state_hash"), cell("made-900", "state_hash"));
+    assert_eq!(cell("places-hold", "parted"), "");
+    assert_eq!(cell("places-hold", "state_hash"), cell("unbreakable", "state_hash"));
+    for option in ["places-part", "places-part-near"] {
+        assert_eq!(cell(option, "parted"), "warp", "{option}");
+        let at_s: f64 = cell(option, "parted_at_s").parse().unwrap();
+        assert!(0.5 < at_s, "{option} parts after a look at the run: {at_s}");
+    }
+    assert_ne!(cell("places-part", "state_hash"), cell("places-part-near", "state_hash"));
     let all = [
         "middle",
         "late",
@@ -100,6 +133,9 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
         "made-900",
         "made-900-link",
         "made-4000",
+        "places-hold",
+        "places-part",
+        "places-part-near",
     ];
     for option in all {
         let replayed = place

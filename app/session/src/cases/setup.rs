@@ -158,6 +158,7 @@ mod tests {
             to: 1,
             segments_m: vec![1.0, 2.0],
             strength: Strength::default(),
+            weak_places: Vec::new(),
             knots_m: [0.0; 2],
             start_m,
         };

@@ -287,13 +287,9 @@ fn levels(view: &LiveView, units: Units) -> Vec<Level> {
         .filter(|link| link.enabled)
         .map(|link| (format!("{} parts", link.id), [link.rating_n; 2]));
     let rope = |(index, rope): (usize, &endline_sim::model::Rope)| {
-        let segments = view
-            .model
-            .segment_line
-            .iter()
-            .zip(&view.model.segment_strength_n)
-            .filter(|(line, _)| spec.lines[**line].rope == index);
-        let weakest = segments.map(|(_, strength)| *strength).fold(f64::INFINITY, f64::min);
+        let own = (0..spec.lines.len()).filter(|line| spec.lines[*line].rope == index);
+        let segments = own.flat_map(|line| view.model.weakest(line, &view.frame.segment_length_m));
+        let weakest = segments.map(|weakest| weakest.strength_n).fold(f64::INFINITY, f64::min);
         weakest
             .is_finite()
             .then(|| (format!("{} breaks", rope.id), [weakest, rope.strength_n.max(weakest)]))

@@ -1,13 +1,13 @@
 //! Loads during a haul: the greatest tension of every part, by stage and in all, samples along the endline, and the probability of parting.
 //!
-//! A piece of rope or a link holds `S Z`, with `S` the mean it delivers where it is loaded (wear, and a knot or splice in the
-//! segment at it) and `Z` normal with mean 1 and the coefficient of variation `c` of its item. With `u = max T/S` over its segments and the
+//! A piece of rope or a link holds `S Z`, with `S` the mean it delivers where it is loaded (wear, a knot or splice in the
+//! segment at it, and weak places) and `Z` normal with mean 1 and the coefficient of variation `c` of its item. With `u = max T/S` over its segments and the
 //! haul, it parts with the probability `Φ((u - 1)/c)`. Pieces vary independently, so that one or more part with `1 - Π (1 - pᵢ)`.
 //! `T` is one record of one sea: the probability is that over pieces of rope, not over seas.
 
 use endline_sdk::LineEnd;
 use endline_sim::haul::{Haul, HaulEvent, LIFTED_M};
-use endline_sim::model::{BodyRole, JointKind, Link};
+use endline_sim::model::{BodyRole, JointKind, Line, Link};
 use endline_sim::parting::link_segment;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -252,12 +252,15 @@ fn parts(made: &Made, from: (usize, usize, LineEnd)) -> Vec<Part> {
             .and_then(|budget| budget.variation.as_ref())
             .map_or(0.0, |figure| figure.value)
     };
-    let lines = model.spec.lines.iter().zip(&model.line_segments).map(|(line, segments)| Part {
+    let lengths_m: Vec<f64> =
+        model.spec.lines.iter().flat_map(|line| &line.segments_m).copied().collect();
+    let of_line = |(index, line): (usize, &Line)| Part {
         id: line.id.clone(),
-        segments: segments.clone().collect(),
-        holds_n: model.segment_strength_n[segments.clone()].to_vec(),
+        segments: model.line_segments[index].clone().collect(),
+        holds_n: model.weakest(index, &lengths_m).map(|weakest| weakest.strength_n).collect(),
         variation: variation(&line.id),
-    });
+    };
+    let lines = model.spec.lines.iter().enumerate().map(of_line);
     let is_below = |link: &&Link| (link.line, link.end) != (from.1, from.2);
     let links = model.spec.links.iter().filter(is_below).map(|link| Part {
         id: link.id.clone(),

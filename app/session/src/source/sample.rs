@@ -44,6 +44,7 @@ pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
             to: 1,
             segments_m: vec![1.0; 10],
             strength: Strength::default(),
+            weak_places: Vec::new(),
             knots_m: [0.0; 2],
             start_m: vec![],
         }],

@@ -6,14 +6,17 @@
 //! - has the same strength in both, or
 //! - did not part, is no weaker in the run, and is stronger in the model than its greatest tension at that place.
 //!
-//! A part that is weaker in the run could have shortened a step there without parting. An option with `unbreakable = true` has infinite
-//! strengths. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above them changes
+//! A place is the first segment of a line, the last one, all between, or a bin of its length for each weak place in it
+//! ([`TENSION_BIN_M`](endline_sim::metrics::TENSION_BIN_M)). A part that is weaker in the run could have shortened a step there without
+//! parting. An option with `unbreakable = true` has infinite strengths. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above them changes
 //! nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its tensions;
 //! [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::{LineSummary, LinkSummary, Summary};
-use endline_sim::model::{Friction, FrictionLaw, GearHook, Line, Link, Rope, Settings, Whale};
+use endline_sim::model::{
+    Friction, FrictionLaw, GearHook, Line, Link, Rope, Settings, WeakPlace, Whale,
+};
 use endline_sim::{Model, ModelSpec};
 
 use super::plan::OptionPlan;
@@ -40,7 +43,7 @@ pub(super) fn same_so_far(model: &Model, other: &Model, summary: &Summary) -> bo
     parts(one)
         .zip(parts(other))
         .zip(borne(summary))
-        .all(|((own_n, run_n), borne)| shares(own_n, run_n, &borne, share))
+        .all(|((own, run), borne)| shares(&own, &run, &borne, share))
 }
 
 /// Whether two models have the same run up to the moment when something first parts.
@@ -59,61 +62,119 @@ pub(super) fn is_certainly_same_run(
     other: &Model,
     summary: &Summary,
 ) -> bool {
+    // The positions of weak places may differ between encounters.
+    let has_weak_places =
+        |spec: &ModelSpec| spec.lines.iter().any(|line| !line.weak_places.is_empty());
+    if has_weak_places(&other.spec) || has_weak_places(other_bare) {
+        return false;
+    }
     // The other has the same strengths in both encounters only if none are drawn.
     let drawn = if strengths(&other.spec).eq(strengths(other_bare)) { 1.0 } else { SCATTER };
     let share = margin(bare) * drawn;
-    parts(bare).zip(parts(other_bare)).zip(borne(summary)).all(|((own_n, run_n), borne)| {
-        !borne.parted && is_no_weaker(run_n, own_n) && holds(own_n, &borne, share)
+    parts(bare).zip(parts(other_bare)).zip(borne(summary)).all(|((own, run), borne)| {
+        !borne.parted && is_no_weaker(&run, &own) && holds_anywhere(&own, &borne, share)
     })
 }
 
+/// Strengths of a rope or weak link.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    /// In the first segment, between, and in the last one; infinite if it cannot part [N].
+    strengths_n: [f64; 3],
+    /// Weak places of a rope that can part.
+    weak_places: &'a [WeakPlace],
+}
+
+impl Part<'_> {
+    /// A part that cannot part.
+    const UNBREAKABLE: Part<'static> = Part { strengths_n: [f64::INFINITY; 3], weak_places: &[] };
+
+    /// A bound of its strength at a length from end A, from above [N].
+    fn most_at_n(&self, at_m: f64) -> f64 {
+        let rope_n = self.strengths_n.into_iter().fold(0.0, f64::max);
+        let here = self.weak_places.iter().filter(|place| place.at_m.to_bits() == at_m.to_bits());
+        here.map(|place| place.strength_n).fold(rope_n, f64::min)
+    }
+
+    /// Its least strength [N].
+    fn least_n(&self) -> f64 {
+        let places = self.weak_places.iter().map(|place| place.strength_n);
+        self.strengths_n.into_iter().chain(places).fold(f64::INFINITY, f64::min)
+    }
+}
+
 /// What a rope or weak link bore in a run.
-struct Borne {
-    /// Greatest tension of each place [N].
+struct Borne<'a> {
+    /// Greatest tension of the first segment, of all between, and of the last one [N].
     peaks_n: [f64; 3],
+    /// The line, for its greatest tensions by length; `None` of a weak link.
+    line: Option<&'a LineSummary>,
     parted: bool,
 }
 
 /// What every line and then every link bore.
-fn borne(summary: &Summary) -> impl Iterator<Item = Borne> {
-    let line = |line: &LineSummary| Borne {
-        peaks_n: line.place_peaks_n,
-        parted: line.parted_at_s.is_some(),
+fn borne(summary: &Summary) -> impl Iterator<Item = Borne<'_>> {
+    let of_line = |line| {
+        let LineSummary { place_peaks_n: peaks_n, parted_at_s, .. }: &LineSummary = line;
+        Borne { peaks_n: *peaks_n, line: Some(line), parted: parted_at_s.is_some() }
     };
-    let link = |link: &LinkSummary| Borne {
+    let of_link = |link: &LinkSummary| Borne {
         peaks_n: [link.peak_tension_n.max(link.unconverged_peak_n); 3],
+        line: None,
         parted: link.parted_at_s.is_some(),
     };
-    summary.lines.iter().map(line).chain(summary.links.iter().map(link))
+    summary.lines.iter().map(of_line).chain(summary.links.iter().map(of_link))
 }
 
-/// Strengths of every line, in its first segment, between, and in its last one, and then of every link; infinite if it cannot part [N].
-fn parts(spec: &ModelSpec) -> impl Iterator<Item = [f64; 3]> {
+/// Strengths of every line and then of every link.
+fn parts(spec: &ModelSpec) -> impl Iterator<Item = Part<'_>> {
     let unbreakable = spec.settings.unbreakable;
-    let line = |line: &Line| {
-        let along_n = spec.ropes[line.rope].strength_n * line.strength.all;
-        [line.strength.end_a, 1.0, line.strength.end_b].map(|left| along_n * left)
+    let of_line = |line| {
+        let Line { rope, strength, weak_places, .. }: &Line = line;
+        let along_n = spec.ropes[*rope].strength_n * strength.all;
+        let strengths_n = [strength.end_a, 1.0, strength.end_b].map(|left| along_n * left);
+        Part { strengths_n, weak_places }
     };
-    let link = |link: &Link| [if link.enabled { link.rating_n } else { f64::INFINITY }; 3];
-    let all = spec.lines.iter().map(line).chain(spec.links.iter().map(link));
-    all.map(move |strengths| if unbreakable { [f64::INFINITY; 3] } else { strengths })
+    let of_link = |link: &Link| {
+        let rated = Part { strengths_n: [link.rating_n; 3], weak_places: &[] };
+        if link.enabled { rated } else { Part::UNBREAKABLE }
+    };
+    let all = spec.lines.iter().map(of_line).chain(spec.links.iter().map(of_link));
+    all.map(move |part| if unbreakable { Part::UNBREAKABLE } else { part })
 }
 
 /// Whether a part of a model behaves as that of a run, in which it bore this.
-fn shares(own_n: [f64; 3], run_n: [f64; 3], borne: &Borne, share: f64) -> bool {
-    let is_weaker_in_run = !is_no_weaker(run_n, own_n);
-    let is_same = !is_weaker_in_run && is_no_weaker(own_n, run_n);
-    is_same || (!borne.parted && !is_weaker_in_run && holds(own_n, borne, share))
+fn shares(own: &Part<'_>, run: &Part<'_>, borne: &Borne<'_>, share: f64) -> bool {
+    let is_weaker_in_run = !is_no_weaker(run, own);
+    let is_same = !is_weaker_in_run && is_no_weaker(own, run);
+    is_same || (!borne.parted && !is_weaker_in_run && holds(own, borne, share))
 }
 
-/// Whether strengths are at least others at each place.
-fn is_no_weaker(one_n: [f64; 3], other_n: [f64; 3]) -> bool {
-    one_n.iter().zip(other_n).all(|(one, other)| *one >= other)
+/// Whether the strengths of a part are at least those of another at each place.
+fn is_no_weaker(one: &Part<'_>, other: &Part<'_>) -> bool {
+    one.strengths_n.iter().zip(other.strengths_n).all(|(one, other)| *one >= other)
+        && one.weak_places.iter().all(|place| place.strength_n >= other.most_at_n(place.at_m))
 }
 
 /// Whether every tension that a part bore is below a share of its strength there.
-fn holds(strengths_n: [f64; 3], borne: &Borne, share: f64) -> bool {
-    borne.peaks_n.iter().zip(strengths_n).all(|(peak_n, strength_n)| *peak_n < share * strength_n)
+fn holds(part: &Part<'_>, borne: &Borne<'_>, share: f64) -> bool {
+    let places = borne.peaks_n.iter().zip(part.strengths_n);
+    let weak = part
+        .weak_places
+        .iter()
+        .flat_map(|place| borne.line.map(|line| (line.peak_near_n(place.at_m), place.strength_n)));
+    places
+        .map(|(peak_n, strength_n)| (*peak_n, strength_n))
+        .chain(weak)
+        .all(|(peak_n, strength_n)| peak_n < share * strength_n)
+}
+
+/// As [`holds`], for weak places at any length.
+fn holds_anywhere(part: &Part<'_>, borne: &Borne<'_>, share: f64) -> bool {
+    let peak_n = borne.peaks_n.into_iter().fold(0.0, f64::max);
+    let bare = Part { weak_places: &[], ..*part };
+    holds(&bare, borne, share)
+        && part.weak_places.iter().all(|place| peak_n < share * place.strength_n)
 }
 
 /// Last parts of the paths of strengths. Other settings may change a run without a trace in the model, such as the response of a
@@ -129,11 +190,16 @@ const STRENGTHS: [&str; 8] = [
     "weak_links",
 ];
 
+/// Table of a line's weak places, with settings of its own.
+const WEAK_PLACES: &str = "weak_places";
+
 /// Whether a setting at a path can change nothing but strengths, and what the models show: the item of a weak link is such a setting.
 fn is_strength(path: &str) -> bool {
     let mut parts = path.rsplit('.');
-    let last = parts.next().unwrap_or_default();
-    STRENGTHS.contains(&last) || (last == "item" && parts.next_back() == Some("link"))
+    let (last, table) = (parts.next().unwrap_or_default(), parts.next());
+    STRENGTHS.contains(&last)
+        || [Some(last), table].contains(&Some(WEAK_PLACES))
+        || (last == "item" && path.split('.').next() == Some("link"))
 }
 
 /// Whether two options differ in strengths alone in every encounter: they differ in settings of strengths only, their models differ in
@@ -145,8 +211,9 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
             .iter()
             .map(|setting| setting.field.value.clone())
             .chain(plan.removes.iter().cloned());
-        let mut own: Vec<String> =
-            set.filter(|field| drawn_fields.contains(&field.as_str())).collect();
+        let mut own: Vec<String> = set
+            .filter(|field| drawn_fields.iter().any(|drawn| is_at_or_in(drawn, field)))
+            .collect();
         own.sort();
         own
     };
@@ -164,9 +231,14 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
         && differ_only_in_strength(&one.prepared.model.spec, &other.prepared.model.spec)
 }
 
+/// Whether a path is that of a field, or of one in its table.
+fn is_at_or_in(path: &str, field: &str) -> bool {
+    path.strip_prefix(field).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// The least strength of a model, by which options are sorted; infinite if nothing can part [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
-    parts(spec).flatten().fold(f64::INFINITY, f64::min)
+    parts(spec).map(|part| part.least_n()).fold(f64::INFINITY, f64::min)
 }
 
 /// Strengths of lines and links, whether or not they can part [N].
@@ -197,8 +269,10 @@ fn differ_only_in_strength(one: &ModelSpec, other: &ModelSpec) -> bool {
     let same_rope = |one: &Rope, other: &Rope| {
         *one == Rope { id: one.id.clone(), strength_n: one.strength_n, ..other.clone() }
     };
-    let same_line =
-        |one: &Line, other: &Line| *one == Line { strength: one.strength, ..other.clone() };
+    let same_line = |one: &Line, other: &Line| {
+        let Line { strength, weak_places, .. } = one;
+        *one == Line { strength: *strength, weak_places: weak_places.clone(), ..other.clone() }
+    };
     let same_link = |one: &Link, other: &Link| {
         let Link { id, line, end, rating_n: _, enabled: _ } = one;
         (id, *line, *end) == (&other.id, other.line, other.end)
@@ -296,11 +370,14 @@ fn same_whale(one: &Whale, other: &Whale) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use endline_fixtures::gear::{fixed, line, model, water};
     use endline_fixtures::whale::still;
+    use endline_sim::DVec3;
     use endline_sim::whale::jaws::JawStrength;
     use endline_sim::whale::skin::Skin;
 
     use super::*;
+    use crate::figures::tests::made_up;
 
     fn whale(jaws: Option<JawStrength>) -> Whale {
         Whale { jaws, ..still(Skin::default()) }
@@ -308,8 +385,10 @@ mod tests {
 
     #[test]
     fn a_part_is_shared_if_it_is_the_same_or_holds_and_is_no_weaker_in_the_run() {
-        let borne = |parted| Borne { peaks_n: [50.0, 100.0, 80.0], parted };
-        let shares = |own_n, run_n, parted| shares(own_n, run_n, &borne(parted), MARGIN);
+        let borne = |parted| Borne { peaks_n: [50.0, 100.0, 80.0], line: None, parted };
+        let part = |strengths_n| Part { strengths_n, weak_places: &[] };
+        let shares =
+            |own_n, run_n, parted| shares(&part(own_n), &part(run_n), &borne(parted), MARGIN);
         let (strong, weak) = ([200.0; 3], [60.0, 120.0, 90.0]);
         assert!(shares(strong, strong, true), "the same strength, parted in both");
         assert!(shares(weak, strong, false), "weaker than in the run, and holds");
@@ -318,6 +397,68 @@ mod tests {
         assert!(!shares(weak, strong, true), "parted in the run");
         assert!(!shares([60.0, 100.5, 90.0], strong, false), "within the margin of rounding");
         assert!(!shares([49.0, 120.0, 90.0], strong, false), "overloaded in its first segment");
+    }
+
+    /// A line that bore 50 N in its first metre and 100 N beyond, in bins of half a metre, with rope of 200 N.
+    #[test]
+    fn weak_places_are_tested_where_they_lie() {
+        let mut line = made_up::report().summary.lines[0].clone();
+        line.bin_peaks_n = vec![50.0, 50.0, 100.0, 100.0];
+        let borne = Borne { peaks_n: [50.0, 100.0, 100.0], line: Some(&line), parted: false };
+        let at = |at_m, strength_n| WeakPlace { at_m, strength_n };
+        let part =
+            |weak_places: &'static [WeakPlace]| Part { strengths_n: [200.0; 3], weak_places };
+        let shares = |own: &[WeakPlace], run: &[WeakPlace]| {
+            let [own, run] = [own, run].map(|places| part(places.to_vec().leak()));
+            shares(&own, &run, &borne, MARGIN)
+        };
+        assert!(shares(&[at(0.7, 60.0)], &[]), "60 N where it bore 50 N");
+        assert!(!shares(&[at(1.2, 60.0)], &[]), "60 N where it bore 100 N");
+        assert!(!shares(&[at(0.7, 60.0), at(1.2, 60.0)], &[]), "one of two is overloaded");
+        assert!(!shares(&[at(0.7, 50.2)], &[]), "within the margin of rounding");
+        assert!(shares(&[at(0.7, 60.0), at(1.2, 120.0)], &[at(1.2, 120.0)]), "one more, and holds");
+        assert!(!shares(&[at(0.7, 60.0)], &[at(1.2, 120.0)]), "the run is weaker at 1.2 m");
+        assert!(!shares(&[], &[at(0.7, 60.0)]), "the run is weaker at 0.7 m");
+        assert!(!shares(&[at(0.7, 70.0)], &[at(0.7, 60.0)]), "the run is weaker at 0.7 m");
+        let parted = Borne { parted: true, ..borne };
+        let places: &'static [WeakPlace] = vec![at(1.2, 90.0)].leak();
+        assert!(super::shares(&part(places), &part(places), &parted, MARGIN), "the same in both");
+        assert!(!super::shares(&part(places), &part(&[]), &parted, MARGIN), "parted in the run");
+    }
+
+    #[test]
+    fn weak_places_are_strengths_and_change_nothing_else() {
+        for path in [
+            "line.0.weak_places",
+            "line.0.weak_places.every",
+            "line.1.weak_places.at",
+            "gear.0.lines.endline-top.weak_places.first",
+            "line.0.delivered_strength",
+            "link.0.item",
+        ] {
+            assert!(is_strength(path), "{path}");
+        }
+        for path in ["line.0.inserts.every", "line.0.rope", "body.0.item", "rope_nodes"] {
+            assert!(!is_strength(path), "{path}");
+        }
+        let spec = |weak_places: Vec<WeakPlace>, length_m: f64| {
+            let joints = vec![fixed("low", DVec3::ZERO), fixed("high", DVec3::Z * length_m)];
+            let lines = vec![Line { weak_places, ..line("warp", length_m, 5) }];
+            let settings = Settings::default();
+            let mut spec = model(water(0.0, 0.0), joints, lines, Vec::new(), settings).spec;
+            spec.ropes[0].strength_n = 300.0;
+            spec
+        };
+        let places = vec![WeakPlace { at_m: 2.0, strength_n: 100.0 }];
+        assert!(differ_only_in_strength(&spec(places.clone(), 9.0), &spec(Vec::new(), 9.0)));
+        assert!(!differ_only_in_strength(&spec(places.clone(), 9.0), &spec(places.clone(), 8.0)));
+        let mut weak = spec(places, 9.0);
+        assert!((least_strength_n(&weak) - 100.0).abs() < 1e-12);
+        assert!((least_strength_n(&spec(Vec::new(), 9.0)) - 300.0).abs() < 1e-12);
+        weak.settings.unbreakable = true;
+        assert!(least_strength_n(&weak).is_infinite());
+        assert!(is_at_or_in("line.0.weak_places.strength", "line.0.weak_places"));
+        assert!(!is_at_or_in("line.0.weak_places", "line.0.weak"));
     }
 
     #[test]

@@ -111,7 +111,7 @@ impl Haul {
     }
 }
 
-/// The gear alone, with unbreakable rope.
+/// The gear alone, with unbreakable lines.
 fn bare(model: &Model) -> Model {
     let mut spec = model.spec.clone();
     spec.links.clear();
@@ -121,6 +121,9 @@ fn bare(model: &Model) -> Model {
     (spec.whale, spec.friction) = (None, None);
     for rope in &mut spec.ropes {
         rope.strength_n = f64::INFINITY;
+    }
+    for line in &mut spec.lines {
+        line.weak_places.clear();
     }
     spec.settings = Settings {
         resolution: None,

@@ -253,6 +253,7 @@ fn line_of(model: &Model, index: usize, segments: &Range<usize>) -> Line {
         segments_m: line.segments_m[own].to_vec(),
         start_m: Vec::new(),
         strength: Strength::default(),
+        weak_places: Vec::new(),
         knots_m: [0.0; 2],
         ..line.clone()
     }

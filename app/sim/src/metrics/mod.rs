@@ -37,7 +37,7 @@ pub use bodies::{CAUGHT_S, DRAGGED_M};
 pub use events::{Event, EventKind, LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub use flukes::TURN_SHARE;
 pub use knots::HELD_N;
-pub use lines::end_tension;
+pub use lines::{TENSION_BIN_M, end_tension};
 pub use loads::DRAG_WINDOW_S;
 pub use mouth::LODGED_S;
 pub use probes::{energy, reading, unit};

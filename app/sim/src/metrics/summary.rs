@@ -7,6 +7,7 @@ use endline_sdk::{BodyPart, Region};
 use glam::DVec3;
 use strum::{IntoStaticStr, VariantArray};
 
+use super::lines::bin_at;
 use super::whale_momentum::MomentumBalance;
 
 /// Metrics of a run so far.
@@ -49,10 +50,19 @@ pub struct LineSummary {
     pub whale_friction_n: f64,
     /// Greatest tension of its first segment, of all between, and of its last one, in any solver step [N]. Strengths differ there.
     pub place_peaks_n: [f64; 3],
+    /// Greatest tension of each [`TENSION_BIN_M`](super::TENSION_BIN_M) of its unstretched length from end A, in any solver step [N].
+    pub bin_peaks_n: Vec<f64>,
     /// Turns of the two legs of its strand about each other beyond the whale now; positive if right-handed [turns].
     pub twist: f64,
     /// Twist of the greatest magnitude at any time, signed [turns].
     pub peak_twist: f64,
+}
+
+impl LineSummary {
+    /// Greatest tension of the bin of a place, by its unstretched length from end A [m]: at least that of the place itself [N].
+    pub fn peak_near_n(&self, at_m: f64) -> f64 {
+        self.bin_peaks_n[bin_at(at_m, self.bin_peaks_n.len())]
+    }
 }
 
 /// Load of a weak link.

@@ -21,6 +21,7 @@ pub use crate::float::{Float, Form, Wet};
 pub use body::{Body, BodyRole, PlacedShape, Shape};
 pub use rope::{
     Hitch, Joint, JointKind, Line, Link, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength,
+    WeakPlace,
 };
 pub use settings::{
     CONTACT_TOLERANCE, EnergyForm, Probe, ProbeTarget, Resolution, Settings, WhaleFigure,
@@ -78,14 +79,24 @@ pub struct Model {
     pub segment_count: usize,
     /// Line of each segment.
     pub segment_line: Vec<usize>,
-    /// Tension at which each segment breaks [N].
-    pub segment_strength_n: Vec<f64>,
+    /// Tension at which the rope of each segment breaks, without weak places, which segments may pass as they move along the line
+    /// ([`weakest`](Self::weakest)) [N].
+    pub rope_strength_n: Vec<f64>,
     /// Knots, splices and links on the rope, sorted by segment.
     pub knots: Vec<Knot>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
     /// Current and waves, prepared for evaluation.
     pub sea: Sea,
+}
+
+/// Where a segment is weakest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weakest {
+    /// Tension at which the segment breaks [N].
+    pub strength_n: f64,
+    /// Unstretched length from end A of the line to the weak place that breaks [m]; `None` if the rope itself breaks.
+    pub at_m: Option<f64>,
 }
 
 /// A knot, splice, swivel or link: a ball on the first or the last segment of a line.
@@ -141,6 +152,38 @@ impl Model {
     pub fn whale_is_towed(&self) -> bool {
         let is_on_whale = |joint: &Joint| matches!(joint.kind, JointKind::Whale(_));
         self.whale_is_kinetic() && self.spec.joints.iter().any(is_on_whale)
+    }
+
+    /// Where each segment of a line is weakest, from end A, with the current unstretched lengths of all segments of the model [m].
+    ///
+    /// A weak place at a node belongs to the segment that begins there; one at end B, to the last segment.
+    pub fn weakest<'a>(
+        &'a self,
+        line: usize,
+        segment_length_m: &'a [f64],
+    ) -> impl Iterator<Item = Weakest> + 'a {
+        debug_assert_eq!(segment_length_m.len(), self.segment_count, "one length per segment");
+        let segments = self.line_segments[line].clone();
+        let (last, mut left) = (segments.end - 1, self.spec.lines[line].weak_places.as_slice());
+        let mut to_m = 0.0;
+        segments.map(move |segment| {
+            to_m += segment_length_m[segment];
+            let count = if segment == last {
+                left.len()
+            } else {
+                left.partition_point(|place| place.at_m < to_m)
+            };
+            let (own, others) = left.split_at(count);
+            left = others;
+            let rope = Weakest { strength_n: self.rope_strength_n[segment], at_m: None };
+            own.iter().fold(rope, |weakest, &WeakPlace { at_m, strength_n }| {
+                if strength_n < weakest.strength_n {
+                    Weakest { strength_n, at_m: Some(at_m) }
+                } else {
+                    weakest
+                }
+            })
+        })
     }
 
     /// Knots on a segment.

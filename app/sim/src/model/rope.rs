@@ -99,6 +99,15 @@ impl Default for Strength {
     }
 }
 
+/// A place at which a line parts at a lower tension than elsewhere. It changes nothing but strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeakPlace {
+    /// Unstretched length from end A of its line [m].
+    pub at_m: f64,
+    /// Tension above which the line parts there [N].
+    pub strength_n: f64,
+}
+
 /// A length of one rope between two joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
@@ -114,6 +123,8 @@ pub struct Line {
     pub segments_m: Vec<f64>,
     /// Shares of its rope's strength.
     pub strength: Strength,
+    /// Places that are weaker than the rest of it, sorted by their length from end A.
+    pub weak_places: Vec<WeakPlace>,
     /// Radius of the knot, splice, swivel or link at ends A and B, modelled as a ball on the rope; zero for none [m].
     pub knots_m: [f64; 2],
     /// Initial guess of its nodes, both ends included; empty for a straight line [m].

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::*;
 use crate::contact::rope_on_skin::stored_faces::segment_of;
 use crate::metrics::tests::{model, spec};
-use crate::model::JointKind;
+use crate::model::{JointKind, WeakPlace};
 use crate::water::Current;
 use crate::{Input, Workspace, step};
 
@@ -251,4 +251,81 @@ fn moving_taut_rope_keeps_its_tension_through_random_splits_and_merges() {
         100.0 * after
     );
     assert!(swaps > 150 && at_once < 0.002 && after < 0.002, "{swaps} swaps, {at_once}, {after}");
+}
+
+/// Weak places stay where they are as segments move along the line; each has one segment.
+#[test]
+fn weak_places_keep_their_place_on_the_line() {
+    let places: Vec<WeakPlace> = (0..8)
+        .map(|index| WeakPlace { at_m: 2.3 + 4.9 * f64::from(index), strength_n: 100.0 })
+        .collect();
+    let mut spec = beside().spec;
+    spec.ropes[0].strength_n = 200.0;
+    spec.lines[0].weak_places = places.clone();
+    let model = model(spec);
+    let mut state = drawn(&model);
+    let segment_of = |state: &State, at_m: f64| {
+        let all = model.weakest(0, &state.rope.segment_length).enumerate();
+        let own: Vec<usize> = all
+            .filter(|(_, weakest)| weakest.at_m == Some(at_m))
+            .map(|(segment, _)| segment)
+            .collect();
+        let [segment] = own[..] else { panic!("{own:?}") };
+        let [from_m, to_m] = [0.0, 1.0].map(|end| state.arc(&model, segment, end));
+        assert!(from_m <= at_m && at_m < to_m, "{from_m} to {to_m} m");
+        segment
+    };
+    let before = places.iter().map(|place| segment_of(&state, place.at_m)).collect::<Vec<_>>();
+    assert!(rest(&model, &mut state) > 50);
+    let after = places.iter().map(|place| segment_of(&state, place.at_m)).collect::<Vec<_>>();
+    assert!(before != after, "{before:?}: nodes moved past the places");
+    // A tension between the strengths cuts a weak place, and no other segment.
+    state.rope.tension.fill(150.0);
+    assert!(crate::parting::part(&model, &mut state));
+    let cut: Vec<usize> = (0..200).filter(|segment| state.rope.cut[*segment]).collect();
+    let (_, at_m) = state.line_parted[0].unwrap();
+    assert_eq!(cut, [segment_of(&state, at_m)]);
+    state.rope.tension.fill(99.0);
+    assert!(!crate::parting::part(&model, &mut state));
+}
+
+/// The bins of rope that is remeshed while it moves: the greatest tension at every place in them is recorded.
+#[test]
+fn bins_record_tensions_of_rope_whose_segments_move() {
+    let mut spec = beside().spec;
+    let velocity_m_s = DVec3::new(0.2, 0.0, 0.6);
+    spec.joints[1].kind = JointKind::Driven { velocity_m_s, from_s: 0.0, until_s: 100.0 };
+    let model = model(spec);
+    let (mut state, mut work) = (State::start(&model), Workspace::new(&model));
+    let mut metrics = crate::metrics::Metrics::new(&model);
+    // Greatest tension at every centimetre.
+    let mut places_n = vec![0.0_f64; 4000];
+    let mut lengths = Vec::new();
+    for _ in 0..60 {
+        step(&model, &Input::default(), &mut state, &mut work).unwrap();
+        metrics.fold_step(&model, &state, &work);
+        lengths.push(state.rope.segment_length.clone());
+        let mut to_m = 0.0;
+        for (segment, length_m) in state.rope.segment_length.iter().enumerate() {
+            let first = (100.0_f64 * to_m).ceil() as usize;
+            to_m += length_m;
+            let peak_n = work.peak_tension_n[segment].max(work.unconverged_peak_n[segment]);
+            for place_n in places_n.iter_mut().take((100.0 * to_m).ceil() as usize).skip(first) {
+                *place_n = place_n.max(peak_n);
+            }
+        }
+    }
+    lengths.dedup();
+    assert!(lengths.len() > 1, "segments moved while it was drawn");
+    let line = &metrics.summary(&model, &state).lines[0];
+    assert!(line.bin_peaks_n.len() >= 80, "40 m, to rounding");
+    for (bin, own) in places_n.chunks(50).enumerate() {
+        let (least_n, bin_n) = (own.iter().copied().fold(0.0, f64::max), line.bin_peaks_n[bin]);
+        let beside_n = [bin.saturating_sub(1), bin, (bin + 1).min(79)]
+            .map(|bin| places_n[50 * bin..50 * bin + 50].iter().copied().fold(0.0, f64::max));
+        let most_n = beside_n.into_iter().fold(0.0, f64::max);
+        assert!(least_n <= bin_n && bin_n <= most_n, "bin {bin}: {least_n} {bin_n} {most_n}");
+    }
+    let most = places_n.iter().copied().fold(0.0, f64::max);
+    assert!((most - line.peak_tension_n.max(line.unconverged_peak_n)).abs() < 1e-12 && most > 10.0);
 }

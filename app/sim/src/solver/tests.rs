@@ -75,6 +75,7 @@ pub(crate) fn model(depth_m: f64, current_m_s: f64) -> Model {
             .map(|k| length_m / segments as f64 * if k % 2 == 0 { 1.1 } else { 0.9 })
             .collect(),
         strength: Strength::default(),
+        weak_places: Vec::new(),
         knots_m: [0.0; 2],
         start_m: Vec::new(),
     };

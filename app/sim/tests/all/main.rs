@@ -26,3 +26,4 @@ mod ropes;
 mod solids;
 mod step_accuracy;
 mod water;
+mod weak_places;

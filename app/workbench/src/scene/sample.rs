@@ -43,6 +43,7 @@ pub fn model() -> Model {
             to: 1,
             segments_m: vec![36.0 / f64::from(segments); segments as usize],
             strength: Strength::default(),
+            weak_places: Vec::new(),
             knots_m: [0.0; 2],
             start_m: (0..=segments)
                 .map(|node| place_on_rope(f64::from(node) / f64::from(segments)))

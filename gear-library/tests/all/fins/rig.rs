@@ -97,6 +97,7 @@ fn line(Strand { nodes, pull_n }: &Strand, number: usize) -> Line {
         to: 2 * number + 1,
         segments_m: nodes.windows(2).map(unstretched).collect(),
         strength: Strength::default(),
+        weak_places: Vec::new(),
         knots_m: [0.0; 2],
         start_m: nodes.clone(),
     }

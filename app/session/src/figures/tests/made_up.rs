@@ -150,6 +150,7 @@ fn line(id: &str, next: &mut Numbers) -> LineSummary {
         peak_at_s: next.real(),
         unconverged_peak_n: next.real(),
         place_peaks_n: [next.real(), next.real(), next.real()],
+        bin_peaks_n: vec![next.real(), next.real()],
         end_a_tension_n: next.real(),
         end_b_tension_n: next.real(),
         parted_at_s: Some(next.real()),

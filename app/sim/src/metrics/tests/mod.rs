@@ -114,6 +114,7 @@ fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
         to,
         segments_m,
         strength: crate::model::Strength::default(),
+        weak_places: Vec::new(),
         knots_m: [0.0; 2],
         start_m: Vec::new(),
     }

@@ -95,11 +95,13 @@ fn strength(
     tension_n: f64,
     units: Units,
 ) -> Option<(&'static str, String)> {
+    let line = *view.model.segment_line.get(segment)?;
+    let own = segment - view.model.line_segments[line].start;
     let strength_n = view
         .model
-        .segment_strength_n
-        .get(segment)
-        .copied()
+        .weakest(line, &view.frame.segment_length_m)
+        .nth(own)
+        .map(|weakest| weakest.strength_n)
         .filter(|strength| strength.is_finite() && *strength > 0.0)?;
     Some((
         "Breaks at",

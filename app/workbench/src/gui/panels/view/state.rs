@@ -206,10 +206,13 @@ pub fn scale_top(view: &LiveView, top: ScaleTop) -> f64 {
             .fold(0.0, f64::max)
     };
     let strength = || {
+        let places = view.model.spec.lines.iter().flat_map(|line| &line.weak_places);
+        let places = places.map(|place| place.strength_n);
         view.model
-            .segment_strength_n
+            .rope_strength_n
             .iter()
             .copied()
+            .chain(places)
             .filter(|strength| strength.is_finite())
             .fold(f64::INFINITY, f64::min)
     };
