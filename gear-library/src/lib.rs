@@ -60,7 +60,7 @@ pub use scenario::{
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
-pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
+pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure, WEAK_PLACES};
 pub use study::{
     Adapt, Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
     ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study,

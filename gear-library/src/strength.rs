@@ -19,6 +19,9 @@ use crate::entry::{Confidence, Entry};
 /// Standard deviations on each side that include 90 % of pieces.
 const NINE_OF_TEN: f64 = 1.645;
 
+/// Last part of the id of a line's weak places, such as `endline-top.weak-places`.
+pub const WEAK_PLACES: &str = "weak-places";
+
 /// Strength budget of a piece of a line, of its weak places together, or of a weak link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrengthBudget {

@@ -17,7 +17,7 @@ use crate::fields::Problems;
 use crate::items::{Condition, Rope, WeakLink};
 use crate::line::LineMake;
 use crate::schema::Kind;
-use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
+use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure, WEAK_PLACES};
 
 use super::builder::{Builder, Scale};
 use super::line::{NewLine, Piece, Tied, weak_lengths};
@@ -94,7 +94,7 @@ impl Builder<'_> {
         let item = &self.stock[rope];
         let drawn = self.strength_factor(item.strength_cv, &line.id.value);
         let budget = StrengthBudget {
-            part: format!("{}.weak-places", line.id.value),
+            part: format!("{}.{WEAK_PLACES}", line.id.value),
             item: weak_places_in_words(&lengths),
             stated: StrengthFigure::chosen(weak.strength_n, "weak_places of the line"),
             factors: Vec::new(),

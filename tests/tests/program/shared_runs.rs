@@ -34,7 +34,7 @@ set = { weak_links = false, "ropes/polysteel-7-16.strength" = "400 lbf" }
 
 [[option]]
 id = "unbreakable"
-set = { weak_links = false, unbreakable = true }
+set = { weak_links = false, unbreakable = true, "line.0.weak_places.strength" = "1 lbf", "line.0.weak_places.every" = "30 ft" }
 
 [[option]]
 id = "made-900"
@@ -116,6 +116,10 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
     }
     // The line that parts has the same strength in both; the stronger link does not matter.
     assert_eq!(cell("made-900-link", "state_hash"), cell("made-900", "state_hash"));
+    let place_n: f64 = cell("unbreakable", "needed_place_N").parse().unwrap();
+    // The tension is nearly the same everywhere. The value of a place is the greatest in its half metre of the line.
+    assert!((0.95..=1.0).contains(&(place_n / needed_n)), "{place_n} of {needed_n} N");
+    assert_eq!(cell("made-900", "needed_place_N"), "");
     assert_eq!(cell("places-hold", "parted"), "");
     assert_eq!(cell("places-hold", "state_hash"), cell("unbreakable", "state_hash"));
     for option in ["places-part", "places-part-near"] {

@@ -269,6 +269,15 @@ pub static RUN: &[Figure<Report>] = &[
     )
     .not_in_json()
     .column(309),
+    Figure::new(
+        "needed_place_N",
+        "strength of weak places needed",
+        "Least strength that every weak place of the lines must have so that none parts in this run; none without weak places.",
+        Quantity::Force,
+        |run: &Report| run.needed.needed_place_n.into(),
+    )
+    .not_in_json()
+    .column(310),
 ];
 
 /// A run that a study asked for, whether or not there is one.

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! Lines that all deliver more have this run to the bit (`study/equivalence.rs`); if they all deliver less, one parts. The same holds for
-//! the mean rating of weak links, with `f = 1`. In a run in which something parted, tensions after it belong to the parted gear.
+//! the mean rating of weak links and the strength of weak places, with `f = 1`. In a run in which something parted, tensions after it belong to the parted gear.
 
-use endline_gear::StrengthBudget;
+use endline_gear::{StrengthBudget, WEAK_PLACES};
 use endline_sim::metrics::{LineSummary, LinkSummary, Summary};
 use endline_sim::model::Line;
 use endline_sim::{Model, ModelSpec};
@@ -22,6 +22,8 @@ pub struct NeededStrength {
     pub needed_rope_n: Option<f64>,
     /// Mean rating that every weak link must have.
     pub needed_link_n: Option<f64>,
+    /// Strength that the weak places of every line must have; `None` if no line has any.
+    pub needed_place_n: Option<f64>,
 }
 
 impl NeededStrength {
@@ -35,9 +37,14 @@ impl NeededStrength {
             |(borne, line): (&LineSummary, &Line)| needed_of(borne, line) / drawn(&line.id);
         let of_link =
             |link: &LinkSummary| link.peak_tension_n.max(link.unconverged_peak_n) / drawn(&link.id);
+        let of_places = |(borne, line): (&LineSummary, &Line)| {
+            let peaks = line.weak_places.iter().map(|place| borne.peak_near_n(place.at_m));
+            Some(peaks.reduce(f64::max)? / drawn(&format!("{}.{WEAK_PLACES}", line.id)))
+        };
         Self {
             needed_rope_n: summary.lines.iter().zip(lines).map(of_line).reduce(f64::max),
             needed_link_n: summary.links.iter().map(of_link).reduce(f64::max),
+            needed_place_n: summary.lines.iter().zip(lines).filter_map(of_places).reduce(f64::max),
         }
     }
 }
@@ -52,8 +59,10 @@ fn needed_of(borne: &LineSummary, line: &Line) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use endline_fixtures::gear::line;
-    use endline_sim::model::Strength;
+    use endline_fixtures::gear::{fixed, line, model, water};
+    use endline_sim::DVec3;
+    use endline_sim::metrics::TENSION_BIN_M;
+    use endline_sim::model::{Settings, Strength, WeakPlace};
 
     use super::*;
     use crate::figures::tests::made_up;
@@ -81,5 +90,24 @@ mod tests {
                 "{places:?}: {needed_n}"
             );
         }
+    }
+
+    /// Weak places need the greatest tension where they lie; lines without any need none.
+    #[test]
+    fn weak_places_need_the_tension_at_their_lengths() {
+        let mut report = made_up::report();
+        report.summary.lines.truncate(1);
+        report.summary.lines[0].bin_peaks_n = vec![10.0, 40.0, 20.0, 30.0];
+        let ends = [0.0, 2.0].map(|x_m| fixed("end", DVec3::new(x_m, 0.0, -1.0)));
+        let lines = vec![line("line", 4.0 * TENSION_BIN_M, 4)];
+        let model =
+            model(water(1025.0, 0.0), ends.to_vec(), lines, Vec::new(), Settings::default());
+        let needed_n =
+            |model: &Model| NeededStrength::of(model, &report.summary, &[]).needed_place_n;
+        assert_eq!(needed_n(&model), None);
+        let mut spec = model.spec.clone();
+        let place = |at_m: f64| WeakPlace { at_m, strength_n: 1.0 };
+        spec.lines[0].weak_places = vec![place(0.1 * TENSION_BIN_M), place(2.9 * TENSION_BIN_M)];
+        assert_eq!(needed_n(&Model::new(spec).unwrap()), Some(20.0));
     }
 }

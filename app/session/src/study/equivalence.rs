@@ -63,8 +63,7 @@ pub(super) fn is_certainly_same_run(
     summary: &Summary,
 ) -> bool {
     // The positions of weak places may differ between encounters.
-    let has_weak_places =
-        |spec: &ModelSpec| spec.lines.iter().any(|line| !line.weak_places.is_empty());
+    let has_weak_places = |spec: &ModelSpec| parts(spec).any(|part| !part.weak_places.is_empty());
     if has_weak_places(&other.spec) || has_weak_places(other_bare) {
         return false;
     }

@@ -97,7 +97,7 @@ mod tests {
     const COLUMNS: &str = "encounter option replay_key weight valid fault tunnelled unconverged simulated_s \
         state_hash outcome decided first_contact_s last_contact_s contact_time_s drag_added_N \
         trailing_m tethered_m was_lodged_in_mouth was_body_caught peak_body_push_N lodged_in_mouth speed_made_good_m_s unchanged_s PARTS peak_tension_N peak_line peak_at_s \
-        link_peak_N parted parted_at_s resolution_looks resolution_missed needed_rope_N needed_link_N";
+        link_peak_N parted parted_at_s resolution_looks resolution_missed needed_rope_N needed_link_N needed_place_N";
 
     /// The columns of each part of the whale.
     const OF_PART: [&str; 6] =

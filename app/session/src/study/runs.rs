@@ -166,6 +166,8 @@ row! {
         needed_rope_n: Option<f64> = "needed_rope_N",
         /// Rating that every weak link must have for nothing to part [N].
         needed_link_n: Option<f64> = "needed_link_N",
+        /// Strength that the weak places of every line must have for none to part; none without weak places [N].
+        needed_place_n: Option<f64> = "needed_place_N",
     } {
         /// Rope on the parts of the whale, in the order of [`BodyPart::ALL`].
         parts: Vec<PartRow>

@@ -55,6 +55,7 @@ pub fn report() -> Report {
         needed: NeededStrength {
             needed_rope_n: Some(next.real()),
             needed_link_n: Some(next.real()),
+            needed_place_n: Some(next.real()),
         },
         settled_tension_n: vec![next.real(), next.real()],
         settled: SettledReport {

@@ -1,4 +1,4 @@
-//! Rates at any strength of rope, from the run in which nothing can part.
+//! Rates at any strength of rope, weak links or weak places, from the run in which nothing can part.
 //!
 //! In encounter `i` with weight `w_i`, whole rope parts if and only if it delivers less than the strength needed there, `N_i`
 //! (`report/needed.rs`). The rate of parting is therefore known for every strength `S` from the same runs:
@@ -10,6 +10,9 @@
 //! The band of that half-width contains the whole curve with a probability of 95 % (Dvoretzky, Kiefer and Wolfowitz, with Massart's
 //! constant). Weighted encounters count by Kish's effective number `n`, for which the band is wider than needed where events are of
 //! small weight. The curve given held is that of the encounters in which a whale is held if nothing parts.
+//!
+//! The rates of weak links and of the weak places along a line follow likewise from the strengths that they need. Those of weak places
+//! belong to the positions in the option that cannot part.
 //!
 //! What follows the parting is known at the strengths that were simulated. `P(held | S)` takes, where rope parts, the run of the option
 //! whose strength is nearest on a scale of ratios among those that part too.
@@ -35,10 +38,10 @@ const STEP_LBF: usize = 50;
 /// Probability that a band does not contain its whole curve.
 const OUTSIDE: f64 = 0.05;
 
-/// Rates against the strength of rope or links.
+/// Rates against the strength of a part.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct StrengthCurve {
-    /// Which part is as strong as stated: whole rope, or weak links.
+    /// Which part is as strong as stated: whole rope, weak links or weak places.
     pub part: String,
     /// Option in which nothing can part.
     pub option: String,
@@ -100,17 +103,66 @@ struct Simulated {
     held: EventIndicators,
 }
 
-/// Curves of a study: one for whole rope and one for weak links, if an option cannot part.
+/// A part of the gear whose strength the options of a curve differ in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Rope,
+    Link,
+    Places,
+}
+
+impl Part {
+    const ALL: [Self; 3] = [Self::Rope, Self::Link, Self::Places];
+
+    /// The part that is weaker than the rest of an option's gear.
+    fn of(option: &OptionPlan) -> Self {
+        let spec = &option.prepared.model.spec;
+        if spec.links.iter().any(|link| link.enabled) {
+            Self::Link
+        } else if spec.lines.iter().any(|line| !line.weak_places.is_empty()) {
+            Self::Places
+        } else {
+            Self::Rope
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Rope => "whole rope",
+            Self::Link => "weak link",
+            Self::Places => "weak place",
+        }
+    }
+
+    /// Strength that it must have for nothing to part in a run [N].
+    fn needed_n(self, run: &RunRow) -> Option<f64> {
+        match self {
+            Self::Rope => run.needed_rope_n,
+            Self::Link => run.needed_link_n,
+            Self::Places => run.needed_place_n,
+        }
+    }
+}
+
+/// Positions of the weak places of an option's lines [m].
+fn positions_m(option: &OptionPlan) -> Vec<Vec<f64>> {
+    let lines = option.prepared.model.spec.lines.iter();
+    lines.map(|line| line.weak_places.iter().map(|place| place.at_m).collect()).collect()
+}
+
+/// Curves of a study, one for each part whose needed strength is known, if an option cannot part.
 pub(super) fn of_study(
     opened: &PreparedStudy,
     runs: &Runs,
     event: &StudyEvent,
 ) -> Vec<StrengthCurve> {
-    let Some(option) = opened.unbreakable() else { return Vec::new() };
-    let may_part =
-        |option: &OptionPlan| option.prepared.model.spec.links.iter().any(|link| link.enabled);
-    let simulated = |by_link: bool| -> Vec<Simulated> {
-        let own = opened.options.iter().filter(|option| may_part(option) == by_link);
+    let Some(unbreakable) = opened.unbreakable() else { return Vec::new() };
+    let is_of = |option: &OptionPlan, part: Part| {
+        Part::of(option) == part
+            && (part != Part::Places || positions_m(option) == positions_m(unbreakable))
+    };
+    let simulated = |part: Part| -> Vec<Simulated> {
+        let own = opened.options.iter().filter(|option| is_of(option, part));
         let with_strength = own.filter_map(|option| Some((option.strength_n?, option)));
         with_strength
             .map(|(strength_n, option)| Simulated {
@@ -119,22 +171,18 @@ pub(super) fn of_study(
             })
             .collect()
     };
-    type Needed = fn(&RunRow) -> Option<f64>;
-    let kinds: [(&str, bool, Needed); 2] = [
-        ("whole rope", false, |run| run.needed_rope_n),
-        ("weak link", true, |run| run.needed_link_n),
-    ];
-    let curve = |(part, by_link, needed): (&str, bool, Needed)| {
-        let needed = runs.by_encounter(&option.id, |run| Some((needed(run)?, run.weight)));
-        let held = EventIndicators::of(runs, &option.id, event);
+    let curve = |part: Part| {
+        let id = &unbreakable.id;
+        let needed = runs.by_encounter(id, |run| Some((part.needed_n(run)?, run.weight)));
+        let held = EventIndicators::of(runs, id, event);
         let known = needed.iter().any(Option::is_some);
-        known.then(|| curve(part, &option.id, &needed, &held, &simulated(by_link)))
+        known.then(|| curve(part, id, &needed, &held, &simulated(part)))
     };
-    kinds.into_iter().filter_map(curve).collect()
+    Part::ALL.into_iter().filter_map(curve).collect()
 }
 
 fn curve(
-    part: &str,
+    part: Part,
     option: &str,
     needed: &[Option<(f64, f64)>],
     held: &EventIndicators,
@@ -169,7 +217,7 @@ fn curve(
         sum / f64::max(weights, f64::MIN_POSITIVE)
     };
     StrengthCurve {
-        part: part.to_owned(),
+        part: part.name().to_owned(),
         option: option.to_owned(),
         parts: Banded::of(&all, &strengths_n),
         parts_given_held: Banded::of(&among_held, &strengths_n),
@@ -206,7 +254,7 @@ mod tests {
                 held: indicators(&[true, true, true, false]),
             },
         ];
-        let found = curve("whole rope", "unbreakable", &needed, &held, &simulated);
+        let found = curve(Part::Rope, "unbreakable", &needed, &held, &simulated);
         let check = |values: &[f64], expected: [(u32, f64); 4]| {
             for (lbf, share) in expected {
                 let found = values[((lbf - FROM_LBF) as usize) / STEP_LBF];
@@ -256,7 +304,7 @@ mod tests {
         assert_eq!((none.encounters, none.band(0)), (0, [0.0, 1.0]));
         let missing =
             EventIndicators(vec![None, Some(EventIndicator { occurred: true, weight: 1.0 })]);
-        let found = curve("weak link", "unbreakable", &[None, Some((5.0, 1.0))], &missing, &[]);
+        let found = curve(Part::Link, "unbreakable", &[None, Some((5.0, 1.0))], &missing, &[]);
         assert_eq!((found.parts.encounters, found.held.len()), (1, 0));
     }
 }
