@@ -55,7 +55,7 @@ pub use observation::{Observation, PathPlace, RopeEnd, SeenSite, Site, Size, Tra
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use rules::{Area, Date, Parameter, Rule, RuleDraft, RulePack, Standing, Subject};
 pub use scenario::{
-    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
+    AnswersToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
     LineStart, ObstacleOf, PlacedGear, PlacedWhale, ProbeOf, ProbePart, RowHeight, Scenario, Sea,
 };
 pub use schema::{Field, Kind, Word};

@@ -215,6 +215,7 @@ fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
         asked_speed_m_s,
         asked_turn_rate,
         thrust_n,
+        fatigue,
         drag_n,
         power_w,
         rope_force_n,
@@ -223,7 +224,7 @@ fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
         behind_rad,
     } = exertion;
     fold.reals(slip_m_s);
-    fold.reals(&[*asked_speed_m_s, *thrust_n, *drag_n, *power_w]);
+    fold.reals(&[*asked_speed_m_s, *thrust_n, *fatigue, *drag_n, *power_w]);
     fold.vectors(&[*asked_turn_rate, *behind_m, *behind_rad]);
     contact.vectors(&[*rope_force_n, *rope_moment_n_m]);
 }

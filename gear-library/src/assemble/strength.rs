@@ -246,15 +246,20 @@ fn factor(seed: u64, id: &str, variation: f64) -> f64 {
 
 /// A standard normal number.
 fn normal(seed: u64, id: &str, attempt: u64) -> f64 {
-    let mut hasher = blake3::Hasher::new_derive_key("endline strength scatter 1");
-    hasher.update(&seed.to_le_bytes()).update(&attempt.to_le_bytes()).update(id.as_bytes());
+    let [one, other] = uniform("endline strength scatter 1", seed, attempt, id);
+    (-2.0 * libm::log(one)).sqrt() * libm::cos(2.0 * PI * other)
+}
+
+/// Two independent random numbers between 0 and 1, by their purpose, seed, index and id.
+pub(super) fn uniform(purpose: &'static str, seed: u64, index: u64, id: &str) -> [f64; 2] {
+    let mut hasher = blake3::Hasher::new_derive_key(purpose);
+    hasher.update(&seed.to_le_bytes()).update(&index.to_le_bytes()).update(id.as_bytes());
     let bytes = hasher.finalize();
     let whole = |from: usize| {
         bytes.as_bytes()[from..from + 8].iter().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte))
     };
     // 53 bits, shifted by half so that zero is never drawn.
-    let uniform = |from: usize| ((whole(from) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-    (-2.0 * libm::log(uniform(0))).sqrt() * libm::cos(2.0 * PI * uniform(8))
+    [0, 8].map(|from| ((whole(from) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use endline_sdk::{Controls, Descriptor, Posture, WhaleMotion};
 use endline_sim::model::{PilotEntry, PilotProgram, Target, Trigger, Whale};
-use endline_sim::whale::acts::{Acting, Answer, Clip};
+use endline_sim::whale::acts::{Acting, Answers, Clip, DrawnAnswers};
 use endline_sim::whale::kinetic::hull::{fins, spheroid};
 use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
 use endline_sim::whale::{JawStrength, Measures, Skin};
@@ -17,12 +17,13 @@ use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::{At, hint};
 use crate::items::{ActItem, WhaleItem};
-use crate::scenario::{PilotOf, PlacedWhale, TriggerOf};
+use crate::scenario::{AnswersToTouch, PilotOf, PlacedWhale, TiringOf, TriggerOf};
 use crate::schema::Kind;
 use crate::whale::WhaleForm;
 
 use super::attributes::numbers;
 use super::builder::{Builder, Part};
+use super::strength::uniform;
 
 impl Builder<'_> {
     /// Adds the whale; `kinetic` overrides the scenario.
@@ -121,8 +122,27 @@ fn kinetic_whale(
     skin: &Skin,
     [length_m, density_kg_m3]: [f64; 2],
 ) -> Option<Kinetic> {
-    let alive = item.kinetic(length_m, skin, density_kg_m3, placed.effort)?;
+    let alive = item.kinetic(length_m, skin, density_kg_m3, (placed.effort, placed.tiring))?;
     if placed.dead { item.dead(skin, alive, density_kg_m3) } else { Some(alive) }
+}
+
+/// Numbers of acts with cumulative probabilities, from acts with weights.
+fn cumulative(
+    weights: &[(At<String>, f64)],
+    number: impl Fn(&At<String>) -> Option<usize>,
+) -> Option<Vec<(usize, f64)>> {
+    let all: f64 = weights.iter().map(|(_, weight)| weight).sum();
+    let mut sum = 0.0;
+    let act = |(act, weight): &(At<String>, f64)| {
+        sum += weight / all;
+        Some((number(act)?, sum))
+    };
+    weights.iter().filter(|(_, weight)| *weight > 0.0).map(act).collect()
+}
+
+/// Random numbers of the responses of a run; a whale that responds every 20 s uses them up in 5 h.
+fn answer_shares(seed: u64) -> Vec<f64> {
+    (0..1000).map(|index| uniform("endline answers to touch 1", seed, index, "")[0]).collect()
 }
 
 /// Turning drag of an elliptic outline over its area and the cube of its length.
@@ -135,7 +155,7 @@ impl WhaleItem {
         length_m: f64,
         skin: &Skin,
         density_kg_m3: f64,
-        effort: Effort,
+        effort: (Effort, TiringOf),
     ) -> Option<Kinetic> {
         let measures = Measures::of(skin, self.density_kg_m3);
         let value = |key| self.entry.value(key);
@@ -231,13 +251,15 @@ impl WhaleItem {
         Some(JawStrength::of_forces(skin, forces_n))
     }
 
-    fn muscle(&self, form: &WhaleForm, effort: Effort) -> Option<Muscle> {
+    fn muscle(&self, form: &WhaleForm, (effort, tiring): (Effort, TiringOf)) -> Option<Muscle> {
         let value = |key| self.entry.value(key);
         let length = form.length_m;
         let grown = libm::pow(length, value("strength.exponent")?);
         Some(Muscle {
             sustained_n: value("strength.sustained")? * grown,
             burst_n: value("strength.burst")? * grown,
+            tires_s: tiring.tires_s.or(value("strength.tires")).unwrap_or(f64::INFINITY),
+            recovers_s: tiring.recovers_s.or(value("strength.recovers")).unwrap_or(f64::INFINITY),
             efficiency: value("strength.efficiency")?,
             swept_area_m2: form.flukes.span * value("strength.stroke")? * length * length,
             effort,
@@ -279,18 +301,39 @@ impl Builder<'_> {
         let clips = self.clips(placed, whale);
         self.check_ids(motion.as_ref(), &clips, placed);
         let own = motion.descriptor().acts.len();
-        let answer = placed.answer.as_ref().and_then(|answer| {
-            let ids = || clips.iter().map(|clip| clip.id.as_str());
-            let Some(at) = ids().position(|id| id == answer.act.value) else {
+        let answers =
+            placed.answers.as_ref().and_then(|answers| self.answers(answers, &clips, own));
+        if clips.is_empty() { motion } else { Arc::new(Acting::new(motion, clips, answers)) }
+    }
+
+    /// Responses to touch, with acts as numbers after those of the motion.
+    fn answers(&self, answers: &AnswersToTouch, clips: &[Clip], own: usize) -> Option<Answers> {
+        let number = |act: &At<String>| {
+            let ids = || std::iter::once("none").chain(clips.iter().map(|clip| clip.id.as_str()));
+            let Some(at) = ids().position(|id| id == act.value) else {
                 let message =
-                    format!("the whale has no act `{}` to answer a touch with", answer.act.value);
-                return self
-                    .problems
-                    .refuse(answer.act.place.error(message, hint(&answer.act.value, ids())));
+                    format!("the whale has no act `{}` to answer a touch with", act.value);
+                return self.problems.refuse(act.place.error(message, hint(&act.value, ids())));
             };
-            Some(Answer { act: own + at + 1, above_n: answer.above_n, again_s: answer.again_s })
-        });
-        if clips.is_empty() { motion } else { Arc::new(Acting::new(motion, clips, answer)) }
+            Some(if at == 0 { 0 } else { own + at })
+        };
+        let first = match &answers.first {
+            Some(act) => Some(number(act)?),
+            None => None,
+        };
+        let drawn = match &answers.drawn {
+            Some(drawn) => {
+                let [touched, by_mouth, by_fin] =
+                    drawn.weights.each_ref().map(|weights| cumulative(weights, number));
+                Some(DrawnAnswers {
+                    acts: [touched?, by_mouth?, by_fin?],
+                    held_after_s: drawn.held_after_s,
+                    shares: answer_shares(self.spec.settings.seed),
+                })
+            }
+            None => None,
+        };
+        Some(Answers { first, above_n: answers.above_n, again_s: answers.again_s, drawn })
     }
 
     /// Clips of the acts that the scenario names, or of all.

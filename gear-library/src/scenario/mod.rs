@@ -20,7 +20,9 @@ use crate::units::Quantity;
 pub use gear::{LineSegments, PlacedGear, WrapOf};
 pub use parts::{Fixture, FreeBody, LineStart, ObstacleOf, ProbeOf, ProbePart};
 pub use sea::{Bed, CurrentOf, CurrentRow, RowHeight, Sea};
-pub use whale::{AnswerToTouch, FrictionChoice, FrictionOn, PilotOf, PlacedWhale, TriggerOf};
+pub use whale::{
+    AnswersToTouch, FrictionChoice, FrictionOn, PilotOf, PlacedWhale, TiringOf, TriggerOf,
+};
 
 /// A scenario as read; [`assemble`](crate::assemble) resolves ids.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use endline_sim::whale::kinetic::Effort;
 
 use crate::assembly::Attributes;
 use crate::diagnostic::{At, Place, hint};
-use crate::fields::{Fields, Problems, Range};
+use crate::fields::{Fields, Problems, Range, provenance, read_value};
 use crate::items::{YEAR_S, read_surfaces};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
@@ -45,27 +45,49 @@ pub struct PlacedWhale {
     pub kinetic: bool,
     /// What a kinetic whale keeps constant.
     pub effort: Effort,
+    /// How a burst tires it.
+    pub tiring: TiringOf,
     /// Id of the motion plugin.
     pub motion: At<String>,
     /// Its attributes.
     pub attributes: Attributes,
     /// Its acts of the library, in the order of their numbers; `None` for all.
     pub acts: Option<Vec<At<String>>>,
-    /// Its answer to touch.
-    pub answer: Option<AnswerToTouch>,
+    /// Its responses to touch.
+    pub answers: Option<AnswersToTouch>,
     /// Its pilot program.
     pub pilot: Vec<PilotOf>,
 }
 
-/// The reaction of a whale to contact with rope.
+/// Time constants of a burst, instead of those of the whale's file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TiringOf {
+    /// Decay of its thrust [s].
+    pub tires_s: Option<f64>,
+    /// Recovery from it [s].
+    pub recovers_s: Option<f64>,
+}
+
+/// The responses of a whale to contact with rope.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AnswerToTouch {
-    /// Id of the act.
-    pub act: At<String>,
+pub struct AnswersToTouch {
+    /// Id of the act of the first response, or `none`; `None` if it is drawn like later ones.
+    pub first: Option<At<String>>,
     /// Normal force on one part above which it reacts [N].
     pub above_n: f64,
-    /// Time between reactions during contact [s]; infinite for a single one.
+    /// Time between responses during contact [s]; infinite for a single one.
     pub again_s: f64,
+    /// How later responses are drawn; `None` if they repeat the first.
+    pub drawn: Option<DrawnAnswersOf>,
+}
+
+/// Later responses to touch, which are drawn by weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnAnswersOf {
+    /// Duration of contact after which the whale is held [s].
+    pub held_after_s: f64,
+    /// Ids of acts, or `none`, with their weights: touched, held by the mouth, held by a fin.
+    pub weights: [Vec<(At<String>, f64)>; 3],
 }
 
 /// Placeholder for the motion of a dead whale.
@@ -94,10 +116,16 @@ impl PlacedWhale {
         let efforts =
             [("power", Effort::Power), ("thrust", Effort::Thrust), ("speed", Effort::Speed)];
         let effort = fields.choice("effort", &efforts);
+        let tiring = TiringOf {
+            tires_s: fields.value("tires", Quantity::Time, Range::Positive).map(|time| time.value),
+            recovers_s: fields
+                .value("recovers", Quantity::Time, Range::Positive)
+                .map(|time| time.value),
+        };
         let (speed, motion) = if dead { adrift(fields) } else { under_way(fields) };
         let attributes = Attributes::read(fields, "attributes");
         let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
-        let answer = answer(fields);
+        let answers = answers(fields);
         let pilot = pilot(fields);
         fields.finish();
         Some(Self {
@@ -115,10 +143,11 @@ impl PlacedWhale {
             dead,
             kinetic: dynamics.is_some_and(|word| word.value == "kinetic"),
             effort: effort.map_or(Effort::Power, |effort| effort.value),
+            tiring,
             motion: motion?,
             attributes,
             acts,
-            answer,
+            answers,
             pilot,
         })
     }
@@ -163,17 +192,59 @@ fn acts(node: &Node, problems: &Problems) -> Vec<At<String>> {
     items.iter().filter_map(id).collect()
 }
 
-/// `answer_to_touch` with its parameters.
-fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
-    let act = fields.text("answer_to_touch");
+/// `answer_to_touch` with its parameters, and `answers`.
+fn answers(fields: &Fields<'_>) -> Option<AnswersToTouch> {
+    let first = fields.text("answer_to_touch");
     let above = fields.value("answer_above", Quantity::Force, Range::NotNegative);
     let again = fields.value("answer_again", Quantity::Time, Range::Positive);
-    let act = act?;
-    Some(AnswerToTouch {
-        act,
+    let drawn = fields.inside("answers", drawn_answers);
+    if let (Some(table), None) = (fields.get("answers"), &again) {
+        let message = "`answers` is present, but not the time between them";
+        let help = "write it in the table above, such as answer_again = \"20 s\"";
+        fields.problems().push(table.place.error(message, help));
+    }
+    (first.is_some() || drawn.is_some()).then(|| AnswersToTouch {
+        first,
         above_n: above.map_or(FELT_N, |above| above.value),
         again_s: again.map_or(f64::INFINITY, |again| again.value),
+        drawn,
     })
+}
+
+/// Tables of `[whale.answers]`, one for each state of a whale in contact.
+const STATES: [&str; 3] = ["touched", "held_by_mouth", "held_by_fin"];
+
+/// Usual duration of contact after which a whale counts as held [s].
+const HELD_AFTER_S: f64 = 10.0;
+
+/// `[whale.answers]`.
+fn drawn_answers(fields: &Fields<'_>) -> DrawnAnswersOf {
+    provenance(fields);
+    let held_after = fields.value("held_after", Quantity::Time, Range::NotNegative);
+    let weights = STATES.map(|state| match fields.get(state) {
+        Some(node) => weights(state, node, fields.problems()),
+        None => {
+            let help = "write the acts with their weights, such as { none = 3, roll-away = 1 }";
+            fields.missing(state, help);
+            Vec::new()
+        }
+    });
+    DrawnAnswersOf { held_after_s: held_after.map_or(HELD_AFTER_S, |time| time.value), weights }
+}
+
+/// Acts of a state with their weights, at least one of which is above zero.
+fn weights(state: &str, node: &Node, problems: &Problems) -> Vec<(At<String>, f64)> {
+    let table = Fields::of(node, problems);
+    let weight = |(act, place, node): &(String, Place, Node)| {
+        let weight = read_value(node, Quantity::Ratio, Range::NotNegative, problems)?;
+        Some((At { value: act.clone(), place: place.clone() }, weight.value))
+    };
+    let found: Vec<_> = table.rest().into_iter().filter_map(weight).collect();
+    if found.iter().all(|(_, weight)| *weight <= 0.0) {
+        let message = format!("no act of `{state}` has a weight above zero");
+        problems.push(node.place.error(message, "write at least one, such as none = 1"));
+    }
+    found
 }
 
 /// Speed and motion of a living whale.

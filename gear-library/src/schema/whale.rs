@@ -138,6 +138,18 @@ pub(super) const WHALE: &[Field] = &[
     ),
     need("strength.burst", Q::Force, Positive, "greatest thrust in a burst, of a whale 1 m long"),
     may(
+        "strength.tires",
+        Q::Time,
+        Positive,
+        "time constant with which the thrust of a lasting burst decays to the sustained one; without it a burst never tires",
+    ),
+    may(
+        "strength.recovers",
+        Q::Time,
+        Positive,
+        "time constant with which the whale recovers from a burst; without it, it does not",
+    ),
+    may(
         "strength.jaw",
         Q::Ratio,
         Between(0.001, 1.0),

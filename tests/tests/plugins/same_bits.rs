@@ -10,7 +10,7 @@ use endline_sdk::{
     FrictionResponse, GearStep, GearType, MotionInput, MotionOutput, Site, WhaleMotion,
 };
 use endline_session::plugins::{PluginHost, PluginKind};
-use endline_sim::whale::acts::{Acting, Answer};
+use endline_sim::whale::acts::{Acting, Answers};
 use endline_tests::root;
 use endline_whale_motions::Swim;
 
@@ -151,9 +151,9 @@ fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
         Library::read(&Sources::from_folder(&root().join("gear-library")).unwrap());
     assert!(problems.is_empty());
     let clips: Vec<_> = library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
-    let answer = Some(Answer { act: 1, above_n: 5.0, again_s: 3.0 });
+    let answers = Some(Answers { first: Some(1), above_n: 5.0, again_s: 3.0, drawn: None });
     let swims: [Arc<dyn WhaleMotion>; 2] = [Arc::new(Swim::new()), loaded().motion(SWIM).unwrap()];
-    let [one, other] = swims.map(|swim| Acting::new(swim, clips.clone(), answer));
+    let [one, other] = swims.map(|swim| Acting::new(swim, clips.clone(), answers.clone()));
     let attributes: Vec<f64> = one
         .descriptor()
         .attributes

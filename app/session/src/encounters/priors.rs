@@ -87,7 +87,6 @@ fn put_known(scenario: &mut Document, drawn: &Drawn) -> Result<(), EditError> {
     }
     match (drawn.name.as_str(), drawn.text.as_str()) {
         ("behaviour", "swim") => return forget(scenario, field),
-        ("answer", "none") => return forget(scenario, field),
         ("age", _) => forget(scenario, "whale.length")?,
         ("length", _) => forget(scenario, "whale.age")?,
         ("speed", _) => scenario.put("whale.attributes.cruise_speed", &drawn.setting())?,

@@ -185,6 +185,22 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_reported() {
             ["no act `flich` to answer a touch with", "did you mean `flinch`?"],
         ),
         (
+            "[whale.answers]\ntouched = { none = 1 }\nheld_by_mouth = { none = 1 }\nheld_by_fin = { none = 1 }",
+            ["not the time between them", "answer_again = \"20 s\""],
+        ),
+        (
+            "answer_again = \"20 s\"\n[whale.answers]\ntouched = { none = 1 }\nheld_by_mouth = { none = 0 }\nheld_by_fin = { none = 1 }",
+            ["no act of `held_by_mouth` has a weight above zero", "such as none = 1"],
+        ),
+        (
+            "answer_again = \"20 s\"\n[whale.answers]\ntouched = { none = 1 }\nheld_by_mouth = { none = 1 }",
+            ["`held_by_fin` is missing in `whale.answers`", "{ none = 3, roll-away = 1 }"],
+        ),
+        (
+            "answer_again = \"20 s\"\n[whale.answers]\ntouched = { bollt = 1 }\nheld_by_mouth = { none = 1 }\nheld_by_fin = { none = 1 }",
+            ["no act `bollt` to answer a touch with", "did you mean `bolt`?"],
+        ),
+        (
             "answer_to_touch = \"flinch\"\nanswer_above = \"-1 N\"",
             ["`answer_above` is -1 N", "zero or above"],
         ),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use endline_sdk::{BodyPart, Controls, MotionInput, MotionOutput, WhaleMotion};
-use endline_sim::whale::acts::{Acting, Answer, Clip, attitude};
+use endline_sim::whale::acts::{Acting, Answers, Clip, attitude};
 use endline_sim::{DQuat, DVec3};
 use endline_whale_motions::Swim;
 
@@ -32,12 +32,13 @@ impl Flight {
     /// A whale of 13.7 m at cruise, with all the library's acts and the named one as its answer to touch.
     pub fn new(answer: Option<&str>) -> Self {
         let clips = clips();
-        let answer = answer.map(|id| Answer {
-            act: 1 + clips.iter().position(|clip| clip.id == id).unwrap(),
+        let answers = answer.map(|id| Answers {
+            first: clips.iter().position(|clip| clip.id == id).map(|at| 1 + at),
             above_n: 1.0,
             again_s: f64::INFINITY,
+            drawn: None,
         });
-        let acting = Acting::new(Arc::new(Swim::new()), clips, answer);
+        let acting = Acting::new(Arc::new(Swim::new()), clips, answers);
         let descriptor = acting.descriptor();
         Self {
             attributes: descriptor

@@ -36,22 +36,22 @@ pub use clip::{
     rates_to,
 };
 
-/// Force on a part above which a whale without a response notices contact [N].
+/// Force on a part above which a whale without responses notices contact [N].
 const NOTICED_N: f64 = 1.0;
 
 /// A motion that superposes acts on another.
 pub struct Acting {
     beneath: Arc<dyn WhaleMotion>,
     clips: Vec<Clip>,
-    answer: Option<Answer>,
+    answers: Option<Answers>,
     descriptor: Descriptor,
 }
 
 impl Acting {
     /// A motion with acts, which are numbered after those of the underlying motion.
     ///
-    /// `answer` refers to its act by that number, which must be that of a clip.
-    pub fn new(beneath: Arc<dyn WhaleMotion>, clips: Vec<Clip>, answer: Option<Answer>) -> Self {
+    /// `answers` refers to acts by that number, which must be that of a clip.
+    pub fn new(beneath: Arc<dyn WhaleMotion>, clips: Vec<Clip>, answers: Option<Answers>) -> Self {
         let mut descriptor = beneath.descriptor().clone();
         let act = |clip: &Clip| Act {
             id: clip.id.clone().into(),
@@ -60,7 +60,7 @@ impl Acting {
         };
         descriptor.acts.extend(clips.iter().map(act));
         descriptor.state_len += LEN;
-        Self { beneath, clips, answer, descriptor }
+        Self { beneath, clips, answers, descriptor }
     }
 
     /// Acts, in the order of their numbers after those of the underlying motion.
@@ -111,7 +111,8 @@ impl Acting {
     /// one.
     fn choose(&self, now: &mut Floats, input: &MotionInput<'_>) -> Result<Playing, HookError> {
         let asked = self.asked(&input.controls)?;
-        let noticed = now.notice(input, self.answer.map_or(NOTICED_N, |answer| answer.above_n));
+        let above_n = self.answers.as_ref().map_or(NOTICED_N, |answers| answers.above_n);
+        let noticed = now.notice(input, above_n);
         let mut playing = now.playing;
         let ends = |clip: &Clip| {
             clip.is_over(playing.time_s)
@@ -127,13 +128,15 @@ impl Acting {
                 playing = self.begin(asked, now.touch_side);
             }
         }
-        if let Some(answer) = &self.answer
+        if let Some(answers) = &self.answers
             && playing.act == 0
-            && (noticed.is_new
-                || noticed.any && answer.again_s.is_finite() && now.answered_s <= 0.0)
+            && answers.is_due(&noticed, now.answered_s)
         {
-            now.answered_s = answer.again_s;
-            playing = self.begin(answer.act, now.touch_side);
+            let act = answers.act(now.answers, held(input, now.contact_s, answers));
+            (now.answered_s, now.answers) = (answers.again_s, now.answers + 1);
+            if act != 0 {
+                playing = self.begin(act, now.touch_side);
+            }
         }
         Ok(playing)
     }
@@ -228,15 +231,71 @@ impl Acting {
 /// Least time without contact before the next contact counts as new [s].
 pub const NEW_TOUCH_S: f64 = 1.0;
 
-/// The whale's response to contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
-    /// Number of the act, from 1.
-    pub act: usize,
+/// The whale's responses to contact: the first, and later ones while contact lasts or returns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answers {
+    /// Number of the act of the first response, from 1, or 0 for none; `None` if it is drawn like later ones.
+    pub first: Option<usize>,
     /// Normal force on a part above which it notices contact [N].
     pub above_n: f64,
     /// Time after which it responds again to continuing contact; infinite for never [s].
     pub again_s: f64,
+    /// Later responses; `None` repeats the first, at each new contact also.
+    pub drawn: Option<DrawnAnswers>,
+}
+
+/// Responses that are drawn at random, at most one in each interval.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnAnswers {
+    /// By state, in the order of [`Held`]: acts, 0 for none, with their cumulative probabilities; the last is 1.
+    pub acts: [Vec<(usize, f64)>; 3],
+    /// Duration of contact after which the whale is held [s].
+    pub held_after_s: f64,
+    /// Random numbers of 0 to 1, one for each response in turn; they repeat after the last.
+    pub shares: Vec<f64>,
+}
+
+/// State of a whale in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Held {
+    /// In contact, not held.
+    Touched,
+    /// Held, and pressed most at the head.
+    ByMouth,
+    /// Held, and pressed most at another part.
+    ByFin,
+}
+
+impl Answers {
+    /// Whether a response is due.
+    fn is_due(&self, noticed: &NoticedContact, answered_s: f64) -> bool {
+        let is_again = noticed.any && self.again_s.is_finite() && answered_s <= 0.0;
+        is_again || (noticed.is_new && self.drawn.is_none())
+    }
+
+    /// Number of the act of a response, 0 for none, by the number of responses before it.
+    fn act(&self, before: usize, held: Held) -> usize {
+        let Some(drawn) = &self.drawn else { return self.first.unwrap_or(0) };
+        if let (0, Some(first)) = (before, self.first) {
+            return first;
+        }
+        let share = drawn.shares[before % drawn.shares.len()];
+        let acts = &drawn.acts[held as usize];
+        debug_assert!(acts.is_sorted_by(|one, next| one.1 <= next.1), "cumulative probabilities");
+        acts.iter().find(|(_, to)| share < *to).or(acts.last()).map_or(0, |(act, _)| *act)
+    }
+}
+
+/// State of a whale with contact for a time [s].
+fn held(input: &MotionInput<'_>, contact_s: f64, answers: &Answers) -> Held {
+    let held_after_s = answers.drawn.as_ref().map_or(0.0, |drawn| drawn.held_after_s);
+    let parts = BodyPart::ALL.iter().zip(input.contact_force_n);
+    let most = parts.max_by(|one, other| one.1.total_cmp(other.1)).map(|(part, _)| *part);
+    match most {
+        _ if contact_s < held_after_s => Held::Touched,
+        Some(BodyPart::Head) => Held::ByMouth,
+        _ => Held::ByFin,
+    }
 }
 
 /// Contact that the whale notices in the last step.
@@ -313,6 +372,10 @@ pub struct Floats {
     pub answered_s: f64,
     /// Turn rates towards the bank and climb of the act, about the whale's own axes [rad/s].
     pub steer: [f64; 3],
+    /// Responses so far.
+    pub answers: usize,
+    /// Time since contact began, with pauses below [`NEW_TOUCH_S`]; 0 without contact [s].
+    pub contact_s: f64,
     /// Side of the last contact: 1 left (port), -1 right; 0 before any.
     pub touch_side: f64,
     /// Time since the last change of act [s].
@@ -326,7 +389,7 @@ pub struct Floats {
 }
 
 /// Number of floats.
-pub const LEN: usize = 9 + ANGLES + 6;
+pub const LEN: usize = 11 + ANGLES + 6;
 
 impl Floats {
     /// Reads the engine's floats.
@@ -334,18 +397,31 @@ impl Floats {
     pub fn read(state: &[f64]) -> Result<Self, HookError> {
         let wrong =
             || HookError::new(format!("expected {LEN} floats for acts, got {}", state.len()));
-        let (head, rest) = state.split_first_chunk::<9>().ok_or_else(wrong)?;
+        let (head, rest) = state.split_first_chunk::<11>().ok_or_else(wrong)?;
         let (angles, rest) = rest.split_first_chunk::<ANGLES>().ok_or_else(wrong)?;
         let (rates, rest) = rest.split_first_chunk::<3>().ok_or_else(wrong)?;
         let steer: [f64; 3] = rest.try_into().map_err(|_| wrong())?;
-        let [act, time_s, mirror, asked, touched_s, answered_s, touch_side, faded_s, fade_s] =
-            *head;
+        let [
+            act,
+            time_s,
+            mirror,
+            asked,
+            touched_s,
+            answered_s,
+            answers,
+            contact_s,
+            touch_side,
+            faded_s,
+            fade_s,
+        ] = *head;
         let playing = Playing { act: count(act), time_s, mirror: mirror > 0.5 };
         Ok(Self {
             playing,
             asked: count(asked),
             touched_s,
             answered_s,
+            answers: count(answers),
+            contact_s,
             steer,
             touch_side,
             faded_s,
@@ -362,6 +438,8 @@ impl Floats {
             asked,
             touched_s,
             answered_s,
+            answers,
+            contact_s,
             steer,
             touch_side,
             faded_s,
@@ -377,6 +455,8 @@ impl Floats {
             number(*asked),
             *touched_s,
             *answered_s,
+            number(*answers),
+            *contact_s,
             *touch_side,
             *faded_s,
             *fade_s,
@@ -395,6 +475,8 @@ impl Floats {
         if any && sided.abs() > 0.0 {
             self.touch_side = sided;
         }
+        let lasts = any || self.touched_s > input.dt_s;
+        self.contact_s = if lasts { self.contact_s + input.dt_s } else { 0.0 };
         self.touched_s = if any { NEW_TOUCH_S } else { (self.touched_s - input.dt_s).max(0.0) };
         self.answered_s = (self.answered_s - input.dt_s).max(0.0);
         NoticedContact { parts, any, is_new }

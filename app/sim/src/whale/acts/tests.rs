@@ -71,8 +71,13 @@ fn clip(id: &str, tracks: Vec<Track>) -> Clip {
     }
 }
 
+/// The act `left` in response to every contact above a force, again after a time.
+fn answers(above_n: f64, again_s: f64) -> Answers {
+    Answers { first: Some(2), above_n, again_s, drawn: None }
+}
+
 /// Acts 2 to 5; act 1 is that of the underlying motion.
-fn acting(answer: Option<Answer>) -> Acting {
+fn acting(answers: Option<Answers>) -> Acting {
     let raise = |side| {
         track(Moves::Angle(Angle::FlipperRaise(side)), &[(0.0, 0.0), (1.0, 0.6), (4.0, 0.0)])
     };
@@ -94,7 +99,7 @@ fn acting(answer: Option<Answer>) -> Acting {
         after: After::Repeat,
         ..clip("round", vec![track(Moves::Turn(Turn::Yaw), &[(0.0, 0.0), (4.0, 1.0)])])
     };
-    Acting::new(Wag::shared(), vec![touched, mirrored, open, round], answer)
+    Acting::new(Wag::shared(), vec![touched, mirrored, open, round], answers)
 }
 
 const LEFT: f64 = 2.0;
@@ -223,9 +228,10 @@ fn no_angle_jumps_when_acts_change_often() {
 
 #[test]
 fn the_response_is_on_the_side_of_the_contact() {
-    let answer = Some(Answer { act: 2, above_n: 10.0, again_s: f64::INFINITY });
+    let answer = Some(answers(10.0, f64::INFINITY));
     for (part, side) in [(BodyPart::LeftFlipper, 0), (BodyPart::RightFluke, 1)] {
-        let out = play(&acting(answer), 12.0, |_| 0.0, |time_s| (time_s > 2.0).then_some(part));
+        let out =
+            play(&acting(answer.clone()), 12.0, |_| 0.0, |time_s| (time_s > 2.0).then_some(part));
         assert!(out[199].posture.flipper_raise[side].abs() < 1e-15, "nothing before the touch");
         assert!(
             out[300].posture.flipper_raise[side] > 0.59
@@ -238,15 +244,53 @@ fn the_response_is_on_the_side_of_the_contact() {
 
 #[test]
 fn continuing_contact_repeats_the_response_if_set_and_new_contact_always() {
-    let again = |again_s| acting(Some(Answer { act: 2, above_n: 10.0, again_s }));
+    let again = |again_s| acting(Some(answers(10.0, again_s)));
     let touch = |_: f64| Some(BodyPart::LeftFlipper);
     assert!((turned(&play(&again(6.0), 17.9, |_| 0.0, touch), 0) / 2.0 - 3.0).abs() < 0.05);
     let twice = |time_s: f64| (!(2.0..6.0).contains(&time_s)).then_some(BodyPart::LeftFlipper);
     assert!(
         (turned(&play(&again(f64::INFINITY), 15.0, |_| 0.0, twice), 0) / 2.0 - 2.0).abs() < 0.05
     );
-    let weak = acting(Some(Answer { act: 2, above_n: 60.0, again_s: 1.0 }));
+    let weak = acting(Some(answers(60.0, 1.0)));
     assert!(turned(&play(&weak, 8.0, |_| 0.0, touch), 0).abs() < 1e-15, "50 N are below 60");
+}
+
+/// Drawn responses: the first as given, none before the whale is held, and then by the part that is pressed.
+#[test]
+fn drawn_responses_follow_the_state_of_the_whale() {
+    let drawn = |acts: [Vec<(usize, f64)>; 3], shares: Vec<f64>| {
+        let drawn = Some(DrawnAnswers { acts, held_after_s: 10.0, shares });
+        acting(Some(Answers { first: Some(2), above_n: 10.0, again_s: 6.0, drawn }))
+    };
+    let always = |act| vec![(act, 1.0)];
+    let by_mouth = drawn([always(0), always(2), always(0)], vec![0.5]);
+    let rolls = |acting: &Acting, seconds, part| {
+        (turned(&play(acting, seconds, |_| 0.0, |_| Some(part)), 0) / 2.0).round()
+    };
+    // At 0 s the first response, at 6 s none, at 12 and 18 s those of a whale held by the mouth.
+    for (seconds, expected) in [(5.5, 1.0), (11.5, 1.0), (17.5, 2.0), (23.5, 3.0)] {
+        assert_eq!(rolls(&by_mouth, seconds, BodyPart::Head), expected, "{seconds} s");
+    }
+    assert_eq!(rolls(&by_mouth, 23.5, BodyPart::Peduncle), 1.0);
+    // A quarter of the responses of a whale held by a fin, with evenly spaced numbers: those at 12 to 1,200 s.
+    let shares: Vec<f64> = (0..7).map(|step| (f64::from(step * 3 % 7) + 0.5) / 7.0).collect();
+    let by_fin = drawn([always(0), always(0), vec![(0, 5.0 / 7.0), (2, 1.0)]], shares);
+    let found = rolls(&by_fin, 1205.0, BodyPart::LeftFlipper);
+    assert!((found - 1.0 - 199.0 * 2.0 / 7.0).abs() < 2.0, "{found} rolls");
+}
+
+/// Contact that returns within the interval is not answered again if responses are drawn.
+#[test]
+fn contact_that_returns_is_answered_at_most_once_in_an_interval() {
+    let drawn = Some(DrawnAnswers {
+        acts: [vec![(2, 1.0)], vec![(0, 1.0)], vec![(0, 1.0)]],
+        held_after_s: 10.0,
+        shares: vec![0.0],
+    });
+    let acting = acting(Some(Answers { first: None, above_n: 10.0, again_s: 20.0, drawn }));
+    let often = |time_s: f64| (time_s % 3.0 < 0.5).then_some(BodyPart::Body);
+    let found = (turned(&play(&acting, 59.0, |_| 0.0, often), 0) / 2.0).round();
+    assert_eq!(found, 3.0, "at 0, 21 and 42 s");
 }
 
 /// A held act ends at contact with a part of its list; its control is then the pilot's again.
@@ -313,7 +357,7 @@ fn acts_of_the_underlying_motion_are_passed_on_and_unknown_ones_are_errors() {
 #[test]
 fn floats_are_read_as_they_were_written() {
     let mut state: Vec<f64> = (0..LEN).map(|index| 0.25 + index as f64).collect();
-    (state[0], state[2], state[3]) = (3.0, 1.0, 7.0);
+    (state[0], state[2], state[3], state[6]) = (3.0, 1.0, 7.0, 5.0);
     let before = state.clone();
     let floats = Floats::read(&state).unwrap();
     state.fill(0.0);

@@ -143,6 +143,8 @@ pub struct Exertion {
     pub asked_turn_rate: DVec3,
     /// Thrust [N].
     pub thrust_n: f64,
+    /// Share of its burst that it has spent: 0 rested, 1 exhausted.
+    pub fatigue: f64,
     /// Drag of its body [N].
     pub drag_n: f64,
     /// Muscle power: power of the thrust over the efficiency [W].

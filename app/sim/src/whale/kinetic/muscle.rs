@@ -13,7 +13,17 @@
 //!
 //! Thrust is never negative, and at most what a whale of its length can sustain or, in a burst, produce. In a burst the whale
 //! tries to reach the requested speed with any effort. Muscle power is `P/η`, with `η` the efficiency.
-//! References: Arthur et al. 2015 (doi:10.1111/mms.12230) for the greatest forces; van der Hoop et al. 2017
+//!
+//! Thrust above the sustained one tires. With `S` the sustained thrust, `B` that of a burst `b` of 0 to 1 when rested, and the
+//! fatigue `f` of 0 (rested) to 1,
+//!
+//! ```text
+//! T ≤ S + b (B - S) (1 - f)        df/dt = (T - S) / ((B - S) τ_t)   if T > S        df/dt = -f/τ_r   otherwise
+//! ```
+//!
+//! so that the thrust of a lasting full burst decays to the sustained one with the time constant `τ_t` [s], and the whale recovers
+//! with `τ_r` [s]. This is the model of critical power, with force in place of power.
+//! References: Skiba and Clarke 2021 (Int. J. Sports Physiol. Perform. 16, 1561) for fatigue; Arthur et al. 2015 (doi:10.1111/mms.12230) for the greatest forces; van der Hoop et al. 2017
 //! (doi:10.3354/esr00781) for `η`; Rankine 1865 and Froude 1889 for the disk.
 
 use glam::{DQuat, DVec3};
@@ -42,6 +52,10 @@ pub struct Muscle {
     pub sustained_n: f64,
     /// Greatest thrust in a burst [N].
     pub burst_n: f64,
+    /// Time constant with which a full burst tires it; infinite if it never tires [s].
+    pub tires_s: f64,
+    /// Time constant of its recovery; infinite if it never recovers [s].
+    pub recovers_s: f64,
     /// Ratio of useful power to muscle power.
     pub efficiency: f64,
     /// Area swept by its flukes [m²].
@@ -61,12 +75,31 @@ pub(super) struct Asked {
     pub answer_n: f64,
     /// Burst, 0 to 1.
     pub burst: f64,
+    /// Fatigue, 0 to 1.
+    pub fatigue: f64,
 }
 
 impl Muscle {
-    /// Greatest thrust at a burst control of 0 to 1 [N].
-    pub fn strength_n(&self, burst: f64) -> f64 {
-        self.sustained_n + (self.burst_n - self.sustained_n).max(0.0) * burst.clamp(0.0, 1.0)
+    /// Greatest thrust at a burst control and a fatigue, both of 0 to 1 [N].
+    pub fn strength_n(&self, burst: f64, fatigue: f64) -> f64 {
+        self.sustained_n + self.reserve_n() * burst.clamp(0.0, 1.0) * (1.0 - fatigue)
+    }
+
+    /// Thrust of a rested whale's burst above the sustained thrust [N].
+    fn reserve_n(&self) -> f64 {
+        (self.burst_n - self.sustained_n).max(0.0)
+    }
+
+    /// Fatigue after a step with a thrust [N] for a time [s].
+    fn fatigue_after(&self, fatigue: f64, thrust_n: f64, dt_s: f64) -> f64 {
+        let above_n = thrust_n - self.sustained_n;
+        let next = if above_n > 0.0 {
+            fatigue + dt_s * above_n / (self.reserve_n() * self.tires_s)
+        } else {
+            fatigue * (1.0 - dt_s / self.recovers_s).max(0.0)
+        };
+        debug_assert!(next >= 0.0, "fatigue is a share: {next}");
+        next.min(1.0)
     }
 
     /// Useful power of a thrust at a speed ahead [W].
@@ -121,7 +154,7 @@ impl Muscle {
                 self.disk_thrust_n(density_kg_m3, power_w, speed_m_s)
             }
         };
-        wanted.clamp(0.0, self.strength_n(asked.burst))
+        wanted.clamp(0.0, self.strength_n(asked.burst, asked.fatigue))
     }
 
     pub(super) fn fault(&self) -> Option<&'static str> {
@@ -130,7 +163,9 @@ impl Muscle {
             && sound(self.burst_n)
             && sound(self.swept_area_m2)
             && self.efficiency.is_finite();
-        (!all || self.efficiency <= 0.0).then_some("a property of its strength is below zero")
+        let positive =
+            [self.efficiency, self.tires_s, self.recovers_s].iter().all(|one| *one > 0.0);
+        (!all || !positive).then_some("a property of its strength is not above zero")
     }
 }
 
@@ -199,6 +234,7 @@ pub(crate) fn swim(
         asked_speed_m_s: request.speed_m_s,
         asked_turn_rate: request.turn_rate,
         thrust_n,
+        fatigue: kinetic.muscle.fatigue_after(whale.exertion.fatigue, thrust_n, dt),
         drag_n: drag_n(factor, speed_m_s),
         power_w: kinetic.muscle.power_w(density, thrust_n, speed_m_s),
         ..whale.exertion
@@ -225,6 +261,7 @@ fn ahead(
         speed_m_s: request.from_m_s,
         answer_n: (before - whale.speed_m_s) * mass / dt - felt_n,
         burst: request.burst,
+        fatigue: whale.exertion.fatigue,
     };
     let thrust_n = kinetic.muscle.thrust_n(density, &asked, whale.speed_m_s);
     (thrust_n, coast(whale.speed_m_s + (thrust_n + weight_n) * dt / mass, fading))
@@ -285,6 +322,8 @@ mod tests {
         Muscle {
             sustained_n: 5_800.0,
             burst_n: 23_900.0,
+            tires_s: 30.0,
+            recovers_s: 300.0,
             efficiency: 0.13,
             swept_area_m2: 14.6,
             effort,
@@ -308,7 +347,8 @@ mod tests {
 
     #[test]
     fn no_effort_exceeds_the_whales_strength() {
-        let asked = |burst| Asked { thrust_n: 300.0, speed_m_s: 1.3, answer_n: 1e6, burst };
+        let asked =
+            |burst| Asked { thrust_n: 300.0, speed_m_s: 1.3, answer_n: 1e6, burst, fatigue: 0.0 };
         assert!((muscle(Effort::Speed).thrust_n(1025.0, &asked(0.0), 0.0) - 5_800.0).abs() < 1e-9);
         assert!((muscle(Effort::Power).thrust_n(1025.0, &asked(1.0), 0.0) - 23_900.0).abs() < 1e-9);
         assert!((muscle(Effort::Thrust).thrust_n(1025.0, &asked(0.0), 0.0) - 300.0).abs() < 1e-9);
@@ -317,5 +357,24 @@ mod tests {
             kept > 600.0 && kept < 650.0,
             "at less than half the speed, a correspondingly greater thrust: {kept}"
         );
+    }
+
+    /// A lasting full burst decays to the sustained thrust, and the whale recovers, each as an exponential.
+    #[test]
+    fn a_burst_tires_and_recovers() {
+        let muscle = muscle(Effort::Power);
+        let (dt_s, mut fatigue) = (0.01, 0.0);
+        let rested = Asked { thrust_n: 0.0, speed_m_s: 0.0, answer_n: 1e6, burst: 1.0, fatigue };
+        for step in 0..6000 {
+            let thrust_n = muscle.thrust_n(1025.0, &Asked { fatigue, ..rested }, 0.0);
+            let expected = 5_800.0 + 18_100.0 * libm::exp(-f64::from(step) * dt_s / 30.0);
+            assert!((thrust_n / expected - 1.0).abs() < 1e-3, "step {step}: {thrust_n} N");
+            fatigue = muscle.fatigue_after(fatigue, thrust_n, dt_s);
+        }
+        let tired = fatigue;
+        (0..30_000).for_each(|_| fatigue = muscle.fatigue_after(fatigue, 5_000.0, dt_s));
+        assert!((fatigue / tired / libm::exp(-1.0) - 1.0).abs() < 1e-3, "{fatigue} of {tired}");
+        let tireless = Muscle { tires_s: f64::INFINITY, ..muscle };
+        assert_eq!(tireless.fatigue_after(0.0, 23_900.0, 1e6), 0.0);
     }
 }
