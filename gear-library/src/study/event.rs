@@ -172,6 +172,11 @@ fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
 }
 
 impl StudyEvent {
+    /// Whether the moment at which something first parts decides it; other events depend on what follows.
+    pub fn is_known_at_parting(&self) -> bool {
+        matches!(self, Self::Contact | Self::Parted)
+    }
+
     /// All events.
     pub fn all() -> Vec<Self> {
         let mut all = Self::of_the_whole();

@@ -196,6 +196,13 @@ impl Study {
                 hint(&self.baseline.value, ids()),
             ));
         }
+        let is_cut =
+            |option: &StudyOption| option.until_parted && option.id.value == self.baseline.value;
+        if self.options.iter().any(is_cut) {
+            let message = "the runs of the baseline end where something parts";
+            let help = "remove `until = \"parted\"` from it: other options are compared with how its encounters end";
+            problems.push(self.baseline.place.error(message, help));
+        }
         let choices = || {
             self.priors
                 .iter()

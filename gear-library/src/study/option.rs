@@ -27,6 +27,8 @@ pub struct StudyOption {
     pub removes: Vec<At<String>>,
     /// Labels of its row of a threat table.
     pub threat: ThreatLabels,
+    /// Whether its runs end where something parts; otherwise they are followed to the end of the whale's encounter.
+    pub until_parted: bool,
 }
 
 /// A field that overrides the baseline.
@@ -78,6 +80,7 @@ fn read_option(fields: &Fields<'_>) -> Option<StudyOption> {
     let curve = fields.text("curve");
     let removes = texts(fields, "remove");
     let threat = read_threat(fields.get("threat"), fields.problems());
+    let until = fields.choice("until", &[("end", false), ("parted", true)]);
     let mut settings = Vec::new();
     if let Some(set) = fields.get("set") {
         Fields::of(set, fields.problems()).rest();
@@ -87,7 +90,8 @@ fn read_option(fields: &Fields<'_>) -> Option<StudyOption> {
     let name = name.map_or_else(|| id.value.clone(), |name| name.value);
     let (strength_n, curve) =
         (strength.map(|strength| strength.value), curve.map(|curve| curve.value));
-    Some(StudyOption { id, name, strength_n, curve, settings, removes, threat })
+    let until_parted = until.is_some_and(|until| until.value);
+    Some(StudyOption { id, name, strength_n, curve, settings, removes, threat, until_parted })
 }
 
 /// Collects the leaves of a table with their dotted paths; quoted and bare keys are equal.
@@ -210,6 +214,7 @@ fn joined(option: Option<&StudyOption>, value: &StudyOption) -> StudyOption {
         settings: [option.settings.as_slice(), &value.settings].concat(),
         removes: [option.removes.as_slice(), &value.removes].concat(),
         threat: ThreatLabels::joined(&option.threat, &value.threat),
+        until_parted: option.until_parted || value.until_parted,
     }
 }
 

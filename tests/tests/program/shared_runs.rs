@@ -56,6 +56,12 @@ strength = "4000 lbf"
 set = { weak_links = false, "line.0.delivered_strength" = "4,000 lbf" }
 
 [[option]]
+id = "made-900-until"
+strength = "900 lbf"
+until = "parted"
+set = { weak_links = false, "line.0.delivered_strength" = "900 lbf" }
+
+[[option]]
 id = "places-hold"
 [option.set]
 weak_links = false
@@ -116,6 +122,16 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
     }
     // The line that parts has the same strength in both; the stronger link does not matter.
     assert_eq!(cell("made-900-link", "state_hash"), cell("made-900", "state_hash"));
+    // Its run is that of the other until the line parts, and ends there.
+    assert_eq!(cell("made-900-until", "parted_at_s"), cell("made-900", "parted_at_s"));
+    assert_eq!(cell("made-900-until", "outcome"), "parted");
+    let ends = |option: &str| cell(option, "simulated_s").parse::<f64>().unwrap();
+    let parts_s: f64 = cell("made-900", "parted_at_s").parse().unwrap();
+    assert!(
+        (0.0..=0.5).contains(&(ends("made-900-until") - parts_s)),
+        "it is looked at twice a second"
+    );
+    assert!(ends("made-900") > parts_s + 1.0);
     let place_n: f64 = cell("unbreakable", "needed_place_N").parse().unwrap();
     // The tension is nearly the same everywhere. The value of a place is the greatest in its half metre of the line.
     assert!((0.95..=1.0).contains(&(place_n / needed_n)), "{place_n} of {needed_n} N");
@@ -136,6 +152,7 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
         "made-500",
         "made-900",
         "made-900-link",
+        "made-900-until",
         "made-4000",
         "places-hold",
         "places-part",

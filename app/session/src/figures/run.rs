@@ -291,6 +291,8 @@ pub struct Attempt {
     pub weight: f64,
     /// Key by which `endline study replay` finds it.
     pub replay_key: String,
+    /// Whether its run ends where something parts.
+    pub until_parted: bool,
     /// Reason for a missing or invalid run; empty if it is valid.
     pub fault: String,
 }
@@ -329,6 +331,15 @@ pub static ATTEMPT: &[Figure<Attempt>] = &[
     )
     .not_in_json()
     .column(2),
+    Figure::new(
+        "until_parted",
+        "until parted",
+        "Whether the run ends where something parts, so that its outcome is known only if nothing parted.",
+        Quantity::Flag,
+        |attempt: &Attempt| attempt.until_parted.into(),
+    )
+    .not_in_json()
+    .column(4),
     Figure::new(
         "fault",
         "fault",

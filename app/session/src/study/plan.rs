@@ -21,6 +21,8 @@ pub struct OptionPlan {
     pub strength_n: Option<f64>,
     /// Which curve of break-away against strength it belongs to.
     pub curve: Option<String>,
+    /// Whether its runs end where something parts.
+    pub until_parted: bool,
     /// Paths of all it sets, of scenario and library.
     pub(super) own: Vec<String>,
     /// These paths with their values, as text of a file.
@@ -96,6 +98,7 @@ impl Base<'_> {
             name: option.name.clone(),
             strength_n: option.strength_n,
             curve: option.curve.clone(),
+            until_parted: option.until_parted,
             own: own(option),
             sets: option
                 .settings

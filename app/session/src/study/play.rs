@@ -54,6 +54,12 @@ struct OptionRun {
     diverged: Vec<(usize, Moment)>,
 }
 
+/// Whether a line or weak link has parted.
+fn has_parted(summary: &Summary) -> bool {
+    summary.lines.iter().any(|line| line.parted_at_s.is_some())
+        || summary.links.iter().any(|link| link.parted_at_s.is_some())
+}
+
 impl PreparedStudy {
     /// Rows of every option in an encounter, in the order of the options; `None` if `is_wanted` becomes false.
     pub fn rows(&self, encounter: Encounter, is_wanted: &dyn Fn() -> bool) -> Option<Vec<Row>> {
@@ -95,7 +101,7 @@ impl PreparedStudy {
         };
         let mut run = branched.map_or_else(begin, Ok)?;
         let mut sharing = Sharing::new(models, option, later);
-        self.to_its_end_while(&mut run, |run| {
+        self.to_its_end_while(option, &mut run, |run| {
             sharing.test(run);
             is_wanted()
         });
@@ -154,7 +160,7 @@ impl PreparedStudy {
         mut observe: impl FnMut(&Run),
     ) -> Result<Played, Error> {
         let mut run = self.begin(option, encounter, prepared, frames_hz)?;
-        self.to_its_end_while(&mut run, |run| {
+        self.to_its_end_while(option, &mut run, |run| {
             observe(run);
             true
         });
@@ -179,13 +185,22 @@ impl PreparedStudy {
     }
 
     /// Runs to the end by the study's rules while `observe`, called twice in each simulated second, returns true.
-    fn to_its_end_while(&self, run: &mut Run, mut observe: impl FnMut(&Run) -> bool) {
+    fn to_its_end_while(
+        &self,
+        option: usize,
+        run: &mut Run,
+        mut observe: impl FnMut(&Run) -> bool,
+    ) {
+        let until_parted = self.options[option].until_parted;
         run.to_end_until(|run| {
             if !run.is_time_to_look() {
                 return false;
             }
             let invalid = run.stays_invalid(INVALID_FOR_S);
-            if !observe(run) || run.is_over(&self.study.run) {
+            let is_over = |run: &Run| {
+                run.is_over(&self.study.run) || (until_parted && has_parted(&run.summary()))
+            };
+            if !observe(run) || is_over(run) {
                 return true;
             }
             if let Some(reason) = &invalid {
@@ -198,6 +213,11 @@ impl PreparedStudy {
     /// Whether two options differ in strengths alone.
     fn is_family(&self, one: usize, other: usize) -> bool {
         self.families[one] == self.families[other]
+    }
+
+    /// Whether the runs of two options, which are equal so far, end alike: one that ends where something parts differs then.
+    fn end_alike(&self, one: usize, other: usize, summary: &Summary) -> bool {
+        self.options[one].until_parted == self.options[other].until_parted || !has_parted(summary)
     }
 
     /// Whether an option certainly has the run of another of its family with this summary; decided without assembling its model.
@@ -225,6 +245,7 @@ impl<'a> EncounterModels<'a> {
         let OptionRun { run, summary, .. } = earlier;
         let exactly = |prepared: &Prepared| same_run(&prepared.model, run.model(), summary);
         self.study.is_family(option, earlier.option)
+            && self.study.end_alike(option, earlier.option, summary)
             && (self.study.is_certainly_same(option, earlier.option, run, summary)
                 || self.option(option).is_ok_and(exactly))
     }
@@ -295,7 +316,9 @@ impl<'a> Sharing<'a> {
                     .differs_only_in_strength
                     .get_or_init(|| same_until_parting(&prepared.model, run.model()))
         };
-        self.models.study.is_certainly_same(other.option, self.option, run, summary)
-            || self.models.option(other.option).is_ok_and(exactly)
+        let study = self.models.study;
+        study.end_alike(other.option, self.option, summary)
+            && (study.is_certainly_same(other.option, self.option, run, summary)
+                || self.models.option(other.option).is_ok_and(exactly))
     }
 }

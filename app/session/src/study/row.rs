@@ -28,9 +28,13 @@ pub(super) fn row(
         option: id.clone(),
         weight: encounter.weight,
         replay_key: format!("{}/{}/{id}", &opened.hash[..16], encounter.index),
+        until_parted: opened.options[option].until_parted,
         fault: came_to.map_or_else(str::to_owned, Report::fault),
     };
     let mut row = cells(&attempt, came_to.ok());
+    if attempt.until_parted && came_to.is_ok_and(|report| report.first_parted().is_some()) {
+        end_at_parting(&mut row);
+    }
     for drawn in &encounter.drawn {
         let cell = drawn
             .number
@@ -38,6 +42,17 @@ pub(super) fn row(
         row.push((format!("drawn_{}", drawn.name), cell));
     }
     row
+}
+
+/// Replaces the outcome of a run that ended where something parted.
+fn end_at_parting(row: &mut Row) {
+    for (name, cell) in row {
+        match name.as_str() {
+            "outcome" => *cell = Cell::Text("parted".to_owned()),
+            "decided" => *cell = Cell::Flag(false),
+            _ => {}
+        }
+    }
 }
 
 /// Every figure with a column, in the order of the columns' places.
@@ -94,7 +109,7 @@ mod tests {
     use crate::table::{Table, parquet};
 
     /// The columns of `table.parquet` before those of what was drawn; scripts depend on them.
-    const COLUMNS: &str = "encounter option replay_key weight valid fault tunnelled unconverged simulated_s \
+    const COLUMNS: &str = "encounter option replay_key weight until_parted valid fault tunnelled unconverged simulated_s \
         state_hash outcome decided first_contact_s last_contact_s contact_time_s drag_added_N \
         trailing_m tethered_m was_lodged_in_mouth was_body_caught peak_body_push_N lodged_in_mouth speed_made_good_m_s unchanged_s PARTS peak_tension_N peak_line peak_at_s \
         link_peak_N parted parted_at_s resolution_looks resolution_missed needed_rope_N needed_link_N needed_place_N";
@@ -109,6 +124,7 @@ mod tests {
             option: "link-0600".into(),
             weight: 1.0,
             replay_key: "0123/7/link-0600".into(),
+            until_parted: true,
             fault: "a fault".into(),
         }
     }

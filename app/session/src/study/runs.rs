@@ -130,6 +130,8 @@ row! {
         weight: f64 = "weight",
         /// Whether the run counts.
         valid: bool = "valid",
+        /// Whether the run ends where something parts.
+        until_parted: bool = "until_parted",
         /// Why there is no run, or why it does not count.
         fault: String = "fault",
         /// Time simulated [s].

@@ -100,10 +100,11 @@ fn sums(pairs: &[[End; 2]], indices: &[usize]) -> Option<[f64; 2]> {
     (sum(0) > 0.0).then(|| [sum(0), sum(1)])
 }
 
-/// By encounter: the end of an option's run, if it is valid.
+/// By encounter: the end of an option's run, if it is valid and followed to the end.
 fn ends(runs: &Runs, option: &str) -> Vec<Option<End>> {
     runs.by_encounter(option, |run| {
         let outcome = OUTCOMES.iter().position(|known| *known == run.outcome)?;
+        (!run.until_parted).then_some(())?;
         Some(End { outcome, tension_n: run.peak_tension_n?, weight: run.weight })
     })
 }

@@ -249,7 +249,7 @@ fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
         strength_n: plan.strength_n,
         curve: plan.curve.clone(),
         invalid: count(|run| !run.valid),
-        undecided: count(|run| run.valid && !run.decided),
+        undecided: count(|run| run.valid && !run.decided && !run.until_parted),
         resolution: ResolutionChecks {
             all: sum(|run| run.resolution_looks),
             missed: sum(|run| run.resolution_missed),

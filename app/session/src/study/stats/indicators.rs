@@ -20,11 +20,13 @@ pub struct EventIndicator {
 pub struct EventIndicators(pub Vec<Option<EventIndicator>>);
 
 impl EventIndicators {
-    /// The indicators of an event in the runs of an option.
+    /// The indicators of an event in the runs of an option; none if the runs end before the event is decided.
     pub fn of(runs: &Runs, option: &str, event: &StudyEvent) -> Self {
         let counted = event.counted();
         Self(runs.by_encounter(option, |run| {
-            Some(EventIndicator { occurred: occurred(run, &counted), weight: run.weight })
+            let is_known = !run.until_parted || event.is_known_at_parting();
+            is_known
+                .then(|| EventIndicator { occurred: occurred(run, &counted), weight: run.weight })
         }))
     }
 

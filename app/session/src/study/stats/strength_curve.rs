@@ -162,7 +162,8 @@ pub(super) fn of_study(
             && (part != Part::Places || positions_m(option) == positions_m(unbreakable))
     };
     let simulated = |part: Part| -> Vec<Simulated> {
-        let own = opened.options.iter().filter(|option| is_of(option, part));
+        let followed = opened.options.iter().filter(|option| !option.until_parted);
+        let own = followed.filter(|option| is_of(option, part));
         let with_strength = own.filter_map(|option| Some((option.strength_n?, option)));
         with_strength
             .map(|(strength_n, option)| Simulated {

@@ -54,7 +54,7 @@ pub(super) struct Followed {
 }
 
 impl Survival {
-    /// Of an option's runs that count.
+    /// Of an option's runs that count and are followed to the end.
     pub fn of(runs: &Runs, option: &str) -> Self {
         let followed = |run: &RunRow| {
             let released = RELEASED.contains(&run.outcome.as_str());
@@ -62,7 +62,9 @@ impl Survival {
             let time_s = (until? - run.first_contact_s?).max(0.0);
             Some(Followed { time_s, released, weight: run.weight })
         };
-        Self::from_followed(runs.valid_of(option).filter_map(followed).collect())
+        Self::from_followed(
+            runs.valid_of(option).filter(|run| !run.until_parted).filter_map(followed).collect(),
+        )
     }
 
     /// Of whales that were followed.

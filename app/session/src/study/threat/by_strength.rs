@@ -156,7 +156,10 @@ impl StrengthThreats {
         curve: Option<&str>,
         noaa: NoaaModel<'_>,
     ) -> Result<Self, String> {
-        let on_curve = |option: &&StudyOption| option.curve.as_deref() == curve;
+        let on_curve = |option: &&StudyOption| {
+            let is_known = !option.until_parted || event.is_known_at_parting();
+            is_known && option.curve.as_deref() == curve
+        };
         let options = opened.study.options.iter().filter(on_curve).filter_map(|option| {
             let indicators = EventIndicators::of(runs, &option.id.value, event);
             let threat = OptionThreat {
