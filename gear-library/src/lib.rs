@@ -9,7 +9,6 @@
 mod assemble;
 mod assembly;
 mod case;
-mod compass;
 mod diagnostic;
 mod document;
 mod entry;

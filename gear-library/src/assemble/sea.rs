@@ -6,8 +6,8 @@ use endline_sim::water::current::{Profile, ProfileRow};
 use endline_sim::water::waves::breaking_height;
 use endline_sim::water::{Current, Water};
 
-use crate::compass::direction;
 use crate::items::SeaSite;
+use crate::scenario::direction;
 use crate::scenario::{Bed, CurrentOf};
 use crate::schema::Kind;
 

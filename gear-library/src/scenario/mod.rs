@@ -19,6 +19,7 @@ use crate::units::Quantity;
 
 pub use gear::{LineSegments, PlacedGear, WrapOf};
 pub use parts::{Fixture, FreeBody, LineStart, ObstacleOf, ProbeOf, ProbePart};
+pub(crate) use sea::direction;
 pub use sea::{Bed, CurrentOf, CurrentRow, RowHeight, Sea};
 pub use whale::{
     AnswersToTouch, FrictionChoice, FrictionOn, PilotOf, PlacedWhale, TiringOf, TriggerOf,

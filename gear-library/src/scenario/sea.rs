@@ -6,7 +6,6 @@ use endline_sim::DVec3;
 use endline_sim::water::current::Tide;
 use endline_sim::water::waves::{Spectrum, WaveKind, Waves};
 
-use crate::compass::direction;
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Range};
 use crate::limits;
@@ -390,6 +389,12 @@ fn check_shape(
             "write spectrum = \"jonswap\" for irregular waves, or remove it",
         ));
     }
+}
+
+/// Unit vector of a compass bearing [rad], x east and y north: 0 is north, a quarter turn is east.
+pub(crate) fn direction(bearing_rad: f64) -> DVec3 {
+    let clean = |share: f64| if share.abs() < 1e-15 { 0.0 } else { share };
+    DVec3::new(clean(libm::sin(bearing_rad)), clean(libm::cos(bearing_rad)), 0.0)
 }
 
 /// The compass bearing of a key; east by default [rad].
