@@ -100,11 +100,9 @@ mod tests {
     #[test]
     fn a_share_of_lines_counts_their_lengths() {
         let place = |x, z| DVec3::new(x, 0.0, z);
-        let segments = [
-            [place(0.0, 0.0), place(3.0, 0.0)],
-            [place(9.0, 0.0), place(9.0, 1.0)],
-        ];
-        for (share, x, z) in [(0.0, 0.0, 0.0), (0.5, 2.0, 0.0), (0.875, 9.0, 0.5), (1.0, 9.0, 1.0)] {
+        let segments = [[place(0.0, 0.0), place(3.0, 0.0)], [place(9.0, 0.0), place(9.0, 1.0)]];
+        for (share, x, z) in [(0.0, 0.0, 0.0), (0.5, 2.0, 0.0), (0.875, 9.0, 0.5), (1.0, 9.0, 1.0)]
+        {
             let found = along(&segments, share).unwrap();
             assert!(found.distance(place(x, z)) < 1e-12, "{share}: {found:?}");
         }
