@@ -142,10 +142,15 @@ impl Builder<'_> {
     fn of_whale(&mut self, figure: &At<WhaleFigure>) -> Option<ProbeTarget> {
         let error = match &self.spec.whale {
             None => ("the scenario has no whale", "add a [whale], or remove this probe"),
-            Some(whale) if whale.kinetic.is_none() && figure.value != WhaleFigure::Speed => (
-                "a kinematic whale has no thrust, power or drag",
-                "write dynamics = \"kinetic\" in [whale], or read `speed`",
-            ),
+            Some(whale)
+                if whale.kinetic.is_none()
+                    && !matches!(figure.value, WhaleFigure::Speed | WhaleFigure::ContactForce) =>
+            {
+                (
+                    "a kinematic whale has no thrust, power or drag",
+                    "write dynamics = \"kinetic\" in [whale], or read `speed` or `contact-force`",
+                )
+            }
             Some(_) => return Some(ProbeTarget::Whale(figure.value)),
         };
         self.problems.refuse(figure.place.error(error.0, error.1))

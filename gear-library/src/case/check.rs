@@ -53,6 +53,8 @@ pub enum Measure {
     },
     /// Greatest sample of a probe and an expected value.
     Greatest(At<String>, f64),
+    /// Time of the first sample of a probe above zero, and an expected value [s].
+    First(At<String>, f64),
     /// Mean rate at which a probe's reading changes from a time on, and an expected value [unit/s].
     Rate {
         /// The probe.
@@ -105,9 +107,9 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<Check> {
     Some(Check { name: name?.value, measure: measure?, limit: limit? })
 }
 
-const MEASURES: [&str; 13] = [
-    "distance", "series", "peak", "value", "mean", "ratio", "greatest", "rate", "gain", "loss",
-    "sums", "slope", "fall",
+const MEASURES: [&str; 14] = [
+    "distance", "series", "peak", "value", "mean", "ratio", "greatest", "first", "rate", "gain",
+    "loss", "sums", "slope", "fall",
 ];
 
 fn measure(fields: &Fields<'_>) -> Option<Measure> {
@@ -127,6 +129,10 @@ fn measure(fields: &Fields<'_>) -> Option<Measure> {
             expected: expected(fields)?,
         }),
         "greatest" => Some(Measure::Greatest(probe(fields, "of")?, expected(fields)?)),
+        "first" => Some(Measure::First(
+            probe(fields, "of")?,
+            fields.need_value("expected", Quantity::Time, Range::NotNegative)?.value,
+        )),
         "rate" => {
             let from = fields.need_value("from", Quantity::Time, Range::NotNegative);
             Some(Measure::Rate {

@@ -207,7 +207,7 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
 
 /// A number, or a text with the unit of a quantity of a probe.
 fn reading(node: &Node, problems: &Problems) -> Option<f64> {
-    let quantities = [Quantity::Length, Quantity::Force, Quantity::Speed];
+    let quantities = [Quantity::Length, Quantity::Force, Quantity::Speed, Quantity::Time];
     let known = |text: &str| {
         quantities.into_iter().find(|quantity| crate::units::parse(text, *quantity).is_ok())
     };

@@ -298,8 +298,9 @@ fn whale_figure(fields: &Fields<'_>) -> Option<At<WhaleFigure>> {
         ("thrust", WhaleFigure::Thrust),
         ("power", WhaleFigure::Power),
         ("body-drag", WhaleFigure::BodyDrag),
+        ("contact-force", WhaleFigure::ContactForce),
     ];
-    fields.require("figure", "write speed, thrust, power or body-drag");
+    fields.require("figure", "write speed, contact-force, thrust, power or body-drag");
     fields.choice("figure", &figures)
 }
 

@@ -131,8 +131,9 @@ enum Takes {
 }
 
 /// Quantities of the encounter.
-const KNOWN: [(&str, Takes); 17] = [
+const KNOWN: [(&str, Takes); 18] = [
     ("age", Takes::Number(Quantity::Time, Range::Between(0.0, 120.0 * YEAR_S))),
+    ("along", Takes::Number(Quantity::Ratio, Range::Between(0.0, 1.0))),
     ("answer", Takes::Word),
     ("answer_above", Takes::Number(Quantity::Force, Range::NotNegative)),
     ("behaviour", Takes::Word),

@@ -113,6 +113,12 @@ impl Reference<'_> {
             Measure::Greatest(of, expected) => {
                 scalar(self.unit(&of.value), *expected, greatest(readings(of)))
             }
+            Measure::First(of, expected) => {
+                let is_above = |reading: &&f64| **reading > 0.0;
+                let begins = readings(of).iter().position(|reading| is_above(&reading));
+                let at_s = begins.and_then(|sample| observed.times_s.get(sample));
+                scalar("s", *expected, at_s.copied().unwrap_or(f64::INFINITY))
+            }
             Measure::Rate { of, from_s, expected } => scalar(
                 by_second(self.unit(&of.value)),
                 *expected,

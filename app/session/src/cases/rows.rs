@@ -306,6 +306,7 @@ pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
         Measure::Peak(of)
         | Measure::Value(of, _)
         | Measure::Greatest(of, _)
+        | Measure::First(of, _)
         | Measure::Mean { of, .. }
         | Measure::Rate { of, .. } => {
             vec![of]

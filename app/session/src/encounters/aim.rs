@@ -2,10 +2,12 @@
 //!
 //! The snout starts `gap` short of the aim along the whale's bearing and `offset` to starboard of it: with the unit vectors
 //! `f` ahead and `s` to starboard, mid-body is at `aim - (gap + L/2) f + offset s`, at the depth drawn, for a whale of length L.
-//! The aim is the place of the line at rest at that depth. Bearings count from where the current flows: 0 goes with the tide.
+//! The aim is the place of the line at rest at that depth. With the prior `along` it is instead the place of the lines at rest at that
+//! share of their length, whatever the depth, as suits lines that lie along the seabed.
+//! Bearings count from where the current flows: 0 goes with the tide.
 
 use endline_gear::{At, hint};
-use endline_sim::{Model, State};
+use endline_sim::{DVec3, Model, State};
 
 use crate::error::Error;
 
@@ -57,6 +59,33 @@ pub(crate) fn rope_at(
     nearest.map(|(_, place)| place)
 }
 
+/// East and north of these lines, one after another, at a share of their whole length at rest [m].
+pub(crate) fn rope_along(
+    model: &Model,
+    state: &State,
+    lines: &[usize],
+    share: f64,
+) -> Option<[f64; 2]> {
+    let lines = lines.iter().map(|line| &state.rope.position[model.line_nodes[*line].clone()]);
+    let segments: Vec<[DVec3; 2]> =
+        lines.flat_map(|nodes| nodes.windows(2).map(|pair| [pair[0], pair[1]])).collect();
+    along(&segments, share).map(|place| [place.x, place.y])
+}
+
+/// The place at a share of the length of segments, one after another.
+fn along(segments: &[[DVec3; 2]], share: f64) -> Option<DVec3> {
+    let whole: f64 = segments.iter().map(|[from, to]| from.distance(*to)).sum();
+    let mut left = share * whole;
+    for [from, to] in segments {
+        let length = from.distance(*to);
+        if left <= length && length > 0.0 {
+            return Some(from.lerp(*to, left / length));
+        }
+        left -= length;
+    }
+    segments.last().map(|[_, end]| *end)
+}
+
 /// East and north of mid-body at the start: `back_m` behind the aim along the bearing, `aside_m` to starboard [m].
 pub(crate) fn start_m(aim_m: [f64; 2], bearing: f64, [back_m, aside_m]: [f64; 2]) -> [f64; 2] {
     let (east, north) = (libm::sin(bearing), libm::cos(bearing));
@@ -66,6 +95,19 @@ pub(crate) fn start_m(aim_m: [f64; 2], bearing: f64, [back_m, aside_m]: [f64; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two lines of 3 m and 1 m, apart from each other: half of their length is 2 m along the first, 7/8 the middle of the second.
+    #[test]
+    fn a_share_of_lines_counts_their_lengths() {
+        let place = |x, z| DVec3::new(x, 0.0, z);
+        let segments = [[place(0.0, 0.0), place(3.0, 0.0)], [place(9.0, 0.0), place(9.0, 1.0)]];
+        for (share, x, z) in [(0.0, 0.0, 0.0), (0.5, 2.0, 0.0), (0.875, 9.0, 0.5), (1.0, 9.0, 1.0)]
+        {
+            let found = along(&segments, share).unwrap();
+            assert!(found.distance(place(x, z)) < 1e-12, "{share}: {found:?}");
+        }
+        assert!(along(&[], 0.5).is_none());
+    }
 
     /// A whale that swims east, 10 m before the aim and 2 m to starboard, starts 10 m west and 2 m south of it.
     #[test]

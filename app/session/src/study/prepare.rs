@@ -5,7 +5,7 @@ use std::sync::Arc;
 use endline_gear::{Document, Setting, units};
 
 use crate::encounters::Encounter;
-use crate::encounters::aim::{lines_aimed_at, rope_at, start_m};
+use crate::encounters::aim::{lines_aimed_at, rope_along, rope_at, start_m};
 use crate::encounters::equilibria::{Equilibrium, is_drawn_for_gear, moves_gear};
 use crate::error::Error;
 use crate::plugins::PluginHost;
@@ -60,12 +60,8 @@ impl PreparedStudy {
         scenario: &mut Document,
     ) -> Result<(), Error> {
         scenario.put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))?;
-        if !self
-            .study
-            .priors
-            .iter()
-            .any(|prior| matches!(prior.name.value.as_str(), "depth" | "heading" | "offset"))
-        {
+        let places = |name: &str| matches!(name, "along" | "depth" | "heading" | "offset");
+        if !self.study.priors.iter().any(|prior| places(&prior.name.value)) {
             return Ok(());
         }
         let aimed = if self.study.aim.own { option } else { self.baseline };
@@ -113,7 +109,7 @@ impl PreparedStudy {
         self.equilibria.of(source, &self.host)
     }
 
-    /// East and north of rope at rest at a depth [m].
+    /// East and north of rope at rest: at the share `along` of the lines aimed at, if the study draws it, else at a depth [m].
     fn aim_at(
         &self,
         option: usize,
@@ -128,7 +124,12 @@ impl PreparedStudy {
             }
             found => found?,
         };
-        rope_at(&gear.model, &gear.settled.state, &lines, depth_m).ok_or_else(|| {
+        let (model, state) = (&gear.model, &gear.settled.state);
+        let place = match encounter.number("along") {
+            Some(share) => rope_along(model, state, &lines, share),
+            None => rope_at(model, state, &lines, depth_m),
+        };
+        place.ok_or_else(|| {
             Error::Message(
                 "the gear has no rope to aim at; name lines in `aim` of [encounter]".into(),
             )

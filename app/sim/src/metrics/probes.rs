@@ -77,7 +77,9 @@ pub fn unit(target: ProbeTarget) -> &'static str {
     match target {
         ProbeTarget::EndTension(..)
         | ProbeTarget::TensionAt(..)
-        | ProbeTarget::Whale(WhaleFigure::Thrust | WhaleFigure::BodyDrag) => "N",
+        | ProbeTarget::Whale(
+            WhaleFigure::Thrust | WhaleFigure::BodyDrag | WhaleFigure::ContactForce,
+        ) => "N",
         ProbeTarget::Whale(WhaleFigure::Speed) => "m/s",
         ProbeTarget::Whale(WhaleFigure::Power) => "W",
         ProbeTarget::Energy(_) => "J",
@@ -119,6 +121,7 @@ fn of_whale(state: &State, figure: WhaleFigure) -> f64 {
         WhaleFigure::Thrust => whale.exertion.thrust_n,
         WhaleFigure::Power => whale.exertion.power_w,
         WhaleFigure::BodyDrag => whale.exertion.drag_n,
+        WhaleFigure::ContactForce => whale.contact_force_n.iter().sum(),
     }
 }
 

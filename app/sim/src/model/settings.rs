@@ -138,6 +138,8 @@ pub enum WhaleFigure {
     Power,
     /// Drag of the water on its body, without gear [N].
     BodyDrag,
+    /// Sum of the normal forces of rope on its skin in the last step [N].
+    ContactForce,
 }
 
 /// A form of mechanical energy.

@@ -11,8 +11,9 @@ use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
 /// Quantities of an encounter, each with its first distribution and values.
-const KNOWN: [(&str, &str, &str); 17] = [
+const KNOWN: [(&str, &str, &str); 18] = [
     ("age", "value", "\"10 yr\""),
+    ("along", "uniform", "[0.0, 1.0]"),
     ("answer", "choice", "[\"none\", \"roll-away\", \"turn-away\"]"),
     ("answer_above", "value", "\"10 N\""),
     ("behaviour", "choice", "[\"swim\", \"skim-feed\"]"),
