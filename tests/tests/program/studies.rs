@@ -328,6 +328,7 @@ fn findings(place: &Place, study: &str, out: &str) {
             && page.contains("lbf"),
         "the figures are inside"
     );
+    assert!(page.contains("requests no length of segments near the whale"), "there is no whale");
     assert!(!page.contains("NaN") && !page.contains("<script"));
 
     let replayed = place
