@@ -131,6 +131,9 @@ fn value<S>(figures: &[Figure<S>], key: &str, source: &S) -> Value {
     (figures.iter().find(|figure| figure.key == key).unwrap().read)(source)
 }
 
+/// A figure of a held whale, and the change of its state that makes it true.
+type StateChange = (&'static str, fn(&mut WhaleSummary));
+
 /// One change of a whale that is only just held makes one of the figures true, and none once it is free.
 #[test]
 fn figures_of_a_held_whale_are_those_of_its_state() {
@@ -144,7 +147,7 @@ fn figures_of_a_held_whale_are_those_of_its_state() {
         OF_STATE[1..].iter().filter(is_true).copied().collect()
     };
     assert!(all_true(&held).is_empty(), "{:?}", all_true(&held));
-    let changes: [(&str, fn(&mut WhaleSummary)); 10] = [
+    let changes: [StateChange; 10] = [
         ("rope_on_head", |whale| whale.lodged_in_mouth = true),
         ("rope_on_head", |whale| whale.regions[BodyPart::Head as usize].touching = true),
         ("rope_on_flipper", |whale| whale.regions[BodyPart::RightFlipper as usize].touching = true),
