@@ -92,6 +92,8 @@ pub struct ObservedShare {
     pub times: f64,
     /// Range of shares that agree with the observation [1].
     pub observed: [f64; 2],
+    /// Why the gear or the question decides the result beforehand, so that it tests nothing; `None` for a real comparison.
+    pub by_construction: Option<String>,
     /// Presumed reason of a difference, and limits of the comparison; may be empty.
     pub notes: String,
 }
@@ -116,6 +118,7 @@ fn read_observation(fields: &Fields<'_>, options: &[StudyOption]) -> Option<Obse
         (known_option(fields, "option", options), known_option(fields, "fewer_with", options));
     let times = fields.value("times", Quantity::Ratio, Range::Positive);
     let observed = observed(fields);
+    let by_construction = by_construction(fields);
     let notes = fields.text("notes").map(|notes| notes.value).unwrap_or_default();
     Some(ObservedShare {
         id: id?,
@@ -127,8 +130,20 @@ fn read_observation(fields: &Fields<'_>, options: &[StudyOption]) -> Option<Obse
         fewer_with: fewer_with.map(|option| option.value),
         times: times.map_or(1.0, |times| times.value),
         observed: observed?,
+        by_construction,
         notes,
     })
+}
+
+/// The reason for which a comparison tests nothing, if there is one; an empty reason is refused.
+fn by_construction(fields: &Fields<'_>) -> Option<String> {
+    let reason = fields.text("by_construction")?;
+    if reason.value.trim().is_empty() {
+        let help =
+            "write what decides the result, such as \"the foot is a fixture\", or remove the field";
+        return fields.refuse(reason.place.error("`by_construction` gives no reason", help));
+    }
+    Some(reason.value)
 }
 
 /// An option by id, if present.
@@ -264,7 +279,7 @@ mod tests {
 
     const OBSERVED_STUDY: &str = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 4\nbaseline = \"a\"\n\
         [[option]]\nid = \"a\"\n[[option]]\nid = \"b\"\n[encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n\
-        [[observation]]\nid = \"o\"\nsays = \"seen\"\nsource = \"a paper\"\nof = \"held_lodged\"\namong = \"entangled\"\nfewer_with = \"b\"\ntimes = 0.5\nobserved = [0.6, 0.9]\n";
+        [[observation]]\nid = \"o\"\nsays = \"seen\"\nsource = \"a paper\"\nof = \"held_lodged\"\namong = \"entangled\"\nfewer_with = \"b\"\ntimes = 0.5\nobserved = [0.6, 0.9]\nby_construction = \"the gear decides it\"\n";
 
     #[test]
     fn an_observation_is_read_and_changes_no_run() {
@@ -272,6 +287,7 @@ mod tests {
         let [seen] = study.observations.as_slice() else { panic!("{:?}", study.observations) };
         assert_eq!((seen.of.name(), seen.observed), ("held_lodged".to_owned(), [0.6, 0.9]));
         assert_eq!((seen.option.as_deref(), seen.fewer_with.as_deref()), (None, Some("b")));
+        assert_eq!(seen.by_construction.as_deref(), Some("the gear decides it"));
         let without = &OBSERVED_STUDY[..OBSERVED_STUDY.find("[[observation]]").unwrap()];
         assert_eq!(Study::read("s.toml", without).unwrap().canonical, study.canonical);
     }
@@ -283,6 +299,7 @@ mod tests {
             ("[0.6, 0.9]", "[0.9, 0.6]", "these are not two rising shares"),
             ("observed = [0.6, 0.9]\n", "", "`observed` is missing"),
             ("held_lodged", "held_loged", "there is no event `held_loged`"),
+            ("the gear decides it", " ", "`by_construction` gives no reason"),
         ] {
             let problems = Study::read("s.toml", &OBSERVED_STUDY.replace(from, to)).unwrap_err();
             assert!(

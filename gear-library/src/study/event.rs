@@ -1,6 +1,7 @@
-//! Events that a study counts: an outcome, or rope on a part of the whale.
+//! Events that a study counts: an outcome, the state of a held whale at the end, or rope on a part of the whale.
 
 use endline_sdk::{BodyPart, Limb};
+use endline_sim::metrics::ANCHORED_M_S;
 use strum::IntoStaticStr;
 
 use crate::diagnostic::{At, hint};
@@ -8,8 +9,7 @@ use crate::fields::Fields;
 
 use super::option::texts;
 
-/// Smallest number of turns of a wrapped part: half a turn hooks (`docs/entanglement.md`). An estimate.
-pub const HOOKED_TURNS: f64 = 0.5;
+pub use endline_sim::metrics::HOOKED_TURNS;
 
 /// An event of an encounter.
 #[derive(Clone, Debug, PartialEq, Eq, IntoStaticStr)]
@@ -41,6 +41,27 @@ pub enum StudyEvent {
     Anchored,
     /// Rope held at the end, and the whale towed gear.
     Towing,
+    /// Rope held at the end, at the mouth or head.
+    OnHead,
+    /// Rope held at the end, at a flipper.
+    OnFlipper,
+    /// Rope held at the end, at the peduncle or flukes.
+    OnTail,
+    /// Rope held at the end, at two or three of mouth or head, flippers and tail.
+    OnTwoPlaces,
+    /// Rope held at the end, with half a turn about some part.
+    WrapsPresent,
+    /// Rope held at the end, and constricted a part.
+    Constricting,
+    /// Rope held at the end, and led to a trap.
+    TrapsAttached,
+    /// Rope held at the end, and led to a buoy.
+    BuoysAttached,
+    /// Rope held at the end, and the whale trailed gear.
+    Trailing,
+    /// Rope held at the end, and the whale trailed more than 10 m of rope.
+    #[strum(serialize = "trailing_10m")]
+    Trailing10M,
     /// Rope on any of these parts.
     On(RegionEvent, Vec<BodyPart>),
 }
@@ -69,8 +90,6 @@ pub enum Counted<'a> {
     AtLeast(&'a str, &'a [BodyPart], f64),
     /// A column is above this.
     Above(&'a str, f64),
-    /// A column is not above this.
-    NotAbove(&'a str, f64),
     /// All of these.
     All(&'a [Counted<'a>]),
     /// Any of these.
@@ -83,8 +102,6 @@ const HELD: Counted<'static> = Counted::Outcome(&["entangled", "parted_entangled
 const LODGED: Counted<'static> = Counted::Flag("lodged_in_mouth");
 /// A whole turn about some part at the end.
 const TURN: Counted<'static> = Counted::AtLeast("wraps", &BodyPart::ALL, 1.0);
-/// Greatest speed made good of a whale that is anchored by tethered rope [m/s]; an estimate.
-pub const ANCHORED_M_S: f64 = 0.1;
 /// Strength of blubber: 0.25 to 0.44 MPa (Raymond 2007, in whalestrike), here the upper value [Pa].
 pub const INJURY_PA: f64 = 4.4e5;
 
@@ -148,16 +165,73 @@ static WHOLE: [Declared; 13] = [
     Declared {
         event: StudyEvent::Anchored,
         words: "held at anchor",
-        counted: Counted::All(&[
-            HELD,
-            Counted::Above("tethered_m", 0.0),
-            Counted::NotAbove("speed_made_good_m_s", ANCHORED_M_S),
-        ]),
+        counted: Counted::Flag("anchored"),
     },
     Declared {
         event: StudyEvent::Towing,
         words: "held, towing",
         counted: Counted::All(&[HELD, Counted::Above("speed_made_good_m_s", ANCHORED_M_S)]),
+    },
+];
+
+/// Rope at the mouth or head at the end, at a flipper, and at the tail; of held whales alone.
+const ON_PLACES: [Counted<'static>; 3] = [
+    Counted::Flag("rope_on_head"),
+    Counted::Flag("rope_on_flipper"),
+    Counted::Flag("rope_on_tail"),
+];
+
+/// Events that describe a held whale as accounts of real ones do: rope at its end, and the gear that it carries.
+static HELD_STATE: [Declared; 10] = [
+    Declared {
+        event: StudyEvent::OnHead,
+        words: "held, rope at mouth or head",
+        counted: ON_PLACES[0],
+    },
+    Declared {
+        event: StudyEvent::OnFlipper,
+        words: "held, rope at a flipper",
+        counted: ON_PLACES[1],
+    },
+    Declared { event: StudyEvent::OnTail, words: "held, rope at the tail", counted: ON_PLACES[2] },
+    Declared {
+        event: StudyEvent::OnTwoPlaces,
+        words: "held, rope at two places or more",
+        counted: Counted::Any(&[
+            Counted::All(&[ON_PLACES[0], ON_PLACES[1]]),
+            Counted::All(&[ON_PLACES[0], ON_PLACES[2]]),
+            Counted::All(&[ON_PLACES[1], ON_PLACES[2]]),
+        ]),
+    },
+    Declared {
+        event: StudyEvent::WrapsPresent,
+        words: "held with half a turn",
+        counted: Counted::Flag("wraps_present"),
+    },
+    Declared {
+        event: StudyEvent::Constricting,
+        words: "held, a part constricted",
+        counted: Counted::Flag("constricting"),
+    },
+    Declared {
+        event: StudyEvent::TrapsAttached,
+        words: "held, traps attached",
+        counted: Counted::All(&[HELD, Counted::Above("carried_traps", 0.0)]),
+    },
+    Declared {
+        event: StudyEvent::BuoysAttached,
+        words: "held, buoys attached",
+        counted: Counted::All(&[HELD, Counted::Above("carried_buoys", 0.0)]),
+    },
+    Declared {
+        event: StudyEvent::Trailing,
+        words: "held, gear trails",
+        counted: Counted::Flag("trailing"),
+    },
+    Declared {
+        event: StudyEvent::Trailing10M,
+        words: "held, more than 10 m of rope trails",
+        counted: Counted::All(&[HELD, Counted::Above("trailing_m", 10.0)]),
     },
 ];
 
@@ -180,6 +254,7 @@ impl StudyEvent {
     /// All events.
     pub fn all() -> Vec<Self> {
         let mut all = Self::of_the_whole();
+        all.extend(HELD_STATE.iter().map(|declared| declared.event.clone()));
         for kind in [RegionEvent::Contact, RegionEvent::Wrap, RegionEvent::Injury] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
             all.extend(groups().into_iter().map(|(_, parts)| Self::On(kind, parts)));
@@ -255,10 +330,11 @@ impl StudyEvent {
     pub fn is_held(&self) -> bool {
         use StudyEvent::{Anchored, Entangled, HeldFast, HeldLodged, HeldTurn, Towing};
         matches!(self, Entangled | HeldFast | HeldLodged | HeldTurn | Anchored | Towing)
+            || HELD_STATE.iter().any(|declared| declared.event == *self)
     }
 
     fn declared(&self) -> Option<&'static Declared> {
-        WHOLE.iter().find(|declared| declared.event == *self)
+        WHOLE.iter().chain(&HELD_STATE).find(|declared| declared.event == *self)
     }
 
     /// The event of a name.

@@ -21,7 +21,7 @@ use crate::{limits, names};
 pub use comparison::{Claim, Discretisation, ObservedRoutes, ObservedShare};
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
 pub(crate) use option::texts;
-pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow};
+pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow, library_field};
 pub use prior::{Law, Level, Prior, Target};
 
 /// Greatest number of encounters: the number of points of the Sobol sequence.

@@ -48,7 +48,7 @@ impl Setting {
 }
 
 /// Library file and field of a dotted path; `None` for the scenario.
-pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
+pub fn library_field(path: &str) -> Option<(String, &str)> {
     let (item, field) = path.split_once('.').filter(|(item, _)| item.contains('/'))?;
     Some((format!("{item}.toml"), field))
 }

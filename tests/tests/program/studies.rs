@@ -278,7 +278,7 @@ fn one_command_runs_studies_and_cases_and_reports_agreement() {
             page.lines().filter(|line| line.starts_with(&format!("| {id} |"))).collect();
         found.join("\n")
     };
-    assert!(page.starts_with("Rows with a simulated figure: 2 (B1, B9)."), "{page}");
+    assert!(page.starts_with("Rows compared with a simulated figure: 2 (B1, B9)."), "{page}");
     assert!(row("B1-none").contains("0.0 %") && row("B1-none").contains("| agrees |"), "{page}");
     assert!(row("B1-all").contains("| misses |"), "{page}");
     assert!(row("B2").contains("| not settled |"), "{page}");
@@ -328,6 +328,7 @@ fn findings(place: &Place, study: &str, out: &str) {
             && page.contains("lbf"),
         "the figures are inside"
     );
+    assert!(page.contains("requests no length of segments near the whale"), "there is no whale");
     assert!(!page.contains("NaN") && !page.contains("<script"));
 
     let replayed = place

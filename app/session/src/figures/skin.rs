@@ -43,6 +43,13 @@ pub static PART: &[Figure<Part>] = &[
     })
     .shown(&[Table, Summary, Entanglement]),
     Figure::new(
+        "touching",
+        "rope touches it",
+        "Whether rope touches the part at the end, or did less than a second before.",
+        Quantity::Flag,
+        |part: &Part| part.summary.touching.into(),
+    ),
+    Figure::new(
         "wraps",
         "wraps",
         "Turns of rope about the part at the end, loose loops included.",

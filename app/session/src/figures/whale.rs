@@ -1,6 +1,6 @@
 //! Figures of the whale, of its fluke beat and of a kinetic whale.
 
-use endline_sim::metrics::{BeatSummary, KineticSummary, WhaleSummary};
+use endline_sim::metrics::{BeatSummary, HOOKED_TURNS, KineticSummary, RopePlace, WhaleSummary};
 
 use super::View::{Compare, Entanglement, Summary, Table};
 use super::{Figure, PART, PATCH, Quantity, list, object, parts};
@@ -167,6 +167,85 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
         |whale: &WhaleSummary| (&whale.carried).into(),
     )
     .shown(&[Table]),
+    Figure::new(
+        "carried_traps",
+        "traps attached",
+        "Number of traps to which rope from the whale leads.",
+        Quantity::Count,
+        |whale: &WhaleSummary| whale.carried_traps.into(),
+    )
+    .column(114),
+    Figure::new(
+        "carried_buoys",
+        "buoys attached",
+        "Number of buoys to which rope from the whale leads.",
+        Quantity::Count,
+        |whale: &WhaleSummary| whale.carried_buoys.into(),
+    )
+    .column(115),
+    Figure::new(
+        "rope_on_head",
+        "held by rope at mouth or head",
+        "Whether the whale is held with rope at the mouth or head at the end: contact in the last second, half a turn, or lodged in the mouth.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.has_rope_on(RopePlace::Head).into(),
+    )
+    .shown(&[Table])
+    .column(116),
+    Figure::new(
+        "rope_on_flipper",
+        "held by rope at a flipper",
+        "Whether the whale is held with rope at a flipper at the end: contact in the last second or half a turn.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.has_rope_on(RopePlace::Flipper).into(),
+    )
+    .shown(&[Table])
+    .column(117),
+    Figure::new(
+        "rope_on_tail",
+        "held by rope at the tail",
+        "Whether the whale is held with rope at peduncle or flukes at the end: contact in the last second or half a turn.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.has_rope_on(RopePlace::Tail).into(),
+    )
+    .shown(&[Table])
+    .column(118),
+    Figure::new(
+        "wraps_present",
+        "held with a wrap",
+        "Whether the whale is held with half a turn or more about some part at the end.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.has_wraps(HOOKED_TURNS).into(),
+    )
+    .shown(&[Table])
+    .column(119),
+    Figure::new(
+        "constricting",
+        "a part is constricted",
+        "Whether the whale is held with three quarters of a turn of touching rope about some part at the end.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.is_constricted().into(),
+    )
+    .shown(&[Table])
+    .column(120),
+    Figure::new(
+        "trailing",
+        "trails gear",
+        "Whether the whale is held with more than 1 m of rope to loose ends at the end.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.is_trailing().into(),
+    )
+    .shown(&[Table])
+    .column(121),
+    Figure::new(
+        "anchored",
+        "is anchored",
+        "Whether the whale is held at the end by rope to a trap, anchor or fixture, and made good no more than 0.1 m/s.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.is_anchored().into(),
+    )
+    .shown(&[Table])
+    .column(122),
     Figure::new(
         "beat",
         "fluke beat",

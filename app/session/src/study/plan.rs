@@ -1,7 +1,11 @@
-//! An option of a study as a plan: the fields that it sets and removes, and the scenario and library with these changes.
+//! An option of a study as a plan: the fields that it sets and removes, the scenario and library with these changes, and what it differs in
+//! from the baseline.
+
+use std::collections::BTreeSet;
 
 use endline_gear::{
     Diagnostic, Document, EditError, OptionSetting, Prior, Sources, Study, StudyOption, hint,
+    library_field,
 };
 
 use crate::error::Error;
@@ -31,6 +35,8 @@ pub struct OptionPlan {
     pub(super) removes: Vec<String>,
     /// The baseline scenario, before anything is set.
     pub(super) scenario: Document,
+    /// The scenario with what the option sets and removes, without drawn values.
+    own_scenario: Document,
     pub(super) scenario_name: String,
     pub(super) sources: Sources,
     /// The option without drawn values, for its library files and its plugins.
@@ -38,6 +44,38 @@ pub struct OptionPlan {
 }
 
 impl OptionPlan {
+    /// What it differs in from another option, as dotted paths without the numbers of lists, such as `line.delivered_strength`: equal changes
+    /// of several lines are one difference. A table that only one of the options has is one too.
+    pub fn differs_in(&self, other: &Self) -> Vec<String> {
+        let fields =
+            [self, other].into_iter().flat_map(|option| option.own.iter().chain(&option.removes));
+        let differing: BTreeSet<String> =
+            fields.filter_map(|field| self.difference(other, field)).collect();
+        differing.into_iter().collect()
+    }
+
+    /// The shortest path to a field at which two options differ; `None` if it is the same in both.
+    fn difference(&self, other: &Self, field: &str) -> Option<String> {
+        let (file, path) =
+            library_field(field).map_or((None, field), |(file, path)| (Some(file), path));
+        let [own, others] = [self, other].map(|option| option.document(file.as_deref()));
+        let (own, others) = (own?, others?);
+        let within = path.match_indices('.').map(|(dot, _)| &path[..dot]).chain([path]);
+        let apart = within.into_iter().find(|part| own.has(part) != others.has(part));
+        let apart = apart.or_else(|| (own.get(path) != others.get(path)).then_some(path))?;
+        let names = apart.split('.').filter(|part| part.parse::<usize>().is_err());
+        let item = file.iter().map(|file| file.trim_end_matches(".toml"));
+        Some(item.chain(names).collect::<Vec<_>>().join("."))
+    }
+
+    /// Its scenario, or a file of its library.
+    fn document(&self, file: Option<&str>) -> Option<Document> {
+        match file {
+            None => Some(self.own_scenario.clone()),
+            Some(file) => Document::parse(self.sources.get(file)?).ok(),
+        }
+    }
+
     /// The baseline scenario and the library with the drawn values, and with the settings and removals of the option.
     /// Errors: a field that cannot be set or removed.
     pub(super) fn edited<'a>(
@@ -108,6 +146,7 @@ impl Base<'_> {
             settings,
             removes: option.removes.iter().map(|field| field.value.clone()).collect(),
             scenario,
+            own_scenario: edited,
             scenario_name: self.name.clone(),
             sources,
             prepared,

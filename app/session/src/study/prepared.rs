@@ -1,5 +1,6 @@
 //! A prepared study: its file, the baseline scenario and library, and the plan of each option; what it will run, as JSON.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -159,6 +160,19 @@ impl PreparedStudy {
         self.sources.get(path)
     }
 
+    /// Options that differ from the baseline in more than one thing, with what these are ([`OptionPlan::differs_in`]).
+    pub fn several_differences(&self) -> impl Iterator<Item = (&str, Vec<String>)> {
+        let baseline = &self.options[self.baseline];
+        let of = move |option: &usize| {
+            let option = &self.options[*option];
+            (option.id.as_str(), option.differs_in(baseline))
+        };
+        self.reading_order()
+            .into_iter()
+            .map(move |option| of(&option))
+            .filter(|(_, things)| things.len() > 1)
+    }
+
     /// Ids of the options by families. Options of a family differ in strengths alone, and share their runs until something parts.
     pub fn families(&self) -> Vec<Vec<&str>> {
         let of = |family: usize| {
@@ -248,6 +262,8 @@ pub(crate) struct Plan<'a> {
     baseline: &'a str,
     /// Options that share their runs until something parts.
     families: Vec<Vec<&'a str>>,
+    /// By option that differs from the baseline in more than one thing: what these are.
+    several_differences: BTreeMap<&'a str, Vec<String>>,
     /// Cost and precision, once some encounters were run.
     forecast: Option<&'a Forecast>,
 }
@@ -264,6 +280,7 @@ impl PreparedStudy {
             options: self.options.iter().map(|option| option.id.as_str()).collect(),
             baseline: &self.options[self.baseline].id,
             families: self.families(),
+            several_differences: self.several_differences().collect(),
             forecast,
         };
         json::line(&plan)

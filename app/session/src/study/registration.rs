@@ -36,7 +36,8 @@ impl Registration {
         });
         let observations = study.observations.iter().map(|seen| {
             let which = (&seen.of, &seen.among, &seen.option, &seen.fewer_with);
-            let counted = format!("{which:?} {:?} {:?}", seen.times, seen.observed);
+            let decided = if seen.by_construction.is_some() { " by construction" } else { "" };
+            let counted = format!("{which:?} {:?} {:?}{decided}", seen.times, seen.observed);
             (seen.id.value.clone(), short_hash(&counted))
         });
         let mut own = Self {

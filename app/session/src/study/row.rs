@@ -111,7 +111,8 @@ mod tests {
     /// The columns of `table.parquet` before those of what was drawn; scripts depend on them.
     const COLUMNS: &str = "encounter option replay_key weight until_parted valid fault tunnelled unconverged simulated_s \
         state_hash outcome decided first_contact_s last_contact_s contact_time_s drag_added_N \
-        trailing_m tethered_m was_lodged_in_mouth was_body_caught peak_body_push_N lodged_in_mouth speed_made_good_m_s unchanged_s PARTS peak_tension_N peak_line peak_at_s \
+        trailing_m tethered_m was_lodged_in_mouth was_body_caught peak_body_push_N lodged_in_mouth speed_made_good_m_s unchanged_s carried_traps carried_buoys \
+        rope_on_head rope_on_flipper rope_on_tail wraps_present constricting trailing anchored PARTS peak_tension_N peak_line peak_at_s \
         link_peak_N parted parted_at_s resolution_looks resolution_missed needed_rope_N needed_link_N needed_place_N";
 
     /// The columns of each part of the whale.
@@ -181,7 +182,16 @@ mod tests {
         assert_eq!((run.outcome.as_str(), run.decided), (whale.outcome.name(), whale.decided));
         assert_eq!(run.first_contact_s, whale.first_contact_s);
         assert_eq!(run.last_contact_s, whale.last_contact_s);
-        assert_eq!(run.tethered_m, Some(whale.tethered_m));
+        assert_eq!(run.trailing_m, Some(whale.trailing_m));
+        assert_eq!(
+            [run.carried_traps, run.carried_buoys],
+            [whale.carried_traps, whale.carried_buoys]
+        );
+        assert!(
+            run.rope_on_head && run.rope_on_flipper && run.rope_on_tail,
+            "rope is on all parts"
+        );
+        assert_eq!([run.anchored, run.trailing], [whale.is_anchored(), whale.is_trailing()]);
         assert_eq!(run.lodged_in_mouth, whale.lodged_in_mouth);
         let peaks = report.summary.lines.iter().map(|line| line.peak_tension_n);
         assert_eq!(run.peak_tension_n, peaks.reduce(f64::max));

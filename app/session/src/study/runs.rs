@@ -146,8 +146,6 @@ row! {
         first_contact_s: Option<f64> = "first_contact_s",
         /// Last contact of rope with the whale [s].
         last_contact_s: Option<f64> = "last_contact_s",
-        /// Rope between whale and gear that is fast [m].
-        tethered_m: Option<f64> = "tethered_m",
         /// Whether rope was lodged in the mouth at some time.
         was_lodged_in_mouth: bool = "was_lodged_in_mouth",
         /// Whether a trap, buoy or anchor was caught on the whale at some time.
@@ -156,6 +154,26 @@ row! {
         lodged_in_mouth: bool = "lodged_in_mouth",
         /// Speed made good at the end [m/s].
         speed_made_good_m_s: Option<f64> = "speed_made_good_m_s",
+        /// Whether it was anchored at the end.
+        anchored: bool = "anchored",
+        /// Whether it was held with rope at the mouth or head at the end.
+        rope_on_head: bool = "rope_on_head",
+        /// Whether it was held with rope at a flipper at the end.
+        rope_on_flipper: bool = "rope_on_flipper",
+        /// Whether it was held with rope at peduncle or flukes at the end.
+        rope_on_tail: bool = "rope_on_tail",
+        /// Whether it was held with half a turn about some part at the end.
+        wraps_present: bool = "wraps_present",
+        /// Whether it was held with a part constricted at the end.
+        constricting: bool = "constricting",
+        /// Whether it was held and trailed gear at the end.
+        trailing: bool = "trailing",
+        /// Rope from the whale to loose ends [m].
+        trailing_m: Option<f64> = "trailing_m",
+        /// Traps to which rope from the whale leads.
+        carried_traps: u64 = "carried_traps",
+        /// Buoys to which rope from the whale leads.
+        carried_buoys: u64 = "carried_buoys",
         /// Greatest tension [N].
         peak_tension_n: Option<f64> = "peak_tension_N",
         /// Link or line that parted first.

@@ -140,6 +140,65 @@ fn blocks_written(folder: &Folder) -> u32 {
     (0..folder.blocks()).map(|block| u32::from(folder.has(block))).sum()
 }
 
+/// Options that change one or several things, in scenario and library.
+const DIFFERING: &str = r#"
+[[option]]
+id = "rope"
+[option.set]
+weak_links = false
+"ropes/pp-3-8.strength" = "9 kN"
+
+[[option]]
+id = "places"
+[option.set]
+weak_links = false
+"line.0.weak_places.strength" = "5 kN"
+"line.0.weak_places.at" = ["10 m"]
+
+[[option]]
+id = "unrated"
+remove = ["link.0.rating"]
+[option.set]
+"link.0.item" = "wl-600"
+
+[[option]]
+id = "linked"
+"#;
+
+#[test]
+fn options_are_compared_with_the_baseline_by_what_differs() {
+    let place = Place::new("differing");
+    fs::write(
+        place.study(),
+        STUDY.replace(
+            "[encounter",
+            &format!(
+                "{DIFFERING}
+[encounter"
+            ),
+        ),
+    )
+    .unwrap();
+    let opened = place.open();
+    let of = |id: &str| {
+        let option = &opened.options[opened.option(id).unwrap()];
+        option.differs_in(&opened.options[opened.baseline]).join(" ")
+    };
+    assert_eq!(of("none"), "");
+    assert_eq!(of("rope"), "ropes/pp-3-8.strength");
+    assert_eq!(
+        of("places"),
+        "line.weak_places",
+        "a table that the baseline has not is one difference"
+    );
+    assert_eq!(of("linked"), "weak_links", "the scenario has it otherwise than the baseline");
+    assert_eq!(of("weak"), "link.rating weak_links");
+    assert_eq!(of("unrated"), "link.item link.rating weak_links");
+    let several: Vec<&str> = opened.several_differences().map(|(id, _)| id).collect();
+    assert_eq!(several, ["weak", "unrated"], "in the order of the file");
+    assert!(opened.plan_json(None).contains(r#""weak":["link.rating","weak_links"]"#));
+}
+
 #[test]
 fn a_paused_study_does_not_advance_and_its_table_is_that_of_one_never_paused() {
     let place = Place::new("paused");

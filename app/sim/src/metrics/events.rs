@@ -113,8 +113,8 @@ pub const LONG_CONTACT_S: f64 = 10.0;
 /// Share of a short episode after which rope is shed; estimate.
 const RELEASE_SHARE: f64 = 1.0 / 3.0;
 
-/// Turns above which [`RELEASE_S`] applies to episodes of any duration; estimate.
-const HOOKED_TURNS: f64 = 0.5;
+/// Turns about a part that hook: [`RELEASE_S`] applies to such episodes of any duration; estimate [turns].
+pub const HOOKED_TURNS: f64 = 0.5;
 
 /// Contact of rope with the whale.
 #[derive(Clone, Copy, Debug, Default)]
@@ -228,6 +228,11 @@ impl Touches {
             touch.contact(part.name(), load, time_s, log);
             touch.slip(part.name(), load, time_s, log);
         }
+    }
+
+    /// Whether rope touches a part, or did less than [`LOST_S`] ago.
+    pub(super) fn is_touching(&self, part: BodyPart) -> bool {
+        self.parts[part as usize].last_s.is_some()
     }
 }
 

@@ -34,7 +34,7 @@ use crate::step::Workspace;
 use lines::Peaks;
 
 pub use bodies::{CAUGHT_S, DRAGGED_M};
-pub use events::{Event, EventKind, LONG_CONTACT_S, LOST_S, RELEASE_S};
+pub use events::{Event, EventKind, HOOKED_TURNS, LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub use flukes::TURN_SHARE;
 pub use knots::HELD_N;
 pub use lines::{TENSION_BIN_M, end_tension};
@@ -43,8 +43,9 @@ pub use mouth::LODGED_S;
 pub use probes::{energy, reading, unit};
 pub use route::{LeadsTo, Route, RouteEnd, Station, routes};
 pub use summary::{
-    BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
-    PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    ANCHORED_M_S, BeatSummary, BodyOnWhale, BodySummary, CONSTRICTING_TURNS, KineticSummary,
+    LineSummary, LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, RopePlace,
+    Summary, TRAILING_M, WhaleSummary,
 };
 pub use whale_momentum::{MADE_GOOD_S, MomentumBalance};
 pub use winding::{BESIDE_M, BRIDGED_GAP_M, WINDING_JUMP};

@@ -3,10 +3,11 @@
 //! A field whose key in the run summary has a unit has it here in lower case:
 //! `peak_tension_n` is the key `peak_tension_N`. Definitions: `docs/entanglement.md`.
 
-use endline_sdk::{BodyPart, Region};
+use endline_sdk::{BodyPart, Limb, Region};
 use glam::DVec3;
 use strum::{IntoStaticStr, VariantArray};
 
+use super::events::HOOKED_TURNS;
 use super::lines::bin_at;
 use super::whale_momentum::MomentumBalance;
 
@@ -174,6 +175,10 @@ pub struct WhaleSummary {
     pub tethered_m: f64,
     /// Ids of the bodies attached to the whale by that rope.
     pub carried: Vec<String>,
+    /// Number of traps among these.
+    pub carried_traps: u64,
+    /// Number of buoys among these.
+    pub carried_buoys: u64,
     /// Fluke beat; `None` before the first whole beat.
     pub beat: Option<BeatSummary>,
     /// Effort of a kinetic whale.
@@ -182,6 +187,73 @@ pub struct WhaleSummary {
     pub winding_jumps: u64,
     /// Share of the normal force on it over time that exceeds the force that rope can exert.
     pub beyond_rope_share: f64,
+}
+
+/// Greatest speed made good of a whale that is anchored by tethered rope; estimate [m/s].
+pub const ANCHORED_M_S: f64 = 0.1;
+
+/// Length of rope to loose ends above which a whale trails gear: the shortest that accounts of whales state is 0.9 m; estimate [m].
+pub const TRAILING_M: f64 = 1.0;
+
+/// Turns of touching rope about a part that constrict it; estimate [turns].
+pub const CONSTRICTING_TURNS: f64 = 0.75;
+
+/// Places at which accounts of entangled whales name rope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RopePlace {
+    /// Mouth or head.
+    Head,
+    /// Either flipper.
+    Flipper,
+    /// Peduncle or flukes.
+    Tail,
+}
+
+impl RopePlace {
+    /// Whether a part of the body belongs to the place.
+    pub fn has(self, part: BodyPart) -> bool {
+        match self {
+            Self::Head => part == BodyPart::Head,
+            Self::Flipper => part.limb() == Limb::Flipper,
+            Self::Tail => part == BodyPart::Peduncle || part.limb() == Limb::Fluke,
+        }
+    }
+}
+
+/// The state of a held whale in the terms of accounts of real whales. All are false of a whale that is not held.
+impl WhaleSummary {
+    /// Whether rope holds the whale.
+    pub fn is_held(&self) -> bool {
+        matches!(self.outcome, Outcome::Entangled | Outcome::PartedEntangled)
+    }
+
+    /// Whether it is held with rope at a place: rope touches there, makes [`HOOKED_TURNS`] or is lodged in the mouth.
+    pub fn has_rope_on(&self, place: RopePlace) -> bool {
+        let is_on = |part: &RegionSummary| part.touching || part.wraps >= HOOKED_TURNS;
+        let mut own = self.regions.iter().filter(|part| place.has(part.part));
+        self.is_held() && (own.any(is_on) || (place == RopePlace::Head && self.lodged_in_mouth))
+    }
+
+    /// Whether it is held with at least this many turns about some part [turns].
+    pub fn has_wraps(&self, least: f64) -> bool {
+        self.is_held() && self.regions.iter().any(|part| part.wraps >= least)
+    }
+
+    /// Whether it is held with [`CONSTRICTING_TURNS`] of touching rope about some part.
+    pub fn is_constricted(&self) -> bool {
+        let is_tight = |part: &RegionSummary| part.touching_wraps >= CONSTRICTING_TURNS;
+        self.is_held() && self.regions.iter().any(is_tight)
+    }
+
+    /// Whether it is held with more than [`TRAILING_M`] of rope to loose ends.
+    pub fn is_trailing(&self) -> bool {
+        self.is_held() && self.trailing_m > TRAILING_M
+    }
+
+    /// Whether it is held by gear that is fast, and made good no more than [`ANCHORED_M_S`].
+    pub fn is_anchored(&self) -> bool {
+        self.is_held() && self.tethered_m > 0.0 && self.speed_made_good_m_s <= ANCHORED_M_S
+    }
 }
 
 /// Fluke beat, mean over all whole beats.
@@ -229,6 +301,8 @@ pub struct KineticSummary {
 pub struct RegionSummary {
     /// Part.
     pub part: BodyPart,
+    /// Whether rope touches it now, or did less than [`LOST_S`](super::LOST_S) ago.
+    pub touching: bool,
     /// Wraps now, including loose loops [turns].
     pub wraps: f64,
     /// Greatest wraps at any time [turns].

@@ -38,7 +38,7 @@ impl Reach {
         Self { touched: vec![None; model.spec.lines.len()] }
     }
 
-    /// Updates the contacts of a step and the line ends attached to the whale.
+    /// Replaces the contacts by those of a step, and adds the line ends attached to the whale.
     pub(super) fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
         self.touched.fill(None);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {

@@ -19,7 +19,7 @@ use super::whale_momentum::MadeGood;
 use super::winding::{TwistMeter, Winding};
 use super::wraps::WrapMeter;
 use crate::contact::rope_on_skin::step_sums::SkinContact;
-use crate::model::Model;
+use crate::model::{BodyRole, Model};
 use crate::state::State;
 use crate::strands::Strands;
 use crate::whale::Skin;
@@ -104,13 +104,16 @@ impl WhaleMeter {
             effort.fold(whale, dt_s);
         }
         self.made_good.fold(state.time_s, whale.position);
-        self.reach.fold(model, state, contacts);
         self.extent.fold(model, whale, state.time_s, log);
         self.touches.fold(&self.loads, state.time_s, log);
         self.flukes.fold(whale, state.time_s, dt_s);
         self.report_wraps(state.time_s, log);
         let most = self.winding.most().max(self.wraps.most());
         self.encounter.fold(state.time_s, dt_s, touching, most, log);
+        // Rope that is off the skin for a moment still holds the whale where it last touched.
+        if touching || !self.encounter.holds() {
+            self.reach.fold(model, state, contacts);
+        }
         let hold = Hold {
             held: self.encounter.holds(),
             lodged: self.mouth.lodged,
@@ -138,6 +141,10 @@ impl WhaleMeter {
     ) -> WhaleSummary {
         let (outcome, decided) = self.encounter.outcome(state);
         let beyond = self.reach.beyond(model, state);
+        let carried = |role: BodyRole| {
+            beyond.bodies.iter().filter(|body| model.spec.bodies[**body].role == role).count()
+                as u64
+        };
         WhaleSummary {
             outcome,
             decided,
@@ -160,6 +167,8 @@ impl WhaleMeter {
             unchanged_s: self.unchanged.seconds(),
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
+            carried_traps: carried(BodyRole::Trap),
+            carried_buoys: carried(BodyRole::Buoy),
             carried: beyond.bodies.iter().map(|body| model.spec.bodies[*body].id.clone()).collect(),
             beat: self.flukes.summary(),
             kinetic: self.effort.as_ref().map(EffortMeter::summary),
@@ -172,6 +181,7 @@ impl WhaleMeter {
         let load = self.loads.parts[part as usize];
         RegionSummary {
             part,
+            touching: self.touches.is_touching(part),
             wraps: libm::fabs(self.wraps.turns[part as usize]),
             peak_wraps: load.peak_wraps,
             touching_wraps: libm::fabs(self.winding.turns[part as usize]),

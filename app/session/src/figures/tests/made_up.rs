@@ -217,6 +217,8 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
         speed_made_good_m_s: next.real(),
         unchanged_s: next.real(),
         carried: vec!["trap".into(), "buoy".into()],
+        carried_traps: next.whole(),
+        carried_buoys: next.whole(),
         beat: Some(BeatSummary {
             beats: next.whole() as u32,
             frequency_hz: next.real(),
@@ -253,6 +255,7 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
 fn region(part: BodyPart, next: &mut Numbers) -> RegionSummary {
     RegionSummary {
         part,
+        touching: true,
         wraps: next.real(),
         peak_wraps: next.real(),
         touching_wraps: next.real(),

@@ -7,9 +7,10 @@ pub mod made_up;
 
 use std::fmt::Debug;
 
+use endline_sdk::BodyPart;
 use endline_sim::CostPart;
 use endline_sim::balance::Source;
-use endline_sim::metrics::Summary;
+use endline_sim::metrics::{Outcome, Summary, WhaleSummary};
 
 use super::*;
 use crate::json;
@@ -32,6 +33,18 @@ const COMPUTED: [&str; 12] = [
     "link_peak_N",
     "parted",
     "parted_at_s",
+];
+
+/// Keys of the whale that are computed from its state at the end; tested below, but for the outcome.
+const OF_STATE: [&str; 8] = [
+    "outcome",
+    "rope_on_head",
+    "rope_on_flipper",
+    "rope_on_tail",
+    "wraps_present",
+    "constricting",
+    "trailing",
+    "anchored",
 ];
 
 /// How Rust writes a value as a field of a structure.
@@ -96,7 +109,7 @@ fn every_figure_reads_the_field_of_its_key() {
             &["whale_part", "peak_whale_part"],
         ),
         reads(PROBE, &report.summary.probes[0], &report.summary.probes[0], &[]),
-        reads(WHALE, whale, whale, &["outcome"]),
+        reads(WHALE, whale, whale, &OF_STATE),
         reads(BEAT, whale.beat.as_ref().unwrap(), &whale.beat, &[]),
         reads(
             KINETIC,
@@ -116,6 +129,43 @@ fn every_figure_reads_the_field_of_its_key() {
 /// The value of a key.
 fn value<S>(figures: &[Figure<S>], key: &str, source: &S) -> Value {
     (figures.iter().find(|figure| figure.key == key).unwrap().read)(source)
+}
+
+/// A figure of a held whale, and the change of its state that makes it true.
+type StateChange = (&'static str, fn(&mut WhaleSummary));
+
+/// One change of a whale that is only just held makes one of the figures true, and none once it is free.
+#[test]
+fn figures_of_a_held_whale_are_those_of_its_state() {
+    let mut held = made_up::report().summary.whale.unwrap();
+    for part in &mut held.regions {
+        (part.touching, part.wraps, part.touching_wraps) = (false, 0.4, 0.7);
+    }
+    (held.trailing_m, held.tethered_m, held.speed_made_good_m_s) = (0.9, 0.0, 0.1);
+    let all_true = |whale: &WhaleSummary| -> Vec<&str> {
+        let is_true = |key: &&&str| value(WHALE, key, whale) == true.into();
+        OF_STATE[1..].iter().filter(is_true).copied().collect()
+    };
+    assert!(all_true(&held).is_empty(), "{:?}", all_true(&held));
+    let changes: [StateChange; 10] = [
+        ("rope_on_head", |whale| whale.lodged_in_mouth = true),
+        ("rope_on_head", |whale| whale.regions[BodyPart::Head as usize].touching = true),
+        ("rope_on_flipper", |whale| whale.regions[BodyPart::RightFlipper as usize].touching = true),
+        ("rope_on_tail", |whale| whale.regions[BodyPart::LeftFluke as usize].touching = true),
+        ("rope_on_tail", |whale| whale.regions[BodyPart::Peduncle as usize].touching = true),
+        ("wraps_present", |whale| whale.regions[BodyPart::Body as usize].wraps = 0.5),
+        ("constricting", |whale| whale.regions[BodyPart::Body as usize].touching_wraps = 0.75),
+        ("trailing", |whale| whale.trailing_m = 1.1),
+        ("anchored", |whale| whale.tethered_m = 3.0),
+        ("", |whale| (whale.tethered_m, whale.speed_made_good_m_s) = (3.0, 0.11)),
+    ];
+    for (key, change) in changes {
+        let mut whale = held.clone();
+        change(&mut whale);
+        assert_eq!(all_true(&whale).concat(), key);
+        whale.outcome = Outcome::Shed;
+        assert!(all_true(&whale).is_empty(), "{key}");
+    }
 }
 
 /// Whether a figure of the balance is one of a source, or computed; tested below.

@@ -15,13 +15,13 @@ pub fn page(studies: &[(PreparedStudy, Findings)], cases: &[(String, Outcome)]) 
     // Several observations may belong to one row: `B2-mouth` and `B2-tail`.
     let row = |id: &str| id.split('-').next().unwrap_or(id).to_owned();
     let rows: BTreeSet<String> = seen
-        .filter(|seen| seen.simulated.is_some())
+        .filter(|seen| seen.simulated.is_some() && seen.by_construction.is_none())
         .map(|seen| row(&seen.id))
         .chain(cases.iter().map(|(id, _)| row(id)))
         .collect();
     let rows: Vec<String> = rows.into_iter().collect();
     let mut text =
-        format!("Rows with a simulated figure: {} ({}).\n\n", rows.len(), rows.join(", "));
+        format!("Rows compared with a simulated figure: {} ({}).\n\n", rows.len(), rows.join(", "));
     for (opened, findings) in studies {
         text += &markdown(opened, findings);
         text.push('\n');
@@ -58,7 +58,7 @@ pub fn markdown(opened: &PreparedStudy, findings: &Findings) -> String {
     // Writing to a text cannot fail.
     let _ = writeln!(
         text,
-        "`{}`, {} encounters, program {}, study hash `{}`.\n{} observations: {} agree, {} miss, {} are not settled.\n",
+        "`{}`, {} encounters, program {}, study hash `{}`.\n{} observations: {} agree, {} miss, {} are not settled, {} are decided by construction and test nothing.\n",
         opened.study.id,
         findings.encounters,
         crate::VERSION,
@@ -67,6 +67,7 @@ pub fn markdown(opened: &PreparedStudy, findings: &Findings) -> String {
         count(Agreement::Agrees),
         count(Agreement::Misses),
         count(Agreement::Open),
+        count(Agreement::ByConstruction),
     );
     text += "| id | seen | source | counted | observed | simulated | verdict | notes |\n|---|---|---|---|---|---|---|---|\n";
     for seen in &findings.observations {
@@ -85,9 +86,15 @@ fn row(seen: &ObservationFinding) -> String {
         simulated(seen).replace('\u{a0}', " "),
         seen.agreement.words().to_owned()
             + if seen.registered { "" } else { ", added after the first run" },
-        seen.notes.clone(),
+        notes(seen),
     ];
     line(&cells)
+}
+
+/// What decides the result beforehand, if anything does, and the notes.
+fn notes(seen: &ObservationFinding) -> String {
+    let reason = seen.by_construction.iter().chain([&seen.notes]).filter(|text| !text.is_empty());
+    reason.cloned().collect::<Vec<_>>().join("; ")
 }
 
 /// A line of a table in Markdown.

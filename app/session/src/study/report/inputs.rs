@@ -45,7 +45,7 @@ pub(super) fn observations(findings: &Findings) -> Option<Table> {
             Cell::lines(
                 [seen.agreement.words().to_owned()].into_iter().chain(later(seen.registered)),
             ),
-            Cell::from(&seen.notes),
+            Cell::lines(seen.by_construction.iter().chain([&seen.notes]).cloned()),
         ]
     };
     let headings = ["seen", "counted", "observed, %", "simulated", "result", "notes"];

@@ -98,10 +98,23 @@ fn segments(band: &SegmentBand) -> Cell {
 
 /// Share of the checks of segment lengths near the whale that left one longer than requested.
 fn missed(checks: &ResolutionChecks) -> String {
-    if checks.all == 0 {
-        return "none requested".to_owned();
-    }
-    format!("{:.1} % of checks", 100.0 * checks.missed as f64 / checks.all as f64)
+    checks.share().map_or_else(
+        || "none requested".to_owned(),
+        |share| format!("{:.1} % of checks", 100.0 * share),
+    )
+}
+
+/// Options that differ from the baseline in more than one thing, with what these are; `None` if there are none.
+pub(super) fn several_differences(findings: &Findings) -> Option<Table> {
+    let several = findings.options.iter().filter(|option| option.differs_in.len() > 1);
+    let things = |option: &OptionFinding| Cell {
+        lines: option.differs_in.iter().cloned().map(Line::Code).collect(),
+    };
+    let rows: Vec<Vec<Cell>> =
+        several.map(|option| vec![Cell::from(&option.name), things(option)]).collect();
+    let headings = ["option", "differs from the baseline in"];
+    (!rows.is_empty())
+        .then(|| Table::new("More than one difference from the baseline", &headings, rows))
 }
 
 /// The study's event against the baseline: over all encounters, then level by level.

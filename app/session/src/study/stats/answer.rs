@@ -1,6 +1,8 @@
 //! The answer of a study about an event, in sentences, for the head of its report and of the panel *Results*. About whales that are held
 //! it is in counts of whales (`verdict.rs`).
 //!
+//! A second list of sentences reports how often segments near the whale were longer than requested, and what this does to the rates.
+//!
 //! An option differs from the baseline if the 95 % interval of their difference in the same encounters excludes zero. If
 //! several registered comparisons are made, Holm's probability is beside it.
 //!
@@ -9,7 +11,7 @@
 
 use endline_gear::StudyEvent;
 
-use super::{Findings, Paired, verdict};
+use super::{Findings, Paired, ResolutionChecks, verdict};
 
 /// Encounters below which a study is called small.
 const SMALL: u64 = 314;
@@ -152,6 +154,69 @@ fn small(asked: &Asked<'_>) -> Option<String> {
     })
 }
 
+/// Difference of the shares of missed checks from the baseline's that is reported; estimate.
+const COARSER: f64 = 0.1;
+
+/// How often segments near the whale were longer than requested, and what this does to the rates, in sentences.
+pub fn resolution(findings: &Findings) -> Vec<String> {
+    let checks: Vec<(&str, ResolutionChecks)> =
+        findings.options.iter().map(|option| (option.name.as_str(), option.resolution)).collect();
+    let Some(share) = shares_in_words(&checks) else {
+        return vec![
+            "The scenario requests no length of segments near the whale, so that none was checked."
+                .to_owned(),
+        ];
+    };
+    let coarser = coarser(&checks, findings.baseline);
+    std::iter::once(share).chain(effects(findings)).chain(coarser).collect()
+}
+
+/// The share of missed checks over all options, with the least and the greatest of one; `None` without a check.
+fn shares_in_words(checks: &[(&str, ResolutionChecks)]) -> Option<String> {
+    let sum = |of: fn(&ResolutionChecks) -> u64| checks.iter().map(|(_, own)| of(own)).sum();
+    let all = ResolutionChecks { all: sum(|own| own.all), missed: sum(|own| own.missed) };
+    let share = 100.0 * all.share()?;
+    let shares = || checks.iter().filter_map(|(_, own)| own.share());
+    let (least, most) =
+        (100.0 * shares().fold(1.0, f64::min), 100.0 * shares().fold(0.0, f64::max));
+    Some(format!(
+        "In {share:.1} % of the checks of segments near the whale, one was longer than requested by a quarter or more; by option {least:.1} to {most:.1} %."
+    ))
+}
+
+/// The effect of finer segments on the rates of registered events with the baseline.
+fn effects(findings: &Findings) -> impl Iterator<Item = String> {
+    let baseline = &findings.options[findings.baseline].id;
+    findings.bands.iter().filter(move |bands| bands.option == *baseline).map(|bands| {
+        let event = StudyEvent::find(&bands.event).map_or_else(|| bands.event.clone(), |event| event.words());
+        match &bands.segments {
+            Some(band) => format!(
+                "With finer segments and steps, “{event}” is {:.2} times as frequent [{:.2}, {:.2}] ({}).",
+                band.ratio, band.ratio_interval.low, band.ratio_interval.high, band.source
+            ),
+            None => format!(
+                "What this does to the rate of “{event}” is not known: the study names no [[discretisation]] for it."
+            ),
+        }
+    })
+}
+
+/// That some options meet the requested lengths less often than the baseline.
+fn coarser(checks: &[(&str, ResolutionChecks)], baseline: usize) -> Option<String> {
+    let own = checks[baseline].1.share()?;
+    let more = |(name, checks): &(&str, ResolutionChecks)| {
+        let more = checks.share()? - own;
+        (more >= COARSER).then(|| format!("{name} (by {:.0} points)", 100.0 * more))
+    };
+    let names: Vec<String> = checks.iter().filter_map(more).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Segments near the whale are too long more often than with the baseline in: {}. Part of their difference of rates may come from this.",
+            names.join(", ")
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{EventIndicator, EventIndicators};
@@ -188,6 +253,20 @@ mod tests {
         assert!(answer[1].ends_with("All these encounters have the same result."), "{}", answer[1]);
         assert!(answer[2].starts_with("8 encounters are few"));
         assert_eq!(answer.len(), 3);
+    }
+
+    /// 30 of 300 checks missed: 1 of 100 with the first option, 28 with the second, 1 with the third.
+    #[test]
+    fn missed_lengths_are_reported_with_the_options_that_miss_them_more_often() {
+        let checks = [("whole", 1), ("inserts", 28), ("link", 1)]
+            .map(|(name, missed)| (name, ResolutionChecks { all: 100, missed }));
+        let words = shares_in_words(&checks).unwrap();
+        assert!(words.starts_with("In 10.0 % of the checks"), "{words}");
+        assert!(words.ends_with("by option 1.0 to 28.0 %."), "{words}");
+        let coarse = coarser(&checks, 0).unwrap();
+        assert!(coarse.contains("in: inserts (by 27 points). Part"), "{coarse}");
+        assert_eq!(coarser(&checks, 1), None, "the others miss them less often");
+        assert_eq!(shares_in_words(&[("whole", ResolutionChecks::default())]), None);
     }
 
     #[test]

@@ -78,6 +78,8 @@ pub struct OptionFinding {
     pub strength_n: Option<f64>,
     /// Which curve of break-away against strength it belongs to.
     pub curve: Option<String>,
+    /// What it differs in from the baseline: dotted paths without the numbers of lists.
+    pub differs_in: Vec<String>,
     /// Runs that do not count.
     pub invalid: u64,
     /// Valid runs that were too short for a final outcome; they count.
@@ -123,6 +125,13 @@ pub struct LevelFinding {
     pub against: Vec<Paired>,
     /// By option: rate of parting.
     pub parted: Vec<Rate>,
+}
+
+impl ResolutionChecks {
+    /// Share that left a segment longer than requested by a quarter or more; `None` without a check.
+    pub fn share(&self) -> Option<f64> {
+        (self.all > 0).then(|| self.missed as f64 / self.all as f64)
+    }
 }
 
 impl OptionFinding {
@@ -248,6 +257,7 @@ fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
         name: plan.name.clone(),
         strength_n: plan.strength_n,
         curve: plan.curve.clone(),
+        differs_in: plan.differs_in(&opened.options[opened.baseline]),
         invalid: count(|run| !run.valid),
         undecided: count(|run| run.valid && !run.decided && !run.until_parted),
         resolution: ResolutionChecks {

@@ -90,7 +90,6 @@ fn occurred(run: &RunRow, counted: &Counted<'_>) -> bool {
             own.and_then(|own| own.number(column)).is_some_and(|value| value >= least)
         }),
         Counted::Above(column, least) => number(column, &|value| value > least),
-        Counted::NotAbove(column, most) => number(column, &|value| value <= most),
         Counted::All(parts) => parts.iter().all(|part| occurred(run, part)),
         Counted::Any(parts) => parts.iter().any(|part| occurred(run, part)),
     }
@@ -114,13 +113,17 @@ mod tests {
     }
 
     #[test]
-    fn a_wrap_counts_on_its_own_part_and_an_anchored_whale_is_held_tethered_and_slow() {
+    fn a_wrap_counts_on_its_own_part_and_a_held_whale_by_its_state_at_the_end() {
         let mut parts = vec![PartRow::default(); BodyPart::ALL.len()];
         parts[BodyPart::Peduncle as usize].peak_wraps = Some(0.5);
         let run = RunRow {
             parts,
             outcome: "entangled".to_owned(),
-            tethered_m: Some(3.0),
+            anchored: true,
+            rope_on_head: true,
+            rope_on_tail: true,
+            carried_buoys: 1,
+            trailing_m: Some(12.0),
             speed_made_good_m_s: Some(0.1),
             ..RunRow::default()
         };
@@ -128,7 +131,16 @@ mod tests {
             |run: &RunRow, name: &str| occurred(run, &StudyEvent::find(name).unwrap().counted());
         assert!(of(&run, "wrap_peduncle") && of(&run, "wrap_any") && !of(&run, "wrap_head"));
         assert!(of(&run, "anchored") && !of(&run, "towing") && !of(&run, "contact"));
-        let fast = RunRow { speed_made_good_m_s: Some(0.2), ..run };
-        assert!(!of(&fast, "anchored") && of(&fast, "towing"));
+        let is_so = |name: &&str| of(&run, name);
+        assert!(
+            ["on_head", "on_tail", "on_two_places", "buoys_attached", "trailing_10m"]
+                .iter()
+                .all(is_so)
+        );
+        assert!(!["on_flipper", "traps_attached", "constricting"].iter().any(is_so));
+        let one = RunRow { rope_on_tail: false, speed_made_good_m_s: Some(0.2), ..run.clone() };
+        assert!(!of(&one, "on_two_places") && of(&one, "towing"));
+        let free = RunRow { outcome: "shed".to_owned(), ..run };
+        assert!(!of(&free, "buoys_attached") && !of(&free, "trailing_10m"));
     }
 }

@@ -3,7 +3,8 @@
 //! The simulated share is that of the encounters with the event among those that it is asked about, with Wilson's interval; or
 //! `1 - ratio` of two options, on the same encounters or among those that each option has to ask about. It *agrees* where it
 //! lies within what was observed, from [`LEAST`] encounters on; it *misses* where its whole interval lies outside; else the study
-//! does not settle it. Of encounters of unlike weight, fewer events than that settle nothing.
+//! does not settle it. Of encounters of unlike weight, fewer events than that settle nothing. What the gear or the question decides
+//! beforehand tests nothing: it neither agrees nor misses.
 
 use endline_gear::ObservedShare;
 use schemars::JsonSchema;
@@ -28,6 +29,8 @@ pub enum Agreement {
     Misses,
     /// Neither.
     Open,
+    /// The gear or the question decides it beforehand.
+    ByConstruction,
 }
 
 impl Agreement {
@@ -37,6 +40,7 @@ impl Agreement {
             Self::Agrees => "agrees",
             Self::Misses => "misses",
             Self::Open => "not settled",
+            Self::ByConstruction => "by construction",
         }
     }
 }
@@ -62,8 +66,10 @@ pub struct ObservationFinding {
     pub simulated: Option<f64>,
     /// Its interval.
     pub interval: Interval,
-    /// Whether it agrees.
+    /// Whether it agrees; by construction it neither agrees nor misses.
     pub agreement: Agreement,
+    /// Why the gear or the question decides the result beforehand; `None` for a real comparison.
+    pub by_construction: Option<String>,
     /// Whether it was in the study's file, with what it expects, before the first run.
     pub registered: bool,
     /// Omissions of the comparison, or the presumed reason for a miss.
@@ -101,11 +107,14 @@ pub(super) fn compare(
         runs: rate.runs,
         simulated,
         interval,
-        agreement: if is_thin(&rate) {
+        agreement: if observation.by_construction.is_some() {
+            Agreement::ByConstruction
+        } else if is_thin(&rate) {
             Agreement::Open
         } else {
             agreement(observed, simulated, interval, rate.runs)
         },
+        by_construction: observation.by_construction.clone(),
         registered: true,
         notes: observation.notes.clone(),
     }
@@ -193,6 +202,7 @@ fn counted(observation: &ObservedShare, option: &str) -> String {
 mod tests {
     use super::super::indicators::EventIndicator;
     use super::*;
+    use crate::study::runs::RunRow;
 
     #[test]
     fn a_share_agrees_within_misses_outside_and_is_open_where_chance_decides() {
@@ -207,6 +217,32 @@ mod tests {
         // Three of four lie within, but four say little.
         assert_eq!(of(3, 4), Agreement::Open);
         assert_eq!(agreement(observed, None, observed, 0), Agreement::Open);
+    }
+
+    /// Five of ten runs touch, as observed: it agrees, unless the gear decides it.
+    #[test]
+    fn what_is_decided_by_construction_does_not_agree() {
+        let text = "format = 1\nkind = \"study\"\nname = \"s\"\nscenario = \"hello-endline\"\nencounters = 10\nbaseline = \"a\"\n\
+            [[option]]\nid = \"a\"\n[encounter.speed]\nuniform = [\"0.5 m/s\", \"1 m/s\"]\nsource = \"assumed\"\n\
+            [[observation]]\nid = \"o\"\nsays = \"seen\"\nsource = \"a paper\"\nof = \"contact\"\nobserved = [0.4, 0.6]\n";
+        let run = |encounter: u64| RunRow {
+            encounter,
+            option: "a".to_owned(),
+            weight: 1.0,
+            valid: true,
+            first_contact_s: (encounter < 5).then_some(3.0),
+            ..RunRow::default()
+        };
+        let runs = Runs::of_rows((0..10).map(run).collect());
+        let compared = |text: &str| {
+            let study = endline_gear::Study::read("s.toml", text).unwrap();
+            compare(&study.observations[0], &runs, "a")
+        };
+        assert_eq!(compared(text).agreement, Agreement::Agrees);
+        let decided = compared(&format!("{text}by_construction = \"the aim decides it\"\n"));
+        assert_eq!(decided.agreement, Agreement::ByConstruction);
+        assert_eq!(decided.simulated, Some(0.5));
+        assert_eq!(decided.by_construction.as_deref(), Some("the aim decides it"));
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::{model, spec, *};
 use crate::contact::ContactPoint;
 use crate::metrics::mouth::inside_of_mouth;
 use crate::metrics::pressure::ExcessForceMeter;
-use crate::metrics::{EventKind, Outcome};
+use crate::metrics::{EventKind, Outcome, RopePlace, WhaleSummary};
 use crate::model::Model;
 use crate::state::State;
 use crate::whale::{Mark, Skin};
@@ -250,6 +250,44 @@ fn rope_beyond_the_whale_is_trailing_or_tethered() {
     close(beyond(&[(0, 4)], &[7]), [1.25, 2.25]);
     // Cut in the upper line.
     close(beyond(&[(0, 4)], &[24]), [7.75 + 2.0, 2.25]);
+}
+
+#[test]
+fn a_held_whale_is_described_by_its_state_at_the_end() {
+    let model = model(single());
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+    let contacts: Vec<_> = touch(&model)
+        .into_iter()
+        .map(|contact| ContactPoint {
+            line: 0,
+            segment: 4,
+            region: Region::LeftFlipperTip,
+            ..contact
+        })
+        .collect();
+    let mut after = |contacts: &[ContactPoint], time_s: f64| {
+        for _ in 0..(time_s / STEP_S).round() as usize {
+            advance(&mut metrics, &model, &mut state, contacts);
+        }
+        metrics.summary(&model, &state).whale.unwrap()
+    };
+    let places = [RopePlace::Head, RopePlace::Flipper, RopePlace::Tail];
+    let by_place = |whale: &WhaleSummary| places.map(|place| whale.has_rope_on(place));
+    let touched = |whale: &WhaleSummary| whale.regions.iter().any(|region| region.touching);
+    let held = after(&contacts, 30.0);
+    assert_eq!(by_place(&held), [false, true, false]);
+    assert!(held.is_held() && held.is_trailing() && held.is_anchored() && !held.is_constricted());
+    assert_eq!((held.carried_traps, held.carried_buoys), (1, 1));
+    // Off the skin for half a second, rope still holds it at the same places and to the same gear.
+    let flickers = after(&[], 0.5);
+    assert_eq!(by_place(&flickers), by_place(&held));
+    assert_eq!((flickers.trailing_m, flickers.carried_traps), (held.trailing_m, 1));
+    let later = after(&[], 2.0);
+    assert!(later.is_held() && !touched(&later) && later.is_trailing());
+    assert_eq!(by_place(&later), [false; 3]);
+    let free = after(&[], 10.0);
+    assert!(!free.is_held() && !free.is_trailing() && !free.is_anchored());
+    assert_eq!((free.trailing_m, free.carried_traps, free.carried_buoys), (0.0, 0, 0));
 }
 
 /// Rope of 3 N/m pressed on the back, dragged aft at 0.5 m/s with friction 0.4 for 2 s: work = mu N v t.

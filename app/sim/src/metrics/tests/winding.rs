@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::metrics::EventKind;
 use crate::metrics::summary::{RegionSummary, Summary};
+use crate::metrics::{EventKind, RopePlace};
 
 /// Summary of one fold of contacts of a line's segments at points of the skin, after `pose` has changed the state.
 fn wrapped(model: &Model, places: &[(usize, [f64; 3])], pose: impl Fn(&mut State)) -> Summary {
@@ -39,6 +39,9 @@ fn a_helix_about_the_peduncle_counts_its_turns() {
                     .abs()
                     < 1e-9
             );
+            let whale = summary.whale.as_ref().unwrap();
+            assert_eq!(whale.is_constricted(), turns.abs() > 0.75, "{turns} turns");
+            assert!(whale.has_rope_on(RopePlace::Tail) && !whale.has_rope_on(RopePlace::Head));
         }
     }
 }

@@ -6,7 +6,9 @@ use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::{Cost, Forecast, duration_words};
-use endline_session::study::stats::{Change, Findings, Interval, Rate, answer, rounded};
+use endline_session::study::stats::{
+    Change, Findings, Interval, Rate, answer, resolution, rounded,
+};
 use endline_session::units::newtons_and_lbf;
 
 use super::super::table::columns;
@@ -31,6 +33,7 @@ pub(super) fn plan(opened: &PreparedStudy) -> String {
             format!("{} of {BLOCK} encounters", study.encounters.div_ceil(u64::from(BLOCK))),
         ],
     ]);
+    text += &several_differences(opened.several_differences());
     let mut rows = vec![vec!["prior".to_owned(), "confidence".into(), "source".into()]];
     rows.extend(study.priors.iter().map(|prior| {
         vec![prior.name.value.clone(), prior.confidence.word().into(), prior.source.clone()]
@@ -52,6 +55,16 @@ pub(super) fn plan(opened: &PreparedStudy) -> String {
         );
     }
     text + &columns(&rows)
+}
+
+/// Options that differ from the baseline in more than one thing, with what these are.
+fn several_differences<'a>(options: impl Iterator<Item = (&'a str, Vec<String>)>) -> String {
+    let several = options.filter(|(_, things)| things.len() > 1);
+    let mut rows = vec![
+        ["more than one difference from the baseline", "differs in"].map(str::to_owned).to_vec(),
+    ];
+    rows.extend(several.map(|(id, things)| vec![id.to_owned(), things.join(", ")]));
+    if rows.len() > 1 { columns(&rows) } else { String::new() }
 }
 
 /// Time and precision of a study, or how to obtain them.
@@ -155,10 +168,16 @@ pub(super) fn findings(opened: &PreparedStudy, findings: &Findings) -> String {
     for sentence in answer(findings, &findings.event) {
         text += &format!("{sentence}\n");
     }
+    for sentence in resolution(findings) {
+        text += &format!("{sentence}\n");
+    }
     text += "\n";
     text += &freed(findings);
     text += &rates(findings);
     text += &registered(findings).iter().map(|event| compared(findings, event)).collect::<String>();
+    text += &several_differences(
+        findings.options.iter().map(|option| (option.id.as_str(), option.differs_in.clone())),
+    );
     text += &changed(findings);
     text += &tensions(findings);
     text += &held(findings);
