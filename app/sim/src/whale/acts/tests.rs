@@ -265,18 +265,18 @@ fn drawn_responses_follow_the_state_of_the_whale() {
     let always = |act| vec![(act, 1.0)];
     let by_mouth = drawn([always(0), always(2), always(0)], vec![0.5]);
     let rolls = |acting: &Acting, seconds, part| {
-        (turned(&play(acting, seconds, |_| 0.0, |_| Some(part)), 0) / 2.0).round()
+        (turned(&play(acting, seconds, |_| 0.0, |_| Some(part)), 0) / 2.0).round() as i64
     };
     // At 0 s the first response, at 6 s none, at 12 and 18 s those of a whale held by the mouth.
-    for (seconds, expected) in [(5.5, 1.0), (11.5, 1.0), (17.5, 2.0), (23.5, 3.0)] {
+    for (seconds, expected) in [(5.5, 1), (11.5, 1), (17.5, 2), (23.5, 3)] {
         assert_eq!(rolls(&by_mouth, seconds, BodyPart::Head), expected, "{seconds} s");
     }
-    assert_eq!(rolls(&by_mouth, 23.5, BodyPart::Peduncle), 1.0);
-    // A quarter of the responses of a whale held by a fin, with evenly spaced numbers: those at 12 to 1,200 s.
+    assert_eq!(rolls(&by_mouth, 23.5, BodyPart::Peduncle), 1);
+    // Two of seven of the responses from 12 to 1,200 s of a whale held by a fin, with evenly spaced numbers, and the first.
     let shares: Vec<f64> = (0..7).map(|step| (f64::from(step * 3 % 7) + 0.5) / 7.0).collect();
     let by_fin = drawn([always(0), always(0), vec![(0, 5.0 / 7.0), (2, 1.0)]], shares);
     let found = rolls(&by_fin, 1205.0, BodyPart::LeftFlipper);
-    assert!((found - 1.0 - 199.0 * 2.0 / 7.0).abs() < 2.0, "{found} rolls");
+    assert!((56..=60).contains(&found), "{found} rolls");
 }
 
 /// Contact that returns within the interval is not answered again if responses are drawn.
@@ -289,8 +289,8 @@ fn contact_that_returns_is_answered_at_most_once_in_an_interval() {
     });
     let acting = acting(Some(Answers { first: None, above_n: 10.0, again_s: 20.0, drawn }));
     let often = |time_s: f64| (time_s % 3.0 < 0.5).then_some(BodyPart::Body);
-    let found = (turned(&play(&acting, 59.0, |_| 0.0, often), 0) / 2.0).round();
-    assert_eq!(found, 3.0, "at 0, 21 and 42 s");
+    let found = turned(&play(&acting, 59.0, |_| 0.0, often), 0) / 2.0;
+    assert!((found - 3.0).abs() < 0.1, "at 0, 21 and 42 s");
 }
 
 /// A held act ends at contact with a part of its list; its control is then the pilot's again.
