@@ -219,6 +219,7 @@ const HELD_AFTER_S: f64 = 10.0;
 
 /// `[whale.answers]`.
 fn drawn_answers(fields: &Fields<'_>) -> DrawnAnswersOf {
+    // Stated for readers of the file; no report names them.
     provenance(fields);
     let held_after = fields.value("held_after", Quantity::Time, Range::NotNegative);
     let weights = STATES.map(|state| match fields.get(state) {

@@ -114,8 +114,7 @@ impl Reference<'_> {
                 scalar(self.unit(&of.value), *expected, greatest(readings(of)))
             }
             Measure::First(of, expected) => {
-                let is_above = |reading: &&f64| **reading > 0.0;
-                let begins = readings(of).iter().position(|reading| is_above(&reading));
+                let begins = readings(of).iter().position(|reading| *reading > 0.0);
                 let at_s = begins.and_then(|sample| observed.times_s.get(sample));
                 scalar("s", *expected, at_s.copied().unwrap_or(f64::INFINITY))
             }

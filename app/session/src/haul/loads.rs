@@ -1,8 +1,8 @@
 //! Loads during a haul: the greatest tension of every part, by stage and in all, samples along the endline, and the probability of parting.
 //!
 //! A piece of rope or a link holds `S Z`, with `S` the mean it delivers where it is loaded (wear, a knot or splice in the
-//! segment at it, and weak places) and `Z` normal with mean 1 and the coefficient of variation `c` of its item. With `u = max T/S` over its segments and the
-//! haul, it parts with the probability `Φ((u - 1)/c)`. Pieces vary independently, so that one or more part with `1 - Π (1 - pᵢ)`.
+//! segment at it, and weak places) and `Z` normal with mean 1 and the coefficient of variation `c` of its item. With `u = max T/S`
+//! over its segments and the haul, it parts with the probability `Φ((u - 1)/c)`. Pieces vary independently, so that one or more part with `1 - Π (1 - pᵢ)`.
 //! `T` is one record of one sea: the probability is that over pieces of rope, not over seas.
 
 use endline_sdk::LineEnd;

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Lines that all deliver more have this run to the bit (`study/equivalence.rs`); if they all deliver less, one parts. The same holds for
-//! the mean rating of weak links and the strength of weak places, with `f = 1`. In a run in which something parted, tensions after it belong to the parted gear.
+//! the mean rating of weak links and the strength of weak places, with `f = 1`. In a run in which something parted, tensions after it
+//! belong to the parted gear.
 
 use endline_gear::{StrengthBudget, WEAK_PLACES};
 use endline_sim::metrics::{LineSummary, LinkSummary, Summary};

@@ -8,8 +8,8 @@
 //!
 //! A place is the first segment of a line, the last one, all between, or a bin of its length for each weak place in it
 //! ([`TENSION_BIN_M`](endline_sim::metrics::TENSION_BIN_M)). A part that is weaker in the run could have shortened a step there without
-//! parting. An option with `unbreakable = true` has infinite strengths. With fixed steps, the greatest tensions of a run include those of every accepted step, so that a strength above them changes
-//! nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its tensions;
+//! parting. An option with `unbreakable = true` has infinite strengths. With fixed steps, the greatest tensions of a run include those of
+//! every accepted step, so that a strength above them changes nothing ([`MARGIN`] is for rounding). With steps that follow their error, a rejected step leaves no trace of its tensions;
 //! [`PACED_MARGIN`] allows for those. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;

@@ -251,7 +251,7 @@ pub struct DrawnAnswers {
     pub acts: [Vec<(usize, f64)>; 3],
     /// Duration of contact after which the whale is held [s].
     pub held_after_s: f64,
-    /// Random numbers of 0 to 1, one for each response in turn; they repeat after the last.
+    /// Random numbers of 0 to 1, at least one, one for each response in turn; they repeat after the last.
     pub shares: Vec<f64>,
 }
 
@@ -279,6 +279,7 @@ impl Answers {
         if let (0, Some(first)) = (before, self.first) {
             return first;
         }
+        debug_assert!(!drawn.shares.is_empty(), "a random number for each response");
         let share = drawn.shares[before % drawn.shares.len()];
         let acts = &drawn.acts[held as usize];
         debug_assert!(acts.is_sorted_by(|one, next| one.1 <= next.1), "cumulative probabilities");
