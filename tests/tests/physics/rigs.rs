@@ -18,11 +18,13 @@ const UPRIGHT_DEG: f64 = 10.0;
 const DRAGGED_M: f64 = 1.0;
 /// Rigs drawn at random where the environment's `ENDLINE_RIGS` does not say how many.
 const DRAWN: u64 = 300;
-/// Share of them for which statics may find neither rest nor that they drag: 1 of 300, 99 of 10,000 as measured.
-const UNKNOWN_SHARE: f64 = 0.0105;
-/// Share of them of which a trap may lie overturned where it was laid: none of 300, 10 of 4,000 as measured; 7 faults of
-/// another 6,000 were counted without this distinction.
-const FALLEN_SHARE: f64 = 0.0031;
+/// Share of them for which statics finds neither rest nor that they drag: 99 of 10,000 as measured.
+const UNKNOWN_SHARE: f64 = 0.0099;
+/// Share of them of which a trap lies overturned where it was laid: 10 of 4,000 as measured; 7 faults of another 6,000 were
+/// counted without this distinction. Any change of the library's ropes draws other rigs.
+const FALLEN_SHARE: f64 = 0.0025;
+/// Deviations of a count above its mean that are within chance.
+const DEVIATIONS: f64 = 2.0;
 /// First of their seeds.
 const FIRST_SEED: u64 = 1;
 
@@ -149,6 +151,12 @@ fn count_of(name: &str, usual: u64) -> u64 {
     })
 }
 
+/// Greatest number of rigs within chance, of `count` with an event of this probability (its deviation is Poisson's).
+fn within_chance(share: f64, count: u64) -> usize {
+    let mean = share * count as f64;
+    (mean + DEVIATIONS * mean.sqrt()).floor() as usize
+}
+
 /// What statics made of drawn rigs.
 #[derive(Default)]
 struct Tally {
@@ -256,12 +264,12 @@ fn rigs_drawn_at_random_settle_or_say_why() {
     println!("from seed {first}: {}", tally.text());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
     assert!(
-        tally.fallen.len() as f64 <= FALLEN_SHARE * count as f64,
+        tally.fallen.len() <= within_chance(FALLEN_SHARE, count),
         "{}",
         tally.fallen.join("\n")
     );
     assert!(
-        tally.unknown.len() as f64 <= UNKNOWN_SHARE * count as f64,
+        tally.unknown.len() <= within_chance(UNKNOWN_SHARE, count),
         "{}:\n{}",
         tally.text(),
         tally.unknown.join("\n")
