@@ -41,6 +41,16 @@ impl Error {
     pub fn at(file: &Path, message: impl Into<String>) -> Self {
         Self::File { file: file.display().to_string(), message: message.into() }
     }
+
+    /// The error with each located problem replaced, such as by one at the place that caused it.
+    pub(crate) fn for_each_problem(self, replace: impl Fn(Diagnostic) -> Diagnostic) -> Self {
+        match self {
+            Self::Diagnostics(problems) => {
+                Self::Diagnostics(problems.into_iter().map(replace).collect())
+            }
+            error => error,
+        }
+    }
 }
 
 impl From<Vec<Diagnostic>> for Error {

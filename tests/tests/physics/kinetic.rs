@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use crate::linked::{Linked, library, model, report, scenario_text};
+use crate::linked::{Linked, built, library, model, report, scenario_text, spec_of};
 use endline_gear::{Options, Scenario, assemble};
 use endline_sdk::LineEnd;
 use endline_sim::balance::Source;
@@ -51,6 +51,58 @@ fn a_grown_whale_parts_the_rope_that_holds_a_young_one() {
         "by thrust, not by a snatch: {} N",
         whale.exertion.thrust_n
     );
+}
+
+/// The energy bound of a snatch: a whale of mass `m`, with the water that it carries along, swims at `v` when a rope of length `L`
+/// becomes taut. Rope of strength `S` that stretches by `e` there parts if `S < m v^2 / (e L)`. With `k = S / (e L)` for the stiffness
+/// of the rope, this is `S < v sqrt(k m)`: rope that does not part bears that peak.
+#[test]
+fn a_snatch_at_a_fixed_foot_bears_its_energy_bound() {
+    let cases = [
+        (8.0, 0.8, 20.0, 60.0),
+        (10.0, 1.2, 26.0, 90.0),
+        (13.0, 1.0, 40.0, 250.0),
+        (13.0, 1.6, 15.0, 60.0),
+    ];
+    for (length_m, speed_m_s, rope_m, stiffness_kn) in cases {
+        let text = scenario_text("part-rope-10m.toml");
+        let (before, _) = text.split_once("[[whale.pilot]]").unwrap();
+        let (_, after) = text.split_once("[friction]").unwrap();
+        let mut text =
+            format!("{before}[[whale.pilot]]\nat = \"0 s\"\nspeed = 0.0\n\n[friction]{after}");
+        let post_m = rope_m + 0.25 * length_m;
+        let changes = [
+            ("strength = \"18 kN\"", "strength = \"900 kN\"".to_owned()),
+            ("stiffness = \"90 kN\"", format!("stiffness = \"{stiffness_kn} kN\"")),
+            ("damping = \"500 N s\"", "damping = \"0 N s\"".to_owned()),
+            ("density = \"940 kg/m3\"", "density = \"1025 kg/m3\"".to_owned()),
+            ("length = \"26 m\"", format!("length = \"{rope_m} m\"")),
+            ("length = \"10 m\"", format!("length = \"{length_m} m\"")),
+            ("speed = \"0 m/s\"\nmotion", format!("speed = \"{speed_m_s} m/s\"\nmotion")),
+            ("\"-30 m\", \"0 m\", \"-9.2 m\"", format!("\"-{post_m} m\", \"0 m\", \"-9.8 m\"")),
+        ];
+        for (from, to) in changes {
+            assert!(text.contains(from), "the scenario says {from}");
+            text = text.replace(from, &to);
+        }
+        let model = built(spec_of("snatch.toml", &text));
+        let kinetic = model.spec.whale.as_ref().unwrap().kinetic.as_ref().unwrap();
+        let (mut speed_when_taut, mut peak_n) = (0.0, 0.0_f64);
+        run(&model, 12.0, |state| {
+            let pull_n = end_tension(&model, state, 0, LineEnd::A);
+            if peak_n < 100.0 {
+                speed_when_taut = state.whale.as_ref().unwrap().speed_m_s;
+            }
+            peak_n = peak_n.max(pull_n);
+            peak_n > 500.0 && pull_n < 0.5 * peak_n
+        });
+        let stiffness = 1e3 * stiffness_kn / rope_m;
+        let bound_n = speed_when_taut * (stiffness * kinetic.whole_mass_kg().x).sqrt();
+        println!(
+            "{length_m} m at {speed_when_taut:.2} m/s, {rope_m} m of {stiffness_kn} kN: {peak_n:.0} N of {bound_n:.0} N"
+        );
+        assert!((peak_n / bound_n - 1.0).abs() < 0.1, "{peak_n} N, the bound is {bound_n} N");
+    }
 }
 
 /// Line and trap of the library made fast to the tail stock: she slows until body and gear take the power that her body alone took at

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use endline_gear::{
-    Diagnostic, Document, EditError, OptionSetting, Prior, Sources, Study, StudyOption, hint,
-    library_field,
+    Diagnostic, Document, EditError, Law, Level, OptionSetting, Prior, Sources, Study, StudyOption,
+    hint, library_field,
 };
 
 use crate::error::Error;
@@ -124,7 +124,10 @@ impl Base<'_> {
         let mut sources = self.sources.clone();
         let mut edited = scenario.clone();
         self.put(option, &mut edited, &mut sources)?;
-        let prepared = self.prepare(option, &edited, &sources)?;
+        let drawn = Encounter::of(self.study, 0).drawn;
+        let prepared = self
+            .prepare(option, (&edited, &sources), &drawn)
+            .map_err(|error| error.for_each_problem(|problem| self.relocate(option, problem)))?;
         let settings = option
             .settings
             .iter()
@@ -190,25 +193,46 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// The option assembled; an error caused by a setting is reported at that setting.
+    /// Assembles an option with each word that a prior can draw, such as the id of an assembly or of an act.
+    /// Errors: every problem, at the prior that draws the word.
+    pub fn check_words(&self, option: &StudyOption) -> Result<(), Error> {
+        let mut scenario = Document::parse(&self.text)
+            .map_err(|error| Error::Message(format!("{}: {}", self.name, error.message)))?;
+        let mut sources = self.sources.clone();
+        self.put(option, &mut scenario, &mut sources)?;
+        let usual = Encounter::of(self.study, 0).drawn;
+        let mut problems = Vec::new();
+        for (index, prior) in self.study.priors.iter().enumerate() {
+            let Law::Choice(levels) = &prior.law else { continue };
+            let words = levels.iter().map(|(level, _)| level);
+            let is_new = |level: &&Level| level.number.is_none() && level.text != usual[index].text;
+            for Level { text, plain, .. } in words.filter(is_new) {
+                let mut drawn = usual.clone();
+                drawn[index] = Drawn { text: text.clone(), plain: *plain, ..drawn[index].clone() };
+                let found = self.prepare(option, (&scenario, &sources), &drawn);
+                let at_prior = |problem: Diagnostic| {
+                    let message = format!("value `{text}`: {} ({})", problem.message, problem.file);
+                    prior.name.place.error(message, problem.help)
+                };
+                match found.map_err(|error| error.for_each_problem(at_prior)) {
+                    Err(Error::Diagnostics(found)) => problems.extend(found),
+                    found => drop(found?),
+                }
+            }
+        }
+        if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
+    }
+
+    /// An option assembled with these drawn values in the place of what it leaves open, so that drawn values are checked too.
     fn prepare(
         &self,
         option: &StudyOption,
-        scenario: &Document,
-        sources: &Sources,
+        (scenario, sources): (&Document, &Sources),
+        drawn: &[Drawn],
     ) -> Result<Prepared, Error> {
-        // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
-        let mut text = scenario.clone();
-        let drawn = Encounter::of(self.study, 0).drawn;
-        let mut sources = sources.clone();
-        put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(&drawn), &own(option))?;
-        let source = Source::new(&self.name, text.text(), sources);
-        source.prepare_for_study(self.host).map_err(|error| match error {
-            Error::Diagnostics(problems) => Error::Diagnostics(
-                problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),
-            ),
-            error => error,
-        })
+        let (mut text, mut sources) = (scenario.clone(), sources.clone());
+        put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(drawn), &own(option))?;
+        Source::new(&self.name, text.text(), sources).prepare_for_study(self.host)
     }
 
     /// A problem of an option's texts, located at the setting that causes it. These texts are in no file, so that their lines

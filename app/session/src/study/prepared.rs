@@ -105,6 +105,11 @@ impl PreparedStudy {
         if !problems.is_empty() {
             return Err(Error::Diagnostics(problems));
         }
+        if let Some(option) =
+            study.options.iter().find(|option| option.id.value == study.baseline.value)
+        {
+            base.check_words(option)?;
+        }
         let hash = hash(&study, &options);
         let families = families(&study, &options);
         let baseline =
