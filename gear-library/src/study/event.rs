@@ -125,7 +125,7 @@ static WHOLE: [Declared; 13] = [
     Declared {
         event: StudyEvent::Parted,
         words: "something parted",
-        counted: Counted::Outcome(&["parted_free", "parted_entangled"]),
+        counted: Counted::Outcome(&["parted", "parted_free", "parted_entangled"]),
     },
     Declared {
         event: StudyEvent::PartedFree,

@@ -60,7 +60,8 @@ pub(super) fn forest(findings: &Findings) -> String {
     let mut groups: Vec<(String, Vec<Row>)> =
         vec![("all encounters".into(), findings.options.iter().filter_map(own).collect())];
     for LevelFinding { level, against, .. } in &findings.levels {
-        let rows = findings.options.iter().zip(against).map(|(option, paired)| {
+        let known = findings.options.iter().zip(against).filter(|(_, pair)| pair.encounters > 0);
+        let rows = known.map(|(option, paired)| {
             (option.name.clone(), paired.difference, paired.difference_interval)
         });
         groups.push((level.clone(), rows.collect()));

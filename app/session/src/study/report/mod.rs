@@ -11,7 +11,7 @@ mod results;
 mod words;
 
 use std::path::PathBuf;
-pub use words::lowest;
+pub use words::{NOT_FOLLOWED, lowest};
 
 use crate::error::Error;
 use crate::json;

@@ -3,11 +3,13 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{
-    AssumedBand, Bands, Change, Findings, LevelFinding, OptionFinding, ResolutionChecks,
+    AssumedBand, Bands, Change, Findings, LevelFinding, OptionFinding, Paired, ResolutionChecks,
     SegmentBand,
 };
 
-use super::words::{event_words, force, lowest, percent_interval, points, rate, ratio, short_rate};
+use super::words::{
+    NOT_FOLLOWED, event_words, force, lowest, percent_interval, points, rate, ratio, short_rate,
+};
 use crate::page::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
@@ -33,7 +35,7 @@ fn rates_of(findings: &Findings, events: &[StudyEvent]) -> Table {
         row.extend(
             events
                 .iter()
-                .map(|event| option.rate(&event.name()).map_or_else(String::new, rate).into()),
+                .map(|event| option.rate(&event.name()).map_or_else(not_followed, rate).into()),
         );
         row
     };
@@ -157,13 +159,25 @@ fn against(findings: &Findings, event: &str) -> Table {
     Table::new(format!("\"{event}\" against the baseline, on the same encounters"), &headings, rows)
 }
 
+/// `-3.5 points [-6.1, -0.9]`, of runs that were followed.
+fn difference(paired: &Paired) -> String {
+    if paired.encounters == 0 {
+        return "no run counts".to_owned();
+    }
+    points(paired.difference, paired.difference_interval)
+}
+
+fn not_followed() -> String {
+    NOT_FOLLOWED.to_owned()
+}
+
 fn of_level(findings: &Findings, level: &LevelFinding, event: &str) -> Table {
     let row = |(index, option): (usize, &OptionFinding)| {
         let paired = &level.against[index];
         vec![
             Cell::from(&option.name),
             rate(&level.rates[index]).into(),
-            points(paired.difference, paired.difference_interval).into(),
+            difference(paired).into(),
             rate(&level.parted[index]).into(),
         ]
     };
@@ -200,7 +214,7 @@ pub(super) fn tensions(findings: &Findings) -> Table {
 pub(super) fn regions(findings: &Findings) -> Table {
     let places = StudyEvent::places();
     let row = |option: &OptionFinding| {
-        let one = |event: String| option.rate(&event).map_or_else(String::new, short_rate);
+        let one = |event: String| option.rate(&event).map_or_else(not_followed, short_rate);
         let cell = |place: &&str| {
             Cell::lines([one(format!("contact_{place}")), one(format!("wrap_{place}"))])
         };
@@ -224,7 +238,8 @@ pub(super) fn changes(findings: &Findings) -> Option<Table> {
         "mean greatest tension, of those that touch",
         "outcome with the baseline, and with the option",
     ];
-    let rows: Vec<Vec<Cell>> = findings.others().map(changes_of).collect();
+    let is_followed = |option: &&OptionFinding| option.changes.all.outcome.runs > 0;
+    let rows: Vec<Vec<Cell>> = findings.others().filter(is_followed).map(changes_of).collect();
     let caption = "Outcome and tension beside the baseline's, encounter by encounter";
     (!rows.is_empty()).then(|| Table::new(caption, &headings, rows))
 }

@@ -5,9 +5,15 @@ use endline_gear::StudyEvent;
 use crate::study::stats::{Interval, Lowest, Rate};
 use crate::units::N_PER_LBF;
 
+/// In place of the rate of an event that the runs of an option were not followed for.
+pub const NOT_FOLLOWED: &str = "not followed";
+
 /// `12.0 % [8.1, 17.4] (24 of 200)`. For weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`, or, if the interval allows for
 /// events that the study has not met, `0.8 % [0.1, 8.2] (4 of 200, few of much weight)`.
 pub(super) fn rate(rate: &Rate) -> String {
+    if rate.runs == 0 {
+        return "no run counts".to_owned();
+    }
     let runs = rate.runs as f64;
     let worth = if rate.interval != rate.as_met {
         ", few of much weight".to_owned()
@@ -21,6 +27,9 @@ pub(super) fn rate(rate: &Rate) -> String {
 
 /// `12.0 % [8.1, 17.4]`.
 pub(super) fn short_rate(rate: &Rate) -> String {
+    if rate.runs == 0 {
+        return "no run counts".to_owned();
+    }
     format!("{:.1} % {}", 100.0 * rate.rate, percent_interval(rate.interval))
 }
 

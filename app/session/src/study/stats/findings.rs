@@ -86,9 +86,9 @@ pub struct OptionFinding {
     pub undecided: u64,
     /// Checks of segment lengths near the whale in all runs, and those that left a segment longer than requested by a quarter or more.
     pub resolution: ResolutionChecks,
-    /// Rate of every event: name, rate.
+    /// Rate of every event: name, rate. If runs end where something parts, only of events that are known then.
     pub rates: Vec<(String, Rate)>,
-    /// Every event compared with the baseline: name, comparison.
+    /// Each of these events compared with the baseline: name, comparison.
     pub against: Vec<(String, Paired)>,
     /// Registered events: name, McNemar's probability among all such comparisons of the study, by Holm.
     pub adjusted: Vec<(String, f64)>,
@@ -216,7 +216,12 @@ fn held_whales(
         let option = opened.options.iter().find(|option| option.id == *id);
         (id.clone(), option.map_or_else(|| id.clone(), |option| option.name.clone()))
     };
-    let options: Vec<(String, String)> = ids.iter().map(name).collect();
+    // Whether a whale is held at the end is unknown if runs end where something parts.
+    let ends_early =
+        |id: &&String| opened.options.iter().any(|option| option.id == **id && option.until_parted);
+    let options: Vec<(String, String)> =
+        ids.iter().filter(|id| !ends_early(id)).map(name).collect();
+    let baseline = options.iter().position(|(id, _)| *id == ids[baseline])?;
     let observed = opened.study.routes.as_ref();
     HeldWhales::of(runs, &options, baseline, &opened.study.event, observed)
 }
@@ -247,7 +252,9 @@ fn found(opened: &PreparedStudy, runs: &Runs, option: usize) -> OptionFinding {
     let own: Vec<&RunRow> = runs.rows().iter().filter(|run| run.option == plan.id).collect();
     let count = |is_it: fn(&RunRow) -> bool| own.iter().filter(|run| is_it(run)).count() as u64;
     let sum = |of: fn(&RunRow) -> u64| own.iter().map(|run| of(run)).sum::<u64>();
-    let events = StudyEvent::all();
+    // Of a run that ends where something parts, other events are unknown.
+    let is_known = |event: &StudyEvent| !plan.until_parted || event.is_known_at_parting();
+    let events: Vec<StudyEvent> = StudyEvent::all().into_iter().filter(is_known).collect();
     let indicators = |event: &StudyEvent| EventIndicators::of(runs, &plan.id, event);
     let paired = |event: &StudyEvent| {
         (event.name(), Paired::of(&indicators(event), &EventIndicators::of(runs, baseline, event)))

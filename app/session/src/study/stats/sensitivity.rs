@@ -218,11 +218,11 @@ pub(super) fn lowest(indicators: &[EventIndicators]) -> Vec<Lowest> {
             let (hits, all) = known.fold((0.0, 0.0), |(hits, all), indicator| {
                 (hits + f64::from(indicator.occurred) * indicator.weight, all + indicator.weight)
             });
-            if all > 0.0 { hits / all } else { 0.0 }
+            if all > 0.0 { hits / all } else { f64::INFINITY }
         };
         let rates: Vec<f64> = indicators.iter().map(rate).collect();
         let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
-        let have = |rate: &f64| *rate <= least;
+        let have = |rate: &f64| *rate <= least && rate.is_finite();
         let tied = usize::from(rates.iter().filter(|rate| have(rate)).count() > 1);
         let best = counts.iter_mut().zip(&rates).filter(|(_, rate)| have(rate));
         best.for_each(|(counts, _)| counts[tied] += 1);

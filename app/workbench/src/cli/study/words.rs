@@ -6,6 +6,7 @@ use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::{Cost, Forecast, duration_words};
+use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
     Change, Findings, Interval, Rate, answer, resolution, rounded,
 };
@@ -238,7 +239,11 @@ fn rates_of(findings: &Findings, events: &[String]) -> String {
             option.invalid.to_string(),
             option.undecided.to_string(),
         ];
-        row.extend(events.iter().map(|event| option.rate(event).map_or_else(String::new, rate)));
+        row.extend(
+            events
+                .iter()
+                .map(|event| option.rate(event).map_or_else(|| NOT_FOLLOWED.to_owned(), rate)),
+        );
         rows.push(row);
     }
     columns(&rows)
@@ -332,9 +337,7 @@ fn changed(findings: &Findings) -> String {
     ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     let mut ends = String::new();
-    for (_, option) in
-        findings.options.iter().enumerate().filter(|(option, _)| *option != findings.baseline)
-    {
+    for option in findings.others().filter(|option| option.changes.all.outcome.runs > 0) {
         let changes = &option.changes;
         let cells = [&changes.all, &changes.touching]
             .into_iter()
@@ -449,6 +452,9 @@ fn claims(findings: &Findings) -> String {
 
 /// `12.0 % [8.1, 17.4] of 200`.
 fn rate(rate: &Rate) -> String {
+    if rate.runs == 0 {
+        return "no run counts".to_owned();
+    }
     format!(
         "{:.1} % [{:.1}, {:.1}] {}/{}",
         100.0 * rate.rate,
