@@ -503,11 +503,12 @@ fn the_forces_are_smooth_and_never_negative() {
         let at = |row: i32, column: i32| {
             let (height, speed) = (f64::from(row - 5010) / 5000.0 * reach, f64::from(column) * 0.4);
             let now = passing(form, height, speed);
-            [now.pull_pa * plane(form, height).area_m2, now.waves]
+            let facing = form.wet(height, heeled()).facing;
+            [now.pull_pa * plane(form, height).area_m2, now.waves * facing]
         };
         for column in 0..10 {
             let mut before = at(0, column);
-            // Dynamic pressure on the greatest section, and the greatest share of waves.
+            // Bounds of the force and of the wave drag over that of the whole float.
             let scale = [60.0 + 80.0 * f64::from(column * column), 0.4];
             for row in 1..10021 {
                 let now = at(row, column);
