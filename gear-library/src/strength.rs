@@ -35,6 +35,8 @@ pub struct StrengthBudget {
     pub factors: Vec<StrengthFactor>,
     /// Coefficient of variation between pieces, if any [1].
     pub variation: Option<StrengthFigure>,
+    /// Coefficient of variation between gears of a fleet, if any, which the range over pieces does not include [1].
+    pub fleet: Option<StrengthFigure>,
     /// The drawn strength of this run over the mean [1].
     pub drawn: f64,
 }
@@ -120,6 +122,7 @@ mod tests {
             stated: figure(12_000.0, Confidence::Measured),
             factors: vec![factor(0.74, Confidence::Estimate), factor(0.9, Confidence::Measured)],
             variation: Some(figure(0.1, Confidence::Estimate)),
+            fleet: None,
             drawn: 1.05,
         };
         // 12,000 × 0.74 × 0.9 = 7,992; ± 16.45 %.

@@ -171,6 +171,8 @@ pub struct PartStrength {
     pub factors: Vec<PartFactor>,
     /// Coefficient of variation between pieces.
     pub variation: Option<Sourced>,
+    /// Coefficient of variation between gears of a fleet, beside that between pieces.
+    pub fleet: Option<Sourced>,
     /// Mean strength delivered [N].
     pub delivered_N: f64,
     /// The strengths between which nine pieces of ten lie [N].
@@ -224,6 +226,7 @@ impl From<&StrengthBudget> for PartStrength {
             stated: (&budget.stated).into(),
             factors: factors.collect(),
             variation: budget.variation.as_ref().map(Sourced::from),
+            fleet: budget.fleet.as_ref().map(Sourced::from),
             delivered_N: budget.delivered_n(),
             nine_of_ten_N: budget.nine_of_ten_n(),
             drawn_N: budget.drawn_n(),

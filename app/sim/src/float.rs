@@ -1,4 +1,4 @@
-//! Hydrostatics of a float: submerged share, its centroid and its derivatives.
+//! Hydrostatics of a float: submerged share, its centroid and its derivatives; what water that passes adds at the surface.
 //!
 //! The points of a float are at heights `z + Y` above the water, with `z` the height of its centre [m]. With `n` the vertical
 //! component of its axis:
@@ -17,6 +17,22 @@
 //! centre to a point, `ρ` the density of water, `g` gravity and `V` the volume. Share and moment are derivatives of one
 //! potential, so that a float gains no energy by rolling.
 //! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the integrals were derived here.
+//!
+//! Water that passes a body at the surface with the level speed `U` draws it down and raises waves ([`WaterPlane::in_flow`]).
+//! With its water-plane `A`, radius `a = √(A/π)`, wet volume `V` of the whole `V₀`, draught over radius `r`, Froude number `F`:
+//!
+//! ```text
+//! r = (3/2) V/(A a)      F² = U²/(2 g a)      φ = 1 - (V/V₀)⁸
+//! force down      ½ρU² A C φ / (1 + (F/1.2)⁴)      C = (5/4) r/(r + 9/11)
+//! factor on drag  1 + w C φ (s exp(1 - s))⁴        s = (0.9/F)²
+//! ```
+//!
+//! `C` is the suction of potential flow under a still surface. It is 11/16 for half of a sphere and within 3 % of that on half
+//! of any spheroid up to `r = 2`, `(1 + k)² (1 - mean n_x²) - 1` with the added mass `k` (Lamb 1932, article 114) and the
+//! normal's part `n_x` along the flow. 5/4 is the suction on the crown of a sphere under water. The bound 1.2 is where floats
+//! begin to skip, and waves begin at about 0.6 (Kamoliddinov, Vakarelski and Thoroddsen 2021, doi:10.1063/5.0061768). `φ` is
+//! ours; with it both terms end as a float goes under. `w` = 0.3 is ours as well: the open tows of a float allow 0 to 1
+//! (`docs/lab-notebook.md`, drag of a towed float).
 
 use std::f64::consts::PI;
 
@@ -66,8 +82,10 @@ pub struct Wet {
     pub share: f64,
     /// Submerged share of the area that faces a horizontal flow.
     pub facing: f64,
-    /// Decrease of the submerged share of the volume with height [1/m].
+    /// Decrease of the submerged share of the volume with height: water-plane over volume [1/m].
     pub slope: f64,
+    /// Growth of that slope with depth [1/m²].
+    pub widening: f64,
     /// First moment of the submerged part about the float's centre: its centroid times the share; world frame [m].
     pub moment: DVec3,
     /// Bound of the derivative of that moment with respect to tilt, for the solver's matrix [m].
@@ -76,7 +94,7 @@ pub struct Wet {
 
 impl Wet {
     fn plain(share: f64, slope: f64) -> Self {
-        Self { share, facing: share, slope, moment: DVec3::ZERO, turn: 0.0 }
+        Self { share, facing: share, slope, widening: 0.0, moment: DVec3::ZERO, turn: 0.0 }
     }
 }
 
@@ -134,6 +152,87 @@ impl Form {
     }
 }
 
+/// Suction on the crown of a sphere under water, over the dynamic pressure.
+const CROWN: f64 = 5.0 / 4.0;
+/// Draught over radius at which a float has half of that; with it half of a sphere has 11/16.
+const HALF_DRAWN: f64 = 9.0 / 11.0;
+/// Froude number, by the diameter of the water-plane, at which floats begin to skip.
+const SKIPS: f64 = 1.2;
+/// Froude number of the greatest wave drag.
+const CREST: f64 = 0.9;
+/// Greatest wave drag over the drag of the wet part, for half of a sphere times 16/11.
+const WAVES: f64 = 0.3;
+/// Least and greatest change of a float's stiffness by the force that draws it down, in the matrix.
+const SOFTENS: [f64; 2] = [-1.0, 0.75];
+
+/// Water-plane and wet volume of a body, summed over its floats.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WaterPlane {
+    /// Area [m²].
+    pub area_m2: f64,
+    /// Volume under water [m³].
+    pub wet_m3: f64,
+    /// Volume of all floats [m³].
+    pub whole_m3: f64,
+    /// Growth of the area with depth [m].
+    pub widening_m: f64,
+}
+
+/// What passing water adds to a body at the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Passing {
+    /// Force down, over the area of the water-plane [Pa].
+    pub pull_pa: f64,
+    /// Growth of the force down with depth, over the area of the water-plane, as the solver's matrix uses it [Pa/m].
+    pub softening_pa_m: f64,
+    /// Wave drag over the drag of the wet part.
+    pub waves: f64,
+    /// Its derivative with respect to the logarithm of speed.
+    pub waves_growth: f64,
+}
+
+impl WaterPlane {
+    /// Adds a float with its wet part.
+    pub fn add(&mut self, float: &Float, wet: &Wet) {
+        self.area_m2 += float.volume_m3 * wet.slope;
+        self.wet_m3 += float.volume_m3 * wet.share;
+        self.whole_m3 += float.volume_m3;
+        self.widening_m += float.volume_m3 * wet.widening;
+    }
+
+    /// Forces of water that passes with this level speed; `speed_squared` is its square [m²/s²].
+    pub fn in_flow(&self, speed_squared: f64, density_kg_m3: f64, gravity_m_s2: f64) -> Passing {
+        let Self { area_m2: area, wet_m3: wet, whole_m3: whole, widening_m: widening } = *self;
+        // Below a micrometre per second, and with less than a square micrometre of water-plane, the forces are none.
+        if area < 1e-12 || wet <= 0.0 || speed_squared < 1e-12 {
+            return Passing::default();
+        }
+        let radius = (area / PI).sqrt();
+        let draught = 1.5 * wet / (area * radius);
+        let froude_squared = speed_squared / (2.0 * gravity_m_s2 * radius);
+        let part = (wet / whole).min(1.0);
+        let seventh = part * part * part * part * part * part * part;
+        let dry = 1.0 - part * seventh;
+        let suction = CROWN * draught / (draught + HALF_DRAWN) * dry;
+        let skips = froude_squared / (SKIPS * SKIPS);
+        let skips = skips * skips;
+        let pull_pa = 0.5 * density_kg_m3 * speed_squared * suction / (1.0 + skips);
+
+        // Logarithmic derivatives of the force by area and by wet volume.
+        let share = HALF_DRAWN / (draught + HALF_DRAWN);
+        let by_area = 1.0 - 1.5 * share + skips / (1.0 + skips);
+        let by_volume = share / wet - 8.0 * seventh / (whole * dry.max(1e-9));
+        let weight = density_kg_m3 * gravity_m_s2;
+        let softening_pa_m = (pull_pa * (by_area * widening / area + by_volume * area))
+            .clamp(SOFTENS[0] * weight, SOFTENS[1] * weight);
+
+        let ratio = CREST * CREST / froude_squared;
+        let hump = ratio * libm::exp(1.0 - ratio);
+        let waves = WAVES * suction * (hump * hump) * (hump * hump);
+        Passing { pull_pa, softening_pa_m, waves, waves_growth: 8.0 * (ratio - 1.0) * waves }
+    }
+}
+
 /// Submerged cap of a ball under a linear map: `E[p 1] = -3/16 (1 - x²)² u` for a unit ball cut at `x` along `u`.
 fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> Wet {
     let x = height / reach;
@@ -144,6 +243,7 @@ fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> We
         share: t * t * (3.0 - 2.0 * t),
         facing: Semicircle { radius: reach }.share(-height),
         slope: 3.0 * t * (1.0 - t) / reach,
+        widening: 1.5 * (1.0 - 2.0 * t) / (reach * reach),
         moment: (DVec3::Z * (across * across) + axis * (longer * axis.z)) * -cap,
         turn: cap * longer.abs(),
     }
@@ -158,20 +258,23 @@ fn cylinder(height: f64, axis: DVec3, radius: f64, length: f64) -> Wet {
         (length * axis.z.abs(), Semicircle { radius: (radius * lying).max(1e-12 * radius) });
     let depth = -height;
     let (low, high) = (depth - 0.5 * uniform, depth + 0.5 * uniform);
-    let (share, slope, across, along) = if uniform < FLAT * circle.radius {
+    let (share, slope, widening, across, along) = if uniform < FLAT * circle.radius {
         let density = circle.density(depth);
-        (circle.share(depth), density, circle.first(depth) / lying, -uniform * density / 12.0)
+        let widening = circle.growth(depth);
+        let first = circle.first(depth) / lying;
+        (circle.share(depth), density, widening, first, -uniform * density / 12.0)
     } else {
         let mean = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / uniform;
         let share = mean(&|u| circle.share_integral(u));
         let ends = 0.5 * (circle.share_integral(high) + circle.share_integral(low));
         let along = (mean(&|u| circle.share_second_integral(u)) - ends) / uniform;
-        (share, mean(&|u| circle.share(u)), radius * mean(&|u| circle.first_integral(u)), along)
+        let across = radius * mean(&|u| circle.first_integral(u));
+        (share, mean(&|u| circle.share(u)), mean(&|u| circle.density(u)), across, along)
     };
     // `across` is divided by the sine of the tilt, because its direction is (ẑ - n·axis)/sine.
     let sign = if axis.z < 0.0 { -1.0 } else { 1.0 };
     let moment = (DVec3::Z - axis * axis.z) * (radius * across) + axis * (sign * length * along);
-    Wet { share, facing: share, slope, moment, turn: 0.25 * slope * radius * radius }
+    Wet { share, facing: share, slope, widening, moment, turn: 0.25 * slope * radius * radius }
 }
 
 /// Distribution of the heights `u` of a disc's points: density `2√(1 - q²)/πR` with `q = u/R`.
@@ -187,6 +290,12 @@ impl Semicircle {
 
     fn density(&self, u: f64) -> f64 {
         2.0 * self.parts(u).1 / (PI * self.radius)
+    }
+
+    /// Derivative of the density, bounded at the rim.
+    fn growth(&self, u: f64) -> f64 {
+        let (q, root, _) = self.parts(u);
+        -2.0 * q / (PI * self.radius * self.radius * root.max(FLAT))
     }
 
     /// Share of the disc below `u`.

@@ -14,6 +14,7 @@ use crate::scenario::{LineStart, Scenario};
 use crate::schema::Kind;
 use crate::strength::StrengthBudget;
 
+use super::strength::Fleet;
 use super::{Assembled, Hooks};
 
 /// A part of the spec by kind and index; a line with inserts is a range of lines.
@@ -71,6 +72,8 @@ pub(super) struct Builder<'a> {
     pub uncut: Vec<Uncut>,
     /// Strength budgets of lines and weak links.
     pub strengths: Vec<StrengthBudget>,
+    /// Variation of strength between gears of a fleet, for the assembly that is being added.
+    pub fleet: Option<Fleet>,
     /// Whether gear could not be built; then unknown ids are not reported.
     pub incomplete: bool,
     /// Parts by id.
@@ -120,6 +123,7 @@ impl<'a> Builder<'a> {
             points: Vec::new(),
             uncut: Vec::new(),
             strengths: Vec::new(),
+            fleet: None,
             incomplete: false,
             names: Vec::new(),
         }

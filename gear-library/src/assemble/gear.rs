@@ -29,6 +29,7 @@ impl Builder<'_> {
     }
 
     fn add_assembly(&mut self, gear: &PlacedGear, assembly: &Assembly) {
+        self.fleet = self.fleet_of(gear, assembly);
         let orientation = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - gear.heading_rad);
         let mut setting = Setting {
             prefix: gear.id.as_ref().map(|id| format!("{}/", id.value)).unwrap_or_default(),
@@ -58,6 +59,7 @@ impl Builder<'_> {
                 self.add_rig(&rig(parts, self.spec.water.depth_m), &setting);
             }
         }
+        self.fleet = None;
     }
 
     /// Adds gear that a gear type builds from attributes.
@@ -311,6 +313,8 @@ impl Builder<'_> {
             .iter()
             .find(|(known, _)| known.value == line.id)
             .map(|(_, rope)| rope.clone());
+        // A rope that a scenario chooses is that of no fleet.
+        let fleet = self.fleet.take_if(|_| chosen.is_some());
         let rope = chosen.unwrap_or_else(|| setting.at(&line.rope));
         let mut end = |end: &RigEnd| {
             let (RigEnd::Body(part) | RigEnd::Joint(part)) = end;
@@ -324,7 +328,7 @@ impl Builder<'_> {
             .find(|(known, _)| known.value == line.id)
             .map_or(&usual, |(_, make)| make);
         let laid_m = line.laid_m.iter().map(|place| self.rig_place(*place, setting)).collect();
-        self.add_line(&NewLine {
+        let pieces = self.add_line(&NewLine {
             id,
             rope,
             ends,
@@ -332,7 +336,9 @@ impl Builder<'_> {
             start: LineStart::Straight,
             laid_m,
             make,
-        })
+        });
+        self.fleet = self.fleet.take().or(fleet);
+        pieces
     }
 
     fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {

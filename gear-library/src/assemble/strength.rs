@@ -6,23 +6,57 @@
 //! The variation of a line or weak link is `1 + c z` with the coefficient of variation `c` and a standard normal `z`
 //! (Box and Muller 1958, doi:10.1214/aoms/1177706645) from two uniform numbers, the BLAKE3 hash of seed, id and attempt.
 //! It is therefore independent of other parts. A factor below [`LEAST`] is drawn again.
+//! An assembly with `fleet_cv` has a second factor of this form, one draw for all of its rope, because gears of a fleet differ in
+//! rope and age. The two are independent: a piece varies between gears with `√(strength_cv² + fleet_cv²)`.
 
 use std::f64::consts::PI;
 
 use endline_sim::model::{Strength, WeakPlace};
 
+use crate::assembly::Assembly;
 use crate::diagnostic::At;
 use crate::entry::Entry;
 use crate::fields::Problems;
 use crate::items::{Condition, Rope, WeakLink};
 use crate::line::LineMake;
+use crate::scenario::PlacedGear;
 use crate::schema::Kind;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure, WEAK_PLACES};
+use crate::tree::{Content, Node};
 
 use super::builder::{Builder, Scale};
 use super::line::{NewLine, Piece, Tied, weak_lengths};
 
+/// Variation of the strength of rope between gears of a fleet.
+#[derive(Clone, Debug)]
+pub struct Fleet {
+    /// Its coefficient of variation.
+    figure: StrengthFigure,
+    /// The drawn factor of this gear.
+    drawn: f64,
+}
+
 impl Builder<'_> {
+    /// Variation between gears like an assembly, and its draw for this gear; none if an attribute of the gear chooses a rope.
+    pub fn fleet_of(&self, gear: &PlacedGear, assembly: &Assembly) -> Option<Fleet> {
+        let figure = StrengthFigure::of(&assembly.entry, "fleet_cv")?;
+        let is_rope = |node: &Node| {
+            let Content::Text(text) = &node.content else { return false };
+            self.library.ropes.iter().any(|rope| rope.entry.id == *text)
+        };
+        if gear.attributes.0.iter().any(|(_, _, node)| is_rope(node)) {
+            return None;
+        }
+        let id = gear.id.as_ref().map_or("", |id| &id.value);
+        let drawn = self.strength_factor(figure.value, &format!("fleet {id}"));
+        Some(Fleet { figure, drawn })
+    }
+
+    /// The fleet that a piece's strength varies with: none for inserts, and for lines that state their delivered strength.
+    fn fleet_at(&self, piece: &Piece<'_>, make: &LineMake) -> Option<&Fleet> {
+        self.fleet.as_ref().filter(|_| piece.own && make.delivered_n.is_none())
+    }
+
     /// Condition of a line's rope: its own, else that of the scenario.
     pub fn condition(&self, make: &LineMake) -> At<Condition> {
         let usual =
@@ -61,7 +95,9 @@ impl Builder<'_> {
         // `wear_factor` of a line applies to its own rope, not to inserts.
         let usual = LineMake::default();
         let make = if piece.own { make } else { &usual };
-        let drawn = self.strength_factor(item.strength_cv, &piece.id);
+        let fleet = self.fleet_at(piece, make);
+        let drawn = self.strength_factor(item.strength_cv, &piece.id)
+            * fleet.map_or(1.0, |fleet| fleet.drawn);
         let left = |end: usize| end_left(item, piece, end);
         let strength =
             Strength { all: wear(item, make, condition) * drawn, end_a: left(0), end_b: left(1) };
@@ -71,6 +107,7 @@ impl Builder<'_> {
             stated: stated(&item.entry, "strength", item.strength_n),
             factors: rope_factors(item, piece, make, condition, scale),
             variation: StrengthFigure::of(&item.entry, "strength_cv"),
+            fleet: fleet.map(|fleet| fleet.figure.clone()),
             drawn,
         };
         self.strengths.push(budget);
@@ -99,6 +136,7 @@ impl Builder<'_> {
             stated: StrengthFigure::chosen(weak.strength_n, "weak_places of the line"),
             factors: Vec::new(),
             variation: StrengthFigure::of(&item.entry, "strength_cv"),
+            fleet: None,
             drawn,
         };
         let strength_n = budget.drawn_n();
@@ -115,6 +153,7 @@ impl Builder<'_> {
             stated: stated(&link.entry, "rating", link.rating_n),
             factors: mean_factor(&link.entry).into_iter().collect(),
             variation: StrengthFigure::of(&link.entry, "spread"),
+            fleet: None,
             drawn,
         };
         let drawn_n = budget.drawn_n();

@@ -5,6 +5,14 @@ use crate::units::Quantity as Q;
 
 use super::{COEFFICIENT, Field, SHARE, may, need};
 
+/// Figures of an assembly.
+pub(super) const ASSEMBLY: &[Field] = &[may(
+    "fleet_cv",
+    Q::Ratio,
+    Between(0.0, 0.5),
+    "coefficient of variation of the strength of rope between gears of a fleet; drawn once for each gear",
+)];
+
 /// Figures of a rope.
 pub(super) const ROPE: &[Field] = &[
     need("diameter", Q::Length, Between(0.001, 0.2), "nominal diameter, for drag and contact"),

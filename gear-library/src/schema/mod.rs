@@ -107,7 +107,7 @@ impl Kind {
             Self::Friction => whale::FRICTION,
             Self::Whale => whale::WHALE,
             Self::Act => whale::ACT,
-            Self::Assembly => &[],
+            Self::Assembly => gear::ASSEMBLY,
         }
     }
 

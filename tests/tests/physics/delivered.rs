@@ -117,3 +117,42 @@ fn weak_places_deliver_their_strength_with_the_variation_of_the_line() {
     let delivered_n = of(&budgets(&pulled(PLAIN, &made)), "warp").delivered_n();
     assert!((delivered_n / (2600.0 * LBF_N) - 1.0).abs() < 1e-9, "{delivered_n}");
 }
+
+/// A trawl of the library with this seed.
+fn trawl(traps: u32, seed: u64, tables: &str) -> String {
+    format!(
+        "format = 1\nkind = \"scenario\"\nname = \"Test\"\nduration = \"1 s\"\nseed = {seed}\nrope_nodes = 500\n\
+         [site]\nitem = \"cape-cod-bay\"\ndepth = \"60 m\"\n[[gear]]\nassembly = \"trawl-{traps}\"\n{tables}"
+    )
+}
+
+/// NOAA's means and coefficients of variation by traps per trawl (`cases/tables/noaa-dst-strength-by-traps.csv`).
+#[test]
+fn endlines_of_trawls_are_as_strong_and_vary_as_those_of_the_fishery() {
+    for (traps, mean_lbf, cv) in [(10, 2339.0, 0.394), (20, 2962.0, 0.398), (45, 5418.0, 0.330)] {
+        let weaker = |seed: u64, tables: &str| {
+            let found = budgets(&trawl(traps, seed, tables));
+            let endline = found.into_iter().filter(|part| part.part.starts_with("endline"));
+            endline.min_by(|a, b| a.delivered_n().total_cmp(&b.delivered_n())).unwrap()
+        };
+        let one = weaker(1, "");
+        let delivered = one.delivered_n() / LBF_N;
+        println!("{traps}: {} delivers {delivered:.0} lbf for {mean_lbf}", one.part);
+        assert!((delivered / mean_lbf - 1.0).abs() < 0.08, "{traps}: {delivered}");
+        let square = |figure: &Option<endline_gear::StrengthFigure>| {
+            figure.as_ref().map_or(0.0, |figure| figure.value * figure.value)
+        };
+        let both = (square(&one.variation) + square(&one.fleet)).sqrt();
+        assert!((both / cv - 1.0).abs() < 0.03, "{traps}: {both}");
+        let drawn: Vec<f64> = (1..=60).map(|seed| weaker(seed, "").drawn).collect();
+        let mean = drawn.iter().sum::<f64>() / 60.0;
+        let square = drawn.iter().map(|share| (share - mean) * (share - mean)).sum::<f64>() / 59.0;
+        println!("{traps}: drawn {mean:.3}, {:.3}", square.sqrt());
+        // Three standard errors of 60 draws.
+        assert!((mean - 1.0).abs() < 0.16 && (square.sqrt() / cv - 1.0).abs() < 0.28);
+
+        // A rope that the scenario chooses varies between pieces only.
+        let chosen = weaker(1, "[gear.attributes]\nupper_rope = \"weak-1700-3-8\"\n");
+        assert_eq!(chosen.fleet, None);
+    }
+}

@@ -4,6 +4,8 @@
 //! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
 //! Floats lift by the water they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
 //! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
+//! Water that passes a float at the surface draws it down and raises waves, which add to its drag (`float.rs`).
+//! The matrix omits how the force down depends on speed.
 //! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
 //! Place and rotation (`rotation.rs`) follow the step's scheme. Rope ends pull on the body inside the same linear solve (`interface.rs`).
 
@@ -11,7 +13,7 @@ use glam::{DMat3, DVec3};
 
 use crate::forces::Forces;
 use crate::matrix::{outer, turned};
-use crate::model::{Body, Float, Model, Wet};
+use crate::model::{Body, Float, Model, Passing, Wet};
 use crate::state::State;
 use crate::system::LinearSystem;
 use crate::trial::plan::{Attachment, Plan};
@@ -95,12 +97,24 @@ impl Forces {
         let body = &model.spec.bodies[index];
         let at = BodyAt::of(index, body, plan.body_block[index], &trial.bodies[index], scheme);
         system.interface.force[at.block].z -= body.mass_kg * model.spec.water.gravity_m_s2;
-        let [wet, facing] = self.add_floats(model, &at, scheme, system);
+        let passing = self.passing(model, &at);
+        let [wet, facing] = self.add_floats(model, &at, &passing, scheme, system);
         add_body_inertia(state, &at, wet, scheme, system);
-        let area = body.drag_area_m2 * facing;
-        self.add_part_drag(model, &at, (at.point(DVec3::ZERO), area), scheme, system);
+        let drag = PartDrag { area: body.drag_area_m2 * facing, passing: &passing };
+        self.add_part_drag(model, &at, (at.point(DVec3::ZERO), drag), scheme, system);
         add_turn_drag(model, &at, wet, scheme, system);
         self.water.add_body_push(model, &at, wet, system);
+    }
+
+    /// What passing water adds to a body.
+    fn passing(&self, model: &Model, at: &BodyAt<'_>) -> Passing {
+        let (water, flow) = (&model.spec.water, &self.water.flow_bodies[at.index]);
+        let BodyAt { body, trial, .. } = *at;
+        let (height, axis) = (trial.place.z - flow.surface_m, trial.orientation * DVec3::Z);
+        let constants = [water.density_kg_m3, water.gravity_m_s2];
+        body.passing(flow.velocity_m_s - at.velocity, constants, |float| {
+            float.form.wet(height + (trial.orientation * float.offset_m).z, axis)
+        })
     }
 
     /// Adds buoyancy and drag of a body's floats; returns the wet shares of its volume, for added mass, and of the area that
@@ -109,6 +123,7 @@ impl Forces {
         &self,
         model: &Model,
         at: &BodyAt<'_>,
+        passing: &Passing,
         scheme: &Scheme,
         system: &mut LinearSystem,
     ) -> [f64; 2] {
@@ -116,9 +131,9 @@ impl Forces {
         let (mut wet, mut facing, mut whole) = (0.0, 0.0, 0.0);
         for float in &body.floats {
             let point = at.point(float.offset_m);
-            let under = self.add_float(model, at, (float, point), scheme, system);
-            let area = float.drag_area_m2 * under.facing;
-            self.add_part_drag(model, at, (point, area), scheme, system);
+            let under = self.add_float(model, at, (float, point, passing), scheme, system);
+            let drag = PartDrag { area: float.drag_area_m2 * under.facing, passing };
+            self.add_part_drag(model, at, (point, drag), scheme, system);
             wet += under.share * float.volume_m3;
             facing += under.facing * float.volume_m3;
             whole += float.volume_m3;
@@ -126,12 +141,12 @@ impl Forces {
         if body.wetted_drag && whole > 0.0 { [wet / whole, facing / whole] } else { [1.0; 2] }
     }
 
-    /// Adds the buoyancy of a float; returns how much of it is under water.
+    /// Adds the buoyancy of a float and the force that draws it down; returns how much of it is under water.
     fn add_float(
         &self,
         model: &Model,
         at: &BodyAt<'_>,
-        (float, (attachment, arm)): (&Float, (Attachment, DVec3)),
+        (float, (attachment, arm), passing): (&Float, (Attachment, DVec3), &Passing),
         scheme: &Scheme,
         system: &mut LinearSystem,
     ) -> Wet {
@@ -142,7 +157,8 @@ impl Forces {
             trial.orientation * DVec3::Z,
         );
         let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
-        let force = DVec3::Z * (lift * wet.share);
+        let plane = float.volume_m3 * wet.slope;
+        let force = DVec3::Z * (lift * wet.share - passing.pull_pa * plane);
         system.interface.push(attachment, arm, force);
         system.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
@@ -150,7 +166,8 @@ impl Forces {
         }
         // Under water and above it most of these blocks are zero.
         let up = outer(DVec3::Z, DVec3::Z);
-        let (stiffness, turning) = (lift * wet.slope, lift * wet.turn);
+        let stiffness = lift * wet.slope - passing.softening_pa_m * plane;
+        let turning = lift * wet.turn;
         if stiffness != 0.0 {
             system.interface.add(attachment, arm, attachment, arm, up * stiffness);
         }
@@ -161,12 +178,12 @@ impl Forces {
         wet
     }
 
-    /// Adds the drag of a part of a body at a point of it; `area` is coefficient times area by body axis.
+    /// Adds the drag of a part of a body at a point of it.
     fn add_part_drag(
         &self,
         model: &Model,
         at: &BodyAt<'_>,
-        ((attachment, arm), area): ((Attachment, DVec3), DVec3),
+        ((attachment, arm), PartDrag { area, passing }): ((Attachment, DVec3), PartDrag<'_>),
         scheme: &Scheme,
         system: &mut LinearSystem,
     ) {
@@ -180,14 +197,25 @@ impl Forces {
         }
         let relative = axes.transpose() * (self.water.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
+        let area = area * (1.0 + passing.waves);
         system.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
         if !scheme.is_static() {
-            let slope =
-                area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
+            // Where wave drag falls with speed, the matrix has that at steady speed.
+            let growth = 1.0 + passing.waves_growth.max(0.0) / (1.0 + passing.waves);
+            let along = relative * relative * (growth / speed.max(1e-9));
+            let slope = area * (DVec3::splat(speed) + along) * half_density;
             let slope = turned(&axes, slope * scheme.rate);
             system.interface.add(attachment, arm, attachment, arm, slope);
         }
     }
+}
+
+/// Drag of a part of a body.
+#[derive(Clone, Copy)]
+struct PartDrag<'a> {
+    /// Coefficient times wet area by body axis, without waves [m²].
+    area: DVec3,
+    passing: &'a Passing,
 }
 
 /// Adds mass, added mass and the change of momentum of a body.

@@ -9,7 +9,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::forces::Forces;
 use crate::matrix::outer;
-use crate::model::{Body, Model};
+use crate::model::{Body, Float, Model};
 use crate::system::LinearSystem;
 use crate::trial::Trial;
 use crate::trial::plan::Plan;
@@ -76,18 +76,26 @@ impl Forces {
         let mut push = |arm: DVec3, force: DVec3, torque: DVec3| {
             wrench = (wrench.0 + force, wrench.1 + arm.cross(force) + torque)
         };
+        let constants = [water.density_kg_m3, water.gravity_m_s2];
+        let wet = |float: &Float| {
+            let height = place.z + (axes * float.offset_m).z - flow.surface_m;
+            float.form.wet(height, axes * DVec3::Z)
+        };
+        let passing = body.passing(flow.velocity_m_s, constants, wet);
         let drag = |area: DVec3| {
             let along = axes.transpose() * flow.velocity_m_s;
-            axes * (area * along * (0.5 * water.density_kg_m3 * along.length()))
+            let half = 0.5 * water.density_kg_m3 * (1.0 + passing.waves);
+            axes * (area * along * (half * along.length()))
         };
         let (mut facing, mut whole) = (0.0, 0.0);
         for float in &body.floats {
             let arm = axes * float.offset_m;
-            let wet = float.form.wet(place.z + arm.z - flow.surface_m, axes * DVec3::Z);
+            let wet = wet(float);
             let lift = DVec3::Z * (water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3);
+            let drawn = DVec3::Z * (passing.pull_pa * float.volume_m3 * wet.slope);
             push(
                 arm,
-                lift * wet.share + drag(float.drag_area_m2 * wet.facing),
+                lift * wet.share - drawn + drag(float.drag_area_m2 * wet.facing),
                 wet.moment.cross(lift),
             );
             facing += wet.facing * float.volume_m3;

@@ -120,17 +120,21 @@ pub(super) fn body_drag(model: &Model, state: &State, body: usize) -> DVec3 {
     let relative = now.orientation.inverse() * (flow.velocity_m_s - now.velocity);
     let half = 0.5 * model.spec.water.density_kg_m3 * relative.length();
     let axis = now.orientation * DVec3::Z;
-    let share = |float: &crate::model::Float| {
+    let wet = |float: &crate::model::Float| {
         let height = now.position.z + (now.orientation * float.offset_m).z - flow.surface_m;
-        float.form.wet(height, axis).facing
+        float.form.wet(height, axis)
     };
-    let (mut area, mut wet, mut volume) = (DVec3::ZERO, 0.0, 0.0);
+    let water = &model.spec.water;
+    let constants = [water.density_kg_m3, water.gravity_m_s2];
+    let passing = spec.passing(flow.velocity_m_s - now.velocity, constants, wet);
+    let (mut area, mut facing, mut volume) = (DVec3::ZERO, 0.0, 0.0);
     for float in &spec.floats {
-        let share = share(float);
+        let share = wet(float).facing;
         area += float.drag_area_m2 * share;
-        (wet, volume) = (wet + share * float.volume_m3, volume + float.volume_m3);
+        (facing, volume) = (facing + share * float.volume_m3, volume + float.volume_m3);
     }
-    let wet = if spec.wetted_drag && volume > 0.0 { wet / volume } else { 1.0 };
+    let wet = if spec.wetted_drag && volume > 0.0 { facing / volume } else { 1.0 };
+    let half = half * (1.0 + passing.waves);
     now.orientation * ((area + spec.drag_area_m2 * wet) * relative * half)
 }
 

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::float::Float;
+use crate::float::{Float, Passing, WaterPlane, Wet};
 
 /// Kind of a body, for pictures and reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +68,30 @@ pub struct Body {
 }
 
 impl Body {
+    /// Whether passing water draws it down and raises waves at it while it pierces the surface. Traps and anchors let the water
+    /// through, and drag that does not depend on the draught is that of an idealised body.
+    fn pierces(&self) -> bool {
+        self.wetted_drag && !matches!(self.role, BodyRole::Trap | BodyRole::Anchor)
+    }
+
+    /// What water adds that passes with this velocity [m/s], by the wet part of each float; `float.rs` has the law.
+    pub fn passing(
+        &self,
+        velocity_m_s: DVec3,
+        [density_kg_m3, gravity_m_s2]: [f64; 2],
+        wet: impl Fn(&Float) -> Wet,
+    ) -> Passing {
+        if !self.pierces() {
+            return Passing::default();
+        }
+        let mut plane = WaterPlane::default();
+        for float in &self.floats {
+            plane.add(float, &wet(float));
+        }
+        let speed_squared = velocity_m_s.truncate().length_squared();
+        plane.in_flow(speed_squared, density_kg_m3, gravity_m_s2)
+    }
+
     /// Corners of the bounding boxes of its parts, in its frame [m].
     pub fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.parts.iter().flat_map(|part| part.shape.corners().map(|corner| part.middle_m + corner))

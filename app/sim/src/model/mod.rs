@@ -17,7 +17,7 @@ use crate::geometry::shape::SolidShape;
 use crate::water::{Sea, Water};
 use crate::whale::tree::SkinTree;
 
-pub use crate::float::{Float, Form, Wet};
+pub use crate::float::{Float, Form, Passing, WaterPlane, Wet};
 pub use body::{Body, BodyRole, PlacedShape, Shape};
 pub use rope::{
     Hitch, Joint, JointKind, Line, Link, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength,

@@ -5,7 +5,9 @@
 use core::f64::consts::{PI, TAU};
 
 use endline_fixtures::gear::{fixed, line, model, on_body, water, weight};
-use endline_sim::model::{Body, Float, Seabed, Settings};
+use endline_sim::model::{
+    Body, BodyRole, Float, Form, Joint, JointKind, Passing, Seabed, Settings, WaterPlane,
+};
 use endline_sim::water::current::Tide;
 use endline_sim::water::waves::{Spectrum, WaveKind, Waves, wave_number};
 use endline_sim::water::{Current, Water};
@@ -329,4 +331,194 @@ fn water_that_cannot_be_is_refused() {
     assert!(
         refused(|water| water.current.surface_m_s.x = f64::NAN).contains("not a finite number")
     );
+}
+
+/// A ball of 0.4 m and 2 kg at the end of 20 m of rope, in a current at rest or towed through still water.
+fn ball(current_m_s: f64, towed_m_s: f64) -> Model {
+    let radius_m = 0.2;
+    let volume_m3 = 4.0 / 3.0 * PI * radius_m * radius_m * radius_m;
+    let form = Form::Spheroid { across_m: radius_m, along_m: radius_m };
+    let ball = Body {
+        role: BodyRole::Buoy,
+        added_mass_kg: DVec3::splat(0.5 * 1025.0 * volume_m3),
+        drag_area_m2: DVec3::splat(0.5 * PI * radius_m * radius_m),
+        turn_drag_m5: DVec3::splat(1e-3),
+        floats: vec![Float { form, ..Float::level(DVec3::ZERO, volume_m3, 1.0) }],
+        wetted_drag: true,
+        ..weight("ball", 2.0, DVec3::new(20.0, 0.0, 0.15), None)
+    };
+    let velocity_m_s = DVec3::X * -towed_m_s;
+    let kind = JointKind::Driven { velocity_m_s, from_s: 0.0, until_s: 1e3 };
+    let boat = Joint { kind, ..fixed("boat", DVec3::new(0.0, 0.0, -0.3)) };
+    let boat = if towed_m_s > 0.0 { boat } else { fixed("boat", boat.position_m) };
+    let settings = Settings::default();
+    let lines = vec![line("tow", 20.0, 20)];
+    model(water(1025.0, current_m_s), vec![boat, on_body("ball", 0)], lines, vec![ball], settings)
+}
+
+/// Statics in a current and a tow through still water agree, and the ball is deeper the faster the water passes. Drag takes power
+/// from the tow.
+#[test]
+fn a_towed_ball_is_drawn_down_in_statics_and_in_dynamics() {
+    let mut height = settle(&ball(0.0, 0.0)).state.bodies[0].position.z;
+    for speed in [0.6, 1.2, 1.6] {
+        let model = ball(speed, 0.0);
+        let settled = settle(&model);
+        assert!(settled.converged, "{speed} m/s");
+        let (mut state, rest) = (settled.state.clone(), settled.state);
+        run(&model, &mut state, 2.0, |_| ());
+        let moved = (state.bodies[0].position - rest.bodies[0].position).length();
+        assert!(moved < 1e-4, "{speed} m/s: {moved} m off its rest");
+        assert!(rest.bodies[0].position.z < height - 1e-3, "{speed} m/s");
+        height = rest.bodies[0].position.z;
+
+        let towed = ball(0.0, speed);
+        let mut state = State::start(&towed);
+        run(&towed, &mut state, 40.0, |_| ());
+        let (deep, pull) = (state.bodies[0].position.z - height, state.rope.tension[0]);
+        println!("{speed} m/s: {height:.4} m, {deep:.1e} m deeper under tow, {pull:.2} N");
+        assert!(deep.abs() < 2e-3 && (pull / rest.rope.tension[0] - 1.0).abs() < 0.02);
+        assert!(rest.rope.tension[0] > 0.0);
+    }
+}
+
+const SPHERE: Form = Form::Spheroid { across_m: 0.2, along_m: 0.2 };
+const EGG: Form = Form::Spheroid { across_m: 0.16, along_m: 0.29 };
+const STAFF: Form = Form::Cylinder { radius_m: 0.02, length_m: 3.4 };
+const DRUM: Form = Form::Cylinder { radius_m: 0.15, length_m: 0.4 };
+
+/// The axis of a float that heels by 0.4 rad.
+fn heeled() -> DVec3 {
+    DQuat::from_rotation_x(0.4) * DVec3::Z
+}
+
+/// Height of a heeled float's highest point above its centre [m].
+fn reach(form: Form) -> f64 {
+    let (upright, level) = (libm::cos(0.4), libm::sin(0.4));
+    match form {
+        Form::Spheroid { across_m, along_m } => libm::hypot(along_m * upright, across_m * level),
+        Form::Cylinder { radius_m, length_m } => 0.5 * length_m * upright + radius_m * level,
+        Form::Level { height_m } => 0.5 * height_m,
+    }
+}
+
+/// Water-plane of a form at a height.
+fn plane(form: Form, height: f64) -> WaterPlane {
+    let float = Float { form, ..Float::level(DVec3::ZERO, 0.03, 1.0) };
+    let mut plane = WaterPlane::default();
+    plane.add(&float, &form.wet(height, heeled()));
+    plane
+}
+
+fn passing(form: Form, height: f64, speed: f64) -> Passing {
+    plane(form, height).in_flow(speed * speed, 1025.0, 9.81)
+}
+
+#[test]
+fn water_that_rests_or_passes_off_the_surface_adds_nothing() {
+    for form in [SPHERE, EGG, STAFF, DRUM] {
+        let reach = reach(form);
+        assert_eq!(passing(form, 0.1 * reach, 0.0), Passing::default());
+        for beyond in [-1.0, -1.001, -30.0, 1.0, 1.001, 30.0] {
+            assert_eq!(passing(form, beyond * reach, 1.5), Passing::default(), "{form:?}");
+        }
+    }
+}
+
+/// `11/16 · ½ρ U² π R²` in potential flow under a still surface.
+#[test]
+fn half_of_a_sphere_is_drawn_down_as_in_potential_flow() {
+    let volume = 4.0 / 3.0 * PI * 0.2 * 0.2 * 0.2;
+    let float = Float { form: SPHERE, ..Float::level(DVec3::ZERO, volume, 1.0) };
+    let mut plane = WaterPlane::default();
+    plane.add(&float, &SPHERE.wet(0.0, DVec3::Z));
+    assert!((plane.area_m2 / (PI * 0.04) - 1.0).abs() < 1e-12);
+    let (speed, dry) = (0.1, 1.0 - 1.0 / 256.0);
+    let force = plane.in_flow(speed * speed, 1025.0, 9.81).pull_pa * plane.area_m2;
+    let expected = 11.0 / 16.0 * 0.5 * 1025.0 * speed * speed * PI * 0.04 * dry;
+    assert!((force / expected - 1.0).abs() < 1e-4, "{force} for {expected}");
+}
+
+/// Suction on half of a spheroid of axis ratio `r` that moves across its axis: the velocity on its skin is `(1 + k)` times
+/// the tangential part of the flow.
+#[test]
+fn suction_is_that_of_spheroids_in_potential_flow() {
+    let sum = |f: &dyn Fn(f64) -> f64| {
+        (0..4000).map(|i| f((f64::from(i) + 0.5) / 4000.0) / 4000.0).sum::<f64>()
+    };
+    for ratio in [0.03_f64, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0] {
+        // Lamb's integral over `λ = t²/(1 - t²)`.
+        let alpha = sum(&|t| {
+            let (left, scale) = (1.0 - t * t, 2.0 * t / ((1.0 - t * t) * (1.0 - t * t)));
+            ratio * left * left * scale / (ratio * ratio + t * t / left).sqrt()
+        });
+        let added = alpha / (2.0 - alpha);
+        let normal = sum(&|p| p * p * p / (p * p + (1.0 - p * p) / (ratio * ratio)));
+        let exact = (1.0 + added) * (1.0 + added) * (1.0 - normal) - 1.0;
+        let whole = 4.0 / 3.0 * PI * ratio;
+        let plane =
+            WaterPlane { area_m2: PI, wet_m3: 0.5 * whole, whole_m3: whole, widening_m: 0.0 };
+        let slow = 0.01;
+        let pressure = 0.5 * 1025.0 * slow * slow * (1.0 - 1.0 / 256.0);
+        let suction = plane.in_flow(slow * slow, 1025.0, 9.81).pull_pa / pressure;
+        println!("{ratio}: {suction:.4} for {exact:.4}");
+        assert!((suction / exact - 1.0).abs() < 0.03, "{ratio}: {suction} for {exact}");
+    }
+}
+
+/// The matrix has the derivatives of the forces, within the bounds that keep it definite.
+#[test]
+fn slopes_of_the_forces_are_their_derivatives() {
+    for form in [SPHERE, EGG, STAFF, DRUM] {
+        let reach = reach(form);
+        for part in [-0.9, -0.5, -0.1, 0.2, 0.6, 0.9] {
+            let (height, d) = (part * reach, 1e-6 * reach);
+            for speed in [0.3, 0.8, 1.5, 2.5] {
+                let force = |height: f64, speed: f64| {
+                    plane(form, height).area_m2 * passing(form, height, speed).pull_pa
+                };
+                let growth = (force(height - d, speed) - force(height + d, speed)) / (2.0 * d);
+                let plane = plane(form, height);
+                let bounds = [-1.0, 0.75].map(|share| share * 1025.0 * 9.81 * plane.area_m2);
+                let growth = growth.clamp(bounds[0], bounds[1]);
+                let now = passing(form, height, speed);
+                let softening = now.softening_pa_m * plane.area_m2;
+                assert!(
+                    (softening - growth).abs() < 1e-4 * bounds[1],
+                    "{form:?} {part} {speed}: {softening} for {growth}"
+                );
+                let waves = |factor: f64| passing(form, height, speed * factor).waves;
+                let growth = (waves(1.0 + 1e-6) - waves(1.0 - 1e-6)) / 2e-6;
+                assert!((now.waves_growth - growth).abs() < 1e-6, "{form:?} {part} {speed}");
+            }
+        }
+    }
+}
+
+/// Both forces are those of drag and suction, never of thrust and lift, and have no steps in speed and draught.
+#[test]
+fn the_forces_are_smooth_and_never_negative() {
+    for form in [SPHERE, EGG, STAFF, DRUM] {
+        let reach = reach(form);
+        let at = |row: i32, column: i32| {
+            let (height, speed) = (f64::from(row - 5010) / 5000.0 * reach, f64::from(column) * 0.4);
+            let now = passing(form, height, speed);
+            let facing = form.wet(height, heeled()).facing;
+            [now.pull_pa * plane(form, height).area_m2, now.waves * facing]
+        };
+        for column in 0..10 {
+            let mut before = at(0, column);
+            // Bounds of the force and of the wave drag over that of the whole float.
+            let scale = [60.0 + 80.0 * f64::from(column * column), 0.4];
+            for row in 1..10021 {
+                let now = at(row, column);
+                for (k, scale) in scale.iter().enumerate() {
+                    let step = (now[k] - before[k]).abs();
+                    assert!(now[k] >= 0.0 && now[k].is_finite(), "{form:?} {row} {column}");
+                    assert!(step < 0.03 * scale, "{form:?} {row} {column}: {step} of {scale}");
+                }
+                before = now;
+            }
+        }
+    }
 }

@@ -23,10 +23,14 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
     let displaced: f64 = body.floats.iter().map(|float| wet(float).share * float.volume_m3).sum();
     let facing: f64 = body.floats.iter().map(|float| wet(float).facing * float.volume_m3).sum();
     let whole: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
+    let constants = [water.density_kg_m3, water.gravity_m_s2];
+    let passing = body.passing(water.velocity(now.position), constants, wet);
     let drag_by = |area: DVec3| {
         let flow = now.orientation.inverse() * water.velocity(now.position);
-        now.orientation * (area * flow * flow.length()) * (0.5 * water.density_kg_m3)
+        let half = 0.5 * water.density_kg_m3 * (1.0 + passing.waves);
+        now.orientation * (area * flow * flow.length()) * half
     };
+    let plane: f64 = body.floats.iter().map(|float| wet(float).slope * float.volume_m3).sum();
     let wet_share = if body.wetted_drag && whole > 0.0 { facing / whole } else { 1.0 };
     let of_floats = body
         .floats
@@ -35,7 +39,7 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
         .sum::<DVec3>();
     let drag = drag_by(body.drag_area_m2 * wet_share) + of_floats;
     let weight = (water.density_kg_m3 * displaced - body.mass_kg) * water.gravity_m_s2;
-    weight
+    weight - passing.pull_pa * plane
         + drag.z
         + seabed(model, now, &body.feet_m)
         + line_ends(model, state, index)
