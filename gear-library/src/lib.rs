@@ -55,7 +55,8 @@ pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use rules::{Area, Date, Parameter, Rule, RuleDraft, RulePack, Standing, Subject};
 pub use scenario::{
     AnswersToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
-    LineStart, ObstacleOf, PlacedGear, PlacedWhale, ProbeOf, ProbePart, RowHeight, Scenario, Sea,
+    LineStart, ObstacleOf, PlacedGear, PlacedWhale, PositionOf, ProbeOf, ProbePart, RowHeight,
+    Scenario, Sea,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;

@@ -7,7 +7,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
 use crate::haul::{HaulSheet, SweepRow};
-use crate::mill::StrengthLaw;
+use crate::mill::{MeansLaws, StrengthLaw};
 use crate::report::Report;
 use crate::rules::RuleSheet;
 use crate::rules::packs::Listing;
@@ -73,4 +73,5 @@ pub static FORMS: &[Form] = &[
         schema: schema_of::<Vec<SweepRow>>,
     },
     Form { name: "endline.mill/1", commands: &["mill"], schema: schema_of::<StrengthLaw> },
+    Form { name: "endline.mill.means/1", commands: &["mill"], schema: schema_of::<MeansLaws> },
 ];

@@ -33,6 +33,8 @@ const UP: DVec3 = DVec3::Z;
 
 const MOUTH: &[Region] = &[Region::Lips, Region::Baleen, Region::Head];
 
+const SNOUT: &[Region] = &[Region::Rostrum, Region::Head, Region::Lips];
+
 const fn spot(
     name: &'static str,
     regions: &'static [Region],
@@ -43,8 +45,9 @@ const fn spot(
 }
 
 /// Every spot.
-const SPOTS: [Spot; 9] = [
+const SPOTS: [Spot; 10] = [
     spot("peduncle", &[Region::Peduncle], UP, |_| Some(0.86)),
+    spot("snout", SNOUT, DVec3::X, |_| Some(0.0)),
     spot("mouth-left", MOUTH, PORT, |form| Some(form.head.mouth)),
     spot("mouth-right", MOUTH, STARBOARD, |form| Some(form.head.mouth)),
     spot("flipper-left", &[Region::LeftFlipperLeading], UP, |_| None),
@@ -58,42 +61,49 @@ const SPOTS: [Spot; 9] = [
 impl Builder<'_> {
     /// The joint at a spot of the whale, shared by all lines there.
     pub fn whale_joint(&mut self, spot: Option<&str>, end: &At<String>) -> Option<usize> {
-        let Some(whale) = &self.spec.whale else {
-            // A failed whale has been reported.
-            if self.scenario.whale.is_some() {
-                return None;
-            }
-            return self.problems.refuse(
-                end.place
-                    .error("the scenario has no whale", "add a [whale], or name a body or joint"),
-            );
-        };
         let name = spot.unwrap_or_default();
-        let Some(found) = SPOTS.iter().find(|known| known.name == name) else {
-            let message = format!("the whale has no spot `{name}`");
-            return self
-                .problems
-                .refuse(end.place.error(message, hint(name, SPOTS.iter().map(|spot| spot.name))));
-        };
         let id = format!("whale:{name}");
         if let Some(joint) = self.spec.joints.iter().position(|joint| joint.id == id) {
             return Some(joint);
         }
-        let placed = self.scenario.whale.as_ref()?;
-        let form =
-            &self.library.whales.iter().find(|item| item.entry.id == placed.item.value)?.form;
-        let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
-            let message = format!("the skin of this whale has no triangle at `{name}`");
-            return self
-                .problems
-                .refuse(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
-        };
-        let hitch = Hitch { triangle, barycentric: [1.0 / 3.0; 3], stand_off_m: STAND_OFF_M };
+        let hitch = Hitch { stand_off_m: STAND_OFF_M, ..self.whale_spot(name, end)? };
+        let whale = self.spec.whale.as_ref()?;
         let frame = DAffine3::from_rotation_translation(whale.orientation, whale.position_m);
         let bones = vec![frame; whale.skin.bones.len()];
         let position_m = hitch.place(&whale.skin, &bones);
         self.spec.joints.push(Joint { id, kind: JointKind::Whale(hitch), position_m });
         Some(self.spec.joints.len() - 1)
+    }
+
+    /// Whether the model has a whale; reports that it has none, at a name of it.
+    pub fn whale_placed(&self, at: &At<String>) -> bool {
+        // A failed whale has been reported.
+        if self.spec.whale.is_none() && self.scenario.whale.is_none() {
+            let help = "add a [whale], or name a body or joint";
+            self.problems.push(at.place.error("the scenario has no whale", help));
+        }
+        self.spec.whale.is_some()
+    }
+
+    /// The point of the skin at a spot of the whale.
+    pub fn whale_spot(&self, name: &str, at: &At<String>) -> Option<Hitch> {
+        if !self.whale_placed(at) {
+            return None;
+        }
+        let whale = self.spec.whale.as_ref()?;
+        let spots = || SPOTS.iter().map(|spot| spot.name);
+        let Some(found) = SPOTS.iter().find(|known| known.name == name) else {
+            let message = format!("the whale has no spot `{name}`");
+            return self.problems.refuse(at.place.error(message, hint(name, spots())));
+        };
+        let placed = self.scenario.whale.as_ref()?;
+        let form =
+            &self.library.whales.iter().find(|item| item.entry.id == placed.item.value)?.form;
+        let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
+            let message = format!("the skin of this whale has no triangle at `{name}`");
+            return self.problems.refuse(at.place.error(message, hint("", spots())));
+        };
+        Some(Hitch { triangle, barycentric: [1.0 / 3.0; 3], stand_off_m: 0.0 })
     }
 }
 

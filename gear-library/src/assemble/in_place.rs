@@ -5,12 +5,12 @@ use endline_sim::DVec3;
 use endline_sim::model::{Joint, JointKind, Obstacle, Probe, ProbeTarget, WhaleFigure};
 
 use crate::diagnostic::At;
-use crate::scenario::{ObstacleOf, ProbePart};
+use crate::scenario::{ObstacleOf, PositionOf, ProbePart};
 
 use super::body;
 use super::builder::{Builder, Part};
 use super::gear::Rated;
-use super::line::NewLine;
+use super::line::{NewLine, WHALE};
 
 impl Builder<'_> {
     /// Adds the obstacles.
@@ -106,6 +106,7 @@ impl Builder<'_> {
     /// Adds the probes.
     pub fn add_probes(&mut self) {
         for probe in &self.scenario.probes {
+            let id = &probe.id.value;
             let target = match &probe.part {
                 ProbePart::Tension(line, end) => {
                     let at_end =
@@ -127,14 +128,37 @@ impl Builder<'_> {
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
                 ProbePart::Whale(figure) => self.of_whale(figure),
                 ProbePart::Place { part, point_m, axis } => self.placed(part, *point_m, *axis),
+                ProbePart::Position(of) => {
+                    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                        // A part that does not exist is reported once.
+                        let Some(target) = self.position(of, axis) else { break };
+                        self.add_probe(format!("{id} {name}"), &probe.id, target);
+                    }
+                    continue;
+                }
             };
-            if self.spec.probes.iter().any(|known| known.id == probe.id.value) {
-                let message = format!("there are two probes with the id `{}`", probe.id.value);
-                self.problems.push(probe.id.place.error(message, "give one of them another id"));
+            if let Some(target) = target {
+                self.add_probe(id.clone(), &probe.id, target);
             }
-            self.spec
-                .probes
-                .extend(target.map(|target| Probe { id: probe.id.value.clone(), target }));
+        }
+    }
+
+    /// Adds a probe with this id, which `written` names in the file.
+    fn add_probe(&mut self, id: String, written: &At<String>, target: ProbeTarget) {
+        if self.spec.probes.iter().any(|known| known.id == id) {
+            let message = format!("there are two probes with the id `{id}`");
+            self.problems.push(written.place.error(message, "give one of them another id"));
+        }
+        self.spec.probes.push(Probe { id, target });
+    }
+
+    /// A coordinate of a probe of a position.
+    fn position(&self, of: &PositionOf, axis: usize) -> Option<ProbeTarget> {
+        match of {
+            PositionOf::Part(part, point_m) => self.placed(part, *point_m, axis),
+            PositionOf::Line(line, length_m) => {
+                self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, axis))
+            }
         }
     }
 
@@ -176,9 +200,22 @@ impl Builder<'_> {
         Some(first)
     }
 
-    /// A point of a body, or a joint.
+    /// A point of a body, a joint, the whale, or a spot of it.
     fn placed(&self, id: &At<String>, point_m: Option<DVec3>, axis: usize) -> Option<ProbeTarget> {
-        match self.part(&id.value) {
+        let part = self.part(&id.value);
+        if part.is_none() && point_m.is_none() {
+            match id.value.split_once(':') {
+                Some((WHALE, spot)) => {
+                    return Some(ProbeTarget::Skin(self.whale_spot(spot, id)?, axis));
+                }
+                None if id.value == WHALE => {
+                    let origin = self.whale_placed(id).then_some(ProbeTarget::WhaleOrigin(axis));
+                    return origin;
+                }
+                _ => {}
+            }
+        }
+        match part {
             Some(Part::Body(body)) => {
                 Some(ProbeTarget::Body { body, offset_m: point_m.unwrap_or_default(), axis })
             }

@@ -349,7 +349,7 @@ pub(super) fn cut_at<'l>(
 }
 
 /// The name of the whale in an end.
-const WHALE: &str = "whale";
+pub(super) const WHALE: &str = "whale";
 
 /// The part named by an end, and the point, if any.
 pub(super) fn split(end: &str) -> (&str, Option<&str>) {

@@ -137,6 +137,8 @@ pub struct SeenSite {
     pub present: f64,
     /// Least and most wraps about it [turns].
     pub wraps: Option<[f64; 2]>,
+    /// Least and most strands that lie across it without a turn.
+    pub across: Option<[f64; 2]>,
     /// Whether rope was tight there, if reported.
     pub tight: Option<bool>,
     /// How it was observed; may be empty.
@@ -210,17 +212,34 @@ fn site(fields: &Fields<'_>) -> Option<SeenSite> {
     let part = fields.choice("part", &sites);
     let present = fields.value("present", Quantity::Ratio, Range::Between(0.0, 1.0));
     let wraps = rising(fields, "wraps", Quantity::Ratio, "such as wraps = [0.5, 1.5]");
+    let across = across(fields);
     let tight = fields.flag("tight");
     let seen_by = fields.text("seen_by").map(|text| text.value).unwrap_or_default();
     let part = part?;
+    if let (Some(across), Site::Mouth) = (&across, part.value) {
+        let help = "write it at the part \"head\", for rope outside the mouth";
+        return fields.refuse(across.place.error("rope in the mouth lies across nothing", help));
+    }
     Some(SeenSite {
         site: part.value,
         place: part.place,
         present: present.map_or(SURE, |present| present.value),
         wraps,
+        across: across.map(|across| across.value),
         tight,
         seen_by,
     })
+}
+
+/// Strands that lie across a part: two whole numbers.
+fn across(fields: &Fields<'_>) -> Option<At<[f64; 2]>> {
+    let value = rising(fields, "across", Quantity::Ratio, "such as across = [1, 1]")?;
+    let place = fields.get("across")?.place.clone();
+    if value.iter().any(|end| end.fract() != 0.0) {
+        let help = "write whole numbers of strands, such as across = [1, 1]";
+        return fields.refuse(place.error("`across` is not two counts of strands", help));
+    }
+    Some(At { value, place })
 }
 
 /// Reads `[path]`: places in the order in which rope passes them.
@@ -341,6 +360,9 @@ mod tests {
             ("[0.5, 1.5]", "[1.5, 0.5]", "do not rise", 12),
             ("\"mouth:left\"", "\"mouth:up\"", "`mouth:up` is not a place", 17),
             ("\"flipper\"", "\"mouth\"", "`mouth` occurs twice", 14),
+            ("present = 0\n", "present = 1\nacross = [1, 1.5]\n", "two counts of strands", 16),
+            ("present = 0\n", "present = 1\nacross = [2, 1]\n", "`across` do not rise", 16),
+            ("present = 0.99", "across = [1, 1]", "lies across nothing", 11),
             ("\"right_fluke\"", "\"mouth\"", "`mouth` occurs twice", 24),
             ("\"broken\"", "\"torn\"", "`torn` is not an end of rope", 20),
             ("age = \"1 yr\"", "age = \"1 yr\"\nlength = \"9 m\"", "are present", 8),

@@ -18,7 +18,7 @@ use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use gear::{LineSegments, PlacedGear, WrapOf};
-pub use parts::{Fixture, FreeBody, LineStart, ObstacleOf, ProbeOf, ProbePart};
+pub use parts::{Fixture, FreeBody, LineStart, ObstacleOf, PositionOf, ProbeOf, ProbePart};
 pub(crate) use sea::direction;
 pub use sea::{Bed, CurrentOf, CurrentRow, RowHeight, Sea};
 pub use whale::{

@@ -114,8 +114,19 @@ pub enum ProbePart {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// All three coordinates of a part: one probe for each.
+    Position(PositionOf),
     /// A figure of the whale.
     Whale(At<WhaleFigure>),
+}
+
+/// What a probe of a position is on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PositionOf {
+    /// A body, joint or fixture, the whale, or a spot of it; with a point of a body in its frame [m].
+    Part(At<String>, Option<DVec3>),
+    /// A line at an unstretched length from its end A [m].
+    Line(At<String>, f64),
 }
 
 /// `[[rope]]` with an id and the figures of a library rope.
@@ -237,8 +248,8 @@ pub(super) fn probe(fields: &Fields<'_>) -> Option<ProbeOf> {
     let id = fields.need_id("id", "write an id such as \"anchor tension\"");
     let of = fields.need_word(
         "of",
-        "write tension, middle, line, height, place, energy or whale",
-        &["tension", "middle", "line", "height", "place", "energy", "whale"],
+        "write position, place, tension, middle, line, height, energy or whale",
+        &["position", "place", "tension", "middle", "line", "height", "energy", "whale"],
     );
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(fields),
@@ -248,6 +259,7 @@ pub(super) fn probe(fields: &Fields<'_>) -> Option<ProbeOf> {
         "height" => height(fields),
         "energy" => Some(ProbePart::Energy(energy_form(fields))),
         "whale" => whale_figure(fields).map(ProbePart::Whale),
+        "position" => position_of(fields).map(ProbePart::Position),
         _ => place(fields),
     });
     Some(ProbeOf { id: id?, part: part? })
@@ -269,6 +281,29 @@ fn place(fields: &Fields<'_>) -> Option<ProbePart> {
     let point = fields.values("point", Quantity::Length, &[3]);
     let (part, axis) = coordinate(fields, "part")?;
     Some(ProbePart::Place { part, point_m: point.map(|point| place3(&point.value)), axis })
+}
+
+/// A part with an optional `point`, or a line `at` a length of rope.
+fn position_of(fields: &Fields<'_>) -> Option<PositionOf> {
+    let (part, line) = (fields.text("part"), fields.text("line"));
+    let point = fields.values("point", Quantity::Length, &[3]);
+    match (part, line, point) {
+        (Some(part), None, point) => {
+            Some(PositionOf::Part(part, point.map(|point| place3(&point.value))))
+        }
+        (None, Some(line), None) => Some(PositionOf::Line(line, length_at(fields)?)),
+        (None, Some(_), Some(point)) => {
+            let help = "write at = \"12 m\", a length of rope from the line's end `from`, and remove `point`";
+            fields.refuse(point.place.error("a line has no `point`", help))
+        }
+        (Some(part), Some(_), _) => fields
+            .refuse(part.place.error("both `part` and `line` are present", "keep one of them")),
+        (None, None, _) => {
+            let help = "write the id of a body, joint or fixture, `whale` or a spot of it such as `whale:back`; or a `line` with `at`";
+            fields.missing("part", help);
+            None
+        }
+    }
 }
 
 /// Height of a line, without the length `away` at its ends.

@@ -61,6 +61,7 @@ fn mistakes_in_a_scenario_are_reported_with_their_place() {
             "part = \"bouy\"",
             vec!["there is no body or joint `bouy`", "did you mean `buoy`?"],
         ),
+        ("part = \"buoy\"", "part = \"whale:nose\"", vec!["the whale has no spot `nose`", "snout"]),
         ("speed = 1.0", "speed = 1.5", vec!["`speed` is 1.5", "between 0 and 1"]),
         ("duration = \"60 s\"", "duration = 60", vec!["`duration` is 60 without a unit"]),
     ] {

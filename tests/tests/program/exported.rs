@@ -80,6 +80,74 @@ fn tables_of_a_recording_hold_its_moments() {
 }
 
 #[test]
+fn probes_of_positions_are_three_columns_over_time() {
+    let place = Place::new("exported-probes");
+    let scenario = place.encounter();
+    let mut text = std::fs::read_to_string(&scenario).unwrap();
+    for (id, target) in [
+        ("float", "part = \"buoy\""),
+        ("whale", "part = \"whale\""),
+        ("head", "part = \"whale:snout\""),
+        ("foot", "line = \"endline-bottom\"\nat = \"0 m\""),
+    ] {
+        text += &format!("[[probe]]\nid = \"{id}\"\nof = \"position\"\n{target}\n");
+    }
+    std::fs::write(&scenario, &text).unwrap();
+    let tables = place.path("tables").display().to_string();
+    let export = ["export", &scenario, "--out", &tables, "--format", "csv", "--rate", "10"];
+    place.endline(&export).done().prints(&["probes"]);
+    let (names, rows) = table(&place, "probes");
+    let at = |wanted: &str| {
+        let found = names.iter().position(|name| name == wanted);
+        found.unwrap_or_else(|| panic!("{wanted}: {names:?}"))
+    };
+    let of_row = |row: &[String], id: &str| {
+        ["x", "y", "z"].map(|axis| row[at(&format!("{id} {axis}_m"))].parse::<f64>().unwrap())
+    };
+    let own_table = |name: &str, first: usize| -> Vec<[f64; 3]> {
+        let (_, rows) = table(&place, name);
+        let rows = rows.into_iter().filter(|row| name != "bodies" || row[1] == "buoy");
+        rows.map(|row| [0, 1, 2].map(|axis| row[first + axis].parse().unwrap())).collect()
+    };
+    for (id, name, first) in [("float", "bodies", 2), ("whale", "whale", 1)] {
+        let wanted = own_table(name, first);
+        assert_eq!(wanted.len(), rows.len(), "{name}");
+        for (row, wanted) in rows.iter().zip(wanted) {
+            let off = of_row(row, id).into_iter().zip(wanted).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-9, "{id}: {row:?} against {wanted:?}");
+        }
+    }
+    // The snout is half the whale's length before its origin, to a few per cent.
+    let length: f64 = 13.7;
+    for row in &rows {
+        let (origin, head) = (of_row(row, "whale"), of_row(row, "head"));
+        let apart = origin.iter().zip(head).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!((apart / (0.5 * length) - 1.0).abs() < 0.1, "{apart} m");
+    }
+    let (_, described) = table(&place, "columns");
+    let unit = described.iter().find(|row| row[0] == "probes" && row[1] == "head x_m").unwrap();
+    assert_eq!(unit[2], "m");
+    // With --json a run has the three probes too.
+    let run = place.endline(&["run", &scenario, "--json"]).done().json();
+    let ids: Vec<&str> =
+        run["probes"].as_array().unwrap().iter().map(|one| one["id"].as_str().unwrap()).collect();
+    assert!(["foot x", "foot y", "foot z"].iter().all(|id| ids.contains(id)), "{ids:?}");
+    for (from, to, says) in [
+        ("part = \"whale:snout\"", "part = \"whale:nose\"", "no spot `nose`"),
+        ("part = \"whale:snout\"", "", "write the id of a body"),
+        (
+            "part = \"whale:snout\"",
+            "part = \"buoy\"\nline = \"endline-bottom\"",
+            "both `part` and `line`",
+        ),
+        ("at = \"0 m\"", "point = [\"0 m\", \"0 m\", \"0 m\"]", "a line has no `point`"),
+    ] {
+        std::fs::write(&scenario, text.replacen(from, to, 1)).unwrap();
+        place.endline(&["run", &scenario]).fails(1, &[says]);
+    }
+}
+
+#[test]
 fn a_stretch_that_is_none_and_too_many_rows_are_refused() {
     let place = Place::new("exported-wrong");
     let scenario = place.encounter();

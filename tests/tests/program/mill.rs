@@ -39,3 +39,34 @@ fn mistakes_in_a_table_stand_at_their_rows() {
     place.endline(&["mill", "none.csv"]).fails(1, &["none.csv", "cannot be read"]);
     place.endline(&["mill"]).fails(2, &["FILE.csv"]);
 }
+
+#[test]
+fn any_limit_is_compared_with_breaks_or_with_the_mean_of_a_report() {
+    let place = Place::new("mill-limit");
+    place.write("mill.csv", TABLE);
+    let law = place.endline(&["mill", "mill.csv", "--limit", "1,700 lbf", "--json"]).done().json();
+    assert_eq!(law["approvals"].as_array().unwrap().len(), 1, "{law}");
+    assert_eq!(law["approvals"][0]["source"], "--limit");
+    let mean = ["mill", "--mean", "605 lbf", "--count", "10", "--limit", "600 lbf"];
+    let said = place.endline(&mean).done().stdout;
+    assert!(
+        said.contains("at most 600 lbf\n  these breaks do not meet it in the mean\n"),
+        "{said}"
+    );
+    assert!(
+        said.contains("deviation  unknown") && said.contains("at least one of the 10"),
+        "{said}"
+    );
+    let known = place.endline(&[mean.as_slice(), &["--deviation", "40 lbf", "--json"]].concat());
+    let known = known.done().json();
+    assert!(known["approvals"][0]["one_probability"].as_f64().unwrap() < 0.5, "{known}");
+    place.write("means.csv", "sample,mean,count\na,470 lbf,10\nb,605 lbf,10\n");
+    let laws = place.endline(&["mill", "means.csv", "--limit", "600 lbf", "--json"]).done().json();
+    let holds = |at: usize| laws["samples"][at]["approvals"][0]["holds"].as_bool().unwrap();
+    assert!(holds(0) && !holds(1), "{laws}");
+    let out = ["--name", "Link", "--out", "link.toml"];
+    place.endline(&[mean.as_slice(), &out].concat()).fails(1, &["--deviation"]);
+    place.endline(&[&["mill", "means.csv"], out.as_slice()].concat()).fails(1, &["one product"]);
+    place.endline(&["mill", "--mean", "605 lbf"]).fails(2, &["--count"]);
+    place.endline(&["mill", "--mean", "605", "--count", "10"]).fails(2, &["unit"]);
+}

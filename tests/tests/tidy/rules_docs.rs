@@ -88,7 +88,8 @@ fn report(sheet: &RuleSheet) -> String {
     let fails =
         if fails.is_empty() { String::new() } else { format!(", fails {}", fails.join(" ")) };
     let unchecked = count(Verdict::CannotBeChecked);
-    format!("passes {}{fails}; {unchecked} not checked", count(Verdict::Pass))
+    let net = if sheet.uncovered.is_empty() { "" } else { "; no gillnet rule" };
+    format!("passes {}{fails}; {unchecked} not checked{net}", count(Verdict::Pass))
 }
 
 /// The document with a table put between its marks.

@@ -92,6 +92,7 @@ fn binding_rules(sheet: &ComplianceSheet) -> Cell {
     lines.extend((!fails.is_empty()).then(|| format!("FAILS {}", fails.join(", "))));
     let open = ids(Verdict::CannotBeChecked).len();
     lines.extend((open > 0).then(|| format!("{open} cannot be checked")));
+    lines.extend(sheet.rules.uncovered.iter().cloned());
     Cell::lines(lines)
 }
 

@@ -71,6 +71,9 @@ fn verdict(sheet: &ComplianceSheet) -> String {
             unknown.join(", ")
         );
     }
+    for says in &sheet.rules.uncovered {
+        text += &format!(" Note: {says}.");
+    }
     text
 }
 

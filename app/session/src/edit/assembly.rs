@@ -12,6 +12,10 @@ const USUAL_INSERTS: [(&str, &str); 5] = [
     ("within", "0.75"),
 ];
 
+/// Weak places as they are put into a line.
+const USUAL_WEAK_PLACES: [(&str, &str); 3] =
+    [("strength", "1,700 lbf"), ("every", "60 ft"), ("first", "30 ft")];
+
 fn message(error: EditError) -> String {
     error.message
 }
@@ -86,7 +90,95 @@ pub fn add_inserts(document: &mut Document, line: &str) -> Result<(), String> {
     USUAL_INSERTS.iter().try_for_each(&mut put).map_err(message)
 }
 
-/// Replaces a line by two lines of half its length with a splice between them.
+/// Puts weak places into a line by its path, such as `line.1`.
+/// Errors: where there is no such line.
+pub fn add_weak_places(document: &mut Document, line: &str) -> Result<(), String> {
+    let mut put = |(key, value): &(&str, &str)| {
+        document.put(&format!("{line}.weak_places.{key}"), &Setting::plain(value))
+    };
+    USUAL_WEAK_PLACES.iter().try_for_each(&mut put).map_err(message)
+}
+
+/// Replaces weak places at equal distances by a list of their lengths from the line's `from` end, on a line of this length [m].
+/// Errors: where there are none, or their distances cannot be read.
+pub fn list_weak_places(document: &mut Document, line: &str, length_m: f64) -> Result<(), String> {
+    let places = weak_lengths(document, line, length_m)?;
+    put_weak_lengths(document, line, &places)
+}
+
+/// Replaces a list of weak places by places at equal distances.
+/// Errors: where there is no list.
+pub fn space_weak_places(document: &mut Document, line: &str) -> Result<(), String> {
+    document.remove(&format!("{line}.weak_places.at")).map_err(message)?;
+    let spaced = USUAL_WEAK_PLACES.iter().filter(|(key, _)| *key != "strength");
+    let mut put = |(key, value): &(&str, &str)| {
+        document.put(&format!("{line}.weak_places.{key}"), &Setting::plain(value))
+    };
+    spaced.into_iter().try_for_each(&mut put).map_err(message)
+}
+
+/// Most weak places that are written as a list.
+const MOST_LISTED: u32 = 1000;
+
+/// Lengths of the weak places of a line from its `from` end [m].
+fn weak_lengths(document: &Document, line: &str, length_m: f64) -> Result<Vec<f64>, String> {
+    let weak = format!("{line}.weak_places");
+    let read = |key: &str| {
+        let text = document.get(&format!("{weak}.{key}"))?;
+        Some(parse(&text, Quantity::Length).map_err(|error| format!("`{key}`: {error}")))
+    };
+    if document.has(&format!("{weak}.at")) {
+        let listed = (0..).map_while(|index| read(&format!("at.{index}")));
+        return listed.collect();
+    }
+    let every_m = read("every").ok_or("the weak places have no `every`")??;
+    let first_m = read("first").transpose()?.unwrap_or(0.5 * every_m);
+    if every_m <= 0.0 {
+        return Err("`every` is not above zero".to_owned());
+    }
+    let places = (0..MOST_LISTED).map(|index| first_m + f64::from(index) * every_m);
+    Ok(places.take_while(|at_m| *at_m < length_m).collect())
+}
+
+/// Writes lengths of weak places from the `from` end [m] in place of `every` and `first`.
+fn put_weak_lengths(document: &mut Document, line: &str, at_m: &[f64]) -> Result<(), String> {
+    let weak = format!("{line}.weak_places");
+    if at_m.is_empty() {
+        return Err("no weak place is on the line".to_owned());
+    }
+    let texts: Vec<String> = at_m.iter().map(|at_m| format!("{at_m:.2} m")).collect();
+    for key in ["every", "first"] {
+        if document.has(&format!("{weak}.{key}")) {
+            document.remove(&format!("{weak}.{key}")).map_err(message)?;
+        }
+    }
+    document.put(&format!("{weak}.at"), &Setting::texts(&texts)).map_err(message)
+}
+
+/// Distributes the weak places of a line that was split over its two halves, `lower` and `upper`.
+fn split_weak_places(
+    document: &mut Document,
+    [lower, upper]: [&str; 2],
+    half_m: f64,
+) -> Result<(), String> {
+    let weak = format!("{lower}.weak_places");
+    let Some(strength) = document.get(&format!("{weak}.strength")) else { return Ok(()) };
+    let places = weak_lengths(document, lower, 2.0 * half_m)?;
+    let (below, above): (Vec<f64>, Vec<f64>) = places.into_iter().partition(|at_m| *at_m < half_m);
+    if !above.is_empty() {
+        let field = format!("{upper}.weak_places.strength");
+        document.put(&field, &Setting::text(&strength)).map_err(message)?;
+        // A place at the splice is just above it.
+        let above: Vec<f64> = above.iter().map(|at_m| (at_m - half_m).max(0.01)).collect();
+        put_weak_lengths(document, upper, &above)?;
+    }
+    if below.is_empty() {
+        return document.remove(&weak).map_err(message);
+    }
+    put_weak_lengths(document, lower, &below)
+}
+
+/// Replaces a line by two lines of half its length with a splice between them. Each keeps its own weak places.
 /// Errors: where there is no such line, or its length cannot be read.
 pub fn split_line(document: &mut Document, index: usize) -> Result<(), String> {
     let at = format!("line.{index}");
@@ -111,7 +203,8 @@ pub fn split_line(document: &mut Document, index: usize) -> Result<(), String> {
         ("to", &to),
         ("length", &half),
     ];
-    document.push_table("line", &line).map(|_| ()).map_err(message)
+    let number = document.push_table("line", &line).map_err(message)?;
+    split_weak_places(document, [&at, &format!("line.{number}")], length_m / 2.0)
 }
 
 /// First guess of a part's place along the gear [m] and of its height as a share of the depth.
@@ -148,6 +241,33 @@ mod tests {
         );
         assert_eq!([read("joint.0.position.0"), read("joint.0.height")], ["5.0 m", "0.50"]);
         assert!(split_line(&mut document, 7).is_err());
+    }
+
+    #[test]
+    fn weak_places_are_added_listed_spaced_and_split_with_their_line() {
+        let mut document = Document::parse(TEXT).unwrap();
+        add_weak_places(&mut document, "line.0").unwrap();
+        let read = |document: &Document, field: &str| document.get(&format!("line.{field}"));
+        assert_eq!(read(&document, "0.weak_places.every").as_deref(), Some("60 ft"));
+        assert_eq!(read(&document, "0.weak_places.strength").as_deref(), Some("1,700 lbf"));
+        let mut split = document.clone();
+        list_weak_places(&mut document, "line.0", 40.0).unwrap();
+        // 30 and 90 ft of 131 ft.
+        let listed = "[\"9.14 m\", \"27.43 m\"]";
+        assert_eq!(read(&document, "0.weak_places.at").as_deref(), Some(listed));
+        assert!(
+            !document.has("line.0.weak_places.every") && !document.has("line.0.weak_places.first")
+        );
+        space_weak_places(&mut document, "line.0").unwrap();
+        assert!(!document.has("line.0.weak_places.at"));
+        assert_eq!(read(&document, "0.weak_places.first").as_deref(), Some("30 ft"));
+
+        split_line(&mut split, 0).unwrap();
+        assert_eq!(read(&split, "0.weak_places.at").as_deref(), Some("[\"9.14 m\"]"));
+        assert_eq!(read(&split, "1.weak_places.at").as_deref(), Some("[\"7.43 m\"]"));
+        assert_eq!(read(&split, "1.weak_places.strength").as_deref(), Some("1,700 lbf"));
+        let mut bare = Document::parse(TEXT).unwrap();
+        assert!(list_weak_places(&mut bare, "line.0", 40.0).is_err());
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::scene::mesh::{Colour, Mesh};
 
 /// Parts that are solid, unlike the sea and marks.
-const SOLID: [&str; 4] = ["obstacles", "whale", "ropes", "bodies"];
+const SOLID: [&str; 5] = ["obstacles", "whale", "ropes", "weak places", "bodies"];
 
 fn solid(scene: &Scene) -> impl Iterator<Item = (&'static str, &Mesh)> {
     scene.parts.iter().filter(|part| SOLID.contains(&part.name)).map(|part| (part.name, &part.mesh))

@@ -7,6 +7,7 @@
 //! | `bodies` | every body: traps, buoys, anchors |
 //! | `whale` | the whale, where the scenario has one |
 //! | `contacts` | every place where rope presses on skin |
+//! | `probes` | the moments, with a column for each probe, where the scenario has one |
 //! | `columns` | unit and meaning of every column of the others |
 //!
 //! Units are SI and stand in the names. x points east, y north, z up; z = 0 is the mean sea surface.
@@ -24,6 +25,9 @@ use arrow_array::types::Int32Type;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{ArrowError, Field, Schema};
+use endline_sim::metrics::{reading, unit as probe_unit};
+use endline_sim::model::Probe;
+use endline_sim::state::State;
 use endline_sim::{ContactPoint, DQuat, DVec3, Frame, Model};
 
 use crate::save;
@@ -40,6 +44,22 @@ pub enum TableFormat {
     Csv,
 }
 
+/// The moments of a run.
+#[derive(Clone, Copy)]
+pub struct Moments<'a> {
+    /// Its model.
+    pub model: &'a Model,
+    /// Its moments.
+    pub frames: &'a [Arc<Frame>],
+    /// The readings of the probes at each of them, from [`readings`].
+    pub readings: &'a [Vec<f64>],
+}
+
+/// The readings of all probes in a state.
+pub fn readings(model: &Model, state: &State) -> Vec<f64> {
+    model.spec.probes.iter().map(|probe| reading(model, state, probe.target)).collect()
+}
+
 /// A table that is written, with the unit and meaning of its columns.
 struct RunTable {
     name: &'static str,
@@ -53,10 +73,10 @@ type TableColumn = (&'static str, &'static str, &'static str, Column);
 pub fn write(
     folder: &Path,
     format: TableFormat,
-    model: &Model,
-    frames: &[Arc<Frame>],
+    moments: &Moments<'_>,
     about: &[(String, String)],
 ) -> Result<Vec<(&'static str, usize)>, String> {
+    let &Moments { model, frames, .. } = moments;
     std::fs::create_dir_all(folder)
         .map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
     let tables = [
@@ -66,10 +86,12 @@ pub fn write(
         whale(frames),
         contacts(model, frames),
     ];
-    let columns = ("columns", columns(&tables), about.to_vec());
+    let probes = probes(moments);
+    let columns = ("columns", columns(&tables, &probes), about.to_vec());
     let tables = tables.into_iter().map(|table| table.with_tags(about));
+    let probes = (!probes.is_empty()).then(|| probes_with_tags(moments, probes, about));
     let mut rows = Vec::new();
-    for (name, table, tags) in tables.chain([columns]) {
+    for (name, table, tags) in tables.chain(probes).chain([columns]) {
         let (ending, bytes) = match format {
             TableFormat::Csv => ("csv", table.csv().into_bytes()),
             TableFormat::Parquet => {
@@ -102,19 +124,58 @@ impl RunTable {
     }
 }
 
-/// The table of all columns, with units and meanings.
-fn columns(tables: &[RunTable]) -> Table {
-    let all = || tables.iter().flat_map(|table| table.columns.iter().map(move |c| (table.name, c)));
-    let texts = |of: fn((&'static str, &TableColumn)) -> &'static str| {
-        Column::Text(all().map(|column| of(column).to_owned()).collect())
+/// A column of the table of probes: name, unit, meaning and values.
+struct ProbeColumn {
+    name: String,
+    unit: &'static str,
+    meaning: String,
+    values: Column,
+}
+
+/// A column for each probe.
+fn probes(moments: &Moments<'_>) -> Vec<ProbeColumn> {
+    let of = |(place, probe): (usize, &Probe)| {
+        let unit = probe_unit(probe.target);
+        ProbeColumn {
+            name: format!("{}_{}", probe.id, unit.replace('/', "_")),
+            unit,
+            meaning: format!("reading of the probe `{}`", probe.id),
+            values: reals(moments.readings.iter().map(|of_moment| of_moment[place])),
+        }
     };
-    let columns = [
-        ("table", texts(|(table, _)| table)),
-        ("column", texts(|(_, (name, ..))| *name)),
-        ("unit", texts(|(_, (_, unit, ..))| *unit)),
-        ("meaning", texts(|(_, (_, _, meaning, _))| *meaning)),
-    ];
-    Table { columns: columns.map(|(name, column)| (name.to_owned(), column)).into() }
+    moments.model.spec.probes.iter().enumerate().map(of).collect()
+}
+
+/// The table of probes with the metadata of its file.
+fn probes_with_tags(
+    moments: &Moments<'_>,
+    probes: Vec<ProbeColumn>,
+    about: &[(String, String)],
+) -> (&'static str, Table, Vec<(String, String)>) {
+    let columns = vec![time(moments.frames, |_| 1)];
+    let (name, mut table, mut tags) = RunTable { name: "probes", columns }.with_tags(about);
+    for ProbeColumn { name, unit, meaning, values } in probes {
+        tags.push((format!("{name}.unit"), unit.to_owned()));
+        tags.push((format!("{name}.meaning"), meaning));
+        table.columns.push((name, values));
+    }
+    (name, table, tags)
+}
+
+/// The table of all columns, with units and meanings.
+fn columns(tables: &[RunTable], probes: &[ProbeColumn]) -> Table {
+    let of_tables = tables.iter().flat_map(|table| {
+        table.columns.iter().map(|(name, unit, meaning, _)| [table.name, *name, *unit, *meaning])
+    });
+    let (name, unit, meaning, _) = time(&[], |_| 0);
+    let of_time = (!probes.is_empty()).then_some(["probes", name, unit, meaning]);
+    let of_probes = probes.iter().map(|ProbeColumn { name, unit, meaning, .. }| {
+        ["probes", name.as_str(), *unit, meaning.as_str()]
+    });
+    let all: Vec<[&str; 4]> = of_tables.chain(of_time).chain(of_probes).collect();
+    let texts = |place: usize| Column::Text(all.iter().map(|row| row[place].to_owned()).collect());
+    let heads = ["table", "column", "unit", "meaning"].into_iter().enumerate();
+    Table { columns: heads.map(|(place, head)| (head.to_owned(), texts(place))).collect() }
 }
 
 fn nodes(model: &Model, frames: &[Arc<Frame>]) -> RunTable {

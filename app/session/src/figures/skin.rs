@@ -83,6 +83,14 @@ pub static PART: &[Figure<Part>] = &[
         |part: &Part| part.summary.peak_touching_wraps.into(),
     ),
     Figure::new(
+        "across",
+        "strands across",
+        "Strands that lie across the part at the end without a turn, outside the mouth.",
+        Quantity::Count,
+        |part: &Part| part.summary.across.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
         "contact_length_m",
         "rope in contact",
         "Length of rope in contact at the end.",

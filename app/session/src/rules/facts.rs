@@ -45,6 +45,9 @@ const FORCE: Kind = Kind::Number(Quantity::Force);
 const DENSITY: Kind = Kind::Number(Quantity::Density);
 const TIME: Kind = Kind::Number(Quantity::Time);
 
+/// The fact by which a rule names gillnets.
+pub(super) const NETTING: &str = "netting_lines";
+
 /// Every fact.
 pub static FACTS: &[Fact] = &[
     fact("depth", LENGTH, About::Fishing, "depth of the water, `--depth`"),
@@ -74,6 +77,7 @@ pub static FACTS: &[Fact] = &[
     ),
     fact("surface_line", LENGTH, About::Gear, "longest line between two buoys, 0 if there is none"),
     fact("radar_reflectors", COUNT, About::Gear, "buoys with a piece named radar reflector"),
+    fact(NETTING, COUNT, About::Gear, "lines of netting of a gillnet, 0 for trap gear"),
     fact("line", Kind::Line, About::Endline, "the endline from the buoy down, for functions"),
     fact("line_length", LENGTH, About::Endline, "its length"),
     fact("diameter", LENGTH, About::Endline, "its greatest diameter"),
@@ -81,7 +85,7 @@ pub static FACTS: &[Fact] = &[
         "least_rated",
         FORCE,
         About::Endline,
-        "strength of its weakest rope, insert or sleeve, when new, by its source",
+        "strength of its weakest rope, insert, sleeve or weak place, when new, by its source",
     ),
     fact(
         "greatest_rated",
@@ -210,6 +214,7 @@ fn of_gear(name: &str, gear: &Gear, fishing: &Fishing) -> Option<Value> {
         "trawl_length" => length(lines().map(|line| line.length_m).sum()),
         "groundline_floats" => Value::count(gear.floats.len() as f64),
         "surface_line" => length(gear.surface_m.iter().copied().fold(0.0, f64::max)),
+        NETTING => Value::count(gear.netting_lines as f64),
         "radar_reflectors" => Value::count(gear.reflectors as f64),
         _ => return None,
     })

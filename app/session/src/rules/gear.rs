@@ -8,14 +8,15 @@
 //! | surface line | between two buoys |
 //! | hold | has a weak link whose item ends in `release`: no line of the gear |
 //! | gangion, bridle | by its id |
+//! | netting | by its id or the item of its rope; also counted as groundline |
 //! | groundline | any other |
 //!
 //! A buoy that an assembly puts into the lower half of the water has no endline: it is a float, or stowed where a release
 //! holds gear down.
 
-use endline_gear::{Assembled, Library, StrengthBudget};
+use endline_gear::{Assembled, Library, StrengthBudget, WEAK_PLACES};
 use endline_sdk::LineEnd;
-use endline_sim::model::{BodyRole, JointKind, Line, Link};
+use endline_sim::model::{BodyRole, JointKind, Line, Link, WeakPlace};
 
 /// Gear as rules see it.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +33,8 @@ pub(super) struct Gear {
     pub endlines: Vec<Endline>,
     /// Groundlines.
     pub groundlines: Vec<Piece>,
+    /// Lines of netting between headline and leadline of a gillnet.
+    pub netting_lines: usize,
     /// Lengths of lines between buoys [m].
     pub surface_m: Vec<f64>,
 }
@@ -43,7 +46,7 @@ pub(super) struct Endline {
     pub id: String,
     /// Id of its buoy.
     pub buoy: String,
-    /// Its pieces from the buoy down; sleeves and links have no length.
+    /// Its pieces from the buoy down; sleeves, links and weak places have no length.
     pub pieces: Vec<Piece>,
     /// Id of the weak link at the buoy, and its rating [N].
     pub buoy_link: Option<(String, f64)>,
@@ -59,7 +62,7 @@ impl Endline {
     }
 }
 
-/// A piece of a line, or a sleeve or link in it.
+/// A piece of a line, or a sleeve, link or weak place in it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Piece {
     /// Its id.
@@ -68,9 +71,9 @@ pub(super) struct Piece {
     pub line: String,
     /// Whether its line's end `to` is the one nearer to the buoy.
     pub from_to: bool,
-    /// Id of its rope, or of its link.
+    /// Id of its rope or its link; of weak places, their number and lengths.
     pub item: String,
-    /// Unstretched length; zero for a sleeve or link [m].
+    /// Unstretched length; zero for a sleeve, link or weak place [m].
     pub length_m: f64,
     /// Diameter of its rope [m].
     pub diameter_m: f64,
@@ -111,6 +114,7 @@ pub(super) fn gear_of(made: &Assembled, library: &Library) -> Gear {
             BodyRole::Anchor | BodyRole::Weight => {}
         }
     }
+    gear.netting_lines = (0..made.spec.lines.len()).filter(|line| reader.is_netting(*line)).count();
     let on_seabed = |line: &Line| !line.id.contains("gangion") && !line.id.contains("bridle");
     let lines = made.spec.lines.iter().enumerate();
     let left = lines.filter(|(index, line)| !taken[*index] && on_seabed(line));
@@ -197,6 +201,13 @@ impl Reader<'_> {
         matches!(self.made.spec.joints[joint].kind, JointKind::Fixed)
     }
 
+    /// Whether a line stands for netting: its id, or the item of its rope, says so.
+    fn is_netting(&self, line: usize) -> bool {
+        let id = &self.made.spec.lines[line].id;
+        let item = self.budget(id).map_or("", |budget| budget.item.as_str());
+        [id.as_str(), item].iter().any(|name| name.contains("netting"))
+    }
+
     fn length_m(&self, line: usize) -> f64 {
         self.made.spec.lines[line].segments_m.iter().sum()
     }
@@ -214,8 +225,7 @@ impl Reader<'_> {
                     endline.pieces.push(self.link(link));
                 }
             }
-            let from_to = *entered == LineEnd::B;
-            endline.pieces.push(Piece { from_to, ..self.piece(*line) });
+            endline.pieces.extend(self.pieces_of(*line, *entered));
             endline.pieces.extend(self.links(*line, left).map(|link| self.link(link)));
         }
         let top = endline.pieces.first().map(|piece| piece.id.as_str()).unwrap_or_default();
@@ -249,6 +259,31 @@ impl Reader<'_> {
             ..Piece::default()
         };
         self.with_strength(piece, rope.strength_n)
+    }
+
+    /// A line from the end at which it is entered: its rope between weak places, which have no length.
+    fn pieces_of(&self, line: usize, entered: LineEnd) -> Vec<Piece> {
+        let from_to = entered == LineEnd::B;
+        let rope = Piece { from_to, ..self.piece(line) };
+        let places = &self.made.spec.lines[line].weak_places;
+        let at_m =
+            |place: &WeakPlace| if from_to { rope.length_m - place.at_m } else { place.at_m };
+        let (mut pieces, mut done_m) = (Vec::new(), 0.0);
+        let mut add = |place: &WeakPlace| {
+            let length_m = (at_m(place) - done_m).max(0.0);
+            done_m += length_m;
+            let id = format!("{}.{WEAK_PLACES}", rope.id);
+            let weak = Piece { id, line: rope.line.clone(), from_to, ..Piece::default() };
+            pieces.push(Piece { length_m, ..rope.clone() });
+            pieces.push(self.with_strength(weak, place.strength_n));
+        };
+        if from_to {
+            places.iter().rev().for_each(&mut add);
+        } else {
+            places.iter().for_each(&mut add);
+        }
+        pieces.push(Piece { length_m: (rope.length_m - done_m).max(0.0), ..rope });
+        pieces
     }
 
     /// A piece with the strengths of its budget, or with one for all where it has none.

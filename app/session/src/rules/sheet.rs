@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use endline_gear::{Assembled, Date, Library, Options, Scenario, Setting, assemble_traced};
+use endline_gear::{Assembled, Date, Library, Options, Rule, Scenario, Setting, assemble_traced};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::facts::NETTING;
 use super::gear::{Gear, gear_of};
 use super::packs::Packs;
 use super::verdict::{RuleResult, Verdict, of};
@@ -49,6 +50,8 @@ pub struct RuleSheet {
     pub distance_m: Option<f64>,
     /// Traps on one set: those given, else those counted.
     pub traps: usize,
+    /// What no rule of the packs is about, in sentences, so that passes of other rules are not read as compliance.
+    pub uncovered: Vec<String>,
     /// Number of rules with each verdict.
     pub counts: Counts,
     /// Every rule with its verdict, by pack.
@@ -62,7 +65,7 @@ pub struct EndlineMakeUp {
     pub diameter_m: f64,
     /// Strength of its strongest new rope, as its source states it [N].
     pub rated_n: f64,
-    /// Whether it has weak links between its ends.
+    /// Whether it has weak links or weak places between its ends.
     pub has_sleeves: bool,
 }
 
@@ -178,9 +181,25 @@ pub fn check(gear: &RuleGear, packs: &Packs, fishing: &Fishing) -> Result<RuleSh
         depth_is_usual: fishing.depth_m.is_none(),
         distance_m: fishing.distance_m,
         traps: fishing.traps.map_or(gear.gear.traps, usize::from),
+        uncovered: uncovered(&gear.gear, packs),
         counts: Counts::of(&rules),
         rules,
     })
+}
+
+/// Kinds of gear that no rule of the packs names.
+fn uncovered(gear: &Gear, packs: &Packs) -> Vec<String> {
+    let names = |rule: &Rule| {
+        let of = |text: &str| {
+            text.split(|one: char| !one.is_alphanumeric() && one != '_').any(|word| word == NETTING)
+        };
+        of(&rule.check.value) || rule.when.as_ref().is_some_and(|when| of(&when.value))
+    };
+    if gear.netting_lines == 0 || packs.rules().any(|(_, rule)| names(rule)) {
+        return Vec::new();
+    }
+    let says = "no gillnet rule is in any pack: rules on net panels, their weak links and anchors are not checked, and passes of other rules are no compliance of the net";
+    vec![says.to_owned()]
 }
 
 /// Where, when and how gear is fished.

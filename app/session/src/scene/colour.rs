@@ -49,6 +49,8 @@ pub const DEEP: Colour = rgb(0x12, 0x2b, 0x38);
 pub const SEABED: Colour = rgb(0x4b, 0x59, 0x58);
 /// Sea surface.
 pub const SURFACE: Colour = rgb(0x8f, 0xc6, 0xd6);
+/// Weak places of a line.
+pub const WEAK: Colour = rgb(0xd5, 0x5e, 0x00);
 /// Whale skin.
 pub const SKIN: Colour = rgb(0x3f, 0x49, 0x53);
 /// Rough pale patches of a right whale's head.

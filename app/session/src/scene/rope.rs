@@ -6,11 +6,14 @@
 use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
 
-use super::colour::{PARTED, tension_colour};
+use super::colour::{PARTED, WEAK, tension_colour};
 use super::mesh::{Colour, Mesh, single};
 
 /// Sides of a rope's tube.
 const SIDES: usize = 6;
+
+/// Radius of the mark of a weak place over its rope's diameter.
+const WEAK_PLACE: f64 = 0.9;
 
 /// Every line as one tube for each whole stretch; a cut segment is a gap whose ends are marked.
 pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
@@ -53,6 +56,39 @@ fn knots(model: &Model, frame: &Frame, scale_n: f64, mesh: &mut Mesh) {
         let place = from.lerp(*to, knot.fraction(*length));
         mesh.ball(single(place), knot.radius_m as f32, tension_colour(tension / scale_n), 6);
     }
+}
+
+/// A ball at every weak place of a line; none where the line has parted.
+pub fn weak_places(model: &Model, frame: &Frame) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (index, line) in model.spec.lines.iter().enumerate() {
+        let radius = (model.spec.ropes[line.rope].diameter_m * WEAK_PLACE) as f32;
+        for place in &line.weak_places {
+            if let Some(place) = along(model, frame, index, place.at_m) {
+                mesh.ball(single(place), radius, WEAK, 6);
+            }
+        }
+    }
+    mesh
+}
+
+/// Place at an unstretched length from end A of a line [m]; `None` in a cut segment, or without a line there.
+pub fn along(model: &Model, frame: &Frame, line: usize, at_m: f64) -> Option<DVec3> {
+    let segments = model.line_segments.get(line)?.clone();
+    let first_node = model.line_nodes[line].start;
+    let mut left_m = at_m;
+    for (number, segment) in segments.clone().enumerate() {
+        let length_m = *frame.segment_length_m.get(segment)?;
+        if left_m > length_m && segment + 1 < segments.end {
+            left_m -= length_m;
+            continue;
+        }
+        let node = first_node + number;
+        let [from, to] = [*frame.nodes.get(node)?, *frame.nodes.get(node + 1)?];
+        let is_cut = frame.cut.get(segment).copied().unwrap_or(false);
+        return (!is_cut).then(|| from.lerp(to, (left_m / length_m).clamp(0.0, 1.0)));
+    }
+    None
 }
 
 /// A curve through nodes: more places where it bends, each with its colour.

@@ -3,6 +3,7 @@
 //! ```text
 //! D = sum of 3 |2p - 1|   over sites seen with rope (p > 1/2) and without it now, or the reverse
 //!   + sum of e / 0.5      e: wraps, and turns of twist, beyond the range seen [turns]
+//!   + sum of |c|          c: strands that lie across a site without a turn, beyond the range seen
 //!   + sum of 0.5          over sites tight instead of slack, or the reverse
 //!   + 1.5 n               n: edits from the nearest strand's order of places to that seen
 //!   + |ln(L / L')| / 0.4  L': the nearer end of the range of rope seen behind the whale [m]
@@ -33,6 +34,9 @@ const UNREPORTED: f64 = 0.35;
 
 /// Turns beyond the range seen that cost 1.
 const TURNS: f64 = 0.5;
+
+/// Cost of a strand too many or too few that lies across a site.
+const ACROSS: f64 = 1.0;
 
 /// Cost of tight rope at a site with slack rope, or the reverse.
 const TIGHTNESS: f64 = 0.5;
@@ -107,6 +111,13 @@ fn reported_site(seen: &SeenSite, at: Option<AtSite>, terms: &mut Vec<Term>) {
         let wraps = at.map_or(0.0, |at| at.wraps);
         let says = format!("{wraps:.2} wraps about {name}, seen {} to {}", range[0], range[1]);
         terms.push(Term { cost: beyond(wraps, range) / TURNS, says });
+    }
+    if let Some(range) = seen.across {
+        #[expect(clippy::cast_precision_loss, reason = "a count of strands")]
+        let across = at.map_or(0.0, |at| at.across as f64);
+        let strands = if at.is_some_and(|at| at.across == 1) { "strand" } else { "strands" };
+        let says = format!("{across} {strands} across {name}, seen {} to {}", range[0], range[1]);
+        terms.push(Term { cost: ACROSS * beyond(across, range), says });
     }
     if let (Some(tight), Some(at)) = (seen.tight, at)
         && tight != at.tight
@@ -283,7 +294,7 @@ parts = ["fluke"]
     }
 
     fn at(name: &str, wraps: f64, tight: bool) -> AtSite {
-        AtSite { site: Site::named(name).unwrap(), wraps, tight }
+        AtSite { site: Site::named(name).unwrap(), wraps, tight, across: 0 }
     }
 
     fn ending(sites: Vec<AtSite>, places: &str, ends: [Option<RopeEnd>; 2]) -> Ending {
@@ -336,6 +347,39 @@ parts = ["fluke"]
         // A released whale: flipper, wraps, path of two places, length from 0.5 m, two ends, twist.
         let free = 2.4 + 2.0 + 3.0 + 40.0_f64.ln() / 0.4 + 2.0 + 2.0;
         close(Distance { terms: terms(&seen(), &Ending::default()), mirrored: false }.sum(), free);
+    }
+
+    #[test]
+    fn strands_across_a_part_cost_one_each_beyond_the_range_seen() {
+        let text = SEEN.replace("tight = true", "tight = true\nacross = [1, 2]");
+        let seen = Observation::read("seen.toml", &text).unwrap();
+        let cost = |across: usize| {
+            let mut ending = like();
+            ending.sites[1].across = across;
+            let mirrored = Distance::of(&seen, &ending.mirrored());
+            let sum = Distance::of(&seen, &ending).sum();
+            assert!((mirrored.sum() - sum).abs() < 1e-12, "{mirrored:?}");
+            sum
+        };
+        for (across, wanted) in [(0, 1.0), (1, 0.0), (2, 0.0), (4, 2.0)] {
+            assert!((cost(across) - wanted).abs() < 1e-12, "{across}: {}", cost(across));
+        }
+        let mut bare = like();
+        bare.sites.pop();
+        let says: Vec<String> =
+            Distance::of(&seen, &bare).terms.into_iter().map(|term| term.says).collect();
+        assert!(
+            says.contains(&"0 strands across the left flipper, seen 1 to 2".to_owned()),
+            "{says:?}"
+        );
+        let pair = Ending {
+            sites: vec![
+                AtSite { across: 3, ..at("right_flipper", 0.0, false) },
+                AtSite { across: 1, ..at("left_flipper", 0.0, false) },
+            ],
+            ..Ending::default()
+        };
+        assert_eq!(pair.at(Site::Flipper).unwrap().across, 3);
     }
 
     #[test]

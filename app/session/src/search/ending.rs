@@ -46,6 +46,9 @@ pub struct AtSite {
     pub wraps: f64,
     /// Whether rope is tight there.
     pub tight: bool,
+    /// Strands that lie across it without a turn.
+    #[serde(default)]
+    pub across: usize,
 }
 
 /// A strand of rope on the whale.
@@ -102,6 +105,7 @@ impl Ending {
             site,
             wraps: one.wraps.max(other.wraps),
             tight: one.tight || other.tight,
+            across: one.across.max(other.across),
         })
     }
 }
@@ -121,6 +125,7 @@ fn at_site(site: Site, whale: &WhaleSummary, routes: &[Route]) -> Option<AtSite>
         site,
         wraps,
         tight: tension_n(site, whale) > TIGHT_N,
+        across: if site == Site::Mouth { 0 } else { region.across },
     })
 }
 
@@ -233,6 +238,6 @@ fn strands(ending: &Ending) -> impl Iterator<Item = (&[PathPlace], [Option<RopeE
     ending.strands.iter().map(|strand| (strand.places.as_slice(), strand.ends))
 }
 
-fn sites(ending: &Ending) -> impl Iterator<Item = (Site, bool)> {
-    ending.sites.iter().map(|at| (at.site, at.tight))
+fn sites(ending: &Ending) -> impl Iterator<Item = (Site, bool, usize)> {
+    ending.sites.iter().map(|at| (at.site, at.tight, at.across))
 }

@@ -96,7 +96,7 @@ mod tests {
     /// The text is an observation, and the ending is like it for every seed.
     #[test]
     fn an_ending_is_like_its_blurred_observation() {
-        let at = |site, wraps, tight| AtSite { site, wraps, tight };
+        let at = |site, wraps, tight| AtSite { site, wraps, tight, across: 0 };
         let places =
             ["left_flipper", "body:left", "peduncle"].map(|name| PathPlace::named(name).unwrap());
         let strand =

@@ -71,6 +71,7 @@ fn seen(observation: &Observation) -> Table {
             seen.site.name().replace('_', " "),
             format!("{there}, {sure:.0} % sure"),
             range(seen.wraps),
+            range(seen.across),
             tight.to_owned(),
             seen.seen_by.clone(),
         ]
@@ -80,7 +81,7 @@ fn seen(observation: &Observation) -> Table {
     let mut rows: Vec<Vec<Cell>> = observation.sites.iter().map(site).collect();
     let mut whole = |what: &str, text: String| {
         if !text.is_empty() {
-            rows.push([what, &text, "", "", ""].map(Cell::from).into());
+            rows.push([what, &text, "", "", "", ""].map(Cell::from).into());
         }
     };
     let places: Vec<String> = observation.path.iter().map(ToString::to_string).collect();
@@ -94,7 +95,8 @@ fn seen(observation: &Observation) -> Table {
     whole("twists", range(observation.twist));
     let hidden: Vec<&str> = observation.hidden.iter().map(|site| site.name()).collect();
     whole("hidden from view", hidden.join(", ").replace('_', " "));
-    Table::new("What was seen", &["where", "what", "wraps", "tightness", "seen by"], rows)
+    let heads = ["where", "what", "wraps", "strands across", "tightness", "seen by"];
+    Table::new("What was seen", &heads, rows)
 }
 
 /// The stories, a line each.

@@ -87,7 +87,7 @@ fn made_up(point: &[f64]) -> RunEnding {
     let distance = floor + 8.0 * away.sqrt();
     // As far from the observation as wanted: rope behind the whale that is too long costs the logarithm of its length.
     let behind_m = libm::exp(0.4 * distance);
-    let body = AtSite { site: Site::Body, wraps: 0.0, tight: false };
+    let body = AtSite { site: Site::Body, wraps: 0.0, tight: false, across: 0 };
     let ending = Ending { sites: vec![body], behind_m, ..Ending::default() };
     RunEnding { ending, first_part: kind.into(), simulated_s: 1.0, ..RunEnding::default() }
 }

@@ -48,7 +48,7 @@ pub use summary::{
     Summary, TRAILING_M, WhaleSummary,
 };
 pub use whale_momentum::{MADE_GOOD_S, MomentumBalance};
-pub use winding::{BESIDE_M, BRIDGED_GAP_M, WINDING_JUMP};
+pub use winding::{ACROSS_GAP_M, BESIDE_M, BRIDGED_GAP_M, LEAST_ACROSS, WINDING_JUMP};
 pub use wraps::LOOSE_M;
 
 /// Metrics of a run, updated step by step.

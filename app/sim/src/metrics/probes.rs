@@ -12,8 +12,9 @@ use glam::DMat3;
 use super::lines;
 use super::lines::end_tension;
 use super::summary::ProbeSummary;
-use crate::model::{EnergyForm, Model, ProbeTarget, WhaleFigure};
+use crate::model::{EnergyForm, Hitch, Model, ProbeTarget, WhaleFigure};
 use crate::state::State;
+use crate::whale::pose;
 
 /// Readings of all probes.
 #[derive(Clone, Debug)]
@@ -87,7 +88,9 @@ pub fn unit(target: ProbeTarget) -> &'static str {
         | ProbeTarget::Height(..)
         | ProbeTarget::LineMiddle(..)
         | ProbeTarget::Joint(..)
-        | ProbeTarget::Body { .. } => "m",
+        | ProbeTarget::Body { .. }
+        | ProbeTarget::WhaleOrigin(_)
+        | ProbeTarget::Skin(..) => "m",
     }
 }
 
@@ -110,8 +113,20 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
             state.bodies.get(body).map(|body| body.position + body.orientation * offset_m),
             axis,
         ),
+        ProbeTarget::WhaleOrigin(axis) => {
+            coordinate(state.whale.as_ref().map(|whale| whale.position), axis)
+        }
+        ProbeTarget::Skin(hitch, axis) => coordinate(on_skin(model, state, &hitch), axis),
         ProbeTarget::Whale(figure) => of_whale(state, figure),
     }
+}
+
+/// Place of a point of the skin in the whale's present posture [m].
+fn on_skin(model: &Model, state: &State, hitch: &Hitch) -> Option<glam::DVec3> {
+    let (whale, now) = model.spec.whale.as_ref().zip(state.whale.as_ref())?;
+    let mut bones = Vec::new();
+    pose(&whale.skin, now.position, now.orientation, &now.posture, &mut bones);
+    Some(hitch.place(&whale.skin, &bones))
 }
 
 fn of_whale(state: &State, figure: WhaleFigure) -> f64 {

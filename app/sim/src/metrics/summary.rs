@@ -311,6 +311,8 @@ pub struct RegionSummary {
     pub touching_wraps: f64,
     /// Greatest turns of rope in contact at any time [turns].
     pub peak_touching_wraps: f64,
+    /// Number of strands that lie across it now without a turn, outside the mouth.
+    pub across: usize,
     /// Length of rope in contact now [m].
     pub contact_length_m: f64,
     /// Greatest length of rope in contact at any time [m].

@@ -3,6 +3,10 @@
 //! Winding is the sum of azimuth differences between consecutive contacts of a run on one part, over `2 pi` [turns]. A run ends
 //! at a gap of more than [`BRIDGED_GAP_M`] or at a cut.
 //!
+//! A strand *lies across* a part where such a run turns by [`LEAST_ACROSS`] to one turn about its axis: from one flank over the back to
+//! the other, but not round. For this count a run ends at a gap of more than [`ACROSS_GAP_M`] only, so that rope round a part with
+//! some slack is one run. Rope inside the mouth does not count.
+//!
 //! The *legs* of a strand are its rope beyond the outermost segments in contact, to either end or to the first cut. Both are
 //! followed from the whale outwards at the same level: at each step the leg that lags along the mean direction `t` of the two
 //! advances. Where the legs are side by side, the vector `u` from one to the other rotates about `t`, and the twist is the sum
@@ -15,6 +19,7 @@
 //! It is positive for right-handed legs, in either order. Definitions and reasons: `docs/entanglement.md`.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use endline_sdk::BodyPart;
 use glam::DVec3;
@@ -31,6 +36,12 @@ use crate::whale::axes::{Axis, axes_of};
 /// Greatest gap within a run of contacts; estimate [m].
 pub const BRIDGED_GAP_M: f64 = 0.3;
 
+/// Turns from which rope lies across a part rather than along it; estimate [turns].
+pub const LEAST_ACROSS: f64 = 0.125;
+
+/// Greatest gap between two contacts of a strand that lies across a part; estimate [m].
+pub const ACROSS_GAP_M: f64 = 2.0;
+
 /// Change of winding in one step that raises the alarm; estimate [turns].
 pub const WINDING_JUMP: f64 = 0.3;
 
@@ -40,11 +51,15 @@ const PARTS: usize = BodyPart::ALL.len();
 #[derive(Clone, Debug)]
 pub(super) struct Winding {
     axes: [Option<Axis>; PARTS],
+    /// Triangles inside the mouth.
+    inside: Arc<[bool]>,
     pub(super) strands: Strands,
     sites: Vec<Site>,
     open: [Option<Run>; PARTS],
     /// Greatest winding of rope in contact about each part now, signed [turns].
     pub(super) turns: [f64; PARTS],
+    /// Number of strands that lie across each part now without a turn.
+    pub(super) across: [usize; PARTS],
     runs: [usize; PARTS],
     /// Number of steps in which a winding jumped along unbroken contact.
     pub(super) jumps: u64,
@@ -58,6 +73,7 @@ struct Site {
     half_m: f64,
     part: usize,
     azimuth: f64,
+    in_mouth: bool,
 }
 
 /// A run of contacts on one part.
@@ -69,13 +85,15 @@ struct Run {
 }
 
 impl Winding {
-    pub(super) fn new(skin: &Skin, strands: Strands) -> Self {
+    pub(super) fn new(skin: &Skin, inside: Arc<[bool]>, strands: Strands) -> Self {
         Self {
             axes: axes_of(skin),
+            inside,
             strands,
             sites: Vec::with_capacity(1024),
             open: [None; PARTS],
             turns: [0.0; PARTS],
+            across: [0; PARTS],
             runs: [0; PARTS],
             jumps: 0,
         }
@@ -93,6 +111,7 @@ impl Winding {
         for part in 0..PARTS {
             self.close(part);
         }
+        self.across = self.count_across(&rope.cut);
         let jumped = |part: usize| {
             let unbroken = runs_before[part] > 0 && runs_before[part] == self.runs[part];
             unbroken && libm::fabs(self.turns[part] - before[part]) > WINDING_JUMP
@@ -124,6 +143,7 @@ impl Winding {
                     half_m: 0.5 * contact.length_m,
                     part,
                     azimuth,
+                    in_mouth: self.inside[contact.triangle],
                 });
             }
         }
@@ -138,18 +158,40 @@ impl Winding {
         });
     }
 
+    /// Number of strands that lie across each part without a turn.
+    fn count_across(&self, cut: &[bool]) -> [usize; PARTS] {
+        let (mut across, mut open) = ([0; PARTS], [None::<Run>; PARTS]);
+        let mut close = |run: Run| {
+            let turns = libm::fabs(run.turns());
+            across[run.first.part] += usize::from((LEAST_ACROSS..1.0).contains(&turns));
+        };
+        for site in self.sites.iter().filter(|site| !site.in_mouth) {
+            let before = open[site.part].take();
+            let joins = before.filter(|run| self.joins(run, site, ACROSS_GAP_M, cut));
+            open[site.part] = Some(match joins {
+                Some(run) => run.onward(*site),
+                None => {
+                    before.into_iter().for_each(&mut close);
+                    Run { first: *site, last: *site, turned: 0.0 }
+                }
+            });
+        }
+        open.into_iter().flatten().for_each(close);
+        across
+    }
+
+    /// Whether a site continues a run across a gap of at most `gap_m`.
+    fn joins(&self, run: &Run, site: &Site, gap_m: f64, cut: &[bool]) -> bool {
+        let gap = site.arc_m - run.last.arc_m - site.half_m - run.last.half_m;
+        let same = site.place.strand == run.last.place.strand;
+        same && gap <= gap_m && self.strands.whole(&run.last.place, &site.place, cut)
+    }
+
     /// Adds a site to the run of its part, or closes that run and starts another.
     fn add(&mut self, site: Site, cut: &[bool]) {
-        let joins = |run: &Run| {
-            let gap = site.arc_m - run.last.arc_m - site.half_m - run.last.half_m;
-            let same = site.place.strand == run.last.place.strand;
-            same && gap <= BRIDGED_GAP_M && self.strands.whole(&run.last.place, &site.place, cut)
-        };
+        let joins = |run: &Run| self.joins(run, &site, BRIDGED_GAP_M, cut);
         match self.open[site.part].filter(joins) {
-            Some(run) => {
-                let turned = run.turned + between(run.last.azimuth, site.azimuth);
-                self.open[site.part] = Some(Run { last: site, turned, ..run });
-            }
+            Some(run) => self.open[site.part] = Some(run.onward(site)),
             None => {
                 self.close(site.part);
                 self.open[site.part] = Some(Run { first: site, last: site, turned: 0.0 });
@@ -157,7 +199,6 @@ impl Winding {
         }
     }
 
-    /// Ends the run of a part; the longest winding of all its runs stays.
     /// Closes the run of a part.
     fn close(&mut self, part: usize) {
         if let Some(run) = self.open[part].take() {
@@ -171,6 +212,12 @@ impl Winding {
 }
 
 impl Run {
+    /// The run with a further site.
+    fn onward(&self, site: Site) -> Self {
+        let turned = self.turned + between(self.last.azimuth, site.azimuth);
+        Self { last: site, turned, ..*self }
+    }
+
     /// Turns of the whole run, including half of the length of the first and last site beyond them. That rope is assumed to
     /// turn at the mean rate of the run, by at most the measured turns.
     fn turns(&self) -> f64 {

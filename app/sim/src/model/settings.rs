@@ -3,7 +3,7 @@
 use endline_sdk::LineEnd;
 use glam::DVec3;
 
-use super::rope::RopeOnRope;
+use super::rope::{Hitch, RopeOnRope};
 
 /// Target lengths of segments, which depend on the distance to the whale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,6 +123,10 @@ pub enum ProbeTarget {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// A coordinate of the origin of the whale's axes: 0 x, 1 y, 2 z [m].
+    WhaleOrigin(usize),
+    /// A coordinate of a point of the whale's skin: 0 x, 1 y, 2 z [m].
+    Skin(Hitch, usize),
     /// A figure of the whale's motion or effort.
     Whale(WhaleFigure),
 }

@@ -25,7 +25,7 @@ pub(super) fn export(args: &ExportArgs, library: Option<&Path>) -> Result<ExitCo
             times.len()
         )));
     }
-    let frames = player.frames(&times, &interrupt)?;
+    let (frames, readings) = player.moments(&times, &interrupt)?;
     let about = [
         ("program", format!("endline {}", endline_session::VERSION)),
         ("scenario", player.scenario.clone()),
@@ -38,7 +38,9 @@ pub(super) fn export(args: &ExportArgs, library: Option<&Path>) -> Result<ExitCo
         TableFormat::Arrow => tables::TableFormat::Arrow,
         TableFormat::Csv => tables::TableFormat::Csv,
     };
-    let written = tables::write(&args.out, format, player.run.model(), &frames, &about);
+    let moments =
+        tables::Moments { model: player.run.model(), frames: &frames, readings: &readings };
+    let written = tables::write(&args.out, format, &moments, &about);
     let mut rows = vec![vec!["table".to_owned(), "rows".to_owned()]];
     let written = written.map_err(Failure::failed)?;
     rows.extend(written.iter().map(|(name, rows)| vec![(*name).to_owned(), rows.to_string()]));

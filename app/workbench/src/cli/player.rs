@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use endline_sdk::Controls;
+use endline_session::export::tables;
 use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{
     Overrides, PluginHost, Prepared, Recording, Run, RunOptions, locate, prepare, prepare_text,
@@ -73,18 +74,28 @@ impl Player {
         times: &[f64],
         interrupt: &Interrupt,
     ) -> Result<Vec<Arc<Frame>>, Failure> {
+        self.moments(times, interrupt).map(|(frames, _)| frames)
+    }
+
+    /// The frames of these moments with the readings of the probes at each, up to where the run ends.
+    pub(super) fn moments(
+        &mut self,
+        times: &[f64],
+        interrupt: &Interrupt,
+    ) -> Result<(Vec<Arc<Frame>>, Vec<Vec<f64>>), Failure> {
         let progress = Progress::new("running");
-        let mut frames = Vec::with_capacity(times.len());
+        let (mut frames, mut readings) = (Vec::with_capacity(times.len()), Vec::new());
         for (number, time_s) in times.iter().enumerate() {
             while self.run.state().time_s < time_s - 0.5 * self.run.step_s() {
                 if interrupt.is_asked() || !self.step() {
-                    return Ok(frames);
+                    return Ok((frames, readings));
                 }
             }
             frames.push(self.run.frame());
+            readings.push(tables::readings(self.run.model(), self.run.state()));
             progress.at(number as u64 + 1, times.len() as u64);
         }
-        Ok(frames)
+        Ok((frames, readings))
     }
 
     /// One step; `false` where the run is over.

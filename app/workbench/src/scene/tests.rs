@@ -1,5 +1,6 @@
 //! Compares the scene with its model, the drawn picture with the scene, and picks with the drawn picture.
 
+use endline_sim::model::WeakPlace;
 use endline_sim::{DVec3, Frame, Model};
 use glam::DVec2;
 
@@ -40,6 +41,28 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
         .map(|part| part.name)
         .collect();
     assert_eq!(names, ["ropes", "bodies"]);
+}
+
+#[test]
+fn weak_places_are_marked_where_they_are_until_their_segment_parts() {
+    let mut spec = sample::model().spec;
+    let place = |at_m| WeakPlace { at_m, strength_n: 7e3 };
+    // Of segments of 0.6 m: the middle of the third, and the node between two.
+    spec.lines[0].weak_places = vec![place(1.5), place(6.0)];
+    let model = Model::new(spec).unwrap();
+    let mut frame = sample::frame(&model);
+    let marks = |frame: &Frame| {
+        let scene = Scene::of(&model, frame, &Show::default());
+        scene.part("weak places").map(|part| part.mesh.place.clone()).unwrap_or_default()
+    };
+    let drawn = marks(&frame);
+    let at = [frame.nodes[2].lerp(frame.nodes[3], 0.5), frame.nodes[10]];
+    for at in at {
+        let near = drawn.iter().filter(|place| place.as_dvec3().distance(at) < 1e-3);
+        assert_eq!(near.count(), drawn.len() / 2, "{at}: {drawn:?}");
+    }
+    frame.cut[2] = true;
+    assert_eq!(marks(&frame).len(), drawn.len() / 2);
 }
 
 #[test]

@@ -16,6 +16,8 @@ const ENDS: &str = "trailing.ends";
 pub enum Range {
     /// Wraps about a site [turns].
     Wraps(Site),
+    /// Strands that lie across a site without a turn.
+    Across(Site),
     /// Rope behind the whale, with its unit.
     Trailing,
     /// Turns of the rope's two legs about each other.
@@ -27,6 +29,7 @@ impl Range {
     pub fn path(self, documents: &Documents) -> Option<String> {
         match self {
             Self::Wraps(site) => path(documents, site, "wraps"),
+            Self::Across(site) => path(documents, site, "across"),
             Self::Trailing => Some("trailing.length".to_owned()),
             Self::Twist => Some("twist.turns".to_owned()),
         }
@@ -56,12 +59,13 @@ pub fn set_range(
     }
     let written = ends.map(|end| match range {
         Range::Trailing => Setting::text(&end).written(),
-        Range::Wraps(_) | Range::Twist => Setting::plain(&end).written(),
+        Range::Wraps(_) | Range::Across(_) | Range::Twist => Setting::plain(&end).written(),
     });
     let value =
         (!text.is_empty()).then(|| Setting::plain(&format!("[{}, {}]", written[0], written[1])));
     match range {
         Range::Wraps(site) => set(document, site, "wraps", value.as_ref()),
+        Range::Across(site) => set(document, site, "across", value.as_ref()),
         Range::Trailing => put(document, "trailing.length", value.as_ref()),
         Range::Twist => put(document, "twist.turns", value.as_ref()),
     }

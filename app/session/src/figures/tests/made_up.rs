@@ -260,6 +260,7 @@ fn region(part: BodyPart, next: &mut Numbers) -> RegionSummary {
         peak_wraps: next.real(),
         touching_wraps: next.real(),
         peak_touching_wraps: next.real(),
+        across: usize::try_from(next.whole()).unwrap_or_default(),
         contact_length_m: next.real(),
         peak_contact_length_m: next.real(),
         peak_normal_n: next.real(),

@@ -139,3 +139,93 @@ fn the_weakest_place_of_a_line_is_reported_with_its_limit() {
     assert!((result.measured[0].value.unwrap() - 57.0 * 0.3048).abs() < 1e-6);
     assert_eq!(result.measured[0].part, "endline-1");
 }
+
+#[test]
+fn a_gillnet_says_that_no_pack_has_a_rule_for_it_until_one_has() {
+    let packs = packs();
+    let single = rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m")]);
+    let netting = "[[joint]]\nid = \"head\"\nposition = [\"30 m\", \"0 m\"]\nheight = 0.2\n\
+        [[line]]\nid = \"mesh\"\nrope = \"gillnet-netting\"\nfrom = \"trap-1\"\nto = \"head\"\nlength = \"3 m\"\n";
+    let place = fishing("lma-1, 2024-06-01");
+    let of = |text: &str, packs: &Packs| check(&assembled(text), packs, &place).unwrap().uncovered;
+    assert!(of(&single, &packs).is_empty());
+    let net = single + netting;
+    let said = of(&net, &packs);
+    assert!(said.len() == 1 && said[0].starts_with("no gillnet rule is in any pack"), "{said:?}");
+    let text = "format = 1\nkind = \"rules\"\nname = \"Nets\"\njurisdiction = \"X\"\n[[rule]]\nid = \"net.lines\"\nasks = \"Few.\"\n\
+        cite = \"x\"\nsource = \"a test\"\nconfidence = \"estimate\"\nstanding = \"law\"\nfrom = \"unknown\"\n\
+        when = \"netting_lines >= 1\"\ncheck = \"netting_lines <= most\"\nremedy = \"Fewer.\"\n[rule.parameters]\nmost = 1\n";
+    let folder = std::env::temp_dir().join(format!("endline-net-rules-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("nets.toml");
+    std::fs::write(&file, text).unwrap();
+    let with_nets = Packs::open(Some(&library()), std::slice::from_ref(&file));
+    let with_nets = with_nets.unwrap_or_else(|error| panic!("{error}"));
+    std::fs::remove_dir_all(&folder).unwrap();
+    let sheet = check(&assembled(&net), &with_nets, &place).unwrap();
+    assert!(sheet.uncovered.is_empty());
+    let found = sheet.rules.iter().find(|one| one.rule == "net.lines").unwrap();
+    assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+}
+
+/// Weak places of an endline, from its `from` end.
+fn weak_places(strength: &str, every: &str) -> String {
+    format!(
+        "[line.weak_places]\nstrength = \"{strength}\"\nevery = \"{every}\"\nfirst = \"30 ft\"\n"
+    )
+}
+
+#[test]
+fn weak_places_comply_where_sleeves_of_the_same_strength_do() {
+    let packs = packs();
+    let with = |make: &str| rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + make]);
+    let sleeves = |every: &str| {
+        with(&format!(
+            "[line.inserts]\nsleeve = \"south-shore-1700\"\nevery = \"{every}\"\nfirst = \"30 ft\"\ncounted_from = \"from\"\n"
+        ))
+    };
+    let massachusetts = "ma-lma-1, 2024-06-01";
+    let maine = "me-b, 2024-06-01, 5 nmi";
+    for (rule, place) in [
+        ("us.weak", massachusetts),
+        ("us.approve.within", massachusetts),
+        ("us.approve.most", massachusetts),
+        ("us.insert.length", massachusetts),
+        ("ma.strength", massachusetts),
+        ("ma.surface", massachusetts),
+        ("me.inserts.3-12.two", maine),
+        ("me.inserts.12plus", "me-b, 2024-06-01, 15 nmi"),
+        ("ca.weak", "atlantic-canada, 2024-06-01"),
+    ] {
+        for every in ["60 ft", "90 ft"] {
+            let place_there = verdict(&packs, rule, &with(&weak_places("1,700 lbf", every)), place);
+            let sleeve_there = verdict(&packs, rule, &sleeves(every), place);
+            let both = format!("{rule}, {every}: {place_there:?}, {sleeve_there:?}");
+            assert_eq!(place_there.verdict, sleeve_there.verdict, "{both}");
+            let says = |result: &RuleResult| {
+                result.measured.iter().map(|one| one.says.clone()).collect::<Vec<_>>()
+            };
+            // The mean of ten breaks is a figure of the product.
+            if !rule.starts_with("us.approve") {
+                assert_eq!(says(&place_there), says(&sleeve_there), "{both}");
+            }
+        }
+    }
+    // 40 m are 131.2 ft: places at 30 and 90 ft from the trap are 41.2 and 101.2 ft from the buoy,
+    // and the top three quarters end at 98.4 ft.
+    let found = |make: &str, rule| verdict(&packs, rule, &with(make), massachusetts);
+    let passes = found(&weak_places("1,700 lbf", "60 ft"), "ma.strength");
+    assert_eq!(passes.verdict, Verdict::Pass, "{passes:?}");
+    assert_eq!(passes.measured.last().unwrap().says, "57.19 ft <= 60 ft");
+    let far_apart = found(&weak_places("1,700 lbf", "90 ft"), "ma.strength");
+    assert_eq!(far_apart.verdict, Verdict::Fail, "{far_apart:?}");
+    let strong = weak_places("1,800 lbf", "60 ft");
+    for rule in ["us.weak", "ma.strength"] {
+        let too_strong = found(&strong, rule);
+        assert_eq!(too_strong.verdict, Verdict::Fail, "{too_strong:?}");
+    }
+    // The weakest place is named.
+    let least = found(&strong, "us.weak");
+    assert_eq!(least.measured[0].says, "1800 lbf <= 1700 lbf");
+    assert_eq!(least.measured[0].part, "endline-1.weak-places");
+}

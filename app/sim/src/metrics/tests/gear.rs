@@ -268,6 +268,33 @@ fn a_line_is_read_at_any_length() {
     );
 }
 
+/// The whale heads west instead of east: a point 1 m before its origin is 1 m west of it.
+#[test]
+fn the_place_of_the_whale_and_of_its_skin_moves_and_turns_with_it() {
+    let mut spec = spec(vec![1.0]);
+    let skin = &spec.whale.as_ref().unwrap().skin;
+    let (triangle, barycentric) = ray(skin, BodyPart::Body, trunk_middle(1.05), DVec3::Z);
+    let hitch = Hitch { triangle, barycentric, stand_off_m: 0.0 };
+    let corners = skin.triangles[triangle].map(|vertex| skin.vertices[vertex as usize]);
+    let rest: DVec3 = corners.into_iter().zip(barycentric).map(|(at, share)| at * share).sum();
+    let targets = (0..3).map(ProbeTarget::WhaleOrigin);
+    let targets = targets.chain((0..3).map(|axis| ProbeTarget::Skin(hitch, axis)));
+    spec.probes = targets.map(|target| Probe { id: String::new(), target }).collect();
+    let model = model(spec);
+    let mut state = State::start(&model);
+    let whale = state.whale.as_mut().unwrap();
+    whale.position = DVec3::new(3.0, -2.0, -10.0);
+    whale.orientation = DQuat::from_rotation_z(std::f64::consts::PI);
+    let read: Vec<f64> =
+        model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
+    let wanted = [3.0, -2.0, -10.0, 3.0 - rest.x, -2.0 - rest.y, -10.0 + rest.z];
+    assert!((rest.x - 1.05).abs() < 0.1 && rest.z > 1.0, "{rest}");
+    assert!(
+        read.iter().zip(wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-9),
+        "{read:?} {wanted:?}"
+    );
+}
+
 /// A contact of a line's segment with a part, on the ray from its axis.
 fn on(model: &Model, line: usize, segment: usize, part: BodyPart, toward: DVec3) -> ContactPoint {
     let from = match part {

@@ -15,8 +15,8 @@ use glam::{DQuat, DVec3};
 use super::Metrics;
 use crate::contact::ContactPoint;
 use crate::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, Link, Model, ModelSpec, PilotProgram,
-    Probe, ProbeTarget, Rope, Seabed, Settings, Shape, Whale,
+    Body, BodyRole, Float, Friction, Hitch, Joint, JointKind, Line, Link, Model, ModelSpec,
+    PilotProgram, Probe, ProbeTarget, Rope, Seabed, Settings, Shape, Whale,
 };
 use crate::state::State;
 use crate::water::{Current, Water};

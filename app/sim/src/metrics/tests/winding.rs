@@ -120,6 +120,53 @@ fn rope_along_the_back_and_across_it_does_not_wrap() {
     );
 }
 
+/// Points on the body at a place along it, as a fraction of a turn about it from the back, one for each segment.
+fn about_body(skin: &Skin, x: f64, from: f64, to: f64, count: usize) -> Vec<(usize, [f64; 3])> {
+    let place = |k: usize| {
+        let angle = TAU * (from + (to - from) * (k as f64 + 0.5) / count as f64);
+        let toward = DVec3::new(0.0, libm::sin(angle), libm::cos(angle));
+        ray(skin, BodyPart::Body, trunk_middle(x), toward)
+    };
+    (0..count).map(place).collect()
+}
+
+#[test]
+fn a_strand_across_the_back_counts_once_and_a_turn_does_not() {
+    // Of segments of 0.1 m on a girth of 7.5 m: a third of a turn over the back, with 3 m of free rope before the next.
+    let model = model(spec(vec![0.1; 120]));
+    let skin = &model.spec.whale.as_ref().unwrap().skin;
+    let across = |passes: &[(usize, Vec<(usize, [f64; 3])>)], cut: &[usize]| {
+        let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+        cut.iter().for_each(|segment| state.rope.cut[*segment] = true);
+        let contacts: Vec<_> = passes
+            .iter()
+            .flat_map(|(first, places)| {
+                let own = places.iter().enumerate();
+                own.map(|(k, place)| contact(&model, *first + k, *place)).collect::<Vec<_>>()
+            })
+            .collect();
+        advance(&mut metrics, &model, &mut state, &contacts);
+        region(&metrics.summary(&model, &state), BodyPart::Body).across
+    };
+    assert_eq!(across(&[(0, about_body(skin, 1.05, -0.17, 0.17, 25))], &[]), 1);
+    let twice = [0, 55].map(|first| (first, about_body(skin, 1.05, -0.17, 0.17, 25)));
+    assert_eq!(across(&twice, &[]), 2);
+    // Along the back, and once round with a gap of 1 m under the belly.
+    let along: Vec<_> = (0..25)
+        .map(|k| {
+            let toward = DVec3::Z + DVec3::Y * 0.01;
+            ray(skin, BodyPart::Body, trunk_middle(0.051 + 0.1 * f64::from(k)), toward)
+        })
+        .collect();
+    assert_eq!(across(&[(0, along)], &[]), 0);
+    let round = [
+        (0, about_body(skin, 1.05, -0.55, -0.05, 38)),
+        (48, about_body(skin, 1.05, 0.05, 0.6, 42)),
+    ];
+    assert_eq!(across(&round, &[]), 0);
+    assert_eq!(across(&round, &[42]), 2, "cut, each half lies across its flank");
+}
+
 #[test]
 fn wraps_about_a_flipper_count_about_its_own_axis() {
     for side in [1.0, -1.0] {

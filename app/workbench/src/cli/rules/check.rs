@@ -29,10 +29,14 @@ pub(super) fn check_rules(args: &CheckArgs, library: Option<&Path>) -> Result<Ex
 /// The assembly, the area and the day.
 pub(super) fn head(sheet: &RuleSheet) -> String {
     let usual = if sheet.depth_is_usual { ", taken because --depth is not given" } else { "" };
-    format!(
+    let mut text = format!(
         "{} in {} on {}, assembled for {} m of water{usual}\n\n",
         sheet.assembly, sheet.area, sheet.on, sheet.depth_m
-    )
+    );
+    for says in &sheet.uncovered {
+        text += &format!("note: {says}\n\n");
+    }
+    text
 }
 
 fn words(sheet: &RuleSheet, brief: bool) -> String {

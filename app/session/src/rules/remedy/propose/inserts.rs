@@ -166,7 +166,10 @@ fn into_line(
     if !at_m.windows(2).all(is_even) || every_m < product.length_m() + ROOM_M {
         return None;
     }
-    let inserts = format!("{}.inserts", make_of(document, &line.line)?);
+    let make = make_of(document, &line.line)?;
+    // A line has either inserts or weak places.
+    let edit = edit.remove(format!("{make}.weak_places"));
+    let inserts = format!("{make}.inserts");
     let end_m = at_m[at_m.len() - 1] + product.length_m();
     // One more would lie within the line: its share of the line ends behind the last.
     let is_open = end_m + every_m + ROOM_M > line.length_m;

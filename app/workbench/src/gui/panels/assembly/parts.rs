@@ -310,7 +310,8 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
             row(ui, shared, file, "From", &format!("{at}.from"), "The part at its lower end");
             row(ui, shared, file, "To", &format!("{at}.to"), "The part at its upper end");
         });
-        inserts::one(ui, shared, file, &at, "Weak inserts");
+        let length_m = parse(&text(shared, file, &format!("{at}.length")), Quantity::Length);
+        inserts::one(ui, shared, (file, &at), "Weak inserts", length_m.unwrap_or(0.0));
         ui.horizontal(|ui| {
             // In a scenario the position of a splice is not known.
             let split = (file != Documents::SCENARIO).then(|| ui

@@ -5,7 +5,9 @@ use egui_plot::{
     AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
     PlotUi, Points, Text,
 };
+use endline_gear::WEAK_PLACES;
 use endline_sdk::LineEnd;
+use endline_session::scene::rope::along;
 use endline_session::statics::RigAtRest;
 use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole, Rope};
@@ -190,7 +192,7 @@ impl Flat {
     }
 }
 
-/// Colour of weak inserts and links.
+/// Colour of weak inserts, links and weak places.
 const PARTS: Color32 = Color32::from_rgb(0xd5, 0x5e, 0x00);
 
 fn rig(
@@ -223,6 +225,9 @@ fn rig(
     for (body, at) in spec.bodies.iter().zip(&rest.shape.bodies) {
         mark(plot, body, flat.point(at.position_m), gear, color);
     }
+    for index in 0..spec.lines.len() {
+        weak_places(plot, rest, gear, index, flat);
+    }
     for link in spec.links.iter().filter(|link| link.enabled) {
         let Some(line) = rest.shape.lines.get(link.line) else { continue };
         let end = match link.end {
@@ -235,6 +240,28 @@ fn rig(
         let points = Points::new(name, vec![flat.point(*at)]);
         plot.points(points.shape(MarkerShape::Cross).radius(5.0).color(PARTS));
     }
+}
+
+/// Marks the weak places of a line, as weak links are marked.
+fn weak_places(plot: &mut PlotUi<'_>, rest: &RigAtRest, gear: Gear, index: usize, flat: &Flat) {
+    let line = &rest.model.spec.lines[index];
+    let Some(first) = line.weak_places.first() else { return };
+    let part = format!("{}.{WEAK_PLACES}", line.id);
+    let parts_n =
+        strength::of(rest, &part).map_or(first.strength_n, |strength| strength.delivered_N);
+    let places = line
+        .weak_places
+        .iter()
+        .filter_map(|place| along(&rest.model, &rest.frame, index, place.at_m))
+        .map(|place| flat.point(place.to_array()));
+    let name = format!(
+        "{} {}: weak place, parts at {}",
+        gear.name,
+        line.id,
+        flat.units.force().text(parts_n)
+    );
+    let points = Points::new(name, places.collect::<Vec<_>>());
+    plot.points(points.shape(MarkerShape::Cross).radius(5.0).color(PARTS));
 }
 
 /// Draws diameter and strength beside a line, on the side with room.

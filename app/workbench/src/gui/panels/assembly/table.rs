@@ -1,6 +1,7 @@
 //! Table of line tensions and float heights at slack and running tide.
 
 use egui::{Color32, Grid, RichText, Ui};
+use endline_gear::WEAK_PLACES;
 use endline_session::statics::RigAtRest;
 use endline_session::statics::sweep::top_m;
 use endline_session::units::Units;
@@ -50,6 +51,7 @@ pub(super) fn height(panel: &AssemblyPanel) -> f32 {
         let spec = rigs.into_iter().find_map(|rig| rig.rest).map(|rest| &rest.model.spec);
         spec.map_or(0, |spec| {
             spec.lines.len()
+                + spec.lines.iter().filter(|line| !line.weak_places.is_empty()).count()
                 + spec.links.iter().filter(|link| link.enabled).count()
                 + 1
                 + spec.bodies.iter().filter(|body| body.role == BodyRole::Buoy).count()
@@ -75,6 +77,18 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, rigs: [Rig<'_>; 2], units:
         strength::cell(ui, strength, rope.strength_n, units);
         ui.label(units.length(line.segments_m.iter().sum()));
         ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
+        ui.end_row();
+    }
+    for line in model.spec.lines.iter().filter(|line| !line.weak_places.is_empty()) {
+        let part = format!("{}.{WEAK_PLACES}", line.id);
+        let strength = slack.or(running).and_then(|rest| strength::of(rest, &part));
+        ui.label(RichText::new(name).color(color));
+        ui.label(&part);
+        (0..3).for_each(|_| drop(ui.label("")));
+        let usual_n = line.weak_places.first().map_or(0.0, |place| place.strength_n);
+        strength::cell(ui, strength, usual_n, units);
+        ui.label("");
+        ui.label(strength.map_or("", |strength| strength.item.as_str()));
         ui.end_row();
     }
     for link in model.spec.links.iter().filter(|link| link.enabled) {

@@ -85,6 +85,9 @@ impl RulesPanel {
                 ui.spinner();
             }
         });
+        for says in &answer.sheet.uncovered {
+            ui.add(Label::new(RichText::new(says).color(palette.warning)).wrap());
+        }
     }
 
     /// Draws the button that makes a study of the ticked rules.

@@ -23,6 +23,12 @@ const WRAPS: Words = Words {
     help: "Least and most turns around the part; empty if they could not be counted",
 };
 
+const ACROSS: Words = Words {
+    name: "Across",
+    unit: "strands",
+    help: "Least and most strands that lie across the part without a turn, such as 1 and 1",
+};
+
 /// Draws the form of a part.
 pub(super) fn show_part(ui: &mut Ui, single: Site, shared: &mut Shared, edits: &mut Edits) {
     let documents = shared.documents();
@@ -121,10 +127,13 @@ fn sure(ui: &mut Ui, shared: &mut Shared, site: Site, present: f64, edits: &mut 
     });
 }
 
-/// Draws wraps, tightness and method of observation.
+/// Draws wraps, strands across, tightness and method of observation.
 fn rope_on_part(ui: &mut Ui, shared: &Shared, site: Site, sighting: Sighting, edits: &mut Edits) {
     if sighting.has_rope() {
         ends(ui, shared, &WRAPS, Range::Wraps(site), edits);
+        if site != Site::Mouth {
+            ends(ui, shared, &ACROSS, Range::Across(site), edits);
+        }
         tight(ui, shared, site, edits);
     }
     let documents = shared.documents();
