@@ -316,7 +316,7 @@ struct Further {
 }
 
 impl Further {
-    /// Probability that the mean of so many more breaks is at most this [N].
+    /// Probability that the mean of `more` further breaks is at most this [N].
     fn below(&self, limit_n: f64, more: f64) -> f64 {
         let spread_n = self.deviation_n * (1.0 / self.n + 1.0 / more).sqrt();
         self.student.cdf((limit_n - self.mean_n) / spread_n)
@@ -387,7 +387,7 @@ impl StrengthLaw {
     }
 }
 
-/// What a mean without a deviation leaves open, and what it decides.
+/// Conclusions from a mean without a deviation, and questions that it leaves open.
 fn unknown(count: usize, approvals: &[Approval]) -> Vec<String> {
     let open = "No deviation is known, so neither the interval of the mean nor the share of pieces within a limit can be computed.";
     let of = |Approval { source, holds, .. }: &Approval| {
