@@ -27,6 +27,9 @@ pub(super) struct Player {
     pub(super) end_s: f64,
 }
 
+/// Frames, and the readings of all probes at each of them.
+type Moments = (Vec<Arc<Frame>>, Vec<Vec<f64>>);
+
 impl Player {
     /// Opens a recording or a scenario.
     pub(super) fn open(
@@ -82,7 +85,7 @@ impl Player {
         &mut self,
         times: &[f64],
         interrupt: &Interrupt,
-    ) -> Result<(Vec<Arc<Frame>>, Vec<Vec<f64>>), Failure> {
+    ) -> Result<Moments, Failure> {
         let progress = Progress::new("running");
         let (mut frames, mut readings) = (Vec::with_capacity(times.len()), Vec::new());
         for (number, time_s) in times.iter().enumerate() {
