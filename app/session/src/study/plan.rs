@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Prepared, Source};
 
+use crate::encounters::equilibria::is_drawn_for_gear;
 use crate::encounters::priors::{field_of, put_drawn};
 use crate::encounters::{Drawn, Encounter};
 
@@ -193,7 +194,8 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// Assembles an option with each word that a prior can draw, such as the id of an assembly or of an act.
+    /// Assembles an option with each word that a prior of the gear can draw, such as the id of an assembly. Words of the whale, such as
+    /// acts, take as long to assemble and are checked where they are drawn.
     /// Errors: every problem, at the prior that draws the word.
     pub fn check_words(&self, option: &StudyOption) -> Result<(), Error> {
         let mut scenario = Document::parse(&self.text)
@@ -202,7 +204,8 @@ impl Base<'_> {
         self.put(option, &mut scenario, &mut sources)?;
         let usual = Encounter::of(self.study, 0).drawn;
         let mut problems = Vec::new();
-        for (index, prior) in self.study.priors.iter().enumerate() {
+        let for_gear = self.study.priors.iter().enumerate();
+        for (index, prior) in for_gear.filter(|(_, prior)| is_drawn_for_gear(prior)) {
             let Law::Choice(levels) = &prior.law else { continue };
             let words = levels.iter().map(|(level, _)| level);
             let is_new = |level: &&Level| level.number.is_none() && level.text != usual[index].text;

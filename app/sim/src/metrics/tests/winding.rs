@@ -130,12 +130,15 @@ fn about_body(skin: &Skin, x: f64, from: f64, to: f64, count: usize) -> Vec<(usi
     (0..count).map(place).collect()
 }
 
+/// The first segment of a strand, and the contact of each of its segments.
+type Pass = (usize, Vec<(usize, [f64; 3])>);
+
 #[test]
 fn a_strand_across_the_back_counts_once_and_a_turn_does_not() {
     // Of segments of 0.1 m on a girth of 7.5 m: a third of a turn over the back, with 3 m of free rope before the next.
     let model = model(spec(vec![0.1; 120]));
     let skin = &model.spec.whale.as_ref().unwrap().skin;
-    let across = |passes: &[(usize, Vec<(usize, [f64; 3])>)], cut: &[usize]| {
+    let across = |passes: &[Pass], cut: &[usize]| {
         let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
         cut.iter().for_each(|segment| state.rope.cut[*segment] = true);
         let contacts: Vec<_> = passes
