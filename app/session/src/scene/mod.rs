@@ -124,7 +124,7 @@ impl Scene {
         add(show.whale, "whale", Look::Skin, 0.0, skin);
         add(show.whale, "eyes", Look::Solid, 0.0, eyes);
         add(true, "ropes", Look::Rope, 1.4, rope::lines(model, frame, scale_n));
-        add(true, "weak places", Look::Solid, 3.0, rope::weak_places(model, frame));
+        add(true, "weak places", Look::Own, 4.0, rope::weak_places(model, frame));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, current);
         add(show.current, "current heads", Look::Own, 5.0, current_heads);

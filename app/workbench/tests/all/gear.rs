@@ -170,6 +170,35 @@ fn weak_inserts_every_sixty_feet_are_saved_without_changing_anything_else() {
 }
 
 #[test]
+fn weak_places_are_added_listed_and_taken_out_in_the_panel() {
+    let folder = Folder::new("weak-places");
+    let mut harness = assembly(&folder);
+    let click = |harness: &mut Window, label: &str| {
+        harness.get_all_by_label(label).last().unwrap().click();
+        harness.run_steps(2);
+        wait(harness, |app| app.panels.assembly.settled());
+        harness.run_steps(2);
+    };
+    let places = |harness: &Window| {
+        let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        rest.model.spec.lines.iter().map(|line| line.weak_places.len()).sum::<usize>()
+    };
+    assert_eq!(places(&harness), 0);
+    click(&mut harness, "Weak places");
+    // 30 ft of 21.7 m; the next would be at 27.4 m.
+    assert_eq!(places(&harness), 1);
+    click(&mut harness, "As a list");
+    let field = "gear.0.lines.endline-top.weak_places";
+    let at = harness.documents().field(Documents::SCENARIO, &format!("{field}.at"));
+    assert_eq!((at.as_deref(), places(&harness)), (Some("[\"9.14 m\"]"), 1));
+    click(&mut harness, "At intervals");
+    let every = harness.documents().field(Documents::SCENARIO, &format!("{field}.every"));
+    assert_eq!((every.as_deref(), places(&harness)), (Some("60 ft"), 1));
+    click(&mut harness, "Take out");
+    assert!(!harness.documents().has(Documents::SCENARIO, field) && places(&harness) == 0);
+}
+
+#[test]
 fn inserts_are_spaced_along_the_whole_endline_and_a_wrong_share_keeps_form_and_drawing() {
     let folder = Folder::new("whole-endline");
     let mut harness = assembly(&folder);

@@ -102,17 +102,7 @@ fn rope_along_the_back_and_across_it_does_not_wrap() {
         })
         .collect();
     assert!(region(&wrapped(&model, &along, |_| {}), BodyPart::Body).touching_wraps < 0.01);
-    let across: Vec<_> = (0..12)
-        .map(|k| {
-            let angle = (f64::from(k) - 5.5) * 0.1 / 1.2;
-            ray(
-                skin,
-                BodyPart::Body,
-                trunk_middle(1.05),
-                DVec3::new(0.0, libm::sin(angle), libm::cos(angle)),
-            )
-        })
-        .collect();
+    let across = about_body(skin, 1.05, -0.5 / TAU, 0.5 / TAU, 12);
     let wraps = region(&wrapped(&model, &across, |_| {}), BodyPart::Body).touching_wraps;
     assert!(
         wraps > 0.1 && wraps < 0.25,

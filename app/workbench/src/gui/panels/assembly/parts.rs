@@ -311,7 +311,10 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
             row(ui, shared, file, "To", &format!("{at}.to"), "The part at its upper end");
         });
         let length_m = parse(&text(shared, file, &format!("{at}.length")), Quantity::Length);
-        inserts::one(ui, shared, (file, &at), "Weak inserts", length_m.unwrap_or(0.0));
+        let has_places =
+            shared.workbench.project().documents.has(file, &format!("{at}.weak_places"));
+        let name = if has_places { "Weak places" } else { "Weak inserts" };
+        inserts::one(ui, shared, (file, &at), name, length_m.unwrap_or(0.0));
         ui.horizontal(|ui| {
             // In a scenario the position of a splice is not known.
             let split = (file != Documents::SCENARIO).then(|| ui
