@@ -76,9 +76,9 @@ fn a_strength_names_the_rope_that_has_it_and_a_length_the_whole_endline() {
         let one = &found["measured"][0];
         (one["part"].as_str().unwrap().to_owned(), one["says"].as_str().unwrap().to_owned())
     };
-    // The upper rope is sink-3-8 of 2,700 lbf, the lower one pp-3-8 of 2,440 lbf.
+    // The upper rope is sink-7-16 of 3,500 lbf, the lower one pp-7-16 of 3,160 lbf.
     let (part, says) = measured("us.weak");
-    assert_eq!((&*part, &*says), ("endline-bottom", "2440 lbf <= 1700 lbf"));
+    assert_eq!((&*part, &*says), ("endline-bottom", "3160 lbf <= 1700 lbf"));
     place.write("bay.toml", PACK);
     let bay = ["--area", "my-bay", "--on", "2024-06-01", "--pack", "bay.toml"];
     check(&place, &[&["trawl-10"], &bay[..]].concat()).prints(&["endline-top to endline-bottom: "]);
