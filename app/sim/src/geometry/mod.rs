@@ -5,6 +5,7 @@ pub(crate) mod core;
 pub mod crossing;
 pub mod distance;
 pub(crate) mod ellipse;
+pub(crate) mod norm;
 pub(crate) mod placed;
 pub(crate) mod segment_pair;
 pub mod shape;

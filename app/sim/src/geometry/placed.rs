@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use crate::geometry::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
+use crate::geometry::norm;
 use crate::geometry::sweep::{SweptTriangle, triangle_at};
 
 /// Growth of balls over rounding: a factor, and a length [m].
@@ -106,7 +107,7 @@ impl Placed {
         let (along, centre) = (to - from, self.ball.centre - from);
         let fraction =
             (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let round = centre.distance(along * fraction) - self.ball.radius;
+        let round = norm::distance(centre, along * fraction) - self.ball.radius;
         self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
     }
 }

@@ -8,6 +8,7 @@
 
 use glam::DVec3;
 
+use crate::geometry::norm;
 use crate::whale::Skin;
 
 /// Least part of the fore-and-aft axis that lies in a triangle for it to be taken.
@@ -36,7 +37,7 @@ impl Grains {
         let carried = |along: &Option<Along>| {
             let [alpha, beta] = (*along)?;
             let along = (now[1] - now[0]) * alpha + (now[2] - now[0]) * beta;
-            normal.cross(along).try_normalize()
+            norm::try_normalize(normal.cross(along))
         };
         let [fore_and_aft, dorsal] = &self.0[triangle];
         carried(fore_and_aft)

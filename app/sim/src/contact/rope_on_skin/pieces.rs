@@ -8,6 +8,7 @@ use pulp::{Simd, WithSimd};
 use crate::contact::rope_on_skin::near::{Group, Near};
 use crate::contact::rope_on_skin::points::{LOOK_WITHIN, SkinContactPoint, SkinContactPoints};
 use crate::contact::rope_on_skin::stored_faces::{self, FACE_BITS, MOST_POINTS};
+use crate::geometry::norm;
 
 /// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
@@ -160,7 +161,7 @@ impl Piece {
     fn is_far(&self, middle: &SkinContactPoint, least: f64, places: &[DVec3]) -> bool {
         let within = LOOK_WITHIN * middle.contact_distance;
         least > within && {
-            let segment = places[middle.node].distance(places[middle.node + 1]);
+            let segment = norm::distance(places[middle.node], places[middle.node + 1]);
             least - segment * middle.length / self.segment_length > within
         }
     }
@@ -223,7 +224,7 @@ impl Side {
     fn of(middle: &SkinContactPoint, near: &Near, ends: [DVec3; 2]) -> Self {
         let across = middle.away(near);
         let [from, to] = ends.map(|end| end.dot(across));
-        Self { across, length: across.length(), least: from.min(to) }
+        Self { across, length: norm::length(across), least: from.min(to) }
     }
 
     /// Whether a triangle lies on the other side, no nearer than `most`.

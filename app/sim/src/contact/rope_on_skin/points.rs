@@ -17,6 +17,7 @@ use crate::contact::rope_on_skin::near::Near;
 use crate::contact::rope_on_skin::pieces::Piece;
 use crate::contact::rope_on_skin::stored_faces::{self, KeptFace, PIECE_BITS, SEGMENT_BITS};
 use crate::contact::rope_on_skin::touch::Touch;
+use crate::geometry::norm;
 use crate::geometry::placed::on_triangle;
 use crate::model::Model;
 use crate::state::FrictionState;
@@ -291,7 +292,7 @@ impl SkinContactPoint {
             return;
         }
         if !self.is_knot {
-            let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
+            let along = norm::normalize_or(places[self.node + 1] - places[self.node], DVec3::ZERO);
             touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
         }
         stored_faces::assign(&mut touches[first..], kept, self.kept.clone());
@@ -368,8 +369,9 @@ impl SkinContactPoint {
     /// Whether it cannot touch, by its last evaluation.
     #[inline(always)]
     fn out_of_reach(&self, place: DVec3) -> bool {
-        self.seen
-            .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
+        self.seen.is_some_and(|(seen, distance)| {
+            distance - norm::distance(seen, place) > self.contact_distance
+        })
     }
 
     /// The way from the nearest place of skin to where it was last measured, zero if there is none.
@@ -385,6 +387,6 @@ impl SkinContactPoint {
     #[inline(always)]
     pub(super) fn at_least(&self, places: &[DVec3]) -> f64 {
         let place = self.on_rope(|node| places[node]);
-        self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
+        self.seen.map_or(0.0, |(seen, distance)| distance - norm::distance(seen, place))
     }
 }

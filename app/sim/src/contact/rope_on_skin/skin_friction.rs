@@ -12,6 +12,7 @@ use crate::contact::law::skin_direction::Grains;
 use crate::contact::rope_on_skin::near::Near;
 use crate::contact::rope_on_skin::points::SkinContactPoints;
 use crate::contact::rope_on_skin::touch::Touch;
+use crate::geometry::norm;
 use crate::model::{Friction, Model};
 use crate::state::{FrictionState, State};
 
@@ -152,7 +153,7 @@ impl Touching {
             growth_n: touch.growth_n,
             normal: touch.normal,
             grain: self.grains.at(pair.triangle as usize, &pair.now, touch.normal),
-            along: along.normalize_or(touch.normal),
+            along: norm::normalize_or(along, touch.normal),
             slip: rope_move - skin_move,
             length: point.length * touch.share,
             share: touch.share,

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::contact::law::barrier::BarrierForce;
+use crate::geometry::norm;
 
 /// A contact point in touch with one face of skin.
 #[derive(Clone, Copy, Debug)]
@@ -73,9 +74,9 @@ impl Touch {
     /// behind it, and the push would turn as the contact point passes.
     pub fn turn_across(&mut self, along: DVec3) {
         let ahead = along * along.dot(self.away);
-        let length = (self.away - ahead).length();
+        let length = norm::length(self.away - ahead);
         let part = ((length - ACROSS.0) / (ACROSS.1 - ACROSS.0)).clamp(0.0, 1.0);
-        self.normal = (self.away - ahead * part).normalize_or(self.away);
+        self.normal = norm::normalize_or(self.away - ahead * part, self.away);
     }
 
     /// Normal force of the last solution for this face, as if it were alone, if it is among those touched `before` [N].
