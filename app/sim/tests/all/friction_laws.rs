@@ -8,6 +8,7 @@
     reason = "a test says what it needs"
 )]
 
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
@@ -153,6 +154,47 @@ fn each_region_has_its_own_law() {
     println!("ln(T2/T1) {got:.4}, {expected:.4} by the laws");
     assert!((got / expected - 1.0).abs() < 0.025, "{got} for {expected}");
     replays_to_the_bit(&model);
+}
+
+/// Rope bears on the edges of a drum of few facets, whose regions alternate. The two triangles of an edge are equally near.
+#[test]
+fn an_edge_between_two_regions_belongs_to_one_of_them() {
+    let facets = 12;
+    let alternate = move |angle: f64| {
+        let facet = libm::floor(angle / (2.0 * PI / f64::from(facets))) as i64;
+        if facet % 2 == 0 { Region::Body } else { Region::Baleen }
+    };
+    let skin = drum_along([DVec3::Y, DVec3::Z, DVec3::X], [RADIUS, 0.5], facets, alternate);
+    let triangles = skin.triangles.clone();
+    let mut law_of = [0; Region::ALL.len()];
+    law_of[Region::Baleen as usize] = 1;
+    let friction = Friction {
+        laws: vec![law(Coulomb::new(), &[]), law(Baleen::new(), &[("wedge_pressure", 1e6)])],
+        law_of: vec![law_of],
+        coefficients: vec![[0.2; Region::ALL.len()]],
+        law_of_bodies: [0; Region::ALL.len()],
+        coefficients_of_bodies: [0.2; Region::ALL.len()],
+    };
+    let model = drawn_over(still(skin, DQuat::IDENTITY), friction, 0.1);
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    let mut region_of: BTreeMap<[u32; 2], (Region, u32)> = BTreeMap::new();
+    while state.time_s < 1.0 {
+        step(&model, &Input::default(), &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
+        for contact in &workspace.contacts {
+            let Some(opposite) = contact.barycentric.iter().position(|share| *share == 0.0) else {
+                continue;
+            };
+            let corners = triangles[contact.triangle];
+            let mut edge = [corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]];
+            edge.sort_unstable();
+            let (region, count) = region_of.entry(edge).or_insert((contact.region, 0));
+            assert_eq!(*region, contact.region, "edge {edge:?} at {} s", state.time_s);
+            *count += 1;
+        }
+    }
+    let often = region_of.values().filter(|(_, count)| *count > 100).count();
+    assert!(often > 3, "rope bears on {often} edges");
 }
 
 /// The floats of both laws are in the state: dropped scratch memory changes no bit.

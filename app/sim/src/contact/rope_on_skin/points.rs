@@ -32,6 +32,9 @@ pub(crate) const LOOK_WITHIN: f64 = 3.0;
 /// piece is looked at.
 const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
 
+/// Distances that differ by less than this are equal [m]: the closest place is on an edge or at a corner that triangles share.
+const SAME_DISTANCE_M: f64 = 1e-10;
+
 /// One place on the rope.
 #[derive(Clone, Debug)]
 pub(crate) struct SkinContactPoint {
@@ -257,6 +260,13 @@ impl WithSimd for Measure<'_> {
     }
 }
 
+/// Whether a triangle is nearer than another, each given by its distance and pair. Of triangles at equal distances the first pair is the
+/// nearest: else rounding would choose, and friction change from iteration to iteration where an edge is between two regions.
+#[inline(always)]
+fn is_nearer((distance, pair): (f64, usize), other: (f64, usize)) -> bool {
+    distance < other.0 - SAME_DISTANCE_M || (distance < other.0 + SAME_DISTANCE_M && pair < other.1)
+}
+
 impl SkinContactPoint {
     /// Its place on the rope.
     pub fn on_rope(&self, place: impl Fn(usize) -> DVec3) -> DVec3 {
@@ -321,7 +331,8 @@ impl SkinContactPoint {
         most: f64,
         touches: &mut Vec<Touch>,
     ) -> Option<(f64, (usize, [f64; 3]))> {
-        let (first, mut nearest, mut nearest_place) = (touches.len(), None, 0);
+        let (first, mut nearest_place) = (touches.len(), 0);
+        let mut nearest: Option<(f64, (usize, [f64; 3]))> = None;
         let mut least = most;
         let group = &near.groups[self.group];
         let active = near.active[group.active.clone()].iter().copied();
@@ -336,10 +347,12 @@ impl SkinContactPoint {
             else {
                 continue;
             };
-            if distance < least {
-                least = distance;
+            let so_far =
+                nearest.map_or((most, usize::MAX), |(distance, (pair, _))| (distance, pair));
+            if is_nearer((distance, index), so_far) {
                 (nearest, nearest_place) = (Some((distance, (index, barycentric))), touches.len());
             }
+            least = least.min(distance);
             touches.extend(self.touch_of(near, place, distance, index, barycentric));
         }
         if touches.len() > first {
