@@ -101,12 +101,7 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
     place.endline(&["study", "run", &study, "--out", &out]).done();
     place.endline(&["study", "merge", &study, "--out", &out]).done();
     let rows = fs::read_to_string(place.path("pull/table.csv")).unwrap();
-    let heads: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
-    let cell = |option: &str, column: &str| {
-        let place = heads.iter().position(|head| *head == column).unwrap();
-        let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
-        row.split(',').nth(place).unwrap().to_owned()
-    };
+    let cell = |option: &str, column: &str| cell(&rows, option, column);
     let at: Vec<f64> = ["rope", "middle", "late"]
         .map(|option| cell(option, "parted_at_s").parse().unwrap())
         .to_vec();
@@ -167,4 +162,71 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
             "{option}: {replayed}"
         );
     }
+}
+
+/// The scenario has traps in line beside the rope that is drawn apart; each encounter has a single trap, and thus other lines.
+const DRAWN_GEAR: &str = r#"
+format = 1
+kind = "study"
+name = "Pull beside a trap"
+scenario = "pull-beside-traps"
+encounters = 1
+baseline = "never"
+
+[[option]]
+id = "never"
+set = { weak_links = false, unbreakable = true }
+
+[[option]]
+id = "rope-900"
+strength = "900 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "900 lbf" }
+
+[[option]]
+id = "rope-9000"
+strength = "9000 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "9,000 lbf" }
+
+[encounter."gear.0.assembly"]
+choice = ["foot-single"]
+source = "assumed"
+"#;
+
+/// The lines of an option's model in its scenario are not those of the encounter.
+#[test]
+fn runs_are_shared_by_the_lines_of_the_encounter() {
+    let place = Place::new("study-drawn-gear");
+    let library = place.library();
+    let pull = fs::read_to_string(library.join("scenarios/weak-link-pull.toml")).unwrap();
+    let beside = pull.replace(
+        "[[fixture]]\nid = \"post\"",
+        "[[gear]]\nassembly = \"foot-trawl-10\"\n\n[[fixture]]\nid = \"post\"",
+    );
+    assert_ne!(pull, beside);
+    fs::write(library.join("scenarios/pull-beside-traps.toml"), beside).unwrap();
+    let study = place.write("gear-library/studies/pull-beside-traps.toml", DRAWN_GEAR);
+    let study = study.display().to_string();
+    let out = place.folder.join("beside").display().to_string();
+    for command in ["run", "merge"] {
+        place.endline(&["study", command, &study, "--out", &out]).done();
+    }
+    for option in ["never", "rope-900", "rope-9000"] {
+        let replayed = place
+            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
+            .done();
+        assert!(
+            replayed.stderr.contains("ends in the state that the table has"),
+            "{option}: {replayed}"
+        );
+    }
+    let rows = fs::read_to_string(place.path("beside/table.csv")).unwrap();
+    let parted = |option| cell(&rows, option, "parted");
+    assert_eq!(["never", "rope-900", "rope-9000"].map(parted), ["", "warp", ""], "{rows}");
+}
+
+/// A cell of the row of an option in the only encounter of a table.
+fn cell(rows: &str, option: &str, column: &str) -> String {
+    let place = rows.lines().next().unwrap().split(',').position(|head| head == column).unwrap();
+    let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
+    row.split(',').nth(place).unwrap().to_owned()
 }

@@ -39,6 +39,8 @@ pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool 
 /// Whether a model, known to differ in strengths alone from that of a run, shares the run up to this summary.
 pub(super) fn same_so_far(model: &Model, other: &Model, summary: &Summary) -> bool {
     let (one, other) = (&model.spec, &other.spec);
+    debug_assert_eq!(parts(one).count(), parts(other).count(), "the same lines and links");
+    debug_assert_eq!(parts(one).count(), borne(summary).count(), "those of the run");
     let share = margin(one);
     parts(one)
         .zip(parts(other))
@@ -62,6 +64,10 @@ pub(super) fn is_certainly_same_run(
     other: &Model,
     summary: &Summary,
 ) -> bool {
+    // A drawn assembly may have other lines and links.
+    if !names(other_bare).eq(names(&other.spec)) {
+        return false;
+    }
     // The positions of weak places may differ between encounters.
     let has_weak_places = |spec: &ModelSpec| parts(spec).any(|part| !part.weak_places.is_empty());
     if has_weak_places(&other.spec) || has_weak_places(other_bare) {
@@ -238,6 +244,12 @@ fn is_at_or_in(path: &str, field: &str) -> bool {
 /// The least strength of a model, by which options are sorted; infinite if nothing can part [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
     parts(spec).map(|part| part.least_n()).fold(f64::INFINITY, f64::min)
+}
+
+/// Ids of lines with those of their ropes, and then of links.
+fn names(spec: &ModelSpec) -> impl Iterator<Item = [&str; 2]> {
+    let lines = spec.lines.iter().map(|line| [&*line.id, &*spec.ropes[line.rope].id]);
+    lines.chain(spec.links.iter().map(|link| [&*link.id, ""]))
 }
 
 /// Strengths of lines and links, whether or not they can part [N].
