@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use crate::common::Place;
@@ -164,13 +165,13 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
     }
 }
 
-/// The scenario has traps in line beside the rope that is drawn apart; each encounter has a single trap, and thus other lines.
+/// A rope is drawn apart beside a single trap or beside traps in line; an encounter has the lines of one of them.
 const DRAWN_GEAR: &str = r#"
 format = 1
 kind = "study"
-name = "Pull beside a trap"
+name = "Pull beside traps"
 scenario = "pull-beside-traps"
-encounters = 1
+encounters = 6
 baseline = "never"
 
 [[option]]
@@ -178,9 +179,9 @@ id = "never"
 set = { weak_links = false, unbreakable = true }
 
 [[option]]
-id = "rope-900"
-strength = "900 lbf"
-set = { weak_links = false, "line.0.delivered_strength" = "900 lbf" }
+id = "rope-50"
+strength = "50 lbf"
+set = { weak_links = false, "line.0.delivered_strength" = "50 lbf" }
 
 [[option]]
 id = "rope-9000"
@@ -188,21 +189,22 @@ strength = "9000 lbf"
 set = { weak_links = false, "line.0.delivered_strength" = "9,000 lbf" }
 
 [encounter."gear.0.assembly"]
-choice = ["foot-single"]
+choice = ["foot-trawl-10", "foot-single"]
 source = "assumed"
 "#;
 
-/// The lines of an option's model in its scenario are not those of the encounter.
+/// Strengths are compared with what the lines of the encounter bore, also where it has other lines than another encounter.
 #[test]
 fn runs_are_shared_by_the_lines_of_the_encounter() {
     let place = Place::new("study-drawn-gear");
     let library = place.library();
     let pull = fs::read_to_string(library.join("scenarios/weak-link-pull.toml")).unwrap();
-    let beside = pull.replace(
+    let short = pull.replace("duration = \"6 s\"", "duration = \"0.4 s\"");
+    let beside = short.replace(
         "[[fixture]]\nid = \"post\"",
         "[[gear]]\nassembly = \"foot-trawl-10\"\n\n[[fixture]]\nid = \"post\"",
     );
-    assert_ne!(pull, beside);
+    assert!(pull != short && short != beside);
     fs::write(library.join("scenarios/pull-beside-traps.toml"), beside).unwrap();
     let study = place.write("gear-library/studies/pull-beside-traps.toml", DRAWN_GEAR);
     let study = study.display().to_string();
@@ -210,21 +212,26 @@ fn runs_are_shared_by_the_lines_of_the_encounter() {
     for command in ["run", "merge"] {
         place.endline(&["study", command, &study, "--out", &out]).done();
     }
-    for option in ["never", "rope-900", "rope-9000"] {
+    let table = fs::read_to_string(place.path("beside/table.csv")).unwrap();
+    let (head, rows) = table.split_once('\n').unwrap();
+    let mut assemblies = BTreeSet::new();
+    for (encounter, rows) in rows.lines().collect::<Vec<_>>().chunks(3).enumerate() {
+        let rows = [&[head], rows].concat().join("\n");
+        let parted = |option| cell(&rows, option, "parted");
+        assert_eq!(["never", "rope-50", "rope-9000"].map(parted), ["", "warp", ""], "{rows}");
+        assemblies.insert(cell(&rows, "never", "drawn_gear.0.assembly"));
+        let row = encounter.to_string();
         let replayed = place
-            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
+            .endline(&[
+                "study", "replay", &study, "--out", &out, "--row", &row, "--option", "rope-50",
+            ])
             .done();
-        assert!(
-            replayed.stderr.contains("ends in the state that the table has"),
-            "{option}: {replayed}"
-        );
+        assert!(replayed.stderr.contains("ends in the state that the table has"), "{replayed}");
     }
-    let rows = fs::read_to_string(place.path("beside/table.csv")).unwrap();
-    let parted = |option| cell(&rows, option, "parted");
-    assert_eq!(["never", "rope-900", "rope-9000"].map(parted), ["", "warp", ""], "{rows}");
+    assert_eq!(assemblies.len(), 2, "{assemblies:?}");
 }
 
-/// A cell of the row of an option in the only encounter of a table.
+/// A cell of the row of an option in a table of one encounter.
 fn cell(rows: &str, option: &str, column: &str) -> String {
     let place = rows.lines().next().unwrap().split(',').position(|head| head == column).unwrap();
     let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
