@@ -119,7 +119,9 @@ impl SkinContactPoints {
             site,
             fraction,
             seen: None,
+            nearest: None,
             push_beside_n: Some(push_n),
+            between: Some(piece.between),
             touches: 0..0,
             kept: stored_faces::of_point(&self.kept, site),
             ..middle.clone()

@@ -3,8 +3,11 @@
 //! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
 //! the length of segments. Each piece has a contact point at its middle, and more where another of its points
 //! comes clearly nearer (a thin edge). A knot has one at its middle with its own radius as contact distance: skin pushes a knot along the
-//! rope too, and so holds it at a gap narrower than it is. A contact point touches one face of skin, or several in a crease (`crease.rs`). Contact points keep their place on the rope within a solver step: letting
-//! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
+//! rope too, and so holds it at a gap narrower than it is. A contact point touches one face of skin, or several in a crease (`crease.rs`).
+//!
+//! A middle contact point keeps its place on the rope within a solver step. A further contact point at an edge of skin moves along its piece
+//! with the edge. All others keep their places: if they moved to the nearest place in each iteration, Newton's method would not converge
+//! (docs/physics.md).
 
 use std::ops::Range;
 
@@ -57,6 +60,8 @@ pub(crate) struct SkinContactPoint {
     pub(super) nearest: Option<(usize, [f64; 3])>,
     /// Greatest push on its piece of rope when it was opened beside other contact points [N].
     pub(super) push_beside_n: Option<f64>,
+    /// Ends of its piece, as fractions of the segment, if it follows an edge of skin; `None` for a middle contact point.
+    pub(super) between: Option<[f64; 2]>,
     /// Its touches, in `SkinContactPoints::touches`.
     pub(super) touches: Range<usize>,
     /// The faces that it touched at the end of the last solver step, in `SkinContactPoints::kept`.
@@ -151,6 +156,7 @@ impl SkinContactPoints {
                     seen: None,
                     nearest: None,
                     push_beside_n: None,
+                    between: None,
                     touches: 0..0,
                     kept: kept.start..kept.start + of_middle.len(),
                 });
@@ -260,6 +266,12 @@ impl WithSimd for Measure<'_> {
     }
 }
 
+/// Whether a barycentric place is on an edge or at a corner of its triangle.
+#[inline(always)]
+fn is_on_edge(barycentric: [f64; 3]) -> bool {
+    barycentric.contains(&0.0)
+}
+
 /// Whether a triangle is nearer than another, each given by its distance and pair. Of triangles at equal distances the first pair is the
 /// nearest: else rounding would choose, and friction change from iteration to iteration where an edge is between two regions.
 #[inline(always)]
@@ -282,6 +294,7 @@ impl SkinContactPoint {
         (touched, kept): (&[Touch], &[KeptFace]),
         touches: &mut Vec<Touch>,
     ) {
+        self.follow_edge(near, places);
         let place = self.on_rope(|node| places[node]);
         let first = touches.len();
         if self.seen.is_some_and(|(seen, _)| seen == place) {
@@ -313,6 +326,29 @@ impl SkinContactPoint {
                 .or(self.push_beside_n);
             touch.solved_n = whole_n.map(|whole_n| whole_n * touch.share);
             touch.take_solved(self.contact_distance, self.stiffness);
+        }
+    }
+
+    /// Moves it along its piece to the place that is nearest to the edge of skin at which it was measured last.
+    ///
+    /// While rope slides over an edge, the distance of one of its places from the edge changes to second order. The linear system does not
+    /// contain that term, and the normal force had an error from it. The distance of the nearest place does not change to first order with
+    /// the place (docs/lab-notebook.md).
+    #[inline(always)]
+    fn follow_edge(&mut self, near: &Near, places: &[DVec3]) {
+        let (Some([from, to]), Some((pair, barycentric))) = (self.between, self.nearest) else {
+            return;
+        };
+        if !is_on_edge(barycentric) {
+            return;
+        }
+        let ends = [from, to].map(|end| places[self.node].lerp(places[self.node + 1], end));
+        let nearest = near.skin_of(pair).nearest_to(ends);
+        let fraction = from + (to - from) * nearest.fraction;
+        let piece_m = norm::distance(ends[0], ends[1]);
+        let moved_m = piece_m * (fraction - self.fraction).abs() / (to - from);
+        if is_on_edge(nearest.barycentric) && moved_m < self.contact_distance {
+            self.fraction = fraction;
         }
     }
 
