@@ -278,14 +278,15 @@ fn factor(seed: u64, id: &str, variation: f64) -> f64 {
         return 1.0;
     }
     (0..)
-        .map(|attempt: u64| 1.0 + variation * normal(seed, id, attempt))
+        .map(|attempt: u64| {
+            1.0 + variation * normal(uniform("endline strength scatter 1", seed, attempt, id))
+        })
         .find(|factor| *factor >= LEAST)
         .unwrap_or(1.0)
 }
 
-/// A standard normal number.
-fn normal(seed: u64, id: &str, attempt: u64) -> f64 {
-    let [one, other] = uniform("endline strength scatter 1", seed, attempt, id);
+/// A standard normal number from two uniform ones.
+pub(super) fn normal([one, other]: [f64; 2]) -> f64 {
     (-2.0 * libm::log(one)).sqrt() * libm::cos(2.0 * PI * other)
 }
 

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use endline_sdk::{Controls, Descriptor, Posture, WhaleMotion};
-use endline_sim::model::{PilotEntry, PilotProgram, Target, Trigger, Whale};
+use endline_sim::model::{PilotEntry, PilotProgram, Sight, Target, Trigger, Whale};
 use endline_sim::whale::acts::{Acting, Answers, Clip, DrawnAnswers};
 use endline_sim::whale::kinetic::hull::{fins, spheroid};
 use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
@@ -23,7 +23,7 @@ use crate::whale::WhaleForm;
 
 use super::attributes::numbers;
 use super::builder::{Builder, Part};
-use super::strength::uniform;
+use super::strength::{normal, uniform};
 
 impl Builder<'_> {
     /// Adds the whale; `kinetic` overrides the scenario.
@@ -402,20 +402,38 @@ impl Builder<'_> {
             return;
         };
         let Some(placed) = &self.scenario.whale else { return };
-        let program = self.pilot(&placed.pilot, motion.descriptor());
+        let eye_m = self.eye(placed);
+        let program = self.pilot(&placed.pilot, motion.descriptor(), eye_m);
         if let Some(whale) = &mut self.spec.whale {
             whale.pilot = program;
         }
     }
 
     /// The program of these entries.
-    fn pilot(&self, entries: &[PilotOf], motion: &Descriptor) -> PilotProgram {
+    fn pilot(&self, entries: &[PilotOf], motion: &Descriptor, eye_m: DVec3) -> PilotProgram {
+        let entries = entries.iter().enumerate();
         PilotProgram {
-            entries: entries.iter().filter_map(|entry| self.pilot_entry(entry, motion)).collect(),
+            entries: entries
+                .filter_map(|(index, entry)| self.pilot_entry(index, entry, motion, eye_m))
+                .collect(),
         }
     }
 
-    fn pilot_entry(&self, entry: &PilotOf, motion: &Descriptor) -> Option<PilotEntry> {
+    /// Port eye of the straight whale, in its frame: above the corner of the mouth [m].
+    fn eye(&self, placed: &PlacedWhale) -> DVec3 {
+        let whales = &self.library.whales;
+        let item = whales.iter().find(|whale| whale.entry.id == placed.item.value);
+        let length_m = self.spec.whale.as_ref().map_or(0.0, |whale| whale.length_m);
+        item.map_or(DVec3::ZERO, |item| item.eye_m(length_m))
+    }
+
+    fn pilot_entry(
+        &self,
+        index: usize,
+        entry: &PilotOf,
+        motion: &Descriptor,
+        eye_m: DVec3,
+    ) -> Option<PilotEntry> {
         let mut controls = entry.controls;
         if let Some(act) = &entry.act {
             controls[Controls::ACT] = Some(self.act(act, motion)?);
@@ -426,9 +444,18 @@ impl Builder<'_> {
             TriggerOf::Within(distance_m, of) => {
                 Trigger::Within(*distance_m, self.target(of.as_ref())?)
             }
+            TriggerOf::Sees([mean_m, deviation_m], of) => Trigger::Sees(Sight {
+                distance_m: mean_m + deviation_m * self.seen_deviation(index),
+                eye_m,
+                target: self.target(of.as_ref())?,
+            }),
             TriggerOf::Depth(depth_m) => Trigger::Depth(*depth_m),
             TriggerOf::Heading(bearing_rad) => Trigger::Heading(*bearing_rad),
             TriggerOf::After(entry) => Trigger::After(*entry),
+        };
+        let controls_starboard = match &entry.trigger {
+            TriggerOf::Sees(..) => Some(self.mirrored(&controls, entry, motion)?),
+            _ => None,
         };
         Some(PilotEntry {
             trigger,
@@ -436,7 +463,47 @@ impl Builder<'_> {
             hold_s: entry.hold_s,
             ramp_s: entry.ramp_s,
             controls,
+            controls_starboard,
         })
+    }
+
+    /// The controls of an entry for rope seen on the starboard side: roll and yaw reversed, and the mirror image of the act if it has one.
+    fn mirrored(
+        &self,
+        controls: &[Option<f64>; Controls::COUNT],
+        entry: &PilotOf,
+        motion: &Descriptor,
+    ) -> Option<[Option<f64>; Controls::COUNT]> {
+        let mut mirrored = *controls;
+        for (name, control) in Controls::NAMES.iter().zip(&mut mirrored) {
+            if ["roll", "yaw"].contains(name) {
+                *control = control.map(|value| -value);
+            }
+        }
+        if let Some(act) = &entry.act
+            && let Some(id) = self.mirror_image(&act.value)
+        {
+            let other = At { value: id.to_owned(), place: act.place.clone() };
+            mirrored[Controls::ACT] = Some(self.act(&other, motion)?);
+        }
+        Some(mirrored)
+    }
+
+    /// Id of the mirror image of an act of the library.
+    fn mirror_image(&self, act: &str) -> Option<&str> {
+        self.library.acts.iter().find_map(|item| {
+            let [one, other] = item.clips.as_slice() else { return None };
+            match act {
+                _ if act == one.id => Some(other.id.as_str()),
+                _ if act == other.id => Some(one.id.as_str()),
+                _ => None,
+            }
+        })
+    }
+
+    /// Standard normal deviate of the distance at which an entry's target is seen.
+    fn seen_deviation(&self, entry: usize) -> f64 {
+        normal(uniform("endline sight 1", self.spec.settings.seed, entry as u64, ""))
     }
 
     /// Number of an act; `none` is 0.

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use endline_sdk::SPINE_JOINTS;
+use endline_sim::DVec3;
 use endline_sim::whale::Skin;
 use serde::de::DeserializeOwned;
 use serde::de::value::MapDeserializer;
@@ -84,6 +85,14 @@ impl WhaleItem {
     /// Form at another length, in average condition.
     pub fn form_at(&self, length_m: f64) -> WhaleForm {
         grown(&self.shares, &self.growth, self.density_kg_m3, length_m)
+    }
+
+    /// Port eye of the straight whale at a length, in its frame: at the corner of the mouth and on the side of the head, at the level of the
+    /// snout; an estimate [m].
+    pub fn eye_m(&self, length_m: f64) -> DVec3 {
+        let form = self.form_at(length_m);
+        let at = form.head.mouth;
+        length_m * DVec3::new(0.5 - at, 0.5 * width_at(&form.stations, at), 0.0)
     }
 }
 

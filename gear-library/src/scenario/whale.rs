@@ -289,6 +289,8 @@ pub enum TriggerOf {
     Touch(Option<BodyPart>),
     /// A distance [m] to a line, body or joint by id, or to any line.
     Within(f64, Option<At<String>>),
+    /// A mean and a standard deviation of the distance [m] from an eye to a line, body or joint by id, or to any line.
+    Sees([f64; 2], Option<At<String>>),
     /// Mid-body at a depth [m].
     Depth(f64),
     /// The heading at a compass bearing [rad].
@@ -298,10 +300,11 @@ pub enum TriggerOf {
 }
 
 /// Keys of triggers, each with an example.
-const TRIGGERS: [(&str, &str); 6] = [
+const TRIGGERS: [(&str, &str); 7] = [
     ("at", "at = \"12 s\""),
     ("touch", "touch = \"any\""),
     ("within", "within = \"5 m\""),
+    ("sees", "sees = \"3 m\""),
     ("depth", "depth = \"10 m\""),
     ("heading", "heading = \"90 deg\""),
     ("after", "after = \"turn\""),
@@ -409,16 +412,26 @@ fn trigger(fields: &Fields<'_>, ids: &Ids) -> Option<TriggerOf> {
         let message = format!("this entry has two triggers, `{key}` and `{other}`");
         fields.problems().push(node.place.error(message, "keep one, or write another entry"));
     }
-    if let Some(of) = of.as_ref().filter(|_| *key != "within") {
+    if let Some(of) = of.as_ref().filter(|_| !["within", "sees"].contains(key)) {
+        let message = "`of` without `within` or `sees`";
+        fields.problems().push(of.place.error(message, "write within = \"5 m\", or remove it"));
+    }
+    let deviation = fields.value("sees_deviation", Quantity::Length, Range::NotNegative);
+    if let Some(deviation) = deviation.as_ref().filter(|_| *key != "sees") {
+        let message = "`sees_deviation` without `sees`";
         fields
             .problems()
-            .push(of.place.error("`of` without `within`", "write within = \"5 m\", or remove it"));
+            .push(deviation.place.error(message, "write sees = \"3 m\", or remove it"));
     }
     Some(match *key {
         "at" => TriggerOf::Time(fields.value("at", Quantity::Time, Range::NotNegative)?.value),
         "touch" => TriggerOf::Touch(touch(fields)?),
         "within" => {
             TriggerOf::Within(fields.value("within", Quantity::Length, Range::Positive)?.value, of)
+        }
+        "sees" => {
+            let mean = fields.value("sees", Quantity::Length, Range::NotNegative)?.value;
+            TriggerOf::Sees([mean, deviation.map_or(0.0, |deviation| deviation.value)], of)
         }
         "depth" => {
             TriggerOf::Depth(fields.value("depth", Quantity::Length, Range::NotNegative)?.value)

@@ -9,6 +9,7 @@ use crate::linked::{Linked, library, report};
 use endline_fixtures::hooks::{Motion, descriptor};
 use endline_gear::{Hooks, Options, Scenario, assemble};
 use endline_sdk::{Act, Controls, Descriptor, FrictionModel, GearType, MotionOutput, WhaleMotion};
+use endline_sim::model::Trigger;
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 
 /// Speed of the plain motion at full control [m/s], and its turn rates [rad/s].
@@ -92,8 +93,11 @@ speed = 1.0
 }
 
 fn read(pilot: &str) -> Result<Model, String> {
-    let scenario =
-        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| report(&problems))?;
+    read_text(&text(pilot))
+}
+
+fn read_text(text: &str) -> Result<Model, String> {
+    let scenario = Scenario::read("pilot.toml", text).map_err(|problems| report(&problems))?;
     let spec = assemble(&scenario, &library(), &WithPlain, &Options::default())
         .map_err(|problems| report(&problems))?;
     Model::new(spec).map_err(|errors| format!("{errors:?}"))
@@ -143,6 +147,83 @@ fn a_distance_is_met_where_the_snout_comes_that_near() {
             second_began_s(&format!("[[whale.pilot]]\nwithin = \"{within_m} m\"\n{of}\nyaw = 1.0"));
         is_next_step(began_s, (ahead_m - 0.5 * LENGTH_M) / SPEED_M_S);
     }
+}
+
+/// A whale that swims at a distance to starboard of the rope, or to port of it if that is negative [m].
+fn beside(starboard_m: f64, pilot: &str) -> Model {
+    let text = text(pilot)
+        .replace("\"0 m\", \"0 m\"]\ndepth", &format!("\"0 m\", \"{} m\"]\ndepth", -starboard_m));
+    read_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// The distance is from the nearer eye; steering and act are reversed for rope on the starboard side.
+#[test]
+fn rope_is_seen_from_the_nearer_eye_and_turned_away_from() {
+    let library = library();
+    let whale = library.whales.iter().find(|whale| whale.entry.id == "right-whale").unwrap();
+    let eye = whale.eye_m(LENGTH_M);
+    // Mouth 0.2345 L - 0.184 m, half of a head some 0.19 L wide.
+    assert!(
+        (eye.x - (0.5 * LENGTH_M - 2.161)).abs() < 1e-9 && (0.8..1.1).contains(&eye.y),
+        "{eye}"
+    );
+    let entry = "[[whale.pilot]]\nsees = \"3.85 m\"\nyaw = -1.0\nroll = 0.5\nspeed = 0.5\nact = \"veer-from-left\"";
+    for (starboard_m, side, act) in [(2.0, 1.0, "veer-from-left"), (-2.0, -1.0, "veer-from-right")]
+    {
+        let model = beside(starboard_m, entry);
+        let (state, _) = flown(&model, 2);
+        let ahead_m = (3.85_f64.powi(2) - (2.0 - eye.y).powi(2)).sqrt();
+        is_next_step(state.pilot.begun[1].at_s, (ROPE_M - ahead_m - eye.x) / SPEED_M_S);
+        let whale = model.spec.whale.as_ref().unwrap();
+        let controls = whale.pilot.at(&state);
+        let acts = &whale.motion.descriptor().acts;
+        let number = 1 + acts.iter().position(|known| known.id == act).unwrap();
+        assert_eq!(
+            [controls.yaw, controls.roll, controls.speed, controls.act],
+            [-side, 0.5 * side, 0.5, number as f64]
+        );
+    }
+}
+
+/// Rope right ahead is beyond the field of both eyes once it is nearer than `eye.y / sin 15°`.
+#[test]
+fn rope_right_ahead_is_seen_from_afar_only() {
+    let entry = |sees: &str| format!("[[whale.pilot]]\nsees = \"{sees}\"\nmouth = 1.0");
+    let eye = library()
+        .whales
+        .iter()
+        .find(|whale| whale.entry.id == "right-whale")
+        .unwrap()
+        .eye_m(LENGTH_M);
+    let ahead_m = (4.5_f64.powi(2) - eye.y.powi(2)).sqrt();
+    is_next_step(second_began_s(&entry("4.5 m")), (ROPE_M - ahead_m - eye.x) / SPEED_M_S);
+    for unseen in ["3 m", "0 m"] {
+        let model = model(&format!("{}\n[[whale.pilot]]\nat = \"12 s\"\nyaw = 0.0", entry(unseen)));
+        let (state, _) = flown(&model, 2);
+        assert_eq!(state.pilot.begun[1].entry, 2, "{unseen}: {:?}", state.pilot);
+    }
+}
+
+/// Distances of many seeds have the mean and deviation of the entry.
+#[test]
+fn the_distance_at_which_rope_is_seen_varies_from_run_to_run() {
+    let entry = "[[whale.pilot]]\nsees = \"3.85 m\"\nsees_deviation = \"1.6 m\"\nyaw = -1.0";
+    let distances: Vec<f64> = (0..400)
+        .map(|seed| {
+            let text =
+                text(entry).replace("rope_nodes = 31", &format!("rope_nodes = 31\nseed = {seed}"));
+            let model = read_text(&text).unwrap();
+            match &model.spec.whale.unwrap().pilot.entries[1].trigger {
+                Trigger::Sees(sight) => sight.distance_m,
+                other => panic!("{other:?}"),
+            }
+        })
+        .collect();
+    let mean = distances.iter().sum::<f64>() / 400.0;
+    let variance = distances.iter().map(|d| (d - mean) * (d - mean)).sum::<f64>() / 399.0;
+    // Standard errors: 1.6/√400 = 0.08 of the mean, 1.6/√800 = 0.06 of the deviation.
+    assert!((mean - 3.85).abs() < 0.25, "{mean}");
+    assert!((variance.sqrt() - 1.6).abs() < 0.18, "{variance}");
 }
 
 #[test]
@@ -234,7 +315,8 @@ fn a_mistake_is_reported_with_its_place() {
         ("at = \"1 s\"\nyow = 1.0", "unknown field `yow`"),
         ("at = \"1 s\"\nyaw = 2.0", "it must be between -1 and 1"),
         ("at = \"1 s\"\ndelay = \"1 s\"\nyaw = 1.0", "an entry with `at` has no `delay`"),
-        ("at = \"1 s\"\nof = \"rope\"\nyaw = 1.0", "`of` without `within`"),
+        ("at = \"1 s\"\nof = \"rope\"\nyaw = 1.0", "`of` without `within` or `sees`"),
+        ("at = \"1 s\"\nsees_deviation = \"1 m\"\nyaw = 1.0", "`sees_deviation` without `sees`"),
         ("at = \"0 s\"\nyaw = 1.0", "not in rising order of `at`"),
         ("touch = \"left_flippers\"\nyaw = 1.0", "did you mean `left_flipper`?"),
         ("within = \"5 m\"\nof = \"ropes\"\nyaw = 1.0", "there is no line, body or joint `ropes`"),

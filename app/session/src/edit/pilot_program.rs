@@ -11,10 +11,11 @@ use super::documents::Documents;
 pub const LIST: &str = "whale.pilot";
 
 /// Keys that begin an entry, each with its name and the value of a new entry.
-pub const TRIGGERS: [(&str, &str, &str); 6] = [
+pub const TRIGGERS: [(&str, &str, &str); 7] = [
     ("at", "at a time", "0 s"),
     ("touch", "when rope touches", "any"),
     ("within", "within a distance of gear", "5 m"),
+    ("sees", "when it sees gear", "3 m"),
     ("depth", "passing a depth", "10 m"),
     ("heading", "passing a heading", "90 deg"),
     ("after", "after an entry", ""),
@@ -189,7 +190,7 @@ pub fn begin_by(
     for key in TRIGGERS
         .iter()
         .map(|(key, ..)| *key)
-        .chain(["of"])
+        .chain(["of", "sees_deviation"])
         .chain((trigger == "at").then_some("delay"))
     {
         if document.has(&path(index, key)) {

@@ -27,7 +27,8 @@ pub use settings::{
     CONTACT_TOLERANCE, EnergyForm, Probe, ProbeTarget, Resolution, Settings, WhaleFigure,
 };
 pub use whale::{
-    BODY_ON_SKIN_FRICTION, Friction, FrictionLaw, PilotEntry, PilotProgram, Target, Trigger, Whale,
+    BODY_ON_SKIN_FRICTION, Friction, FrictionLaw, PilotEntry, PilotProgram, Sight, Target, Trigger,
+    Whale,
 };
 
 /// Input of a model; [`Model::new`] checks it.

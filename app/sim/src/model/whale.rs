@@ -122,6 +122,8 @@ pub struct PilotEntry {
     pub ramp_s: f64,
     /// The controls it names, in the order of [`Controls::NAMES`].
     pub controls: [Option<f64>; Controls::COUNT],
+    /// Those of an entry that begins with rope seen on the starboard side; `controls` are then those for the port side.
+    pub controls_starboard: Option<[Option<f64>; Controls::COUNT]>,
 }
 
 /// Trigger of an entry.
@@ -133,12 +135,25 @@ pub enum Trigger {
     Touch(Option<BodyPart>),
     /// First time at which the line from snout to fluke notch is within this distance of a target [m].
     Within(f64, Target),
+    /// First time at which an eye sees a target, unless rope has touched the whale before.
+    Sees(Sight),
     /// Mid-body crosses this depth, in either direction [m].
     Depth(f64),
     /// The compass bearing of the whale's x axis crosses this one, in either direction [rad].
     Heading(f64),
     /// The entry of this smaller index begins.
     After(usize),
+}
+
+/// What a whale sees of a target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// Greatest distance from the eye at which it sees the target [m].
+    pub distance_m: f64,
+    /// Port eye on the straight whale, in the whale's frame; the starboard eye is its mirror image [m].
+    pub eye_m: DVec3,
+    /// The target.
+    pub target: Target,
 }
 
 /// Target of a distance trigger.

@@ -245,6 +245,10 @@ pub struct Seen {
     pub met_s: Option<f64>,
     /// Difference of depth or heading from the threshold at the last evaluation [m or rad].
     pub last: Option<f64>,
+    /// Whether the target was seen by the starboard eye.
+    pub is_starboard: bool,
+    /// Whether rope touched the whale before it saw the target.
+    pub is_touched: bool,
     /// Whether the entry has begun.
     pub begun: bool,
 }
@@ -256,4 +260,6 @@ pub struct Begun {
     pub entry: usize,
     /// Time at which it began [s].
     pub at_s: f64,
+    /// Whether it began because the starboard eye saw its target.
+    pub is_starboard: bool,
 }

@@ -20,7 +20,7 @@ use endline_sdk::Controls;
 use glam::DVec3;
 
 use crate::geometry::distance::segment_segment;
-use crate::model::{Model, PilotEntry, PilotProgram, Target, Trigger};
+use crate::model::{Model, PilotEntry, PilotProgram, Sight, Target, Trigger};
 use crate::state::{Begun, PilotMemory, Seen, State, WhaleState};
 
 /// Tolerance of time comparisons: 0.3 s includes the step at 0.29999999999999999 [s].
@@ -34,7 +34,9 @@ impl PilotProgram {
             let Some(entry) = self.entries.get(begun.entry) else { continue };
             let weight = entry.weight(state.time_s - begun.at_s);
             let held = state.time_s - begun.at_s < entry.hold_s - GRACE_S;
-            for (index, (control, wanted)) in controls.iter_mut().zip(entry.controls).enumerate() {
+            let of_side = entry.controls_starboard.filter(|_| begun.is_starboard);
+            let named = of_side.unwrap_or(entry.controls);
+            for (index, (control, wanted)) in controls.iter_mut().zip(named).enumerate() {
                 let Some(wanted) = wanted else { continue };
                 // A weight of 1 gives the exact value of the entry.
                 match if index == Controls::ACT { f64::from(u8::from(held)) } else { weight } {
@@ -88,7 +90,7 @@ pub(crate) fn poll(model: &Model, state: &mut State) {
         let begins_s = seen.met_s.map(|met_s| met_s + entry.delay_s);
         if let Some(at_s) = begins_s.filter(|at_s| *at_s <= state.time_s + GRACE_S) {
             seen.begun = true;
-            memory.begun.push(Begun { entry: index, at_s });
+            memory.begun.push(Begun { entry: index, at_s, is_starboard: seen.is_starboard });
         }
         memory.seen[index] = seen;
     }
@@ -126,6 +128,13 @@ fn observe(model: &Model, state: &State, trigger: &Trigger, before: Seen) -> See
         Trigger::Within(distance_m, target) => {
             let met = is_within(model, state, axis(whale, spec.length_m), *distance_m, target);
             Seen { met_s: met.then_some(now), ..before }
+        }
+        Trigger::Sees(sight) => {
+            let is_touched =
+                before.is_touched || whale.contact_force_n.iter().any(|force| *force > 0.0);
+            let side = if is_touched { None } else { side_seen(model, state, whale, sight) };
+            let is_starboard = side.unwrap_or(false);
+            Seen { met_s: side.map(|_| now), is_starboard, is_touched, ..before }
         }
         Trigger::Depth(depth_m) => {
             crossing(before, -whale.position.z - depth_m, f64::INFINITY, now)
@@ -172,22 +181,60 @@ fn is_within(
     distance_m: f64,
     target: &Target,
 ) -> bool {
-    let near = |other: [DVec3; 2]| {
-        let (s, t) = segment_segment(axis, other);
-        axis[0].lerp(axis[1], s).distance_squared(other[0].lerp(other[1], t))
+    any_part(model, state, target, |part| {
+        let (s, t) = segment_segment(axis, part);
+        axis[0].lerp(axis[1], s).distance_squared(part[0].lerp(part[1], t))
             <= distance_m * distance_m
-    };
+    })
+}
+
+/// Sine of the angle beyond the midplane up to which an eye sees: half the binocular field, which is 20 to 30 degrees wide in dolphins
+/// (Mass and Supin 2007, The Anatomical Record 290, 701); assumed for whales.
+const BEYOND_MIDPLANE: f64 = 0.26;
+
+/// The eye that sees a target, the nearer one of both: `Some(true)` for the starboard eye, `None` if neither does.
+fn side_seen(model: &Model, state: &State, whale: &WhaleState, sight: &Sight) -> Option<bool> {
+    let (mut nearest_m, mut side) = (sight.distance_m, None);
+    for is_starboard in [false, true] {
+        let port = if is_starboard { -1.0 } else { 1.0 };
+        let eye = whale.position + whale.orientation * (sight.eye_m * DVec3::new(1.0, port, 1.0));
+        let out = whale.orientation * DVec3::new(0.0, port, 0.0);
+        any_part(model, state, &sight.target, |[from, to]| {
+            let seen = from.lerp(to, nearest_fraction(eye, [from, to])) - eye;
+            let distance_m = seen.length();
+            if distance_m < nearest_m && seen.dot(out) >= -BEYOND_MIDPLANE * distance_m {
+                (nearest_m, side) = (distance_m, Some(is_starboard));
+            }
+            false
+        });
+    }
+    side
+}
+
+/// Fraction of a segment that is nearest to a point.
+fn nearest_fraction(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
+    let along = to - from;
+    ((point - from).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0)
+}
+
+/// Whether any part of a target meets a condition: segments of its lines that are not cut, or its place as a segment without length.
+fn any_part(
+    model: &Model,
+    state: &State,
+    target: &Target,
+    mut meets: impl FnMut([DVec3; 2]) -> bool,
+) -> bool {
     let line = |line: usize| {
         let (nodes, segments) = (model.line_nodes[line].clone(), model.line_segments[line].clone());
-        let pairs = state.rope.position[nodes].windows(2).zip(&state.rope.cut[segments]);
-        pairs.into_iter().any(|(ends, cut)| !cut && near([ends[0], ends[1]]))
+        let mut pairs = state.rope.position[nodes].windows(2).zip(&state.rope.cut[segments]);
+        pairs.any(|(ends, cut)| !cut && meets([ends[0], ends[1]]))
     };
     match target {
         Target::AnyLine => (0..model.spec.lines.len()).any(line),
         Target::Lines(lines) => lines.clone().any(line),
-        Target::Body(body) => state.bodies.get(*body).is_some_and(|body| near([body.position; 2])),
+        Target::Body(body) => state.bodies.get(*body).is_some_and(|body| meets([body.position; 2])),
         Target::Joint(joint) => {
-            state.joint_place(model, *joint).is_some_and(|place| near([place; 2]))
+            state.joint_place(model, *joint).is_some_and(|place| meets([place; 2]))
         }
     }
 }

@@ -15,7 +15,7 @@ fn what_observers_list_is_shipped_and_every_act_has_an_id_of_its_own() {
         "belly-up side-lying-on-right flipper-slap-left flipper-slap-right flipper-stroke-left head-lift head-push tail-slap",
         "tail-lift peduncle-throw-left breach nuzzle body-slide-left logging posturing",
         "flinch turn-away roll-away roll-toward thrash-flipper thrash-tail bolt dive-away",
-        "barrel-roll-away barrel-roll-toward",
+        "barrel-roll-away barrel-roll-toward veer-from-left veer-from-right halt sink",
     ] {
         wanted.split(' ').for_each(|id| assert!(ids.contains(&id), "{id} is not shipped"));
     }

@@ -17,6 +17,21 @@ const HELP: [(&str, &str); 3] = [
     ("ramp", "Time over which controls change to their values, and back after the hold"),
 ];
 
+/// Rows of the form for one kind of trigger: label, key and help.
+fn details(trigger: &str) -> &'static [(&'static str, &'static str, &'static str)] {
+    const OF: (&str, &str, &str) = ("of", "of", "Id of a line, body or joint; empty: any line");
+    const DEVIATION: (&str, &str, &str) = (
+        "deviation",
+        "sees_deviation",
+        "Standard deviation of the distance, such as 1.6 m; empty: 0",
+    );
+    match trigger {
+        "within" => &[OF],
+        "sees" => &[DEVIATION, OF],
+        _ => &[],
+    }
+}
+
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     let mut typed: Vec<(&'static str, String)> = Vec::new();
     widgets::caption(ui, "Trigger");
@@ -30,15 +45,9 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
             "Value of the trigger, such as 12 s, any, 5 m, 90 deg",
         ));
         ui.end_row();
-        if entry.trigger == "within" {
-            ui.label(RichText::new("of").color(Theme::palette_of(ui).faint));
-            typed.extend(word(
-                ui,
-                shared,
-                entry,
-                "of",
-                "Id of a line, body or joint; empty: any line",
-            ));
+        for (label, key, help) in details(entry.trigger) {
+            ui.label(RichText::new(*label).color(Theme::palette_of(ui).faint));
+            typed.extend(word(ui, shared, entry, key, help));
             ui.end_row();
         }
         for key in times(entry.trigger) {
