@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::linked::{Linked, library, report};
+use crate::linked::{Linked, library, report, root};
 use endline_fixtures::hooks::{Motion, descriptor};
 use endline_gear::{Hooks, Options, Scenario, assemble};
 use endline_sdk::{Act, Controls, Descriptor, FrictionModel, GearType, MotionOutput, WhaleMotion};
@@ -182,6 +182,29 @@ fn rope_is_seen_from_the_nearer_eye_and_turned_away_from() {
             [controls.yaw, controls.roll, controls.speed, controls.act],
             [-side, 0.5 * side, 0.5, number as f64]
         );
+    }
+}
+
+/// A whale that would brush the rope with a flipper misses it if it sees the rope.
+#[test]
+fn a_whale_that_sees_the_rope_veers_past_it() {
+    let file = std::fs::read_to_string(root().join("scenarios/rope-mimic.toml")).unwrap();
+    for (sees, is_touched) in [("0 m", true), ("3.85 m", false)] {
+        let text = file
+            .replace("[\"0 m\", \"-14 m\"]", "[\"2 m\", \"-14 m\"]")
+            .replace("sees = \"3.85 m\"", &format!("sees = \"{sees}\""))
+            .replace("sees_deviation = \"1.6 m\"", "sees_deviation = \"0 m\"");
+        let scenario = Scenario::read("rope-mimic.toml", &text).unwrap();
+        let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap();
+        let model = Model::new(spec).unwrap();
+        let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
+        let mut touched = false;
+        while state.time_s < 25.0 {
+            let input = Input { controls: model.spec.whale.as_ref().unwrap().pilot.at(&state) };
+            step(&model, &input, &mut state, &mut workspace).unwrap();
+            touched |= !workspace.contacts.is_empty();
+        }
+        assert_eq!(touched, is_touched, "sees at {sees}");
     }
 }
 
