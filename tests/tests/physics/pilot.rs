@@ -178,9 +178,10 @@ fn rope_is_seen_from_the_nearer_eye_and_turned_away_from() {
         let controls = whale.pilot.at(&state);
         let acts = &whale.motion.descriptor().acts;
         let number = 1 + acts.iter().position(|known| known.id == act).unwrap();
+        let expected = [-side, 0.5 * side, 0.5, number as f64];
         assert_eq!(
-            [controls.yaw, controls.roll, controls.speed, controls.act],
-            [-side, 0.5 * side, 0.5, number as f64]
+            [controls.yaw, controls.roll, controls.speed, controls.act].map(f64::to_bits),
+            expected.map(f64::to_bits)
         );
     }
 }
