@@ -320,8 +320,10 @@ impl SkinContactPoint {
         }
         stored_faces::assign(&mut touches[first..], kept, self.kept.clone());
         for touch in &mut touches[first..] {
-            let whole_n = touch
-                .solved_before(&touched[self.touches.clone()])
+            let before = touch.among(&touched[self.touches.clone()]);
+            touch.region_pair = before.map_or(touch.pair, |before| before.region_pair);
+            let whole_n = before
+                .and_then(Touch::whole_solved_n)
                 .or_else(|| Some(kept[touch.kept?].push_n))
                 .or(self.push_beside_n);
             touch.solved_n = whole_n.map(|whole_n| whole_n * touch.share);

@@ -103,7 +103,7 @@ impl Touching {
         };
         for (point, at) in points.list.iter().enumerate() {
             for (face, touch) in points.touches(at).iter().enumerate() {
-                let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
+                let region = whale.skin.regions[near.skin_of(touch.region_pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
                 let law = friction.law_of[rope][region as usize];
                 let order = self.faces.len();
@@ -141,7 +141,7 @@ impl Touching {
         let factor = points.friction_factor(model, &state.rope.position, index);
         let point = &points.list[index];
         let touch = &points.touches(point)[face];
-        let pair = near.skin_of(touch.pair);
+        let (pair, of_region) = (near.skin_of(touch.pair), near.skin_of(touch.region_pair));
         let from = &state.rope.position;
         let rope_move = touch.place - point.on_rope(|node| from[node]);
         let along = from[point.node + 1] - from[point.node];
@@ -152,7 +152,7 @@ impl Touching {
             normal_force: touch.barrier.force,
             growth_n: touch.growth_n,
             normal: touch.normal,
-            grain: self.grains.at(pair.triangle as usize, &pair.now, touch.normal),
+            grain: self.grains.at(of_region.triangle as usize, &of_region.now, touch.normal),
             along: norm::normalize_or(along, touch.normal),
             slip: rope_move - skin_move,
             length: point.length * touch.share,

@@ -10,6 +10,9 @@ use crate::geometry::norm;
 pub(crate) struct Touch {
     pub pair: usize,
     pub barycentric: [f64; 3],
+    /// The pair whose region of skin gives the friction: that at the first evaluation of this face in the solver step. Where two regions
+    /// meet, friction would else change from iteration to iteration.
+    pub region_pair: usize,
     pub place: DVec3,
     /// Direction of the push: across the rope, for skin cannot pull rope along itself.
     pub normal: DVec3,
@@ -49,6 +52,7 @@ impl Touch {
         Self {
             pair,
             barycentric,
+            region_pair: pair,
             place,
             normal: away,
             away,
@@ -79,14 +83,18 @@ impl Touch {
         self.normal = norm::normalize_or(self.away - ahead * part, self.away);
     }
 
-    /// Normal force of the last solution for this face, as if it were alone, if it is among those touched `before` [N].
-    pub fn solved_before(&self, before: &[Self]) -> Option<f64> {
+    /// This face as it was touched `before`, if it is among those faces.
+    pub fn among<'a>(&self, before: &'a [Self]) -> Option<&'a Self> {
         let alike = |other: &&Self| other.normal.dot(self.normal);
-        let same = before
+        before
             .iter()
             .filter(|other| alike(other) > SAME_FACE)
-            .max_by(|one, other| alike(one).total_cmp(&alike(other)));
-        same.and_then(|same| Some(same.solved_n? / same.share))
+            .max_by(|one, other| alike(one).total_cmp(&alike(other)))
+    }
+
+    /// Normal force of the last solution, as if it were alone [N].
+    pub fn whole_solved_n(&self) -> Option<f64> {
+        Some(self.solved_n? / self.share)
     }
 
     /// Makes the normal force linear about the solved one where the law is steep.
