@@ -256,6 +256,8 @@ fn rope_dropped_on_a_box_hangs_over_its_edge() {
         );
         // The centre line of a rope of 10 mm stays outside of the box, round its sharp edge too.
         assert!(deepest < 0.0, "{deepest}");
+        // Without held grips (`law/elastic_grip.rs`), rope of 40 segments takes 4,300 iterations.
+        assert!(workspace.audit.passes < 2000, "{:?}", workspace.audit);
         assert!(tail.z < -0.3 && (0.45..0.75).contains(&tail.x), "{tail}");
     }
 }

@@ -37,6 +37,9 @@ const STATIC_SHARE: f64 = 0.1;
 const LOOK_SHARE: f64 = 0.2;
 /// Largest number of samples of a path.
 const MOST_LOOKS: f64 = 64.0;
+/// Longest step in which reversed friction is held. Longer steps that do not converge are redone shorter, which rope at an edge needs: in
+/// steps of 10 ms it cuts the edge by 3 mm [s].
+const HELD_WITHIN_S: f64 = 4e-3;
 /// Share of a solid's thickness below its surface at which rope has gone into it.
 const INSIDE_SHARE: f64 = 0.25;
 
@@ -401,18 +404,48 @@ fn force_of(
     point: &SolidContactPoint,
     touch: &Touch,
 ) -> (DVec3, DMat3) {
-    let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, point, touch) };
+    let grip = if scheme.is_static() {
+        Grip::none()
+    } else {
+        grip_to_solve((state, scheme), solid, point, touch)
+    };
     let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
     (touch.normal * point.push_n + grip.force, block)
 }
 
-/// Friction at a contact point: the grip, carried along with the solid, stretched by how the rope moved on it.
-fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touch) -> Grip {
+/// Friction at a contact point for the next solution: a grip that holds at any force if its friction opposes that of the last solution
+/// (`law/elastic_grip.rs`).
+fn grip_to_solve(
+    (state, scheme): (&State, &Scheme),
+    solid: &Solid,
+    point: &SolidContactPoint,
+    touch: &Touch,
+) -> Grip {
+    let grip = grip_of(state, solid, point, touch);
+    if scheme.dt > HELD_WITHIN_S {
+        return grip;
+    }
+    // The force by the moves of rope and body together; each of both stored forces is by the move of one alone.
+    let [on_rope, on_body] = point.solved;
+    let solved = on_rope + on_body - point.force;
+    if grip.is_reversed(point.push_n, solved, touch.normal) {
+        Grip::held(stretch_of(state, solid, point, touch), touch.normal, point.stiffness)
+    } else {
+        grip
+    }
+}
+
+/// Stretch of the grip at a contact point: carried along with the solid, and stretched by how the rope moved on it [m].
+fn stretch_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touch) -> DVec3 {
     let before = point.on_rope(|node| state.rope.position[node]);
     let carried = touch.pose.outward(pose_before(state, solid).inward(before));
-    let stretch = touch.pose.orientation * point.kept + touch.place - carried;
+    touch.pose.orientation * point.kept + touch.place - carried
+}
+
+/// Friction at a contact point by its law.
+fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touch) -> Grip {
     Grip::new(
-        stretch,
+        stretch_of(state, solid, point, touch),
         touch.normal,
         point.stiffness,
         solid.friction,
