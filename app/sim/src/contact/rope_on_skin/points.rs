@@ -266,10 +266,10 @@ impl WithSimd for Measure<'_> {
     }
 }
 
-/// Whether a barycentric place is on an edge or at a corner of its triangle.
+/// Whether two barycentric places of a triangle are on the same edge, or one is at a corner of the other's edge.
 #[inline(always)]
-fn is_on_edge(barycentric: [f64; 3]) -> bool {
-    barycentric.contains(&0.0)
+fn are_on_one_edge(one: [f64; 3], other: [f64; 3]) -> bool {
+    one.iter().zip(other).any(|(one, other)| *one == 0.0 && other == 0.0)
 }
 
 /// Whether a triangle is nearer than another, each given by its distance and pair. Of triangles at equal distances the first pair is the
@@ -341,7 +341,7 @@ impl SkinContactPoint {
         let (Some([from, to]), Some((pair, barycentric))) = (self.between, self.nearest) else {
             return;
         };
-        if !is_on_edge(barycentric) {
+        if !barycentric.contains(&0.0) {
             return;
         }
         let ends = [from, to].map(|end| places[self.node].lerp(places[self.node + 1], end));
@@ -349,7 +349,8 @@ impl SkinContactPoint {
         let fraction = from + (to - from) * nearest.fraction;
         let piece_m = norm::distance(ends[0], ends[1]);
         let moved_m = piece_m * (fraction - self.fraction).abs() / (to - from);
-        if is_on_edge(nearest.barycentric) && moved_m < self.contact_distance {
+        // Two edges of a triangle may be equally near; a point that changed between them would not converge.
+        if are_on_one_edge(nearest.barycentric, barycentric) && moved_m < self.contact_distance {
             self.fraction = fraction;
         }
     }
