@@ -15,7 +15,7 @@ pub const TRIGGERS: [(&str, &str, &str); 7] = [
     ("at", "at a time", "0 s"),
     ("touch", "when rope touches", "any"),
     ("within", "within a distance of gear", "5 m"),
-    ("sees", "when it sees gear", "3 m"),
+    ("sees", "seeing gear", "3 m"),
     ("depth", "passing a depth", "10 m"),
     ("heading", "passing a heading", "90 deg"),
     ("after", "after an entry", ""),
