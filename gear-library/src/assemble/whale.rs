@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use endline_sdk::{Controls, Descriptor, Posture, WhaleMotion};
 use endline_sim::model::{PilotEntry, PilotProgram, Sight, Target, Trigger, Whale};
-use endline_sim::whale::acts::{Acting, Answers, Clip, DrawnAnswers};
+use endline_sim::whale::acts::{Acting, Answers, Clip, DrawnAnswers, Side};
 use endline_sim::whale::kinetic::hull::{fins, spheroid};
 use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
 use endline_sim::whale::{JawStrength, Measures, Skin};
@@ -402,38 +402,27 @@ impl Builder<'_> {
             return;
         };
         let Some(placed) = &self.scenario.whale else { return };
-        let eye_m = self.eye(placed);
-        let program = self.pilot(&placed.pilot, motion.descriptor(), eye_m);
+        let program = self.pilot(placed, motion.descriptor());
         if let Some(whale) = &mut self.spec.whale {
             whale.pilot = program;
         }
     }
 
-    /// The program of these entries.
-    fn pilot(&self, entries: &[PilotOf], motion: &Descriptor, eye_m: DVec3) -> PilotProgram {
-        let entries = entries.iter().enumerate();
+    /// The program of a whale.
+    fn pilot(&self, placed: &PlacedWhale, motion: &Descriptor) -> PilotProgram {
+        let entries = 0..placed.pilot.len();
         PilotProgram {
-            entries: entries
-                .filter_map(|(index, entry)| self.pilot_entry(index, entry, motion, eye_m))
-                .collect(),
+            entries: entries.filter_map(|index| self.pilot_entry(placed, index, motion)).collect(),
         }
-    }
-
-    /// Port eye of the straight whale, in its frame: above the corner of the mouth [m].
-    fn eye(&self, placed: &PlacedWhale) -> DVec3 {
-        let whales = &self.library.whales;
-        let item = whales.iter().find(|whale| whale.entry.id == placed.item.value);
-        let length_m = self.spec.whale.as_ref().map_or(0.0, |whale| whale.length_m);
-        item.map_or(DVec3::ZERO, |item| item.eye_m(length_m))
     }
 
     fn pilot_entry(
         &self,
+        placed: &PlacedWhale,
         index: usize,
-        entry: &PilotOf,
         motion: &Descriptor,
-        eye_m: DVec3,
     ) -> Option<PilotEntry> {
+        let entry = &placed.pilot[index];
         let mut controls = entry.controls;
         if let Some(act) = &entry.act {
             controls[Controls::ACT] = Some(self.act(act, motion)?);
@@ -444,11 +433,15 @@ impl Builder<'_> {
             TriggerOf::Within(distance_m, of) => {
                 Trigger::Within(*distance_m, self.target(of.as_ref())?)
             }
-            TriggerOf::Sees([mean_m, deviation_m], of) => Trigger::Sees(Sight {
-                distance_m: mean_m + deviation_m * self.seen_deviation(index),
-                eye_m,
-                target: self.target(of.as_ref())?,
-            }),
+            TriggerOf::Sees([mean_m, deviation_m], of) => {
+                let mut whales = self.library.whales.iter();
+                let item = whales.find(|whale| whale.entry.id == placed.item.value)?;
+                Trigger::Sees(Sight {
+                    distance_m: mean_m + deviation_m * self.seen_deviation(index),
+                    eye_m: item.eye_m(self.spec.whale.as_ref()?.length_m),
+                    target: self.target(of.as_ref())?,
+                })
+            }
             TriggerOf::Depth(depth_m) => Trigger::Depth(*depth_m),
             TriggerOf::Heading(bearing_rad) => Trigger::Heading(*bearing_rad),
             TriggerOf::After(entry) => Trigger::After(*entry),
@@ -480,25 +473,23 @@ impl Builder<'_> {
                 *control = control.map(|value| -value);
             }
         }
-        if let Some(act) = &entry.act
-            && let Some(id) = self.mirror_image(&act.value)
-        {
-            let other = At { value: id.to_owned(), place: act.place.clone() };
-            mirrored[Controls::ACT] = Some(self.act(&other, motion)?);
+        let Some(act) = &entry.act else { return Some(mirrored) };
+        let is_act = |item: &&ActItem| item.clips.iter().any(|clip| clip.id == act.value);
+        let Some(item) = self.library.acts.iter().find(is_act) else { return Some(mirrored) };
+        match item.clips.as_slice() {
+            [clip] if clip.side == Side::Touched => {
+                let message = format!("`{}` turns by the side that was touched", act.value);
+                let help = "name an act with a mirror image, such as `veer-from-left`, or one without a side";
+                self.problems.push(act.place.error(message, help));
+            }
+            [one, other] => {
+                let image = if act.value == one.id { other } else { one };
+                let image = At { value: image.id.clone(), place: act.place.clone() };
+                mirrored[Controls::ACT] = Some(self.act(&image, motion)?);
+            }
+            _ => {}
         }
         Some(mirrored)
-    }
-
-    /// Id of the mirror image of an act of the library.
-    fn mirror_image(&self, act: &str) -> Option<&str> {
-        self.library.acts.iter().find_map(|item| {
-            let [one, other] = item.clips.as_slice() else { return None };
-            match act {
-                _ if act == one.id => Some(other.id.as_str()),
-                _ if act == other.id => Some(one.id.as_str()),
-                _ => None,
-            }
-        })
     }
 
     /// Standard normal deviate of the distance at which an entry's target is seen.

@@ -87,10 +87,11 @@ impl WhaleItem {
         grown(&self.shares, &self.growth, self.density_kg_m3, length_m)
     }
 
-    /// Port eye of the straight whale at a length, in its frame: at the corner of the mouth and on the side of the head, at the level of the
-    /// snout; an estimate [m].
+    /// Port eye of the straight whale at a length, in its frame: at the corner of the mouth, at half the width of that section and at the level
+    /// of the snout; an estimate [m].
     pub fn eye_m(&self, length_m: f64) -> DVec3 {
-        let form = self.form_at(length_m);
+        let mut form = WhaleForm { length_m, ..self.shares.clone() };
+        self.growth.proportion(&mut form);
         let at = form.head.mouth;
         length_m * DVec3::new(0.5 - at, 0.5 * width_at(&form.stations, at), 0.0)
     }

@@ -347,6 +347,7 @@ fn a_mistake_is_reported_with_its_place() {
         ("within = \"5 s\"\nyaw = 1.0", "`within`"),
         ("after = \"begin\"\nyaw = 1.0", "no earlier entry has the id `begin`"),
         ("at = \"1 s\"\nid = \"start\"\nyaw = 1.0", "there are two entries with the id `start`"),
+        ("sees = \"3 m\"\nact = \"turn-away\"", "`turn-away` turns by the side that was touched"),
         ("at = \"1 s\"\nact = \"rol-away\"", "has no act `rol-away`"),
         ("at = \"1 s\"\nact = \"rol-away\"", "did you mean `roll-away`?"),
         ("at = \"1 s\"\nhold = \"0 s\"\nyaw = 1.0", "it must be above zero"),

@@ -188,33 +188,32 @@ fn is_within(
     })
 }
 
-/// Sine of the angle beyond the midplane up to which an eye sees: half the binocular field, which is 20 to 30 degrees wide in dolphins
-/// (Mass and Supin 2007, The Anatomical Record 290, 701); assumed for whales.
+/// Sine of the angle beyond the midplane up to which an eye sees: half of a binocular field of 30 degrees. In dolphins it is 20 to 30 degrees
+/// wide (Mass and Supin 2007, The Anatomical Record 290, 701, recalled); for right whales it is assumed.
 const BEYOND_MIDPLANE: f64 = 0.26;
 
 /// The eye that sees a target, the nearer one of both: `Some(true)` for the starboard eye, `None` if neither does.
 fn side_seen(model: &Model, state: &State, whale: &WhaleState, sight: &Sight) -> Option<bool> {
     let (mut nearest_m, mut side) = (sight.distance_m, None);
-    for is_starboard in [false, true] {
-        let port = if is_starboard { -1.0 } else { 1.0 };
+    if nearest_m <= 0.0 {
+        return None;
+    }
+    let eyes = [(1.0, false), (-1.0, true)].map(|(port, is_starboard)| {
         let eye = whale.position + whale.orientation * (sight.eye_m * DVec3::new(1.0, port, 1.0));
-        let out = whale.orientation * DVec3::new(0.0, port, 0.0);
-        any_part(model, state, &sight.target, |[from, to]| {
-            let seen = from.lerp(to, nearest_fraction(eye, [from, to])) - eye;
+        (eye, whale.orientation * DVec3::new(0.0, port, 0.0), is_starboard)
+    });
+    any_part(model, state, &sight.target, |part| {
+        for (eye, out, is_starboard) in eyes {
+            let (_, fraction) = segment_segment([eye; 2], part);
+            let seen = part[0].lerp(part[1], fraction) - eye;
             let distance_m = seen.length();
             if distance_m < nearest_m && seen.dot(out) >= -BEYOND_MIDPLANE * distance_m {
                 (nearest_m, side) = (distance_m, Some(is_starboard));
             }
-            false
-        });
-    }
+        }
+        false // The nearest of all parts is sought.
+    });
     side
-}
-
-/// Fraction of a segment that is nearest to a point.
-fn nearest_fraction(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
-    let along = to - from;
-    ((point - from).dot(along) / along.length_squared().max(1e-12)).clamp(0.0, 1.0)
 }
 
 /// Whether any part of a target meets a condition: segments of its lines that are not cut, or its place as a segment without length.

@@ -321,7 +321,9 @@ impl SkinContactPoint {
         stored_faces::assign(&mut touches[first..], kept, self.kept.clone());
         for touch in &mut touches[first..] {
             let before = touch.among(&touched[self.touches.clone()]);
-            touch.region_pair = before.map_or(touch.pair, |before| before.region_pair);
+            if let Some(before) = before {
+                touch.region_pair = before.region_pair;
+            }
             let whole_n = before
                 .and_then(Touch::whole_solved_n)
                 .or_else(|| Some(kept[touch.kept?].push_n))
