@@ -93,11 +93,13 @@ pub struct RunRule {
     pub held_s: f64,
     /// Time without change after which an entangled whale counts as permanently held [s].
     pub settled_s: Option<f64>,
+    /// Time for which an entangled whale is simulated after the last parting [s].
+    pub parted_s: Option<f64>,
 }
 
 impl Default for RunRule {
     fn default() -> Self {
-        Self { passed_s: 30.0, held_s: 600.0, settled_s: None }
+        Self { passed_s: 30.0, held_s: 600.0, settled_s: None, parted_s: None }
     }
 }
 
@@ -250,11 +252,13 @@ fn run_rule(fields: &Fields<'_>) -> RunRule {
     let passed = table.value("passed", Quantity::Time, Range::Positive);
     let held = table.value("held", Quantity::Time, Range::Positive);
     let settled = table.value("settled", Quantity::Time, Range::Positive);
+    let parted = table.value("parted", Quantity::Time, Range::Positive);
     table.finish();
     RunRule {
         passed_s: passed.map_or(usual.passed_s, |passed| passed.value),
         held_s: held.map_or(usual.held_s, |held| held.value),
         settled_s: settled.map(|settled| settled.value),
+        parted_s: parted.map(|parted| parted.value),
     }
 }
 

@@ -36,6 +36,7 @@ fn swim(length_m: f64, controls: Controls) -> Vec<Posture> {
             controls,
             contact_force_n: &[0.0; BodyPart::ALL.len()],
             contact_port_m: &[0.0; BodyPart::ALL.len()],
+            thrust_speed_m_s: None,
         };
         let moved = motion.step(&attributes, &input, &mut state).unwrap();
         speed_m_s = moved.speed_m_s;

@@ -21,7 +21,7 @@
 #define ENDLINE_ABI_MAJOR 3
 
 // Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-#define ENDLINE_ABI_MINOR 1
+#define ENDLINE_ABI_MINOR 2
 
 // Kind of plugin: whale motion, table `endline_motion_t`.
 #define ENDLINE_KIND_MOTION 1
@@ -310,6 +310,10 @@ typedef struct {
   size_t body_part_count;
   // Mean place of those forces on each part: distance to port from the midplane on the body at rest [m].
   const double *contact_port_m;
+  // Speed at which the drag of the body equals the thrust of the last step, if `has_thrust` [m/s]. Since 3.2.
+  double thrust_speed_m_s;
+  // 1 for a kinetic whale; 0 for a kinematic one, which has no thrust. Since 3.2.
+  uint32_t has_thrust;
 } endline_motion_input_t;
 
 // Joint angles of a whale [rad]; all zero is the rest posture.

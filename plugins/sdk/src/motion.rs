@@ -50,6 +50,9 @@ pub struct MotionInput<'a> {
     pub contact_force_n: &'a [f64; BodyPart::ALL.len()],
     /// Mean place of those forces on each part: distance to port from the midplane on the body at rest, negative to starboard [m].
     pub contact_port_m: &'a [f64; BodyPart::ALL.len()],
+    /// Speed at which the drag of the body equals the thrust of the last step [m/s]; `None` for a kinematic whale, which has no
+    /// thrust.
+    pub thrust_speed_m_s: Option<f64>,
 }
 
 /// Output of a motion.

@@ -51,6 +51,7 @@ fn swim(
             controls: controls(time_s),
             contact_force_n: &[0.0; BodyPart::ALL.len()],
             contact_port_m: &[0.0; BodyPart::ALL.len()],
+            thrust_speed_m_s: None,
         };
         let out = motion.step(&attributes, &input, &mut state).unwrap();
         speed_m_s = out.speed_m_s;
@@ -331,6 +332,7 @@ fn wrong_lengths_and_bad_steps_are_errors() {
         controls: forward(),
         contact_force_n: &[0.0; BodyPart::ALL.len()],
         contact_port_m: &[0.0; BodyPart::ALL.len()],
+        thrust_speed_m_s: None,
     };
     let motion = Swim::new();
     let mut state = vec![0.0; motion.descriptor().state_len];
@@ -350,4 +352,44 @@ fn wrong_lengths_and_bad_steps_are_errors() {
             .message
             .contains("floats of state")
     );
+}
+
+/// A kinetic whale's flukes move as fast as those of a free whale at the speed at which its drag equals the thrust.
+#[test]
+fn the_beat_follows_the_thrust() {
+    let run = |speed_m_s: f64, thrust_speed_m_s: Option<f64>| {
+        let (motion, attributes) = (Swim::new(), attributes());
+        let mut state = vec![0.0; motion.descriptor().state_len];
+        let tail: Vec<f64> = (0..12_000)
+            .map(|index| {
+                let input = MotionInput {
+                    time_s: f64::from(index) * 0.01,
+                    dt_s: 0.01,
+                    length_m: LENGTH_M,
+                    speed_m_s,
+                    position_m: [0.0; 3],
+                    orientation: [0.0, 0.0, 0.0, 1.0],
+                    controls: forward(),
+                    contact_force_n: &[0.0; BodyPart::ALL.len()],
+                    contact_port_m: &[0.0; BodyPart::ALL.len()],
+                    thrust_speed_m_s,
+                };
+                heights(&motion.step(&attributes, &input, &mut state).unwrap().posture).0[HINGE]
+            })
+            .collect();
+        tail[4000..].to_vec()
+    };
+    let way_m = |tail: &[f64]| span(tail.iter().copied());
+    let flukes_m_s = |tail: &[f64]| frequency(tail, 0.01) * way_m(tail);
+    let free = flukes_m_s(&run(1.23, None));
+    assert!(
+        (flukes_m_s(&run(1.23, Some(1.23))) / free - 1.0).abs() < 1e-3,
+        "without gear nothing changes"
+    );
+    let held = flukes_m_s(&run(0.0, Some(2.46)));
+    assert!(
+        (held / free - 2.0).abs() < 0.01,
+        "held fast, with the thrust of 2.46 m/s: {held} of {free}"
+    );
+    assert!(way_m(&run(1.0, Some(0.0))) < 1e-9, "without thrust the flukes are still");
 }

@@ -8,6 +8,7 @@
 
 mod acts;
 mod balance;
+mod beat;
 mod bodies;
 mod buoy_jams;
 mod case_wraps;

@@ -34,7 +34,7 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     let (host, problems) = PluginHost::discover(std::slice::from_ref(&folder));
 
     for (file, id, reason) in [
-        ("wrong_abi", None, "was built for plugin ABI 4.3, but this program speaks 3.1"),
+        ("wrong_abi", None, "was built for plugin ABI 4.3, but this program speaks 3.2"),
         ("missing_entry", None, "does not export `endline_plugin_entry`"),
         ("truncated", None, "its entry is truncated: 12 bytes where"),
         ("no_factory", None, "its factory `endline.plugins/3` is missing"),
@@ -96,6 +96,7 @@ pub fn motion_input(forces: &[f64; BodyPart::ALL.len()]) -> MotionInput<'_> {
         controls: Controls::default(),
         contact_force_n: forces,
         contact_port_m: forces,
+        thrust_speed_m_s: None,
     }
 }
 

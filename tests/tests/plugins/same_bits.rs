@@ -130,6 +130,7 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
                 controls: controls(&mut random),
                 contact_force_n: &forces,
                 contact_port_m: &port,
+                thrust_speed_m_s: None,
             };
             let [one, other] = &mut states;
             let out = linked.step(&attributes, &input, one).unwrap();
@@ -182,6 +183,7 @@ fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
             controls: asked,
             contact_force_n: &forces,
             contact_port_m: &port,
+            thrust_speed_m_s: None,
         };
         let [first, second] = &mut states;
         let out = one.step(&attributes, &input, first).unwrap();

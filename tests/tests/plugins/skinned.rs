@@ -31,6 +31,7 @@ fn postures(seconds: f64, controls: Controls) -> Vec<Posture> {
             controls,
             contact_force_n: &[0.0; BodyPart::ALL.len()],
             contact_port_m: &[0.0; BodyPart::ALL.len()],
+            thrust_speed_m_s: None,
         };
         motion.step(&attributes, &input, &mut state).unwrap().posture
     };

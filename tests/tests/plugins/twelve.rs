@@ -30,7 +30,7 @@ const VERDICTS: [(&str, &str); 15] = [
         "too_many",
         "at the check `ranges`, plugin `org.example.friction.too-many`: it wrote beyond the 8 answers and 8 floats",
     ),
-    ("wrong_abi", "was built for plugin ABI 4.3, but this program speaks 3.1"),
+    ("wrong_abi", "was built for plugin ABI 4.3, but this program speaks 3.2"),
     ("missing_entry", "does not export `endline_plugin_entry`"),
     ("truncated_file", "is cut short: "),
     ("notes", "is not a library that can be opened"),

@@ -15,8 +15,8 @@ use crate::report::validity::reasons;
 const LOOKS_HZ: f64 = 2.0;
 
 impl Run {
-    /// Whether the whale has passed, has shed the gear, or has been followed for long enough with it or has
-    /// settled in it.
+    /// Whether the whale has passed, has shed the gear, or has been followed for long enough with it, or after the last parting,
+    /// or has settled in it.
     ///
     /// A run without a whale is never over before its time.
     pub fn is_over(&self, rule: &RunRule) -> bool {
@@ -30,9 +30,19 @@ impl Run {
                     whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s);
                 let settled =
                     rule.settled_s.is_some_and(|settled_s| whale.unchanged_s >= settled_s);
-                whale.decided && (followed || settled)
+                let after_parting = rule.parted_s.is_some_and(|parted_s| {
+                    self.last_parting_s().is_some_and(|last_s| now - last_s >= parted_s)
+                });
+                whale.decided && (followed || settled || after_parting)
             }
         }
+    }
+
+    /// Time of the last parting of a link or rope [s].
+    fn last_parting_s(&self) -> Option<f64> {
+        let links = self.state.link_parted_s.iter().copied();
+        let lines = self.state.line_parted.iter().map(|parted| parted.map(|(time_s, _)| time_s));
+        links.chain(lines).flatten().max_by(f64::total_cmp)
     }
 
     /// Checks whether the run is valid so far; returns why not, where every check of the last `for_s` has found it invalid.
@@ -112,6 +122,16 @@ mod tests {
         run.workspace.audit.solver_steps += steps;
         run.workspace.audit.passes += passes;
         run
+    }
+
+    #[test]
+    fn the_last_parting_is_that_of_a_line_or_a_link() {
+        let mut run = run(0, 0);
+        assert_eq!(run.last_parting_s(), None);
+        run.state.line_parted[0] = Some((3.0, 1.0));
+        assert_eq!(run.last_parting_s(), Some(3.0));
+        run.state.link_parted_s = vec![None, Some(7.0), Some(2.0)];
+        assert_eq!(run.last_parting_s(), Some(7.0));
     }
 
     #[test]

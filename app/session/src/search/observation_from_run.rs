@@ -49,7 +49,12 @@ fn one_site(ending: &Ending, site: Site, off: f64) -> String {
     let wraps = (at.wraps + WRAPS_OFF * off).max(0.0);
     let range = [(wraps - WRAPS).max(0.0), wraps + WRAPS];
     let [least, most] = range;
-    format!("{head}present = {SURE}\nwraps = [{least:.2}, {most:.2}]\ntight = {}\n", at.tight)
+    let across =
+        if at.across > 0 { format!("across = [{0}, {0}]\n", at.across) } else { String::new() };
+    format!(
+        "{head}present = {SURE}\nwraps = [{least:.2}, {most:.2}]\ntight = {}\n{across}",
+        at.tight
+    )
 }
 
 /// The path of the strand that passes most places, without the hidden one, if it is short enough to be reported.
@@ -96,16 +101,16 @@ mod tests {
     /// The text is an observation, and the ending is like it for every seed.
     #[test]
     fn an_ending_is_like_its_blurred_observation() {
-        let at = |site, wraps, tight| AtSite { site, wraps, tight, across: 0 };
+        let at = |site, wraps, tight, across| AtSite { site, wraps, tight, across };
         let places =
             ["left_flipper", "body:left", "peduncle"].map(|name| PathPlace::named(name).unwrap());
         let strand =
             Strand { places: places.to_vec(), ends: [Some(RopeEnd::Trap), Some(RopeEnd::Buoy)] };
         let ending = Ending {
             sites: vec![
-                at(Site::Body, 0.8, true),
-                at(Site::LeftFlipper, 1.1, true),
-                at(Site::Peduncle, 0.3, false),
+                at(Site::Body, 0.8, true, 2),
+                at(Site::LeftFlipper, 1.1, true, 0),
+                at(Site::Peduncle, 0.3, false, 0),
             ],
             strands: vec![strand],
             behind_m: 22.0,
@@ -115,6 +120,8 @@ mod tests {
             let text = observation_text(&ending, "met-single", seed);
             let seen = Observation::read("blurred.toml", &text)
                 .unwrap_or_else(|problems| panic!("{text}\n{problems:?}"));
+            let body = seen.sites.iter().find(|one| one.site == Site::Body);
+            assert!(body.is_none_or(|one| one.across == Some([2.0, 2.0])), "{text}");
             let distance = Distance::of(&seen, &ending).sum();
             assert!(distance < 0.2 * LIKE, "{distance}: {text}");
             assert!(Distance::of(&seen, &Ending::default()).sum() > LIKE, "{text}");

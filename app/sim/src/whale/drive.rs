@@ -11,7 +11,7 @@
 use endline_sdk::{MotionInput, MotionOutput, Posture};
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::kinetic::muscle::{MotionRequest, Surroundings, reported_speed, swim};
+use super::kinetic::muscle::{MotionRequest, Surroundings, reported_speed, swim, thrust_speed};
 use super::kinetic::{drift, weight_out};
 use super::pose::pose;
 use crate::model::{Model, Whale};
@@ -93,6 +93,10 @@ fn call_motion(
         controls: input.controls,
         contact_force_n: &whale.contact_force_n,
         contact_port_m: &whale.contact_port_m,
+        thrust_speed_m_s: spec
+            .kinetic
+            .as_ref()
+            .map(|kinetic| thrust_speed(&kinetic.drag, model.spec.water.density_kg_m3, whale)),
     };
     let asked = spec
         .motion

@@ -2,20 +2,27 @@
 //!
 //! Symbols: `U` speed through the water, `L` body length, `A` peak-to-peak excursion of the flukes,
 //! `f` beat frequency, `phi` phase of the beat, `x` distance aft of the snout over `L`,
-//! `tau` smoothing time, `c` a control, `c~` the smoothed control.
+//! `tau` smoothing time, `c` a control, `c~` the smoothed control, `T` thrust, `D` drag of the body,
+//! `V` speed of the beat, `V~` the smoothed one.
 //!
 //! ```text
 //! controls   d c~/dt = (c - c~)/tau   speed, pitch, roll, yaw, burst
 //!            |d c~/dt| <= 1/time      mouth, flippers
 //! speed      target = cruise c~speed + (burst - cruise c~speed) c~burst,  -braking <= dU/dt <= acceleration
 //! turning    roll, pitch, yaw rate = greatest rate times its smoothed control
-//! beat       f = St U / A   within its limits, the upper one as L^-0.53;  d phi/dt = 2 pi f
+//! beat       f = St V~ / A   within its limits, the upper one as L^-0.53;  d phi/dt = 2 pi f
+//!            D(V) = T            kinetic whale;  d V~^2/dt = (V^2 - V~^2)/tau
+//!            V~ = max(target, U) kinematic whale
 //! body wave  y(x) = A/2 e(x) sin(phi - 2 pi x L/lambda)                     see `wave`
 //! flukes     pitch with the heave velocity, a quarter period from the heave: atan(pi St) less the
 //!            angle of attack                                                see `wave`
 //! ```
 //!
-//! At the lower limit of `f`, `A` decreases instead, so that the Strouhal number `St = f A / U` is constant down to rest; at
+//! The thrust of oscillating flukes grows with the square of their speed, `T ~ (f A)^2` (Floryan et al. 2017), and the drag of
+//! the body nearly with that of `U`. A whale that pulls gear therefore beats as a free whale does at the speed `V` at which its
+//! drag equals the thrust: `f A / U` rises above `St`, and the flukes of a whale that is held fast still move.
+//!
+//! At the lower limit of `f`, `A` decreases instead, so that `f A / V` is constant down to rest; at
 //! the upper limit it decreases. A gliding whale (speed control 0) returns to the rest posture within a few `tau`.
 //!
 //! The whale's frame at mid-body moves straight: its small heave is neglected.
@@ -26,7 +33,8 @@
 //! phase near 90 degrees: Hover, Haugsdal and Triantafyllou, Journal of Fluids and Structures 19
 //! (2004) 37-47; flippers swept aft in cruise, forward in turns: observers of right whales.
 //! greatest beat by length: Gough et al., Journal of Experimental Biology 222 (2019) jeb204172.
-//! Burst speed, turn rates, rates of mouth and flippers are estimates.
+//! Thrust of oscillating foils: Floryan, Van Buren, Rowley and Smits, Journal of Fluid Mechanics 822
+//! (2017) 386-397. Burst speed, turn rates, rates of mouth and flippers are estimates.
 
 mod settings;
 mod wave;
@@ -75,7 +83,11 @@ impl WhaleMotion for Swim {
         floats.follow(&settings, &input.controls, input.dt_s);
         let target = target_speed(&settings, &floats);
         let speed_m_s = next_speed(&settings, target, input);
-        let beat = Beat::of(&settings, &floats, target.max(speed_m_s), input.length_m);
+        let beat_speed_m_s = match input.thrust_speed_m_s {
+            Some(thrust_speed_m_s) => floats.follow_thrust(&settings, thrust_speed_m_s, input.dt_s),
+            None => target.max(speed_m_s),
+        };
+        let beat = Beat::of(&settings, &floats, beat_speed_m_s, input.length_m);
         floats.advance_phase(beat.frequency_hz, input.dt_s);
         let posture = wave::posture(&settings, &floats, &beat);
         floats.write(state);
@@ -130,7 +142,7 @@ fn turn_rates(settings: &Settings, floats: &Floats) -> [f64; 3] {
 }
 
 /// Number of floats.
-const LEN: usize = 11;
+const LEN: usize = 12;
 
 /// The floats by name; zero for a whale at rest.
 struct Floats {
@@ -156,6 +168,8 @@ struct Floats {
     pub flipper_twist: f64,
     /// Sweep of the flippers, -1 to 1.
     pub flipper_sweep: f64,
+    /// Square of the speed at which the drag equals the thrust, smoothed [m²/s²].
+    pub thrust_speed_squared: f64,
 }
 
 impl Floats {
@@ -176,6 +190,7 @@ impl Floats {
             flipper_raise,
             flipper_twist,
             flipper_sweep,
+            thrust_speed_squared,
         ] = state
         else {
             return Err(HookError::new(format!(
@@ -195,6 +210,7 @@ impl Floats {
             flipper_raise,
             flipper_twist,
             flipper_sweep,
+            thrust_speed_squared,
         })
     }
 
@@ -212,6 +228,7 @@ impl Floats {
             self.flipper_raise,
             self.flipper_twist,
             self.flipper_sweep,
+            self.thrust_speed_squared,
         ];
         state.copy_from_slice(&all);
     }
@@ -235,6 +252,15 @@ impl Floats {
         approach(&mut self.flipper_raise, controls.flipper_raise.clamp(-1.0, 1.0), flipper);
         approach(&mut self.flipper_twist, controls.flipper_twist.clamp(-1.0, 1.0), flipper);
         approach(&mut self.flipper_sweep, controls.flipper_sweep.clamp(-1.0, 1.0), flipper);
+    }
+
+    /// Advances the smoothed speed of the beat by one step and returns it [m/s]. The square is smoothed, because the thrust is
+    /// nearly proportional to it.
+    fn follow_thrust(&mut self, settings: &Settings, thrust_speed_m_s: f64, dt_s: f64) -> f64 {
+        let share = -libm::expm1(-dt_s / settings.smoothing_s);
+        self.thrust_speed_squared +=
+            share * (thrust_speed_m_s * thrust_speed_m_s - self.thrust_speed_squared);
+        self.thrust_speed_squared.sqrt()
     }
 
     /// Advances the phase of the beat by one step.

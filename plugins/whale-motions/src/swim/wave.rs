@@ -49,7 +49,7 @@ pub(super) struct Beat {
 }
 
 impl Beat {
-    /// The beat at a speed [m/s] of a whale of a length [m].
+    /// The beat at a speed of the beat [m/s] of a whale of a length [m].
     pub(super) fn of(settings: &Settings, floats: &Floats, speed_m_s: f64, length_m: f64) -> Self {
         let widest_m = settings.beat_amplitude * length_m;
         let quicker = libm::pow(length_m / GROWN_M, QUICKER);

@@ -92,6 +92,7 @@ impl Flight {
             controls,
             contact_force_n: &self.forces,
             contact_port_m: &self.port_m,
+            thrust_speed_m_s: None,
         };
         let out = self.acting.step(&self.attributes, &input, &mut self.state).unwrap();
         self.orientation = (self.orientation

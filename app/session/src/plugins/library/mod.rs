@@ -91,6 +91,8 @@ fn raw_motion_input(input: &MotionInput<'_>) -> AbiMotionInput {
         contact_force_n: input.contact_force_n.as_ptr(),
         body_part_count: input.contact_force_n.len(),
         contact_port_m: input.contact_port_m.as_ptr(),
+        thrust_speed_m_s: input.thrust_speed_m_s.unwrap_or(0.0),
+        has_thrust: u32::from(input.thrust_speed_m_s.is_some()),
     }
 }
 

@@ -110,6 +110,7 @@ pub(super) struct MotionNow {
     pub controls: Controls,
     pub contact_force_n: [f64; BodyPart::ALL.len()],
     pub contact_port_m: [f64; BodyPart::ALL.len()],
+    pub thrust_speed_m_s: Option<f64>,
 }
 
 /// [`Contacts`] with arrays of its own.
@@ -139,6 +140,7 @@ impl From<&MotionInput<'_>> for MotionNow {
             controls: input.controls,
             contact_force_n: *input.contact_force_n,
             contact_port_m: *input.contact_port_m,
+            thrust_speed_m_s: input.thrust_speed_m_s,
         }
     }
 }
@@ -156,6 +158,7 @@ impl MotionNow {
             controls: self.controls,
             contact_force_n: &self.contact_force_n,
             contact_port_m: &self.contact_port_m,
+            thrust_speed_m_s: self.thrust_speed_m_s,
         }
     }
 }

@@ -211,6 +211,7 @@ fields! {
     Question { plugin, call }
     MotionNow {
         time_s, dt_s, length_m, speed_m_s, position_m, orientation, controls, contact_force_n, contact_port_m,
+        thrust_speed_m_s,
     }
     ContactArrays {
         dt_s, normal_force_n, normal, grain, along, slip_m, length_m, coefficient, region, rope, state,

@@ -132,6 +132,7 @@ fn play(
                 controls: Controls { speed: 1.0, act: act(time_s), ..Controls::default() },
                 contact_force_n: &forces,
                 contact_port_m: &[0.0; BodyPart::ALL.len()],
+                thrust_speed_m_s: None,
             };
             acting.step(&[], &input, &mut state).unwrap()
         })
@@ -162,6 +163,7 @@ fn without_an_act_the_output_of_the_underlying_motion_is_unchanged() {
             controls: Controls { speed: 1.0, ..Controls::default() },
             contact_force_n: &forces,
             contact_port_m: &forces,
+            thrust_speed_m_s: None,
         };
         assert_eq!(out, wag.step(&[], &input, &mut state).unwrap());
     }
@@ -348,6 +350,7 @@ fn acts_of_the_underlying_motion_are_passed_on_and_unknown_ones_are_errors() {
         controls: Controls { act: 6.0, ..Controls::default() },
         contact_force_n: &[0.0; BodyPart::ALL.len()],
         contact_port_m: &[0.0; BodyPart::ALL.len()],
+        thrust_speed_m_s: None,
     };
     assert!(
         acting.step(&[], &input, &mut state).unwrap_err().message.contains("there is no act 6")

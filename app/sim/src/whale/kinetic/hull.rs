@@ -246,6 +246,11 @@ pub fn drag_n(factor: f64, speed_m_s: f64) -> f64 {
     factor * libm::pow(libm::fabs(speed_m_s), 0.8) * speed_m_s
 }
 
+/// Speed at which the drag `c U^1.8` has a value of at least zero [m/s]; zero for a body without drag.
+pub(super) fn speed_of_drag(factor: f64, drag_n: f64) -> f64 {
+    if factor > 0.0 { libm::pow(drag_n / factor, 1.0 / 1.8) } else { 0.0 }
+}
+
 /// Exact speed of a coasting body after a time, with `fading = c dt/m`; for a negative `fading`, the speed before that time
 /// [m/s].
 pub fn coast(speed_m_s: f64, fading: f64) -> f64 {

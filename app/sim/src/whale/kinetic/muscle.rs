@@ -28,7 +28,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::hull::{coast, drag_n};
+use super::hull::{AxialDrag, coast, drag_n, speed_of_drag};
 use super::{Exertion, Kinetic, Weight};
 use crate::model::Model;
 use crate::state::WhaleState;
@@ -199,6 +199,11 @@ pub(crate) struct Surroundings {
 /// The reduction by gear is not reported, because a motion would compensate it regardless of effort.
 pub(crate) fn reported_speed(whale: &WhaleState) -> f64 {
     whale.speed_m_s.max(whale.exertion.asked_speed_m_s)
+}
+
+/// Speed at which the drag of the body, in its posture, equals its thrust [m/s].
+pub(crate) fn thrust_speed(drag: &AxialDrag, density_kg_m3: f64, whale: &WhaleState) -> f64 {
+    speed_of_drag(drag.factor(density_kg_m3, whale.posture.jaw), whale.exertion.thrust_n)
 }
 
 /// Advances a living whale to `next` by a step; `next` already has the posture at the end of the step.

@@ -67,5 +67,6 @@ fn motion_input<'a>(
         controls: raw.controls,
         contact_force_n,
         contact_port_m,
+        thrust_speed_m_s: (raw.has_thrust != 0).then_some(raw.thrust_speed_m_s),
     }
 }

@@ -27,7 +27,7 @@ pub use motion::{AbiMotion, AbiMotionInput};
 /// Major version: another number means another layout.
 pub const ABI_MAJOR: u32 = 3;
 /// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-pub const ABI_MINOR: u32 = 1;
+pub const ABI_MINOR: u32 = 2;
 
 /// Kind of plugin: whale motion, table [`AbiMotion`].
 pub const KIND_MOTION: u32 = 1;

@@ -52,4 +52,8 @@ pub struct AbiMotionInput {
     pub body_part_count: usize,
     /// Mean place of those forces on each part: distance to port from the midplane on the body at rest [m].
     pub contact_port_m: *const f64,
+    /// Speed at which the drag of the body equals the thrust of the last step, if `has_thrust` [m/s]. Since 3.2.
+    pub thrust_speed_m_s: f64,
+    /// 1 for a kinetic whale; 0 for a kinematic one, which has no thrust. Since 3.2.
+    pub has_thrust: u32,
 }

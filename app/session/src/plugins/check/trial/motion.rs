@@ -60,6 +60,7 @@ struct Drawing {
     controls: Controls,
     contact_force_n: [f64; BodyPart::ALL.len()],
     contact_port_m: [f64; BodyPart::ALL.len()],
+    thrust_speed_m_s: Option<f64>,
 }
 
 impl Drawing {
@@ -86,6 +87,7 @@ impl Drawing {
             controls,
             contact_force_n: std::array::from_fn(|_| random.between(-2e3, 1e3).max(0.0)),
             contact_port_m: std::array::from_fn(|_| random.between(-2.0, 2.0)),
+            thrust_speed_m_s: (random.below(2) == 1).then(|| random.between(0.0, 10.0)),
         }
     }
 
@@ -100,6 +102,7 @@ impl Drawing {
             controls: self.controls,
             contact_force_n: &self.contact_force_n,
             contact_port_m: &self.contact_port_m,
+            thrust_speed_m_s: self.thrust_speed_m_s,
         }
     }
 }
