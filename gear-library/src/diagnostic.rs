@@ -165,12 +165,29 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     known.into_iter().filter(near).min_by_key(|other| distance(other))
 }
 
-/// Help on an unknown name: `did you mean …?`, else `known names are …`.
+/// Greatest number of known names that a hint lists.
+const MOST_LISTED: usize = 12;
+
+/// Number of names that a hint lists if there are more than [`MOST_LISTED`].
+const NEAREST_LISTED: usize = 3;
+
+/// Help on an unknown name: `did you mean …?`, else `known names are …`; of many names the nearest ones.
 pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let known: Vec<&str> = known.into_iter().collect();
-    match nearest(name, known.iter().copied()) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None if known.is_empty() => "there are no known names".to_owned(),
-        None => format!("known names are {}", known.join(", ")),
+    let mut known: Vec<&str> = known.into_iter().collect();
+    if let Some(meant) = nearest(name, known.iter().copied()) {
+        return format!("did you mean `{meant}`?");
+    }
+    match known.len() {
+        0 => "there are no known names".to_owned(),
+        count if count <= MOST_LISTED => format!("known names are {}", known.join(", ")),
+        count => {
+            let lower = name.to_lowercase();
+            known.sort_by(|one, other| {
+                let likeness = |name: &str| strsim::jaro_winkler(&lower, &name.to_lowercase());
+                likeness(other).total_cmp(&likeness(one))
+            });
+            let nearest = known[..NEAREST_LISTED].join(", ");
+            format!("the nearest of {count} known names are {nearest}")
+        }
     }
 }

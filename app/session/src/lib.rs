@@ -63,7 +63,6 @@ pub mod forms;
 pub mod hash;
 pub mod haul;
 mod hooks;
-pub mod json;
 pub mod live;
 pub mod locate;
 pub mod mill;
@@ -109,5 +108,20 @@ mod tests {
     fn the_version_carries_a_mark_of_the_code() {
         let (_, mark) = super::VERSION.split_once('+').unwrap();
         assert!(mark.len() == 8 && mark.bytes().all(|digit| digit.is_ascii_hexdigit()), "{mark}");
+    }
+}
+
+/// Results as JSON. Structs of numbers and texts always serialise; the empty string would fail every reader at once.
+pub mod json {
+    use serde::Serialize;
+
+    /// One line of JSON.
+    pub fn line(value: &impl Serialize) -> String {
+        serde_json::to_string(value).unwrap_or_default()
+    }
+
+    /// JSON with a line for each value.
+    pub fn indented(value: &impl Serialize) -> String {
+        serde_json::to_string_pretty(value).unwrap_or_default()
     }
 }

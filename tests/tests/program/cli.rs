@@ -173,7 +173,15 @@ fn escapes_of_a_file_do_not_reach_the_terminal() {
 fn people_get_pounds_force_beside_newtons() {
     let place = Place::new("table");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
-    let table = place.endline(&["run", &scenario]).done().stdout;
+    let headline = place.endline(&["run", &scenario]).done().stdout;
+    assert!(headline.lines().count() <= 10, "{headline}");
+    for word in
+        ["No contact so far.", "Greatest tension: ", " N (", " lbf)", "Nothing parted.", "--all"]
+    {
+        assert!(headline.contains(word), "no `{word}` in\n{headline}");
+    }
+    let table = place.endline(&["run", &scenario, "--all"]).done().stdout;
+    assert!(table.contains("Nothing parted."), "{table}");
     for word in [" N (", " lbf)", "state hash", "times real time", "peak tension"] {
         assert!(table.contains(word), "no `{word}` in\n{table}");
     }

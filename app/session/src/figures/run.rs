@@ -96,6 +96,15 @@ pub static RUN: &[Figure<Report>] = &[
     .shown(&[Table])
     .column(10),
     Figure::new(
+        "headline",
+        "headline",
+        "The result in sentences: outcome, greatest tension, partings, and reasons for doubt.",
+        Quantity::Ids,
+        |run: &Report| {
+            run.headline.iter().map(|sentence| sentence.text.clone()).collect::<Vec<_>>().into()
+        },
+    ),
+    Figure::new(
         "invalid_because",
         "invalid because",
         "Reason for an invalid run; empty if it is valid.",

@@ -99,6 +99,12 @@ impl From<&String> for Value {
     }
 }
 
+impl From<Vec<String>> for Value {
+    fn from(texts: Vec<String>) -> Self {
+        Self::Texts(texts)
+    }
+}
+
 impl From<&Vec<String>> for Value {
     fn from(texts: &Vec<String>) -> Self {
         Self::Texts(texts.clone())

@@ -15,6 +15,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use endline_gear::StrengthBudget;
 use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Cost, Frame, Model};
@@ -22,9 +23,12 @@ use endline_sim::{Audit, Cost, Frame, Model};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::recording::program::Program;
+use crate::report::headline::{Headline, Sentence};
+use crate::report::validity::reasons;
 use crate::run::RunOptions;
 use crate::source::{Prepared, Source};
 use crate::task::{Fault, Task, Waker};
+use crate::units::Units;
 
 pub use engine::{Engine, Launch};
 pub use history::{Channel, Envelope, LineEnvelope, Series, Span};
@@ -57,6 +61,8 @@ pub enum Status {
 pub struct LiveView {
     /// The model that runs.
     pub model: Arc<Model>,
+    /// Strengths of its lines and weak links.
+    pub strengths: Arc<[StrengthBudget]>,
     /// The moment shown: the newest, or the one sought.
     pub frame: Arc<Frame>,
     /// Time of the newest moment [s].
@@ -99,6 +105,21 @@ impl LiveView {
     /// The view before statics: the gear as first guessed.
     pub fn before(prepared: &Prepared) -> Self {
         worker::first_view(prepared)
+    }
+
+    /// The result up to the newest moment in a few sentences; empty before the start.
+    pub fn headline(&self, units: Units) -> Vec<Sentence> {
+        let Some(summary) = &self.summary else { return Vec::new() };
+        let invalid_because = reasons(None, &self.audit, summary.whale.as_ref());
+        let headline = Headline::of(
+            &self.model,
+            summary,
+            &self.strengths,
+            &self.audit,
+            &invalid_because,
+            self.newest_s,
+        );
+        headline.sentences(|force_n| units.force().text(force_n))
     }
 }
 

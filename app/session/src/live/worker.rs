@@ -50,6 +50,7 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
     LiveView {
         frame: Arc::new(Frame::of(&State::start(&model), &[], &[])),
         model,
+        strengths: Arc::clone(&prepared.strengths),
         newest_s: 0.0,
         sought: false,
         summary: None,
@@ -339,6 +340,7 @@ impl<'a> Worker<'a> {
         self.screen.show(LiveView {
             frame: self.sought.clone().unwrap_or_else(|| run.frame()),
             model: Arc::clone(run.model()),
+            strengths: Arc::clone(&run.prepared().strengths),
             newest_s: run.state().time_s,
             sought: self.sought.is_some(),
             summary: Some(run.summary()),

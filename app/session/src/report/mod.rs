@@ -3,6 +3,7 @@
 //! Scripts depend on its JSON, schema `endline.run/1`: keys may be added, never renamed. Which keys
 //! exist, their meanings and how they are read is declared in [`figures`](crate::figures).
 
+pub mod headline;
 pub mod needed;
 pub mod validity;
 
@@ -10,11 +11,13 @@ use endline_sim::Audit;
 use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{Event, LineSummary, Summary};
 
+use self::headline::{Headline, Sentence};
 use self::needed::NeededStrength;
 use crate::error::Error;
 use crate::plugins::PluginUsed;
 use crate::run::{Run, by_line};
 use crate::timing::Timing;
+use crate::units::newtons_and_lbf;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "endline.run/1";
@@ -40,6 +43,8 @@ pub struct Report {
     pub triangles: usize,
     /// Hash of the last state, hexadecimal.
     pub state_hash: String,
+    /// The result in a few sentences, forces in newtons and pounds-force.
+    pub headline: Vec<Sentence>,
     /// Why the numbers cannot be trusted, in plain words; empty where they can.
     pub invalid_because: Vec<String>,
     /// Why the run stopped before its end.
@@ -114,6 +119,15 @@ impl Report {
         let (audit, prepared) = (run.audit(), run.prepared());
         let summary = run.summary();
         let stopped = run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string());
+        let invalid_because = validity::reasons(stopped.as_deref(), &audit, summary.whale.as_ref());
+        let headline = Headline::of(
+            model,
+            &summary,
+            &prepared.strengths,
+            &audit,
+            &invalid_because,
+            run.state().time_s,
+        );
         Self {
             scenario: prepared.source.scenario_name.clone(),
             seed: settings.seed,
@@ -124,7 +138,8 @@ impl Report {
             nodes: model.node_count,
             triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
             state_hash: run.state_hash().hex(),
-            invalid_because: validity::reasons(stopped.as_deref(), &audit, summary.whale.as_ref()),
+            headline: headline.sentences(|force_n| newtons_and_lbf(force_n, 0)),
+            invalid_because,
             stopped,
             audit,
             balance: run.balance(),

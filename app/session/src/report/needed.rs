@@ -51,7 +51,7 @@ impl NeededStrength {
 }
 
 /// Strength that a line must have at its weakest place to hold its greatest tensions [N].
-fn needed_of(borne: &LineSummary, line: &Line) -> f64 {
+pub(super) fn needed_of(borne: &LineSummary, line: &Line) -> f64 {
     let left = [line.strength.end_a, 1.0, line.strength.end_b];
     let weakest = left.into_iter().fold(1.0, f64::min);
     let places = borne.place_peaks_n.iter().zip(left);

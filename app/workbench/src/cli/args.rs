@@ -37,7 +37,7 @@ pub struct Args {
     /// Print errors alone on standard error.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Print also which gear library and which plugins are used.
+    /// Print also which gear library and which plugins are used, and all figures of a run.
     #[arg(long, short, global = true)]
     verbose: bool,
 }
@@ -132,6 +132,9 @@ pub(super) struct RunArgs {
     /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
+    /// Print all figures after the headline, as --verbose does.
+    #[arg(long)]
+    pub(super) all: bool,
     /// End the run once its outcome is decided: no touch within 30 s, gear shed, or 30 s of entanglement.
     #[arg(long)]
     pub(super) until_over: bool,

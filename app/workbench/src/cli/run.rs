@@ -12,7 +12,7 @@ use endline_sim::settle as find_rest;
 
 use super::args::{RunArgs, SettleArgs};
 use super::interrupt::{self, Interrupt};
-use super::output::Progress;
+use super::output::{Progress, Verbosity};
 use super::{Failure, host, output, picture, player, table};
 
 /// The recording's name in the folder of results.
@@ -39,7 +39,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     let report = Report::from_run(&run);
     // A summary is not lost with a recording that cannot be kept.
     let kept = args.out.as_ref().map_or(Ok(()), |folder| save(&run, &report, folder));
-    output::print(&if args.json { json::line(&report) + "\n" } else { table::summary(&report) })?;
+    output::print(&printed(args, &report))?;
     kept?;
     if let Some(code) = interrupt.exit_code() {
         output::warn(&how_to_continue(args, &run));
@@ -49,6 +49,17 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         return Err(Failure::failed(stopped));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The report as JSON, as a headline, or with all figures.
+fn printed(args: &RunArgs, report: &Report) -> String {
+    if args.json {
+        json::line(report) + "\n"
+    } else if args.all || output::is_shown(Verbosity::Details) {
+        table::summary(report)
+    } else {
+        table::headline(report) + "\nAll figures: the same command with --all, or with --json.\n"
+    }
 }
 
 /// To the end, until it is over where that is asked for, or to an interrupt.

@@ -75,7 +75,8 @@ pub(super) fn docs(named: Option<&str>) -> Result<ExitCode, Failure> {
     };
     let document = documents::find(named).ok_or_else(|| {
         let names: Vec<&str> = documents::all().map(|document| document.name).collect();
-        Failure::usage(format!("no document `{named}`; there are {}", names.join(", ")))
+        let hint = endline_gear::hint(named, names);
+        Failure::usage(format!("no document `{named}`; {hint}; `endline docs` lists all"))
     })?;
     output::print(document.text)?;
     Ok(ExitCode::SUCCESS)

@@ -13,10 +13,19 @@ use endline_session::settled::{PartStrength, SettledShape};
 use endline_session::units::{Units, newtons_and_lbf};
 use endline_sim::metrics::WhaleSummary;
 
-/// The summary of a run.
+/// The headline of a run, for those who do not ask for all figures.
+pub(super) fn headline(report: &Report) -> String {
+    let mut text = format!("{}\n\n", report.scenario);
+    for sentence in &report.headline {
+        text += &format!("{}\n", sentence.text);
+    }
+    text
+}
+
+/// The summary of a run: the headline, then all figures.
 pub(super) fn summary(report: &Report) -> String {
     let measured = &report.summary;
-    let mut text = format!("{}\n\n", report.scenario);
+    let mut text = headline(report) + "\n";
     text += &head(report);
     text += &grid(LINE, &lines(measured, &report.settled_tension_n));
     text += &grid(LINK, &measured.links);

@@ -11,6 +11,8 @@ use endline_session::figures::{
     Figure, LINE, LINK, PART, View, WHALE, lines, parts, shares, shown,
 };
 use endline_session::live::{Engine, Launch, LiveView, RunCommand, Status};
+use endline_sim::State;
+use endline_sim::metrics::Metrics;
 use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
@@ -90,6 +92,8 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     let folder = Folder::new("figures-valid");
     let launch: Launch = Box::new(|prepared, _host, _waker| {
         let mut view = LiveView { status: Status::Finished, ..LiveView::before(&prepared) };
+        let model = Arc::clone(&view.model);
+        view.summary = Some(Metrics::new(&model).summary(&model, &State::start(&model)));
         let audit = &mut view.audit;
         (audit.solver_steps, audit.touching_steps, audit.unconverged) = (2000, 1000, 300);
         (audit.resolution_looks, audit.resolution_missed, audit.resolution_ratio) = (200, 50, 4.0);
@@ -98,8 +102,10 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     });
     let mut harness = opened(folder.documents(), launch, Pilot::default());
     only(&mut harness, PanelId::Run);
-    harness.get_by_label_contains("Not valid: 30 % of the solver steps in touch did not converge");
-    harness.get_by_label_contains("Resolution near the whale insufficient for 25 % of the time");
+    harness.get_by_label_contains(
+        "Do not use these numbers: 30 % of the solver steps in touch did not converge",
+    );
+    harness.get_by_label_contains("longer than asked in 25 % of the checks");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use endline_sdk::{BodyPart, Region};
 use endline_session::plugins::PluginUsed;
+use endline_session::report::headline::{Sentence, Tone};
 use endline_session::report::needed::NeededStrength;
 use endline_session::report::{Report, SettledReport};
 use endline_session::timing::Timing;
@@ -47,6 +48,7 @@ pub fn report() -> Report {
         nodes: next.whole() as usize,
         triangles: next.whole() as usize,
         state_hash: "0123456789abcdef".into(),
+        headline: vec![Sentence { text: "It ended.".into(), tone: Tone::Result }],
         invalid_because: vec!["a reason".into(), "another".into()],
         stopped: Some("it stopped".into()),
         audit: audit(next),

@@ -20,9 +20,10 @@ use crate::report::Report;
 const FIELDS: [(&str, &str); 2] = [("final", "last"), ("settled", "converged")];
 
 /// Keys of a run that are not fields of its summary; tested one by one below.
-const COMPUTED: [&str; 12] = [
+const COMPUTED: [&str; 13] = [
     "schema",
     "version",
+    "headline",
     "valid",
     "wall_s",
     "times_real_time",
@@ -197,6 +198,7 @@ fn figures_of_a_run_that_are_computed() {
     let whole = report.timing.whole();
     assert_eq!(run("schema"), "endline.run/1".into());
     assert_eq!(run("version"), crate::VERSION.into());
+    assert_eq!(run("headline"), vec!["It ended.".to_owned()].into());
     assert_eq!(run("valid"), false.into());
     assert_eq!(run("wall_s"), whole.wall_s.into());
     assert_eq!(run("times_real_time"), whole.times_real_time().into());

@@ -280,6 +280,7 @@ mod tests {
             parts: banded(),
             parts_given_held: banded(),
             held: shares().map(|parts| 0.06 * (1.0 - 0.5 * parts)).collect(),
+            asked: Vec::new(),
             strengths_n: strengths_n.clone(),
         }
     }

@@ -46,7 +46,11 @@ pub fn answer(findings: &Findings, event: &str) -> Vec<String> {
         comparisons: findings.comparisons,
     };
     if let Some(held) = findings.held_whales.as_ref().filter(|held| held.event == event) {
-        return verdict::sentences(findings, held, &asked);
+        let mut all = verdict::sentences(findings, held, &asked);
+        let whole_rope = findings.strength_curves.iter().find(|curve| curve.is_of_rope());
+        let of_strengths = whole_rope.map(verdict::of_strengths).unwrap_or_default();
+        all.splice(1..1, of_strengths);
+        return all;
     }
     let compared = findings.others().filter_map(|option| {
         let adjusted = option.adjusted(event);

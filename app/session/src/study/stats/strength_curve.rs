@@ -27,13 +27,17 @@ use crate::study::prepared::PreparedStudy;
 use crate::study::runs::{RunRow, Runs};
 use crate::units::N_PER_LBF;
 
-use super::indicators::EventIndicators;
+use super::Rate;
+use super::indicators::{EventIndicator, EventIndicators};
 use super::weighted::kish;
 
 /// Least and greatest strength of a curve [lbf], and the step between its points.
 const FROM_LBF: u32 = 200;
 const TO_LBF: u32 = 10_000;
 const STEP_LBF: usize = 50;
+
+/// Strengths asked for most [lbf]: a link of the rules, approved rope as fished, weak rope of the rules, ropes taken off whales.
+const ASKED_LBF: [f64; 4] = [600.0, 1000.0, 1700.0, 2600.0];
 
 /// Probability that a band does not contain its whole curve.
 const OUTSIDE: f64 = 0.05;
@@ -53,6 +57,26 @@ pub struct StrengthCurve {
     pub held: Vec<f64>,
     /// The strengths [N].
     pub strengths_n: Vec<f64>,
+    /// Shares of held whales at the strengths asked for most, from the least.
+    pub asked: Vec<AskedStrength>,
+}
+
+/// Shares of the whales held if nothing parts, at one strength.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct AskedStrength {
+    /// The strength [N].
+    pub strength_n: f64,
+    /// Share on which the part parts.
+    pub parts: Rate,
+    /// Share on which it parts and one of the greatest of these strengths does not.
+    pub parts_alone: Rate,
+}
+
+impl StrengthCurve {
+    /// Whether it is that of whole rope.
+    pub fn is_of_rope(&self) -> bool {
+        self.part == Part::Rope.name()
+    }
 }
 
 /// A curve with its band.
@@ -217,9 +241,24 @@ fn curve(
         }
         sum / f64::max(weights, f64::MIN_POSITIVE)
     };
+    let asked_n = ASKED_LBF.map(|lbf| lbf * N_PER_LBF);
+    let strongest_n = asked_n.into_iter().fold(0.0, f64::max);
+    let share_of_held = |occurs: &dyn Fn(f64) -> bool| {
+        let of = |(place, needed): (usize, &Option<(f64, f64)>)| {
+            let (needed_n, weight) = (*needed)?;
+            (is_held(held, place)?).then(|| EventIndicator { occurred: occurs(needed_n), weight })
+        };
+        Rate::of(&EventIndicators(needed.iter().enumerate().map(of).collect()))
+    };
+    let asked = asked_n.map(|strength_n| AskedStrength {
+        strength_n,
+        parts: share_of_held(&|needed_n| needed_n > strength_n),
+        parts_alone: share_of_held(&|needed_n| needed_n > strength_n && needed_n <= strongest_n),
+    });
     StrengthCurve {
         part: part.name().to_owned(),
         option: option.to_owned(),
+        asked: asked.into(),
         parts: Banded::of(&all, &strengths_n),
         parts_given_held: Banded::of(&among_held, &strengths_n),
         held: if simulated.is_empty() {
@@ -234,7 +273,6 @@ fn curve(
 #[cfg(test)]
 mod tests {
     use super::super::bootstrap::Draws;
-    use super::super::indicators::EventIndicator;
     use super::*;
 
     fn indicators(held: &[bool]) -> EventIndicators {
@@ -268,6 +306,12 @@ mod tests {
         check(&found.parts_given_held.shares, given_held);
         check(&found.held, [(400, 0.0), (700, 0.25), (2000, 0.75), (3000, 0.75)]);
         assert_eq!((found.parts.encounters, found.parts_given_held.encounters), (4, 3));
+        // Of three held whales, rope of 600 to 1,000 lbf parts on two, of 1,700 lbf on one, of 2,600 lbf on none.
+        let counts = |of: fn(&AskedStrength) -> &Rate| -> Vec<(u64, u64)> {
+            found.asked.iter().map(|asked| (of(asked).hits, of(asked).runs)).collect()
+        };
+        assert_eq!(counts(|asked| &asked.parts), [(2, 3), (2, 3), (1, 3), (0, 3)]);
+        assert_eq!(counts(|asked| &asked.parts_alone), [(2, 3), (2, 3), (1, 3), (0, 3)]);
         assert!((found.parts.half_width - (40.0_f64.ln() / 8.0).sqrt()).abs() < 1e-12);
     }
 

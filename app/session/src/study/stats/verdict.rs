@@ -16,7 +16,9 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::answer::{Asked, holm_words};
 use super::held_whales::{HeldWhales, OptionOnHeld};
+use super::strength_curve::{AskedStrength, StrengthCurve};
 use super::{Findings, Interval, Paired, Rate, z95};
+use crate::units::N_PER_LBF;
 
 /// Share of held whales that an option must free to be worth finding.
 pub const WORTH_FINDING: f64 = 0.3;
@@ -92,6 +94,46 @@ fn holds(rate: &Rate, asked: &Asked<'_>) -> String {
             100.0 * rate.rate
         ),
     }
+}
+
+/// On how many of 100 held whales whole rope of the strengths asked for parts; empty if no whale is held.
+pub(super) fn of_strengths(curve: &StrengthCurve) -> Vec<String> {
+    let held = curve.parts_given_held.encounters;
+    let (Some(weaker), Some(strongest)) = (curve.asked.iter().rev().nth(1), curve.asked.last())
+    else {
+        return Vec::new();
+    };
+    if held == 0 {
+        return Vec::new();
+    }
+    let at = |asked: &AskedStrength| {
+        let Rate { rate, interval, .. } = asked.parts;
+        format!("of {} on {:.0} {}", lbf(asked), 100.0 * rate, of_hundred(interval))
+    };
+    let all: Vec<String> = curve.asked.iter().map(at).collect();
+    let more = &weaker.parts_alone;
+    let effective = curve.parts_given_held.effective;
+    vec![
+        format!("Of 100 whales held if nothing parts, rope parts: {}.", all.join(", ")),
+        format!(
+            "Rope of {} parts on {:.0} {} more of 100 than rope of {}.",
+            lbf(weaker),
+            100.0 * more.rate,
+            of_hundred(more.interval),
+            lbf(strongest)
+        ),
+        format!(
+            "The {held} held whales count as {effective:.0} of equal weight; a share is known to ±10 points from about {TO_TEN_POINTS}, and to ±5 from about {TO_FIVE_POINTS}."
+        ),
+    ]
+}
+
+/// Held whales of equal weight from which a share near 30 % is known to ±10 and to ±5 points.
+const TO_TEN_POINTS: u32 = 81;
+const TO_FIVE_POINTS: u32 = 323;
+
+fn lbf(asked: &AskedStrength) -> String {
+    format!("{} lbf", thousands(asked.strength_n / N_PER_LBF))
 }
 
 impl Judged<'_> {
@@ -181,8 +223,8 @@ fn thousands(number: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::EventIndicators;
     use super::super::held_whales::Weighted;
+    use super::super::{Banded, EventIndicators};
     use super::*;
 
     /// The exact McNemar test needs 2,650, 660 and 264 encounters for 30 % fewer held whales.
@@ -192,6 +234,36 @@ mod tests {
             let needed = encounters_to_tell(held, 0.3, 0.0);
             assert!((needed / exact - 1.0).abs() < 0.02, "{held}: {needed}");
         }
+    }
+
+    /// 40 held whales: rope of 600 lbf parts on 30, of 1,700 lbf on 12, of 2,600 lbf on 4.
+    #[test]
+    fn strengths_are_compared_in_counts_of_held_whales() {
+        let at = |lbf: f64, parts: u64| AskedStrength {
+            strength_n: lbf * N_PER_LBF,
+            parts: Rate::from_counts(parts, 40),
+            parts_alone: Rate::from_counts(parts - 4, 40),
+        };
+        let held = |encounters: u64| Banded {
+            encounters,
+            effective: 25.0,
+            half_width: 0.2,
+            shares: Vec::new(),
+        };
+        let curve = |encounters: u64| StrengthCurve {
+            part: "whole rope".into(),
+            option: "unbreakable".into(),
+            parts: held(100),
+            parts_given_held: held(encounters),
+            held: Vec::new(),
+            strengths_n: Vec::new(),
+            asked: vec![at(600.0, 30), at(1700.0, 12), at(2600.0, 4)],
+        };
+        let found = of_strengths(&curve(40));
+        assert!(found[0].contains("600 lbf on 75 [60, 86], of 1,700 lbf on 30 ["), "{found:?}");
+        assert!(found[1].starts_with("Rope of 1,700 lbf parts on 20 ["), "{found:?}");
+        assert!(found[2].starts_with("The 40 held whales count as 25 of"), "{found:?}");
+        assert!(of_strengths(&curve(0)).is_empty());
     }
 
     fn asked(encounters: u64) -> Asked<'static> {

@@ -262,6 +262,9 @@ fn registered(findings: &Findings) -> Vec<String> {
 
 /// An event in every option beside the baseline, on the same encounters.
 fn compared(findings: &Findings, event: &str) -> String {
+    if findings.options.len() == 1 {
+        return String::new();
+    }
     let among = format!("among {} (Holm)", findings.comparisons);
     let heads =
         ["against the baseline", event, "difference", "ratio", "P(fewer)", "McNemar", &among];

@@ -6,7 +6,7 @@ use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
 use endline_session::figures::{Figure, shares};
 use endline_session::live::LiveView;
-use endline_session::report::validity::reasons;
+use endline_session::report::headline::{Sentence, Tone};
 use endline_session::units::Units;
 use endline_session::workbench::SPEEDS;
 use endline_sim::Cost;
@@ -183,26 +183,16 @@ fn state(ui: &mut Ui, view: &LiveView) {
     );
 }
 
-/// Draws why the run is invalid, and whether the resolution was insufficient.
+/// Draws reasons to doubt the run, or not to use it.
 fn trust(ui: &mut Ui, view: &LiveView) {
     let palette = Theme::palette_of(ui);
-    let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
-    for why in reasons(None, &view.audit, whale) {
-        let text = RichText::new(format!("Not valid: {why}")).color(palette.error);
-        ui.add(egui::Label::new(text).wrap());
-    }
-    let audit = &view.audit;
-    if audit.resolution_missed > 0 {
-        let text = format!(
-            "Resolution near the whale insufficient for {:.0} % of the time",
-            100.0 * audit.resolution_missed as f64 / audit.resolution_looks.max(1) as f64
-        );
-        let help = format!(
-            "Segments there were up to {:.1} times as long as `near` or `edges` require. Increase rope nodes, or allow longer segments.",
-            audit.resolution_ratio
-        );
-        ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap())
-            .on_hover_text(help);
+    for Sentence { text, tone } in view.headline(Units::default()) {
+        let colour = match tone {
+            Tone::Result => continue,
+            Tone::Doubt => palette.warning,
+            Tone::Invalid => palette.error,
+        };
+        ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
     }
 }
 

@@ -1,9 +1,11 @@
 //! Results of the run: outcome, loads by body part of the whale, lines and weak links.
 
-use egui::{RichText, ScrollArea, Ui};
+use egui::{Label, RichText, ScrollArea, Ui};
 use endline_session::command::TimeAction;
 use endline_session::figures::{LINE, LINK, PART, Part, View, WHALE, lines, parts};
 use endline_session::live::LiveView;
+use endline_session::report::headline::{Sentence, Tone};
+use endline_session::units::Units;
 use endline_sim::metrics::{Summary, WhaleSummary};
 
 use crate::gui::panel::Panel;
@@ -11,6 +13,9 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::{self, words};
+
+/// Greatest width of the headline, for lines that are read easily.
+const WIDEST_HEADLINE: f32 = 560.0;
 
 /// Outcome and loads of the run.
 #[derive(Debug, Default)]
@@ -33,6 +38,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     let style = Style { view: View::Summary, units: shared.workbench.preferences().units };
     widgets::kinematic_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        headline(ui, &view, summary, style.units);
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(
             of_whale.or(of_gear(ui, summary, style)).map(|chosen| TimeAction::Seek(chosen).into()),
@@ -40,17 +46,36 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-/// Draws outcome and body parts; returns the moment that was clicked [s].
-fn of_whale(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, style: Style) -> Option<f64> {
+/// Draws the result in sentences: the outcome in its colour if it is decided, then loads, partings and reasons for doubt.
+fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
     let palette = Theme::palette_of(ui);
-    let (text, meaning, colour) = words::outcome(whale.outcome, palette);
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(text).heading().color(colour)).on_hover_text(meaning);
-        if !whale.decided {
-            ui.label(RichText::new("so far").color(palette.faint))
-                .on_hover_text("The run is too short for a final outcome");
+    let outcome = summary.whale.as_ref().map(|whale| {
+        let (_, meaning, colour) = words::outcome(whale.outcome, palette);
+        let undecided = "The run is too short for a final outcome";
+        if whale.decided { (meaning, colour) } else { (undecided, palette.faint) }
+    });
+    ui.scope(|ui| {
+        ui.set_max_width(ui.available_width().min(WIDEST_HEADLINE));
+        for (place, Sentence { text, tone }) in view.headline(units).into_iter().enumerate() {
+            let text = match tone {
+                Tone::Result if place == 0 => RichText::new(text).heading(),
+                Tone::Result => RichText::new(text),
+                Tone::Doubt => RichText::new(text).color(palette.warning),
+                Tone::Invalid => RichText::new(text).color(palette.error),
+            };
+            match outcome.filter(|_| place == 0) {
+                Some((meaning, colour)) => {
+                    ui.add(Label::new(text.color(colour)).wrap()).on_hover_text(meaning)
+                }
+                None => ui.add(Label::new(text).wrap()),
+            };
         }
     });
+    ui.separator();
+}
+
+/// Draws figures of the whale and its body parts; returns the moment that was clicked [s].
+fn of_whale(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, style: Style) -> Option<f64> {
     let wanted = list(ui, WHALE, whale, style);
     widgets::caption(ui, "Whale by part");
     let parts = parts(whale, &view.frame.contacts);
