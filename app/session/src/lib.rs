@@ -102,15 +102,6 @@ pub use report::Report;
 pub use run::{Run, RunOptions};
 pub use source::{Overrides, Prepared, Source, prepare, prepare_text};
 
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_version_carries_a_mark_of_the_code() {
-        let (_, mark) = super::VERSION.split_once('+').unwrap();
-        assert!(mark.len() == 8 && mark.bytes().all(|digit| digit.is_ascii_hexdigit()), "{mark}");
-    }
-}
-
 /// Results as JSON. Structs of numbers and texts always serialise; the empty string would fail every reader at once.
 pub mod json {
     use serde::Serialize;
@@ -123,5 +114,14 @@ pub mod json {
     /// JSON with a line for each value.
     pub fn indented(value: &impl Serialize) -> String {
         serde_json::to_string_pretty(value).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_version_carries_a_mark_of_the_code() {
+        let (_, mark) = super::VERSION.split_once('+').unwrap();
+        assert!(mark.len() == 8 && mark.bytes().all(|digit| digit.is_ascii_hexdigit()), "{mark}");
     }
 }
