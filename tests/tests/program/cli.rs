@@ -135,7 +135,7 @@ fn a_resolution_that_cannot_be_kept_is_reported_and_counts_agree() {
         count(&few, "resolution_missed") > 0 && few["resolution_ratio"].as_f64().unwrap() > 4.0
     );
     assert!(count(&few, "resolution_missed") <= count(&few, "resolution_looks"));
-    let table = place.endline(&["run", &scenario]).done().stdout;
+    let table = place.endline(&["run", &scenario, "--all"]).done().stdout;
     assert!(table.contains("checks at which resolution was missed"), "{table}");
     for audit in [equal, few] {
         let [contact, touching, all] =
@@ -176,7 +176,7 @@ fn people_get_pounds_force_beside_newtons() {
     let headline = place.endline(&["run", &scenario]).done().stdout;
     assert!(headline.lines().count() <= 10, "{headline}");
     for word in
-        ["No contact so far.", "Greatest tension: ", " N (", " lbf)", "Nothing parted.", "--all"]
+        ["No contact", "Greatest tension: ", " N (", " lbf)", "Nothing parted.", "--all"]
     {
         assert!(headline.contains(word), "no `{word}` in\n{headline}");
     }
@@ -281,7 +281,7 @@ fn documents_are_inside_the_program() {
     assert!(listed.contains("gear-format") && listed.contains("Physics: what is solved"));
     let physics = fs::read_to_string(endline_tests::root().join("docs/physics.md")).unwrap();
     assert_eq!(place.endline(&["docs", "physics"]).done().stdout, physics);
-    place.endline(&["docs", "zeppelins"]).fails(2, &["zeppelins", "gear-format"]);
+    place.endline(&["docs", "zeppelins"]).fails(2, &["zeppelins", "the nearest of"]);
 }
 
 #[test]
