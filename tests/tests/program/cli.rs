@@ -175,9 +175,7 @@ fn people_get_pounds_force_beside_newtons() {
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     let headline = place.endline(&["run", &scenario]).done().stdout;
     assert!(headline.lines().count() <= 10, "{headline}");
-    for word in
-        ["No contact", "Greatest tension: ", " N (", " lbf)", "Nothing parted.", "--all"]
-    {
+    for word in ["No contact", "Greatest tension: ", " N (", " lbf)", "Nothing parted.", "--all"] {
         assert!(headline.contains(word), "no `{word}` in\n{headline}");
     }
     let table = place.endline(&["run", &scenario, "--all"]).done().stdout;
