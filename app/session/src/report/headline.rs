@@ -1,14 +1,12 @@
 //! The headline of a run: its result in a few plain sentences, for people who read nothing else.
 
 use endline_gear::{StrengthBudget, WEAK_PLACES};
-use endline_sdk::BodyPart;
 use endline_sim::metrics::{HOOKED_TURNS, Outcome, Summary, WhaleSummary};
 use endline_sim::{Audit, Model};
 
+use super::greatest;
 use super::needed::needed_of;
-
-/// Share of the checks of segment lengths near the whale above which a run is too coarse to be trusted; a choice.
-const TOO_COARSE: f64 = 0.1;
+use super::validity::percent;
 
 /// Greatest number of parts named as parted.
 const NAMED: usize = 2;
@@ -20,6 +18,8 @@ pub enum Tone {
     Result,
     /// A reason to doubt it.
     Doubt,
+    /// The whale does not feel the gear.
+    Kinematic,
     /// A reason not to use it.
     Invalid,
 }
@@ -44,71 +44,69 @@ struct Load {
 
 /// The result of a run in numbers, from which the sentences are made.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Headline {
-    whale: Option<WhaleSummary>,
+pub struct Headline<'a> {
+    whale: Option<&'a WhaleSummary>,
     time_s: f64,
     /// Line with the greatest tension: id, tension [N], time [s].
-    peak: Option<(String, f64, f64)>,
+    peak: Option<(&'a str, f64, f64)>,
     /// Part nearest to its strength; `None` if nothing can part.
     load: Option<Load>,
     /// Parts that parted, with the time [s], in the order of time.
     parted: Vec<(String, f64)>,
-    /// Share of the checks of segment lengths near the whale that found too long ones, and the number of rope nodes.
-    coarse: Option<(f64, usize)>,
-    invalid_because: Vec<String>,
+    /// Share of the checks of segment lengths near the whale that found too long ones, their greatest length over the requested one, and
+    /// the number of rope nodes; `None` if none was too long.
+    coarse: Option<(f64, f64, usize)>,
+    invalid_because: &'a [String],
 }
 
-impl Headline {
+impl<'a> Headline<'a> {
     /// The headline of a run of a model so far.
     pub fn of(
         model: &Model,
-        summary: &Summary,
+        summary: &'a Summary,
         budgets: &[StrengthBudget],
         audit: &Audit,
-        invalid_because: &[String],
+        invalid_because: &'a [String],
         time_s: f64,
     ) -> Self {
-        let greatest = summary
-            .lines
-            .iter()
-            .max_by(|one, other| one.peak_tension_n.total_cmp(&other.peak_tension_n));
         let missed = audit.resolution_missed as f64 / audit.resolution_looks.max(1) as f64;
         Self {
-            whale: summary.whale.clone(),
+            whale: summary.whale.as_ref(),
             time_s,
-            peak: greatest.map(|line| (line.id.clone(), line.peak_tension_n, line.peak_at_s)),
+            peak: greatest(summary)
+                .map(|line| (line.id.as_str(), line.peak_tension_n, line.peak_at_s)),
             load: nearest_to_strength(model, summary, budgets),
             parted: parted(summary),
-            coarse: (missed > TOO_COARSE).then_some((missed, model.node_count)),
-            invalid_because: invalid_because.to_vec(),
+            coarse: (missed > 0.0).then_some((missed, audit.resolution_ratio, model.node_count)),
+            invalid_because,
         }
     }
 
     /// Its sentences, the result first; `force` formats a force in newtons.
     pub fn sentences(&self, force: impl Fn(f64) -> String) -> Vec<Sentence> {
         let result = [
-            self.whale.as_ref().map(|whale| outcome(whale, self.time_s)),
+            self.whale.map(|whale| outcome(whale, self.time_s)),
             self.loads(&force),
             Some(self.partings()),
         ];
-        let results =
-            result.into_iter().flatten().map(|text| Sentence { text, tone: Tone::Result });
-        let doubts = [self.kinematic(), self.too_coarse()];
-        let doubts = doubts.into_iter().flatten().map(|text| Sentence { text, tone: Tone::Doubt });
+        let toned = |tone: Tone| move |text: String| Sentence { text, tone };
+        let result = result.into_iter().flatten().map(toned(Tone::Result));
+        let kinematic = self.kinematic().map(toned(Tone::Kinematic));
+        let coarse = self.too_coarse().map(toned(Tone::Doubt));
         let invalid = (!self.invalid_because.is_empty()).then(|| Sentence {
             text: format!("Do not use these numbers: {}.", self.invalid_because.join("; ")),
             tone: Tone::Invalid,
         });
-        results.chain(doubts).chain(invalid).collect()
+        result.chain(kinematic).chain(coarse).chain(invalid).collect()
     }
 
     fn loads(&self, force: impl Fn(f64) -> String) -> Option<String> {
-        let (line, tension_n, at_s) = self.peak.as_ref()?;
-        let peak = format!("Greatest tension: {} in {line} at {at_s:.1} s", force(*tension_n));
+        let (line, tension_n, at_s) = self.peak?;
+        let peak = format!("Greatest tension: {} in {line} at {at_s:.1} s", force(tension_n));
         Some(match &self.load {
             Some(Load { part, share }) => {
                 format!(
-                    "{peak}; nearest to parting: {part}, at {} of its strength.",
+                    "{peak}; nearest to parting: {part}, at {} % of its strength.",
                     percent(*share)
                 )
             }
@@ -121,17 +119,17 @@ impl Headline {
             .parted
             .iter()
             .take(NAMED)
-            .map(|(part, at_s)| format!("{part} parted at {at_s:.1} s"))
+            .map(|(part, at_s)| format!("{part} at {at_s:.1} s"))
             .collect();
         match self.parted.len() {
             0 => "Nothing parted.".to_owned(),
-            count if count <= NAMED => capital(&named.join(", ")) + ".",
-            count => format!("{}, and {} more.", capital(&named.join(", ")), count - NAMED),
+            count if count <= NAMED => format!("Parted: {}.", named.join(", ")),
+            count => format!("Parted: {}, and {} more.", named.join(", "), count - NAMED),
         }
     }
 
     fn kinematic(&self) -> Option<String> {
-        let whale = self.whale.as_ref()?;
+        let whale = self.whale?;
         (whale.kinetic.is_none() && whale.outcome != Outcome::NoContact).then(|| {
             "The whale swims its course and does not feel the gear, so that tensions are not those \
              of a living whale; choose kinetic dynamics."
@@ -140,11 +138,11 @@ impl Headline {
     }
 
     fn too_coarse(&self) -> Option<String> {
-        let (missed, nodes) = self.coarse?;
+        let (missed, ratio, nodes) = self.coarse?;
         Some(format!(
-            "Rope segments near the whale were longer than asked in {} of the checks. Coarse rope slips off \
-             more easily, and its small tensions are up to a quarter too great; run it with more than {nodes} \
-             rope nodes.",
+            "Rope segments near the whale were longer than requested in {} % of the checks, at most {ratio:.1} times. \
+             Coarse rope slips off more easily, and its small tensions are too great; use more than {nodes} rope \
+             nodes, or request longer segments.",
             percent(missed)
         ))
     }
@@ -160,7 +158,7 @@ fn outcome(whale: &WhaleSummary, time_s: f64) -> String {
         Outcome::NoContact if whale.decided => "No contact: no rope touched the whale.".to_owned(),
         Outcome::NoContact => "No contact so far.".to_owned(),
         Outcome::Shed => format!("Shed: {touched}, and the whale is free."),
-        Outcome::PartedFree => "Parted: the whale is free.".to_owned(),
+        Outcome::PartedFree => "Free after a parting.".to_owned(),
         Outcome::Entangled | Outcome::PartedEntangled if !whale.decided && !touches => {
             format!("Not decided: rope last touched the whale {ago_s:.1} s ago.")
         }
@@ -169,7 +167,7 @@ fn outcome(whale: &WhaleSummary, time_s: f64) -> String {
         }
         Outcome::Entangled => format!("Entangled: {}.", places(whale)),
         Outcome::PartedEntangled => {
-            format!("Parted, and the whale is still entangled: {}.", places(whale))
+            format!("Still entangled after a parting: {}.", places(whale))
         }
     }
 }
@@ -181,9 +179,10 @@ fn places(whale: &WhaleSummary) -> String {
         .iter()
         .filter(|part| part.touching || part.wraps >= HOOKED_TURNS)
         .map(|part| match part.wraps {
-            wraps if wraps >= HOOKED_TURNS => format!("{} ({wraps:.1} turns)", spoken(part.part)),
-            _ => spoken(part.part),
+            wraps if wraps >= HOOKED_TURNS => format!("{} ({wraps:.1} turns)", part.part.name()),
+            _ => part.part.name().to_owned(),
         })
+        .map(|part| part.replace('_', " "))
         .collect();
     if whale.lodged_in_mouth {
         named.insert(0, "mouth (lodged)".to_owned());
@@ -193,10 +192,6 @@ fn places(whale: &WhaleSummary) -> String {
         Some((last, [])) => format!("rope at the {last}"),
         Some((last, others)) => format!("rope at the {} and {last}", others.join(", ")),
     }
-}
-
-fn spoken(part: BodyPart) -> String {
-    part.name().replace('_', " ")
 }
 
 /// Links and lines that parted, in the order of time.
@@ -239,41 +234,37 @@ fn nearest_to_strength(
     all.max_by(|one, other| one.share.total_cmp(&other.share))
 }
 
-/// A share in per cent, to one digit where it is small.
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    format!("{percent:.*} %", usize::from(percent < 9.95))
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
 #[cfg(test)]
 mod tests {
+    use endline_sdk::BodyPart;
+
     use super::*;
     use crate::figures::tests::made_up;
 
-    fn headline(outcome: Outcome, decided: bool) -> Headline {
+    /// A whale with an outcome, last touched at 20 s, without rope on it.
+    fn whale(outcome: Outcome, decided: bool) -> WhaleSummary {
         let mut whale = made_up::report().summary.whale.unwrap();
         (whale.outcome, whale.decided, whale.lodged_in_mouth) = (outcome, decided, false);
         for part in &mut whale.regions {
             (part.touching, part.wraps) = (false, 0.0);
         }
         (whale.last_contact_s, whale.contact_time_s) = (Some(20.0), 8.0);
+        whale
+    }
+
+    fn headline(whale: &WhaleSummary) -> Headline<'_> {
         Headline {
             whale: Some(whale),
             time_s: 26.0,
-            peak: Some(("endline-top".into(), 250.0, 31.0)),
+            peak: Some(("endline-top", 250.0, 31.0)),
             load: Some(Load { part: "rope of endline-top".into(), share: 0.0449 }),
             parted: Vec::new(),
             coarse: None,
-            invalid_because: Vec::new(),
+            invalid_because: &[],
         }
     }
 
-    fn texts(headline: &Headline) -> Vec<String> {
+    fn texts(headline: &Headline<'_>) -> Vec<String> {
         let force = |force_n: f64| format!("{force_n:.0} N");
         headline.sentences(force).into_iter().map(|sentence| sentence.text).collect()
     }
@@ -281,52 +272,54 @@ mod tests {
     #[test]
     fn it_names_outcome_load_and_partings() {
         assert_eq!(
-            texts(&headline(Outcome::Shed, true)),
+            texts(&headline(&whale(Outcome::Shed, true))),
             [
                 "Shed: rope touched the whale for 8.0 s in all, and the whale is free.",
                 "Greatest tension: 250 N in endline-top at 31.0 s; nearest to parting: rope of endline-top, at 4.5 % of its strength.",
                 "Nothing parted.",
             ]
         );
-        let mut parted = headline(Outcome::PartedFree, true);
+        let whale = whale(Outcome::PartedFree, true);
+        let mut parted = headline(&whale);
         parted.parted = [("weak link a", 3.0), ("line b", 4.0), ("line c", 5.0)]
             .map(|(part, at_s)| (part.to_owned(), at_s))
             .to_vec();
-        assert_eq!(texts(&parted)[0], "Parted: the whale is free.");
-        assert_eq!(
-            texts(&parted)[2],
-            "Weak link a parted at 3.0 s, line b parted at 4.0 s, and 1 more."
-        );
+        assert_eq!(texts(&parted)[0], "Free after a parting.");
+        assert_eq!(texts(&parted)[2], "Parted: weak link a at 3.0 s, line b at 4.0 s, and 1 more.");
     }
 
     #[test]
     fn an_entangled_whale_has_its_places_and_an_undecided_one_the_time_since_contact() {
-        let mut entangled = headline(Outcome::Entangled, true);
-        let whale = entangled.whale.as_mut().unwrap();
-        whale.lodged_in_mouth = true;
-        let flipper = whale.regions.iter_mut().find(|part| part.part == BodyPart::LeftFlipper);
+        let mut entangled = whale(Outcome::Entangled, true);
+        entangled.lodged_in_mouth = true;
+        let flipper = entangled.regions.iter_mut().find(|part| part.part == BodyPart::LeftFlipper);
         flipper.unwrap().wraps = 1.25;
         assert_eq!(
-            texts(&entangled)[0],
+            texts(&headline(&entangled))[0],
             "Entangled: rope at the mouth (lodged) and left flipper (1.2 turns)."
         );
         assert_eq!(
-            texts(&headline(Outcome::Entangled, false))[0],
+            texts(&headline(&whale(Outcome::Entangled, false)))[0],
             "Not decided: rope last touched the whale 6.0 s ago."
         );
     }
 
     #[test]
     fn doubts_and_reasons_against_it_follow() {
-        let mut doubtful = headline(Outcome::Entangled, true);
-        doubtful.whale.as_mut().unwrap().kinetic = None;
-        doubtful.coarse = Some((0.99, 500));
-        doubtful.invalid_because = vec!["rope passed through skin once".into()];
+        let kinematic = WhaleSummary { kinetic: None, ..whale(Outcome::Entangled, true) };
+        let reasons = ["rope passed through skin once".to_owned()];
+        let doubtful = Headline {
+            coarse: Some((0.99, 4.0, 500)),
+            invalid_because: &reasons,
+            ..headline(&kinematic)
+        };
         let found = doubtful.sentences(|force_n| format!("{force_n} N"));
         let tones: Vec<Tone> = found.iter().map(|sentence| sentence.tone).collect();
-        let [plain, doubt, invalid] = [Tone::Result, Tone::Doubt, Tone::Invalid];
-        assert_eq!(tones, [plain, plain, plain, doubt, doubt, invalid]);
-        assert!(found[4].text.contains("99 %") && found[4].text.contains("500"));
+        let [result, doubt, invalid] = [Tone::Result, Tone::Doubt, Tone::Invalid];
+        assert_eq!(tones, [result, result, result, Tone::Kinematic, doubt, invalid]);
+        for words in ["99 % of the checks", "4.0 times", "500 rope nodes"] {
+            assert!(found[4].text.contains(words), "{words}: {}", found[4].text);
+        }
         assert!(found[5].text.ends_with("rope passed through skin once."));
     }
 }

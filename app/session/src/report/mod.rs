@@ -94,10 +94,7 @@ impl Report {
 
     /// The line with the greatest tension, the first of them where several have it.
     pub fn greatest(&self) -> Option<&LineSummary> {
-        self.summary.lines.iter().fold(None, |most: Option<&LineSummary>, line| match most {
-            Some(most) if most.peak_tension_n >= line.peak_tension_n => Some(most),
-            _ => Some(line),
-        })
+        greatest(&self.summary)
     }
 
     /// Time [s] and id of the weak link or line that parted first; a link before a line of the same
@@ -127,7 +124,8 @@ impl Report {
             &audit,
             &invalid_because,
             run.state().time_s,
-        );
+        )
+        .sentences(|force_n| newtons_and_lbf(force_n, 0));
         Self {
             scenario: prepared.source.scenario_name.clone(),
             seed: settings.seed,
@@ -138,7 +136,7 @@ impl Report {
             nodes: model.node_count,
             triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
             state_hash: run.state_hash().hex(),
-            headline: headline.sentences(|force_n| newtons_and_lbf(force_n, 0)),
+            headline,
             invalid_because,
             stopped,
             audit,
@@ -156,4 +154,12 @@ impl Report {
             plugins: prepared.plugins.clone(),
         }
     }
+}
+
+/// The line with the greatest tension, the first of them where several have it.
+fn greatest(summary: &Summary) -> Option<&LineSummary> {
+    summary.lines.iter().fold(None, |most: Option<&LineSummary>, line| match most {
+        Some(most) if most.peak_tension_n >= line.peak_tension_n => Some(most),
+        _ => Some(line),
+    })
 }

@@ -69,7 +69,7 @@ fn pressed(whale: Option<&WhaleSummary>) -> Option<String> {
 }
 
 /// A share in per cent, to two digits where it is small.
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     format!("{percent:.*}", usize::from(percent < 9.95))
 }

@@ -22,7 +22,7 @@ use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::stats::{
     EventIndicators, Rate, WORTH_FINDING, effective_with, encounters_missing, encounters_to_tell,
-    expected_newly, z95,
+    expected_newly, whales_for_band,
 };
 use super::{batch, results};
 
@@ -113,7 +113,7 @@ fn of_event(encounters: u64, done: u64, indicators: &EventIndicators, newly: &[u
     let needed_to_tell = encounters_missing(&rate, newly).map(|_| {
         encounters_to_tell(rate.rate, WORTH_FINDING, newly) * rate.runs as f64 / rate.effective
     });
-    let whales = WORTH_FINDING * (1.0 - WORTH_FINDING) * (z95() / BAND).powi(2);
+    let whales = whales_for_band(BAND);
     let with_event = effective_with(indicators);
     Forecast {
         encounters,

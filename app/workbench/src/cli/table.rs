@@ -13,7 +13,7 @@ use endline_session::settled::{PartStrength, SettledShape};
 use endline_session::units::{Units, newtons_and_lbf};
 use endline_sim::metrics::WhaleSummary;
 
-/// The headline of a run, for those who do not ask for all figures.
+/// The scenario and the headline of its run.
 pub(super) fn headline(report: &Report) -> String {
     let mut text = format!("{}\n\n", report.scenario);
     for sentence in &report.headline {

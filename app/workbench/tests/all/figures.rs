@@ -105,7 +105,7 @@ fn the_run_panel_reports_an_invalid_run_and_insufficient_resolution() {
     harness.get_by_label_contains(
         "Do not use these numbers: 30 % of the solver steps in touch did not converge",
     );
-    harness.get_by_label_contains("longer than asked in 25 % of the checks");
+    harness.get_by_label_contains("longer than requested in 25 % of the checks, at most 4.0 times");
 }
 
 #[test]

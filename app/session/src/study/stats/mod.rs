@@ -44,7 +44,9 @@ pub use sobol::SobolIndex;
 pub use strength_curve::{Banded, StrengthCurve};
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
-pub use verdict::{WORTH_FINDING, encounters_missing, encounters_to_tell, expected_newly, rounded};
+pub use verdict::{
+    WORTH_FINDING, encounters_missing, encounters_to_tell, expected_newly, rounded, whales_for_band,
+};
 
 use endline_gear::StudyEvent;
 

@@ -36,7 +36,7 @@ const FROM_LBF: u32 = 200;
 const TO_LBF: u32 = 10_000;
 const STEP_LBF: usize = 50;
 
-/// Strengths asked for most [lbf]: a link of the rules, approved rope as fished, weak rope of the rules, ropes taken off whales.
+/// Strengths asked for most [lbf]: the weak link of the rules, one between, weak rope of the rules, ropes taken off whales.
 const ASKED_LBF: [f64; 4] = [600.0, 1000.0, 1700.0, 2600.0];
 
 /// Probability that a band does not contain its whole curve.
@@ -68,7 +68,7 @@ pub struct AskedStrength {
     pub strength_n: f64,
     /// Share on which the part parts.
     pub parts: Rate,
-    /// Share on which it parts and one of the greatest of these strengths does not.
+    /// Share on which it parts, but would not with the greatest of these strengths.
     pub parts_alone: Rate,
 }
 

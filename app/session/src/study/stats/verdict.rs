@@ -108,13 +108,13 @@ pub(super) fn of_strengths(curve: &StrengthCurve) -> Vec<String> {
     }
     let at = |asked: &AskedStrength| {
         let Rate { rate, interval, .. } = asked.parts;
-        format!("of {} on {:.0} {}", lbf(asked), 100.0 * rate, of_hundred(interval))
+        format!("{:.0} {} at {}", 100.0 * rate, of_hundred(interval), lbf(asked))
     };
     let all: Vec<String> = curve.asked.iter().map(at).collect();
     let more = &weaker.parts_alone;
     let effective = curve.parts_given_held.effective;
     vec![
-        format!("Of 100 whales held if nothing parts, rope parts: {}.", all.join(", ")),
+        format!("Of 100 whales held if nothing parts, rope parts on {}.", all.join(", ")),
         format!(
             "Rope of {} parts on {:.0} {} more of 100 than rope of {}.",
             lbf(weaker),
@@ -123,14 +123,17 @@ pub(super) fn of_strengths(curve: &StrengthCurve) -> Vec<String> {
             lbf(strongest)
         ),
         format!(
-            "The {held} held whales count as {effective:.0} of equal weight; a share is known to ±10 points from about {TO_TEN_POINTS}, and to ±5 from about {TO_FIVE_POINTS}."
+            "The {held} held whales count as {effective:.0} of equal weight; about {:.0} are needed for a share within ±10 points, and about {:.0} for ±5.",
+            whales_for_band(0.1),
+            whales_for_band(0.05)
         ),
     ]
 }
 
-/// Held whales of equal weight from which a share near 30 % is known to ±10 and to ±5 points.
-const TO_TEN_POINTS: u32 = 81;
-const TO_FIVE_POINTS: u32 = 323;
+/// Held whales of equal weight from which a share of [`WORTH_FINDING`] is known to a half-width: `n = p (1 - p) (1.96 / d)²`.
+pub fn whales_for_band(half_width: f64) -> f64 {
+    WORTH_FINDING * (1.0 - WORTH_FINDING) * (z95() / half_width).powi(2)
+}
 
 fn lbf(asked: &AskedStrength) -> String {
     format!("{} lbf", thousands(asked.strength_n / N_PER_LBF))
@@ -260,9 +263,10 @@ mod tests {
             asked: vec![at(600.0, 30), at(1700.0, 12), at(2600.0, 4)],
         };
         let found = of_strengths(&curve(40));
-        assert!(found[0].contains("600 lbf on 75 [60, 86], of 1,700 lbf on 30 ["), "{found:?}");
+        assert!(found[0].contains("parts on 75 [60, 86] at 600 lbf, 30 ["), "{found:?}");
         assert!(found[1].starts_with("Rope of 1,700 lbf parts on 20 ["), "{found:?}");
         assert!(found[2].starts_with("The 40 held whales count as 25 of"), "{found:?}");
+        assert!(found[2].contains("about 81 are") && found[2].contains("323 for"), "{found:?}");
         assert!(of_strengths(&curve(0)).is_empty());
     }
 

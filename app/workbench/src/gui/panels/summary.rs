@@ -60,6 +60,8 @@ fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
             let text = match tone {
                 Tone::Result if place == 0 => RichText::new(text).heading(),
                 Tone::Result => RichText::new(text),
+                // The note above the headline states it and offers the correction.
+                Tone::Kinematic => continue,
                 Tone::Doubt => RichText::new(text).color(palette.warning),
                 Tone::Invalid => RichText::new(text).color(palette.error),
             };
