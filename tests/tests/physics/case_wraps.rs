@@ -130,7 +130,7 @@ fn e15_02_ends_with_rope_about_both_flukes() {
 }
 
 #[test]
-fn e15_02_at_slack_water_ends_with_rope_before_the_root_of_both_flukes() {
+fn e15_02_at_slack_water_ends_with_rope_about_both_flukes() {
     let whale = ends("case-e15-02-slack.toml");
     assert_eq!(whale.outcome, Outcome::Entangled);
     assert!(whale.hooked);
