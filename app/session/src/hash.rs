@@ -135,11 +135,11 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
     contact.reals(push_n);
     contact.vectors(normals);
     contact.reals(floats);
-    for SolidGrip { solid, line, along_m, bears, stretch, push_n } in solid_grips {
+    for SolidGrip { solid, line, along_m, bears, stretch, push_n, most_n_m } in solid_grips {
         contact.word(*solid as u64);
         contact.word(*line as u64);
         contact.word(*bears as u64);
-        contact.reals(&[*along_m, *push_n]);
+        contact.reals(&[*along_m, *push_n, *most_n_m]);
         contact.vectors(&[*stretch]);
     }
     for RopeWithin { solid, line, from_m, to_m } in within {

@@ -270,3 +270,44 @@ fn a_high_flyer_stands_up_again() {
     assert!(place.x > 20.0 && (3.0..60.0).contains(&lean), "{place}");
     assert!(upright(&state) > 0.99);
 }
+
+/// Rope drawn taut over a trap in steps of 4 ms, which then become steps of 0.25 ms: its tension stays.
+///
+/// Contact on a body is softer the longer the step, so that the rope lies deeper in the trap than it would in short steps.
+#[test]
+fn rope_on_a_trap_bears_the_same_when_steps_become_shorter() {
+    let end = |id: &str, y: f64| {
+        format!(
+            "[[fixture]]\nid = \"{id}\"\nposition = [\"0 m\", \"{y} m\", \"-14.3 m\"]\nvelocity = [\"0 m/s\", \"0 m/s\", \"-0.05 m/s\"]\n"
+        )
+    };
+    let further = format!(
+        "{}{}[[line]]\nid = \"warp\"\nrope = \"sink-3-8\"\nfrom = \"left\"\nto = \"right\"\nlength = \"2.1 m\"\n[[segments]]\nline = \"warp\"\nlongest = \"5 cm\"\n",
+        end("left", -1.0),
+        end("right", 1.0),
+    );
+    let with_step = |step_s: f64| {
+        let mut spec = spec("trap", "wire-lobster-3ft", 0.02, &further);
+        spec.settings.step_s = step_s;
+        spec.settings.auto_step = false;
+        Model::new(spec).unwrap()
+    };
+    let greatest = |state: &State| state.rope.tension.iter().copied().fold(0.0, f64::max);
+    let (long, short) = (with_step(4e-3), with_step(2.5e-4));
+    let mut state = State::start(&long);
+    let mut workspace = Workspace::new(&long);
+    while greatest(&state) < 600.0 {
+        assert!(state.time_s < 20.0, "taut at {} N", greatest(&state));
+        step(&long, &Input::default(), &mut state, &mut workspace).unwrap();
+    }
+    let (before, grips) = (greatest(&state), state.rope.solid_grips.len());
+    let peaks = [(&long, 4e-3), (&short, 2.5e-4)].map(|(model, step_s)| {
+        let (mut state, mut peak) = (state.clone(), 0.0_f64);
+        state.step = (state.time_s / step_s).round() as u64;
+        let until_s = state.time_s + 0.02;
+        run(model, &mut state, until_s, |state| peak = peak.max(greatest(state)));
+        peak
+    });
+    println!("{before:.0} N at {grips} contact points, then at most {peaks:.0?} N");
+    assert!(grips > 0 && peaks[1] < 1.05 * peaks[0], "{before} N, then {peaks:?} N");
+}

@@ -7,6 +7,7 @@ use endline_gear::{Options, Scenario, assemble};
 use endline_sdk::LineEnd;
 use endline_sim::balance::Source;
 use endline_sim::metrics::{Metrics, end_tension};
+use endline_sim::whale::pose::{pose, skin_all};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 
 /// Steps a model to a time or until `done`.
@@ -235,6 +236,41 @@ fn a_kinetic_run_keeps_its_bits_without_its_workspace() {
         whole.whale.as_ref().unwrap().exertion.rope_force_n.length() > 100.0,
         "the rope is taut by then"
     );
+}
+
+/// A whale that dives to the seabed and rolls on it: no part of its skin goes below it, and the lowest lies on it.
+#[test]
+fn a_whale_at_the_seabed_lies_on_it() {
+    let text = scenario_text("part-rope-10m.toml");
+    let (before, _) = text.split_once("[[whale.pilot]]").unwrap();
+    let (_, after) = text.split_once("[friction]").unwrap();
+    let pilot = "[[whale.pilot]]\nat = \"0 s\"\nspeed = 1.0\npitch = -0.5\nroll = 0.8\n\n";
+    let mut text = format!("{before}{pilot}[friction]{after}");
+    for (from, to) in [
+        ("depth = \"40 m\"\n", "depth = \"14 m\"\n"),
+        ("seabed = false", "seabed = true"),
+        ("to = \"whale:peduncle\"", "to = \"stake\""),
+        ("length = \"26 m\"", "length = \"9 m\""),
+        (
+            "id = \"post\"\n",
+            "id = \"stake\"\nposition = [\"-40 m\", \"5 m\", \"-9.2 m\"]\n\n[[fixture]]\nid = \"post\"\n",
+        ),
+        ("\"-30 m\", \"0 m\"", "\"-40 m\", \"-5 m\""),
+    ] {
+        assert!(text.contains(from), "the scenario says {from}");
+        text = text.replacen(from, to, 1);
+    }
+    let model = built(spec_of("floor.toml", &text));
+    let skin = &model.spec.whale.as_ref().unwrap().skin;
+    let (mut bones, mut vertices, mut lowest_m) = (Vec::new(), Vec::new(), f64::INFINITY);
+    run(&model, 30.0, |state| {
+        let whale = state.whale.as_ref().unwrap();
+        pose(skin, whale.position, whale.orientation, &whale.posture, &mut bones);
+        skin_all(skin, &bones, &mut vertices);
+        lowest_m = vertices.iter().map(|vertex| vertex.z + 14.0).fold(lowest_m, f64::min);
+        false
+    });
+    assert!(lowest_m.abs() < 1e-9, "the lowest vertex is at {lowest_m} m");
 }
 
 #[test]

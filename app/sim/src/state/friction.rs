@@ -57,6 +57,8 @@ pub struct SolidGrip {
     pub stretch: DVec3,
     /// Normal force at the end of the last step [N].
     pub push_n: f64,
+    /// Largest stiffness of a contact on its body in the last step; infinite on an obstacle [N/m].
+    pub most_n_m: f64,
 }
 
 /// A length of rope that has been inside a body since the start of the run; contact with the body begins after it has left it.

@@ -4,11 +4,10 @@ use crate::cost::CostPart;
 use crate::gear_hook;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
-use crate::whale::drive::drive;
+use crate::whale::drive::{DriveScratch, drive};
 use crate::whale::jaws::MouthLoad;
 use crate::whale::pilot;
 use endline_sdk::Controls;
-use glam::DVec3;
 
 pub mod audit;
 mod contact;
@@ -57,7 +56,7 @@ fn try_step(
 ) -> Result<(), Stop> {
     let mut whale = workspace.whale.take();
     workspace.solver.cost.enter(CostPart::Whale);
-    let moved = move_whale(model, input, state, (&mut whale, &mut workspace.hull));
+    let moved = move_whale(model, input, state, (&mut whale, &mut workspace.drive));
     workspace.solver.cost.enter(CostPart::Other);
     let done = moved.and_then(|held| {
         workspace.audit.postures_held += u64::from(held);
@@ -90,7 +89,7 @@ fn move_whale(
     model: &Model,
     input: &Input,
     state: &State,
-    (whale, hull): (&mut Option<Box<[WhaleState; 2]>>, &mut Vec<DVec3>),
+    (whale, scratch): (&mut Option<Box<[WhaleState; 2]>>, &mut DriveScratch),
 ) -> Result<bool, Stop> {
     let Some(now) = &state.whale else {
         *whale = None;
@@ -98,7 +97,7 @@ fn move_whale(
     };
     let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
     from.clone_from(now);
-    drive(model, input, from, state.time_s, to, hull)
+    drive(model, input, from, state.time_s, to, scratch)
 }
 
 /// All that enters a step from outside; recorded, so that a run replays.

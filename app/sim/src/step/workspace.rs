@@ -1,7 +1,5 @@
 //! Scratch of a run, and the results of its last step for readers.
 
-use glam::DVec3;
-
 use super::audit::Audit;
 use super::peaks::{SpikeWatch, raise};
 use super::stages::Stages;
@@ -17,6 +15,7 @@ use crate::model::Model;
 use crate::remesh::RemeshWorkspace;
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
+use crate::whale::drive::DriveScratch;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::RopeImpulse;
 
@@ -51,8 +50,8 @@ pub struct Workspace {
     pub(super) remesh: Option<RemeshWorkspace>,
     /// The whale at the start and at the end of the step.
     pub(super) whale: Option<Box<[WhaleState; 2]>>,
-    /// Scratch of a kinetic whale's hull near the surface.
-    pub(super) hull: Vec<DVec3>,
+    /// Scratch for the motion of the whale.
+    pub(super) drive: DriveScratch,
     /// Impulse of rope on the whale over the solver steps of the step.
     pub(super) pulled: RopeImpulse,
 }
@@ -78,7 +77,7 @@ impl Workspace {
             gear: GearWorkspace::default(),
             remesh: RemeshWorkspace::new(model),
             whale: None,
-            hull: hull_scratch(model),
+            drive: DriveScratch::new(model),
             pulled: RopeImpulse::default(),
         }
     }
@@ -105,10 +104,4 @@ impl Workspace {
 fn mouth_of(model: &Model) -> Option<MouthLoad> {
     let whale = model.spec.whale.as_ref().filter(|whale| whale.jaws.is_some())?;
     Some(MouthLoad::new(&whale.skin))
-}
-
-/// Scratch for the hull of a model's whale, where it has one.
-fn hull_scratch(model: &Model) -> Vec<DVec3> {
-    let kinetic = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref());
-    kinetic.map(|kinetic| kinetic.hull.scratch()).unwrap_or_default()
 }

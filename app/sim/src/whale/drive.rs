@@ -4,7 +4,7 @@
 //! whale's own axes,
 //! `u` the mean speed through the water over the step [m/s], and `U` the velocity of the current [m/s]. Kinetic: mass, drag and
 //! strength determine the response to the plugin's request (`kinetic/mod.rs`), also for a dead whale.
-//! The whale cannot enter the seabed. It leaves the water at most as far as its speed carries it ([`carried_m`]); for a kinetic
+//! The whale cannot enter the seabed with any part of its skin: it is lifted by the depth of its lowest vertex. It leaves the water at most as far as its speed carries it ([`carried_m`]); for a kinetic
 //! whale its weight in air limits this. The jaws close as far as contact permits (`jaws.rs`), and joints turn within their
 //! ranges (`pose.rs`).
 
@@ -14,18 +14,37 @@ use glam::{DAffine3, DQuat, DVec3};
 use super::kinetic::muscle::{MotionRequest, Surroundings, reported_speed, swim, thrust_speed};
 use super::kinetic::{drift, weight_out};
 use super::pose::pose;
-use crate::model::{Model, Whale};
+use crate::model::{Model, Seabed, Whale};
 use crate::state::WhaleState;
 use crate::step::{Input, Stop};
+use crate::whale::Skin;
 
-/// Clearance of the whale's origin above the seabed, as a share of its length: half the height of a right whale.
-const CLEARANCE: f64 = 0.11;
+/// How far its skin reaches from the whale's origin along its own axes in any posture, as shares of its length; estimate.
+const REACH: DVec3 = DVec3::new(0.6, 0.35, 0.3);
 
 /// Gravity on the part above the surface [m/s²].
 const GRAVITY_M_S2: f64 = 9.81;
 
+/// Buffers for the motion of a whale.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DriveScratch {
+    /// Vertices of a kinetic whale's hull near the surface.
+    hull: Vec<DVec3>,
+    /// Bone transforms near the seabed.
+    bones: Vec<DAffine3>,
+}
+
+impl DriveScratch {
+    /// Buffers for a model's whale; empty without one.
+    pub fn new(model: &Model) -> Self {
+        let Some(whale) = &model.spec.whale else { return Self::default() };
+        let hull = whale.kinetic.as_ref().map(|kinetic| kinetic.hull.scratch());
+        Self { hull: hull.unwrap_or_default(), bones: Vec::with_capacity(whale.skin.bones.len()) }
+    }
+}
+
 /// Computes the whale at the end of a step from `whale` to `next`. Returns whether its motion requested a posture beyond the
-/// joints' ranges. `hull_scratch` is a buffer of a kinetic whale's hull.
+/// joints' ranges.
 /// Errors: reports the motion plugin's id if it fails or returns a number that is not finite.
 pub(crate) fn drive(
     model: &Model,
@@ -33,7 +52,7 @@ pub(crate) fn drive(
     whale: &WhaleState,
     time_s: f64,
     next: &mut WhaleState,
-    hull_scratch: &mut Vec<DVec3>,
+    scratch: &mut DriveScratch,
 ) -> Result<bool, Stop> {
     next.clone_from(whale);
     let Some(spec) = &model.spec.whale else {
@@ -41,8 +60,8 @@ pub(crate) fn drive(
         return Ok(false);
     };
     if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
-        drift(model, kinetic, whale, time_s, next, hull_scratch);
-        keep_in_water(model, spec, next);
+        drift(model, kinetic, whale, time_s, next, &mut scratch.hull);
+        keep_in_water(model, spec, next, &mut scratch.bones);
         return Ok(false);
     }
     let (asked, reported_m_s) = call_motion(model, spec, input, whale, time_s, next)?;
@@ -61,13 +80,13 @@ pub(crate) fn drive(
                 turn_rate,
                 burst: input.controls.burst,
             };
-            let out = weight_out(model, kinetic, whale, time_s, hull_scratch);
+            let out = weight_out(model, kinetic, whale, time_s, &mut scratch.hull);
             let current_m_s = model.sea.current(whale.position, time_s);
             swim(model, kinetic, &request, whale, Surroundings { out, current_m_s }, next);
         }
         None => follow(model, &asked, whale, time_s, next),
     }
-    keep_in_water(model, spec, next);
+    keep_in_water(model, spec, next, &mut scratch.bones);
     Ok(held)
 }
 
@@ -149,19 +168,49 @@ fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
 
 /// Limits the whale's height to the range from the seabed to [`carried_m`], which does not apply to a kinetic whale with weight
 /// in air. A kinetic whale loses its velocity into the limit.
-fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
+fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState, bones: &mut Vec<DAffine3>) {
     let seabed = model.spec.seabed.as_ref();
     let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| {
-        seabed.height_at(whale.position) + CLEARANCE * spec.length_m
+        whale.position.z + depth_in_seabed(seabed, spec, whale, bones)
     });
     let weighs = spec.kinetic.as_ref().is_some_and(|kinetic| kinetic.hull.volume_m3 > 0.0);
     let ceiling = if weighs { f64::INFINITY } else { carried_m(spec.length_m, whale) };
-    let held = whale.position.z.max(floor).min(ceiling);
+    let held = whale.position.z.min(ceiling).max(floor);
     let [port, back] = whale.exertion.slip_m_s;
     if (whale.orientation * DVec3::new(0.0, port, back)).z * (whale.position.z - held) > 0.0 {
         whale.exertion.slip_m_s = [0.0; 2];
     }
     whale.position.z = held;
+}
+
+/// How far the whale must be lifted so that no vertex of its skin is below the seabed; negative infinity if it is well above [m].
+fn depth_in_seabed(
+    seabed: &Seabed,
+    spec: &Whale,
+    whale: &WhaleState,
+    bones: &mut Vec<DAffine3>,
+) -> f64 {
+    let normal = seabed.normal;
+    let height_m = (whale.position.z - seabed.height_at(whale.position)) * normal.z;
+    let reach_m = (whale.orientation.inverse() * normal).abs().dot(REACH) * spec.length_m;
+    if height_m > reach_m {
+        return f64::NEG_INFINITY;
+    }
+    pose(&spec.skin, whale.position, whale.orientation, &whale.posture, bones);
+    let lowest_m = lowest_m(&spec.skin, bones, normal) - normal.dot(whale.position);
+    debug_assert!(-lowest_m <= reach_m, "skin reaches {lowest_m} m, bound {reach_m} m");
+    -(height_m + lowest_m) / normal.z
+}
+
+/// The least component of the skin's vertices along `up` [m].
+fn lowest_m(skin: &Skin, bones: &[DAffine3], up: DVec3) -> f64 {
+    let height = |(rest, weights): (&DVec3, &[(u16, f64); 4])| {
+        let by_bone = |&(bone, weight): &(u16, f64)| {
+            weight * up.dot(bones[usize::from(bone)].transform_point3(*rest))
+        };
+        weights.iter().filter(|(_, weight)| *weight > 0.0).map(by_bone).sum::<f64>()
+    };
+    skin.vertices.iter().zip(&skin.weights).map(height).fold(f64::INFINITY, f64::min)
 }
 
 /// Bone transforms at a share between two states of the whale.

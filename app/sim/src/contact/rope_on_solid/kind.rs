@@ -353,6 +353,7 @@ impl RopeOnSolid {
             bears: point.bears,
             stretch,
             push_n: point.push_n,
+            most_n_m: point.most_n_m,
         }
     }
 }

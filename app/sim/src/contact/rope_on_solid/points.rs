@@ -16,6 +16,10 @@ const FOLLOWED_M: f64 = 0.05;
 /// Largest total stiffness of contact on a body, as a share of its mass over the step squared: rope and body respond to each other from
 /// iteration to iteration, which converges faster the softer the contact is.
 const BODY_SHARE: f64 = 0.3;
+/// While rope stays on a body, its contact stiffness rises by this factor at most in this time, as `1 + dt / STIFFER_S` in a step. The
+/// share above rises by the square of the step when steps become shorter, and rope that lies 10 mm deep in soft contact would be pushed
+/// out by ten times the force that it bore [s].
+const STIFFER_S: f64 = 0.5;
 
 /// A point of rope that may touch a solid.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,6 +43,8 @@ pub(crate) struct SolidContactPoint {
     pub forgiven_m: f64,
     /// Stiffness [N/m].
     pub stiffness: f64,
+    /// Largest stiffness of a contact on its body in this step [N/m].
+    pub most_n_m: f64,
     /// Normal force that the last solve predicted [N].
     pub predicted_n: f64,
     /// Normal force at the places of the last assembly, below zero where there is a gap [N].
@@ -112,7 +118,11 @@ impl RopeOnSolid {
             Bears::Within => self.length_of(point.node).min(EDGE_M),
             Bears::Knot => 2.0 * point.radius_m,
         };
-        point.stiffness = self.stiffness_of(solid, point.solid, length, state);
+        point.most_n_m = self.most_on_body(solid, point.solid, state);
+        point.stiffness = match self.at_rest_n_m2.filter(|_| solid.mass_kg.is_finite()) {
+            Some(soft_n_m2) => soft_n_m2 * length,
+            None => (solid.stiffness_n_m2 * length).min(point.most_n_m),
+        };
         let farthest = if point.bears == Bears::Within { FOLLOWED_M } else { 1e-9 };
         let mine = |grip: &&SolidGrip| {
             grip.solid == point.solid
@@ -132,18 +142,17 @@ impl RopeOnSolid {
         point
     }
 
-    /// Stiffness under a length of rope [N/m].
-    fn stiffness_of(&self, solid: &Solid, index: usize, length: f64, state: &State) -> f64 {
-        match self.at_rest_n_m2.filter(|_| solid.mass_kg.is_finite()) {
-            Some(soft_n_m2) => soft_n_m2 * length,
-            None if solid.mass_kg.is_infinite() => solid.stiffness_n_m2 * length,
-            None => {
-                let on_body = |grip: &&SolidGrip| self.body_of[grip.solid] == self.body_of[index];
-                let held = state.rope.solid_grips.iter().filter(on_body).count();
-                let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
-                (solid.stiffness_n_m2 * length).min(most)
-            }
+    /// Largest stiffness of a contact point on the body of a solid; infinite on an obstacle [N/m].
+    fn most_on_body(&self, solid: &Solid, index: usize, state: &State) -> f64 {
+        if solid.mass_kg.is_infinite() {
+            return f64::INFINITY;
         }
+        let on_body = |grip: &&SolidGrip| self.body_of[grip.solid] == self.body_of[index];
+        let held = state.rope.solid_grips.iter().filter(on_body);
+        let share = BODY_SHARE * solid.mass_kg / (self.dt * self.dt);
+        let (count, before) = held
+            .fold((0, f64::INFINITY), |(count, least), grip| (count + 1, least.min(grip.most_n_m)));
+        (share / f64::from(count + 1)).min(before * (1.0 + self.dt / STIFFER_S))
     }
 
     /// Unstretched length that hangs on a node [m].
