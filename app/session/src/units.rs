@@ -61,6 +61,8 @@ impl ForceUnit {
 pub(crate) const METRES_PER_FOOT: f64 = 0.3048;
 /// Metres in a fathom.
 pub(crate) const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
+/// Metres in a nautical mile.
+pub(crate) const METRES_PER_NAUTICAL_MILE: f64 = 1852.0;
 /// Metres in an inch.
 pub(crate) const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
 /// Pascals in a pound-force on a square inch.
@@ -72,7 +74,7 @@ const THIN_M: f64 = 0.06;
 /// Metric units of length, speed, force and mass, as files have them.
 const METRIC: [&str; 9] = ["m", "cm", "mm", "km", "m/s", "N", "kN", "kg", "g"];
 /// A nautical mile an hour [m/s].
-const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
+const M_S_PER_KNOT: f64 = METRES_PER_NAUTICAL_MILE / 3600.0;
 
 /// The units that values are displayed in. Files keep their own units, and any unit may be typed.
 #[derive(
@@ -212,6 +214,20 @@ pub fn rounded(value: f64, digits: usize) -> String {
     if nothing { text.trim_start_matches('-').to_owned() } else { text }
 }
 
+/// A text with commas between the thousands of its leading number, such as `1,700 lbf`.
+pub fn grouped(text: &str) -> String {
+    let start = usize::from(text.starts_with('-'));
+    let digits = text[start..].bytes().take_while(u8::is_ascii_digit).count();
+    let mut grouped = text[..start].to_owned();
+    for (index, digit) in text[start..start + digits].chars().enumerate() {
+        if index > 0 && (digits - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped + &text[start + digits..]
+}
+
 /// Compass bearing of a heading in the world: 0 north, 90 east [degrees, 0 to 360).
 pub fn bearing_degrees(east: f64, north: f64) -> f64 {
     east.atan2(north).to_degrees().rem_euclid(360.0)
@@ -225,6 +241,19 @@ mod tests {
     fn a_force_has_both_units() {
         assert_eq!(newtons_and_lbf(7_561.976_745_942_85, 1), "7562.0 N (1700.0 lbf)");
         assert_eq!(newtons_and_lbf(f64::INFINITY, 0), "none");
+    }
+
+    #[test]
+    fn thousands_have_commas() {
+        for (text, expected) in [
+            ("1700 lbf", "1,700 lbf"),
+            ("170 lbf", "170 lbf"),
+            ("-1234567.5 N", "-1,234,567.5 N"),
+            ("0.12345", "0.12345"),
+            ("none", "none"),
+        ] {
+            assert_eq!(grouped(text), expected);
+        }
     }
 
     #[test]

@@ -107,6 +107,10 @@ fn a_time_outside_the_recording_is_refused() {
         "{refused}"
     );
     assert!(!place.path("late.png").exists());
+    // A scenario is run to its end, which is said whether or not the machine can draw.
+    let scenario = place.encounter();
+    let late = place.endline(&["render", &scenario, "--at", "99s", "--out", "late.png"]);
+    assert!(late.stderr.contains("the run ends at"), "{late}");
 }
 
 #[test]

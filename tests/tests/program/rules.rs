@@ -49,7 +49,8 @@ fn an_assembly_passes_fails_or_leaves_a_rule_open_and_the_exit_code_says_whether
     place.write("assemblies/floating.toml", &assembly.replace("\"sink-3-8\"", "\"pp-3-8\""));
     let fails = check(&place, &[&["assemblies/floating.toml"], &bay[..]].concat());
     // What is proposed or voluntary is advice: it fails, and the call does not.
-    let printed = ["fail", "bay.sinking", "fix: Use sinking rope.", "0 >= 0.5", "(proposed)"];
+    let printed =
+        ["fail", "bay.sinking", "fix: Use sinking rope.", "0; at least 0.5 required", "(proposed)"];
     fails.fails(0, &[&printed[..], &["1 fail (1 of them advice that does not bind)"]].concat());
     for (standing, code) in [("law", 1), ("voluntary", 0)] {
         place.write("bay.toml", &PACK.replace("\"proposed\"", &format!("\"{standing}\"")));
@@ -78,7 +79,7 @@ fn a_strength_names_the_rope_that_has_it_and_a_length_the_whole_endline() {
     };
     // The upper rope is sink-7-16 of 3,500 lbf, the lower one pp-7-16 of 3,160 lbf.
     let (part, says) = measured("us.weak");
-    assert_eq!((&*part, &*says), ("endline-bottom", "3160 lbf <= 1700 lbf"));
+    assert_eq!((&*part, &*says), ("endline-bottom", "3,160 lbf; at most 1,700 lbf allowed"));
     place.write("bay.toml", PACK);
     let bay = ["--area", "my-bay", "--on", "2024-06-01", "--pack", "bay.toml"];
     check(&place, &[&["trawl-10"], &bay[..]].concat()).prints(&["endline-top to endline-bottom: "]);

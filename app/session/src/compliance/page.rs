@@ -6,7 +6,7 @@ use endline_sim::model::BodyRole;
 use crate::page::{Cell, Citations, Line, STYLE, Table};
 use crate::rules::{RuleResult, Verdict};
 use crate::settled::{LineShape, PartStrength};
-use crate::units::{METRES_PER_FATHOM, N_PER_LBF};
+use crate::units::{METRES_PER_FATHOM, METRES_PER_NAUTICAL_MILE, N_PER_LBF};
 
 use super::{ComplianceSheet, ThreatOfGear, drawing};
 
@@ -44,8 +44,12 @@ pub(super) fn html(sheet: &ComplianceSheet) -> Result<String, askama::Error> {
 pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {
     let depth_m = sheet.rules.depth_m;
     let usual = if sheet.rules.depth_is_usual { ", taken because none was given" } else { "" };
+    let distance = match sheet.fishing.distance_m {
+        Some(distance_m) => format!("{:.1} nmi from shore", distance_m / METRES_PER_NAUTICAL_MILE),
+        None => "distance from shore not given".to_owned(),
+    };
     format!(
-        "{}, {}, {depth_m:.1} m ({:.0} fathoms) of water{usual}",
+        "{}, {}, {distance}, {depth_m:.1} m ({:.0} fathoms) of water{usual}",
         sheet.area,
         sheet.fishing.on,
         depth_m / METRES_PER_FATHOM
@@ -54,22 +58,25 @@ pub(super) fn where_and_when(sheet: &ComplianceSheet) -> String {
 
 /// The verdict of the sheet.
 fn verdict(sheet: &ComplianceSheet) -> String {
-    let binds = |rule: &&RuleResult| rule.binding;
-    let ids = |verdict: Verdict| -> Vec<&str> {
-        sheet.rules.with(verdict).filter(binds).map(|rule| rule.rule.as_str()).collect()
+    let binding = |verdict: Verdict| -> Vec<&RuleResult> {
+        sheet.rules.with(verdict).filter(|rule| rule.binding).collect()
     };
-    let (fails, unknown) = (ids(Verdict::Fail), ids(Verdict::CannotBeChecked));
+    let named = |rule: &&RuleResult| format!("{} ({})", rule.asks.trim_end_matches('.'), rule.rule);
+    let fails = binding(Verdict::Fail);
+    let (met, unknown) = (binding(Verdict::Pass).len(), binding(Verdict::CannotBeChecked).len());
     let mut text = match fails.as_slice() {
-        [] => "It meets every binding rule that could be checked.".to_owned(),
-        [one] => format!("It fails one binding rule: {one}."),
-        several => format!("It fails {} binding rules: {}.", several.len(), several.join(", ")),
+        [] if unknown > 0 => format!(
+            "No verdict yet: {unknown} binding rules cannot be checked. It meets the {met} that could be."
+        ),
+        [] => "It meets every binding rule.".to_owned(),
+        [one] => format!("It fails one binding rule: {}.", named(one)),
+        several => {
+            let names: Vec<String> = several.iter().map(named).collect();
+            format!("It fails {} binding rules: {}.", several.len(), names.join("; "))
+        }
     };
-    if !unknown.is_empty() {
-        text += &format!(
-            " {} more apply and cannot be checked: {}.",
-            unknown.len(),
-            unknown.join(", ")
-        );
+    if unknown > 0 && !fails.is_empty() {
+        text += &format!(" {unknown} more apply and cannot be checked.");
     }
     for says in &sheet.rules.uncovered {
         text += &format!(" Note: {says}.");
@@ -132,7 +139,7 @@ fn rules(sheet: &ComplianceSheet, citations: &mut Citations) -> Table {
     let order = [Verdict::Fail, Verdict::Pass];
     let rows = order.into_iter().flat_map(|verdict| sheet.rules.with(verdict));
     let rows = rows.map(|rule| rule_row(rule, citations)).collect();
-    let headings = ["Rule", "Asks", "Verdict", "Measured, and the limit", "Source"];
+    let headings = ["Rule", "Verdict", "Measured, and the limit", "Source"];
     Table::new("Rules that apply and were checked", &headings, rows)
 }
 
@@ -147,10 +154,9 @@ fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
             .join(": ")
     });
     let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.remedy));
-    let name = [rule.rule.clone(), standing].into_iter().filter(|line| !line.is_empty());
+    let name = [rule.asks.clone(), rule.rule.clone(), standing];
     vec![
-        Cell::lines(name),
-        rule.asks.clone().into(),
+        Cell::lines(name.into_iter().filter(|line| !line.is_empty())),
         rule.verdict.words().to_uppercase().into(),
         Cell::lines(said.take(4).chain(fix)),
         citations.cell(&rule.cite, rule.confidence),

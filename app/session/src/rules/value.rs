@@ -2,6 +2,8 @@
 
 use endline_gear::units::{self, Quantity, Unit};
 
+use crate::units::grouped;
+
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -137,7 +139,7 @@ impl Default for Value {
 }
 
 impl Compared {
-    /// A number of the comparison in its unit, such as `60 ft`; `none` for one that is infinite.
+    /// A number of the comparison in its unit, such as `60 ft` or `1,700 lbf`; `none` for one that is infinite.
     pub fn text(&self, si: f64) -> String {
         if !si.is_finite() {
             return "none".to_owned();
@@ -150,16 +152,37 @@ impl Compared {
         let digits = (3.0 - size).clamp(0.0, 4.0);
         let scale = 10f64.powf(digits);
         let rounded = (number * scale).round() / scale * factor;
-        match unit {
+        grouped(&match unit {
+            Some(unit) if unit.name() == SPECIFIC_GRAVITY => {
+                format!("specific gravity {}", (number * scale).round() / scale)
+            }
             Some(unit) => units::format(rounded, unit),
             None => format!("{}", (number * scale).round() / scale),
+        })
+    }
+
+    /// What the comparison asks, such as `at most 1,700 lbf allowed`.
+    fn asks(&self) -> String {
+        let limit = self.text(self.right);
+        match self.sign {
+            "<=" => format!("at most {limit} allowed"),
+            ">=" => format!("at least {limit} required"),
+            "<" => format!("less than {limit} required"),
+            ">" => format!("more than {limit} required"),
+            "==" if self.right == 0.0 => "none allowed".to_owned(),
+            "==" => format!("{limit} required"),
+            _ => format!("{limit} not allowed"),
         }
     }
 }
 
+/// Name of the unit of specific gravity.
+const SPECIFIC_GRAVITY: &str = "SG";
+
+/// Writes measured value and limit, such as `2,440 lbf; at most 1,700 lbf allowed`.
 impl std::fmt::Display for Compared {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {} {}", self.text(self.left), self.sign, self.text(self.right))
+        write!(f, "{}; {}", self.text(self.left), self.asks())
     }
 }
 

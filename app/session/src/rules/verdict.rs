@@ -1,6 +1,6 @@
 //! One rule on one assembly: whether it applies, the measured values, the verdict.
 
-use endline_gear::units::{Quantity, format_si};
+use endline_gear::units::{Quantity, find, format_si};
 use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -180,8 +180,17 @@ fn within(name: &str, range: Option<[f64; 2]>, given: Option<f64>) -> Option<Fou
     let Some(value) = given else {
         return Some(Found::because(Verdict::CannotBeChecked, format!("needs --{name}")));
     };
-    let metres = |length| format_si(length, Quantity::Length);
-    let why = || format!("applies at a {name} from {} to {}", metres(least), metres(most));
+    let unit = find(if name == "distance" { "nmi" } else { "ft" }, Quantity::Length);
+    let length = |length_m: f64| match unit {
+        Some(unit) => {
+            format!("{} {}", (length_m / unit.factor() * 10.0).round() / 10.0, unit.name())
+        }
+        None => format_si(length_m, Quantity::Length),
+    };
+    let why = || match most.is_finite() {
+        true => format!("applies at a {name} from {} to {}", length(least), length(most)),
+        false => format!("applies at a {name} of {} and more", length(least)),
+    };
     (!(least..most).contains(&value)).then(|| Found::because(Verdict::NotApplicable, why()))
 }
 

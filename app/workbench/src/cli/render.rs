@@ -73,6 +73,10 @@ fn of_scenario(args: &RenderArgs, library: Option<&Path>) -> Result<Moment, Fail
             ))
         })?;
     }
+    let end_s = run.state().time_s;
+    if args.at > end_s + run.step_s() {
+        output::warn(&format!("the run ends at {end_s:.2} s; the picture shows that moment"));
+    }
     Ok(Moment { model: Arc::clone(run.model()), frame: run.frame(), caption })
 }
 

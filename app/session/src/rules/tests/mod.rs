@@ -135,7 +135,7 @@ fn the_weakest_place_of_a_line_is_reported_with_its_limit() {
     let result = verdict(&packs(), "ma.strength", &gear, "ma-lma-1, 2024-06-01");
     // Every 60 ft from near edge to near edge, 3 ft long: 57 ft between two.
     assert_eq!(result.measured.len(), 1, "{result:?}");
-    assert_eq!(result.measured[0].says, "57 ft <= 60 ft");
+    assert_eq!(result.measured[0].says, "57 ft; at most 60 ft allowed");
     assert!((result.measured[0].value.unwrap() - 57.0 * 0.3048).abs() < 1e-6);
     assert_eq!(result.measured[0].part, "endline-1");
 }
@@ -216,7 +216,7 @@ fn weak_places_comply_where_sleeves_of_the_same_strength_do() {
     let found = |make: &str, rule| verdict(&packs, rule, &with(make), massachusetts);
     let passes = found(&weak_places("1,700 lbf", "60 ft"), "ma.strength");
     assert_eq!(passes.verdict, Verdict::Pass, "{passes:?}");
-    assert_eq!(passes.measured.last().unwrap().says, "57.19 ft <= 60 ft");
+    assert_eq!(passes.measured.last().unwrap().says, "57.19 ft; at most 60 ft allowed");
     let far_apart = found(&weak_places("1,700 lbf", "90 ft"), "ma.strength");
     assert_eq!(far_apart.verdict, Verdict::Fail, "{far_apart:?}");
     let strong = weak_places("1,800 lbf", "60 ft");
@@ -226,6 +226,6 @@ fn weak_places_comply_where_sleeves_of_the_same_strength_do() {
     }
     // The weakest place is named.
     let least = found(&strong, "us.weak");
-    assert_eq!(least.measured[0].says, "1800 lbf <= 1700 lbf");
+    assert_eq!(least.measured[0].says, "1,800 lbf; at most 1,700 lbf allowed");
     assert_eq!(least.measured[0].part, "endline-1.weak-places");
 }

@@ -69,7 +69,7 @@ fn one(rule: &RuleResult) -> String {
     for measured in rule.measured.iter().take(MOST_SHOWN) {
         let part =
             if measured.part.is_empty() { String::new() } else { format!("{}: ", measured.part) };
-        let fails = if measured.holds { "" } else { ", which does not hold" };
+        let fails = if measured.holds { "" } else { " (not met)" };
         text += &format!("{indent}{part}{}{fails}\n", measured.says);
     }
     if rule.measured.len() > MOST_SHOWN {

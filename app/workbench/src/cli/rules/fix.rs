@@ -84,7 +84,7 @@ fn of_rule(remedies: &Remedies, rule: &Remedy) -> String {
     let measured = result.measured.iter().filter(|one| !one.holds).take(2);
     for one in measured {
         let part = if one.part.is_empty() { String::new() } else { format!("{}: ", one.part) };
-        text += &format!("{:19}{part}{}, which does not hold\n", "", one.says);
+        text += &format!("{:19}{part}{} (not met)\n", "", one.says);
     }
     if !rule.why_none.is_empty() {
         text += &format!("{:19}no edit meets it: {}\n", "", rule.why_none);

@@ -2,7 +2,7 @@
 
 use egui::{Frame, Label, RichText, Stroke, Ui};
 use endline_session::command::RuleAction;
-use endline_session::rules::remedy::{Proposal, Remedies};
+use endline_session::rules::remedy::{Change, Proposal, Remedies};
 use endline_session::rules::{RuleResult, Verdict};
 use endline_session::workbench::RuleAnswer;
 
@@ -100,24 +100,23 @@ fn card(ui: &mut Ui, shared: &mut Shared, number: usize, edit: &Proposal) {
         Frame::new().stroke(Stroke::new(1.0, palette.line)).corner_radius(4.0).inner_margin(6.0);
     frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
-        ui.add(Label::new(&edit.says).wrap());
-        for change in edit.changes.iter().take(MOST_FIELDS) {
-            let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "–".to_owned());
-            let text = format!(
-                "{}: {} to {}",
-                change.field,
-                or_none(&change.before),
-                or_none(&change.after)
-            );
-            ui.add(Label::new(RichText::new(text).monospace().small().color(palette.faint)).wrap());
-        }
-        if edit.changes.len() > MOST_FIELDS {
-            let more = format!("and {} more fields", edit.changes.len() - MOST_FIELDS);
-            ui.label(RichText::new(more).small().color(palette.faint));
-        }
+        ui.add(Label::new(&edit.says).wrap()).on_hover_text(fields(edit));
         outcome(ui, edit);
         command(ui, shared, "Apply this edit", RuleAction::Take(number));
     });
+}
+
+/// Lists the fields that an edit changes, for the hover text of its sentence.
+fn fields(edit: &Proposal) -> String {
+    let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "none".to_owned());
+    let line = |change: &Change| {
+        format!("{}: {} to {}", change.field, or_none(&change.before), or_none(&change.after))
+    };
+    let mut lines: Vec<String> = edit.changes.iter().take(MOST_FIELDS).map(line).collect();
+    if edit.changes.len() > MOST_FIELDS {
+        lines.push(format!("and {} more fields", edit.changes.len() - MOST_FIELDS));
+    }
+    lines.join("\n")
 }
 
 /// Draws the verdicts of the edited copy.
@@ -133,10 +132,14 @@ fn outcome(ui: &mut Ui, edit: &Proposal) {
     if !edit.still_fails.is_empty() {
         say(format!("still fails {}", edit.still_fails.join(", ")), palette.faint);
     }
-    let share = 100.0 * edit.rope_share;
-    let parts = match edit.parts {
-        0 => String::new(),
-        parts => format!(", {parts} parts are added or removed"),
-    };
-    say(format!("{share:.0} % of the rope is replaced{parts}"), palette.faint);
+    let mut costs = Vec::new();
+    if edit.rope_share > 0.0 {
+        costs.push(format!("{:.0} % of the rope is replaced", 100.0 * edit.rope_share));
+    }
+    if edit.parts > 0 {
+        costs.push(format!("{} parts are added or removed", edit.parts));
+    }
+    if !costs.is_empty() {
+        say(costs.join(", "), palette.faint);
+    }
 }
