@@ -12,8 +12,9 @@ const LONG: usize = 400;
 const FILES: usize = 750;
 
 /// Entries of the workspace's top folder, besides a developer's dot-files.
-const TOP: [&str; 17] = [
+const TOP: [&str; 18] = [
     "CHANGELOG.md",
+    "CITATION.cff",
     "CONTRIBUTING.md",
     "Cargo.lock",
     "Cargo.toml",

@@ -41,10 +41,13 @@ pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     }
 }
 
-/// Citation of this version in a paper.
+/// Year of this version.
+const YEAR: u16 = 2026;
+
+/// Citation of this version in a paper; `CITATION.cff` has the same fields.
 fn citation() -> String {
     format!(
-        "Endline {VERSION}: a workbench for fishing gear that entangled whales can escape from. {REPOSITORY}"
+        "The Endline authors ({YEAR}). Endline {VERSION}: a workbench for fishing gear that entangled whales can escape from. Computer program. {REPOSITORY}"
     )
 }
 
@@ -55,6 +58,10 @@ mod tests {
     #[test]
     fn the_citation_names_version_and_place() {
         assert!(citation().contains(VERSION) && citation().ends_with(REPOSITORY));
+        let file = include_str!("../../../../../CITATION.cff");
+        for field in [format!("version: {}", env!("CARGO_PKG_VERSION")), REPOSITORY.to_owned()] {
+            assert!(file.contains(&field), "CITATION.cff has no {field}");
+        }
         assert!(REPOSITORY.starts_with("https://"), "{REPOSITORY}");
     }
 }
