@@ -79,7 +79,8 @@ impl Builder<'_> {
         let mut all = true;
         for model in std::iter::once(&choice.model).chain(choice.on.iter().map(|on| &on.model)) {
             if self.hooks.friction(&model.value).is_none() {
-                let ids = self.hooks.ids();
+                let mut ids = self.hooks.ids();
+                ids.retain(|id| self.hooks.friction(id).is_some());
                 let message =
                     format!("there is no plugin with the friction model `{}`", model.value);
                 self.problems.push(

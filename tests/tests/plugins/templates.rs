@@ -84,6 +84,18 @@ fn a_project_of_each_kind_in_rust_builds_and_passes() {
     );
 }
 
+/// The program alone writes such a project: it has its own copy of `endline-sdk`.
+#[test]
+fn a_project_builds_without_the_source_of_endline() {
+    let place = folder("templates-alone");
+    let project =
+        write_project(&place.join("my-own"), PluginKind::Friction, Language::Rust, None).unwrap();
+    build(&project);
+    passes(&project, &OF_ALL);
+    let manifest = fs::read_to_string(place.join("my-own/Cargo.toml")).unwrap();
+    assert!(manifest.contains("path = \"endline-sdk\""), "{manifest}");
+}
+
 #[test]
 fn every_plugin_that_ships_passes() {
     for stem in ["endline_whale_motions", "endline_friction_models", "endline_gear_types"] {

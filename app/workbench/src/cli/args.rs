@@ -386,7 +386,7 @@ pub(super) struct NewPluginArgs {
     /// Language of the plugin.
     #[arg(long, default_value = "rust")]
     pub(super) lang: PluginLanguage,
-    /// Folder of the crate endline-sdk, for Rust [default: the one in Endline's source].
+    /// Folder of the crate endline-sdk, for Rust [default: a copy within the project].
     #[arg(long, value_name = "FOLDER")]
     pub(super) sdk: Option<PathBuf>,
 }

@@ -1,4 +1,5 @@
-//! A new plugin project: a few files that build, and pass the check.
+//! A new plugin project: a few files that build, and pass the check. A project in Rust has its own copy of the crate `endline-sdk`, so
+//! that the program alone is enough to write it.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -33,7 +34,46 @@ pub struct Project {
 /// Path and text of a file of a project.
 type Written = (&'static str, String);
 
-/// Writes a project into a new folder; the folder's name becomes the plugin's. `sdk` is the folder of `endline-sdk`.
+/// Folder of the copy of `endline-sdk` within a project.
+const SDK_FOLDER: &str = "endline-sdk";
+
+/// Paths and texts of files of `plugins/sdk`, each in [`SDK_FOLDER`].
+macro_rules! of_sdk {
+    ($($path:literal),* $(,)?) => {
+        &[$((
+            concat!("endline-sdk/", $path),
+            include_str!(concat!("../../../../../plugins/sdk/", $path)),
+        )),*]
+    };
+}
+
+/// Sources of `endline-sdk`, as they ship.
+const SDK: &[(&str, &str)] = of_sdk![
+    "src/abi/export/describe.rs",
+    "src/abi/export/friction.rs",
+    "src/abi/export/gear.rs",
+    "src/abi/export/guard.rs",
+    "src/abi/export/mod.rs",
+    "src/abi/export/motion.rs",
+    "src/abi/export/pointers.rs",
+    "src/abi/mod.rs",
+    "src/abi/table/friction.rs",
+    "src/abi/table/gear.rs",
+    "src/abi/table/mod.rs",
+    "src/abi/table/motion.rs",
+    "src/controls.rs",
+    "src/friction.rs",
+    "src/gear.rs",
+    "src/hook.rs",
+    "src/lib.rs",
+    "src/motion.rs",
+    "src/whale/mod.rs",
+    "src/whale/posture.rs",
+    "src/whale/skin.rs",
+];
+
+/// Writes a project into a new folder; the folder's name becomes the plugin's. `sdk` is a folder of `endline-sdk` on which a project in
+/// Rust depends instead of a copy of its own.
 pub fn write_project(
     folder: &Path,
     kind: PluginKind,
@@ -52,7 +92,7 @@ pub fn write_project(
     let id = format!("org.example.{}.{name}", kind.word());
     let files = match language {
         Language::Text => in_text(kind, &name, &id)?,
-        Language::Rust => in_rust(kind, &name, &id, &find_sdk(sdk)?),
+        Language::Rust => in_rust(kind, &name, &id, sdk)?,
         Language::C => in_c(kind, &name, &id),
     };
     for (path, text) in &files {
@@ -94,43 +134,45 @@ fn name_of(folder: &Path) -> Result<String, String> {
     ))
 }
 
-/// Folder of the crate `endline-sdk`: the one named, or that of Endline's source around the program or the working folder.
-fn find_sdk(given: Option<&Path>) -> Result<PathBuf, String> {
-    let is_sdk = |folder: &Path| {
-        folder.join("Cargo.toml").is_file() && folder.join("include/endline_plugin.h").is_file()
-    };
-    if let Some(folder) = given {
-        let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_path_buf());
-        return if is_sdk(&whole) {
-            Ok(whole)
-        } else {
-            Err(format!("{} is not the folder of endline-sdk", folder.display()))
-        };
-    }
-    let program = env::current_exe().and_then(fs::canonicalize).ok();
-    let starts: Vec<PathBuf> = program.into_iter().chain(env::current_dir().ok()).collect();
-    let found = starts
-        .iter()
-        .flat_map(|start| start.ancestors())
-        .map(|folder| folder.join("plugins/sdk"))
-        .find(|folder| is_sdk(folder));
-    let help = "no endline-sdk found above the program or the working folder; name it with --sdk FOLDER (plugins/sdk in Endline's source)";
-    found.ok_or_else(|| help.to_owned())
+/// The folder of the crate `endline-sdk` that is named.
+fn named_sdk(folder: &Path) -> Result<PathBuf, String> {
+    let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_path_buf());
+    let is_sdk =
+        whole.join("Cargo.toml").is_file() && whole.join("include/endline_plugin.h").is_file();
+    is_sdk
+        .then_some(whole)
+        .ok_or_else(|| format!("{} is not the folder of endline-sdk", folder.display()))
 }
 
-fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
+fn in_rust(
+    kind: PluginKind,
+    name: &str,
+    id: &str,
+    sdk: Option<&Path>,
+) -> Result<Vec<Written>, String> {
     let source = match kind {
         PluginKind::Motion | PluginKind::Clips => include_str!("templates/motion.rs"),
         PluginKind::Friction => include_str!("templates/friction.rs"),
         PluginKind::Gear => include_str!("templates/gear.rs"),
     };
-    let manifest = include_str!("templates/Cargo.toml.txt")
-        .replace("@sdk@", &sdk.display().to_string().replace('\\', "/"));
-    vec![
+    let sdk = sdk.map(named_sdk).transpose()?;
+    let depends_on = sdk.as_deref().unwrap_or_else(|| Path::new(SDK_FOLDER)).display().to_string();
+    let manifest =
+        include_str!("templates/Cargo.toml.txt").replace("@sdk@", &depends_on.replace('\\', "/"));
+    let mut files = vec![
         ("Cargo.toml", manifest.replace("@name@", name)),
         ("src/lib.rs", named(source, name, id)),
         (".gitignore", "/target\n".to_owned()),
-    ]
+    ];
+    if sdk.is_none() {
+        let manifest = include_str!("templates/sdk.toml.txt");
+        files.push((
+            "endline-sdk/Cargo.toml",
+            manifest.replace("@version@", env!("CARGO_PKG_VERSION")),
+        ));
+        files.extend(SDK.iter().map(|(path, text)| (*path, (*text).to_owned())));
+    }
+    Ok(files)
 }
 
 fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
@@ -180,5 +222,33 @@ fn library(language: Language, name: &str) -> String {
         ),
         Language::C => format!("{name}{}", env::consts::DLL_SUFFIX),
         Language::Text => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Adds the paths of files below a folder, relative to `top`.
+    fn list(top: &Path, folder: &Path, found: &mut Vec<String>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                list(top, &path, found);
+            } else {
+                let path = path.strip_prefix(top).unwrap().display().to_string();
+                found.push(path.replace('\\', "/"));
+            }
+        }
+    }
+
+    #[test]
+    fn the_copy_of_the_sdk_is_complete() {
+        let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../plugins/sdk");
+        let mut files = Vec::new();
+        list(&top, &top.join("src"), &mut files);
+        files.sort_unstable();
+        let copied = SDK.iter().map(|(path, _)| path.strip_prefix("endline-sdk/").unwrap());
+        assert!(copied.eq(files.iter().map(String::as_str)), "{files:?}");
     }
 }

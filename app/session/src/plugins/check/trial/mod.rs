@@ -113,7 +113,7 @@ fn plays_again(
     trial.check("restore", || {
         let rest = play(Some(&first.half_way)).map_err(|error| error.message)?;
         match first_difference(&first.answers[first.answers.len() - rest.answers.len()..], &rest.answers) {
-            None => Ok(format!("taken up again from {} floats saved on the way", first.half_way.len())),
+            None => Ok(format!("the same answers after its {} floats were restored half way", first.half_way.len())),
             Some(call) => {
                 Err(format!("its state does not restore: from the floats saved on the way, call {call} gave other bits; it keeps something besides its floats"))
             }
