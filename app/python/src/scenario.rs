@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
 
+use endline_gear::Setting;
 use endline_session::recording::replay::{self as again, ReplayOptions, Verdict};
 use endline_session::settled::SettledShape;
-use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, json, locate, prepare};
+use endline_session::{Overrides, Prepared, Recording, Run, RunOptions, Source, json, locate};
 use endline_sim::settle;
 use pyo3::prelude::*;
 
@@ -30,6 +31,27 @@ struct Over {
     weak_links: Option<bool>,
     rating_n: Option<f64>,
     kinetic: Option<bool>,
+    set: Vec<(String, Value)>,
+}
+
+/// A value that replaces a field.
+#[derive(FromPyObject)]
+enum Value {
+    Flag(bool),
+    Number(f64),
+    Text(String),
+    Texts(Vec<String>),
+}
+
+impl Value {
+    fn setting(&self) -> Setting {
+        match self {
+            Self::Flag(flag) => Setting::plain(&flag.to_string()),
+            Self::Number(number) => Setting::number(*number),
+            Self::Text(text) => Setting::text(text),
+            Self::Texts(texts) => Setting::texts(texts),
+        }
+    }
 }
 
 #[pymethods]
@@ -39,9 +61,15 @@ impl Scenario {
     fn new(python: Python<'_>, name: &str, library: Option<PathBuf>, over: Over) -> PyResult<Self> {
         let library = library.as_deref();
         let file = locate::named(name, "scenarios", library).map_err(failed)?;
-        let Over { seed, step_s, weak_links, rating_n, kinetic } = over;
+        let Over { seed, step_s, weak_links, rating_n, kinetic, set } = over;
         let over = Overrides { seed, step_s, weak_links, rating_n, kinetic };
-        let prepared = python.detach(|| prepare(&file, library, host(), over));
+        let set: Vec<(String, Setting)> =
+            set.into_iter().map(|(field, value)| (field, value.setting())).collect();
+        let prepared = python.detach(|| {
+            let mut source = Source::read(&file, library, over)?;
+            source.set(&set)?;
+            source.prepare_with_clips(host())
+        });
         Ok(Self { prepared: prepared.map_err(raised)? })
     }
 

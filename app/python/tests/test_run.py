@@ -31,6 +31,14 @@ def test_the_figures_are_those_of_the_command_line(hello, hello_json):
         assert here == there, key
 
 
+def test_fields_are_set_by_their_paths():
+    plain = endline.settle("hello-endline")
+    faster = endline.settle("hello-endline", set={"current.speed": "0.5 m/s", "seed": 3, "weak_links": False})
+    assert plain != faster
+    with pytest.raises(endline.EndlineError, match="sped"):
+        endline.settle("hello-endline", set={"current.sped": "0.5 m/s"})
+
+
 def test_moments_have_the_documented_shapes(hello):
     moments = len(hello.time_s)
     assert moments == 601

@@ -100,7 +100,7 @@ pub use plugins::PluginHost;
 pub use recording::Recording;
 pub use report::Report;
 pub use run::{Run, RunOptions};
-pub use source::{Overrides, Prepared, Source, prepare, prepare_text};
+pub use source::{Overrides, Prepared, Source, prepare};
 
 /// Results as JSON. Structs of numbers and texts always serialise; the empty string would fail every reader at once.
 pub mod json {

@@ -515,3 +515,33 @@ fn a_bad_plugin_is_reported_and_the_others_work() {
         .write(&format!("plugins/text.{}", std::env::consts::DLL_EXTENSION), "no library at all");
     place.endline(&["plugins", "check", &text(&file)]).fails(1, &["text."]);
 }
+
+/// A field set on the command line gives the state of a scenario that says the same.
+#[test]
+fn fields_are_set_on_the_command_line() {
+    let place = Place::new("set");
+    let scenario = place.short_scenario("hello-endline", "0.2 s");
+    let rest = |arguments: &[&str]| {
+        let json = place.endline(arguments).done().json();
+        json["lines"].to_string()
+    };
+    let plain = rest(&["settle", &scenario, "--json"]);
+    let by_option = rest(&[
+        "settle",
+        &scenario,
+        "--json",
+        "--set",
+        "current.speed=0.5 m/s",
+        "--set",
+        "ropes/sink-3-8.mass=\"0.08 kg/m\"",
+    ]);
+    assert_ne!(plain, by_option);
+    place.endline(&["settle", &scenario, "--set", "current.sped=0.5 m/s"]).fails(1, &["sped"]);
+    place
+        .endline(&["settle", &scenario, "--set", "ropes/sink-3-9.mass=1 kg/m"])
+        .fails(1, &["ropes/sink-3-9.toml", "ropes/sink-3-8.toml"]);
+    place.endline(&["settle", &scenario, "--set", "current.speed"]).fails(2, &["FIELD=VALUE"]);
+    edit(scenario.as_ref(), "speed", "speed = \"0.5 m/s\"");
+    let by_file = rest(&["settle", &scenario, "--json", "--set", "ropes/sink-3-8.mass=0.08 kg/m"]);
+    assert_eq!(by_file, by_option);
+}

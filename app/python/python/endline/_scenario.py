@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _endline
@@ -18,7 +19,8 @@ class Scenario:
 
     ``name``: its id in the library, or its file. ``library``: folder of the gear library. The other arguments override the
     scenario: ``seed``; ``step_s``, the step between inputs [s]; ``weak_links``, on or off; ``rating_N``, the rating of every
-    weak link [N]; ``kinetic``, whether forces affect the whale's motion.
+    weak link [N]; ``kinetic``, whether forces affect the whale's motion; ``set``, values of further fields by their dotted
+    paths, as in the options of a study: ``{"current.speed": "0.5 m/s", "ropes/sink-3-8.strength": "2000 lbf"}``.
 
     Raises ``EndlineError`` with file, line and field where the files have errors.
     """
@@ -33,8 +35,16 @@ class Scenario:
         weak_links: bool | None = None,
         rating_N: float | None = None,
         kinetic: bool | None = None,
+        set: Mapping[str, bool | float | str | Sequence[str]] | None = None,
     ) -> None:
-        over = {"seed": seed, "step_s": step_s, "weak_links": weak_links, "rating_n": rating_N, "kinetic": kinetic}
+        over = {
+            "seed": seed,
+            "step_s": step_s,
+            "weak_links": weak_links,
+            "rating_n": rating_N,
+            "kinetic": kinetic,
+            "set": list((set or {}).items()),
+        }
         self._inner = _endline.Scenario(os.fspath(name), library, over)
 
     @property

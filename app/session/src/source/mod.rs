@@ -10,7 +10,7 @@ use endline_gear::limits::{Beyond, STEP, amount};
 use endline_gear::units::Quantity;
 use endline_gear::{
     Assembled, Diagnostic, Document, EditError, Library, Options, Scenario, Setting, Sources,
-    StrengthBudget, assemble_traced,
+    StrengthBudget, assemble_traced, library_field,
 };
 use endline_sdk::Descriptor;
 use endline_sim::Model;
@@ -83,24 +83,7 @@ pub fn prepare(
     host: &PluginHost,
     overrides: Overrides,
 ) -> Result<Prepared, Error> {
-    with_clips(Source::read(scenario, library, overrides)?, host)
-}
-
-/// Prepares a scenario that is a text and no file, such as standard input; `name` is its name in errors and in the summary.
-pub fn prepare_text(
-    (name, text): (&str, String),
-    library: Option<&Path>,
-    host: &PluginHost,
-    overrides: Overrides,
-) -> Result<Prepared, Error> {
-    let library = library_at(None, library)?;
-    let source = Source { scenario_name: name.to_owned(), scenario: text, library, overrides };
-    with_clips(source, host)
-}
-
-fn with_clips(mut source: Source, host: &PluginHost) -> Result<Prepared, Error> {
-    source.library = host.with_clips(source.library);
-    source.prepare(host)
+    Source::read(scenario, library, overrides)?.prepare_with_clips(host)
 }
 
 fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, Error> {
@@ -138,6 +121,48 @@ impl Source {
             library,
             overrides,
         })
+    }
+
+    /// A scenario that is a text and no file, such as standard input; `name` is its name in errors and in the summary.
+    pub fn of_text(
+        (name, text): (&str, String),
+        library: Option<&Path>,
+        overrides: Overrides,
+    ) -> Result<Self, Error> {
+        let library = library_at(None, library)?;
+        Ok(Self { scenario_name: name.to_owned(), scenario: text, library, overrides })
+    }
+
+    /// Sets fields as the options of a study do: of the scenario, such as `current.speed`, or of a library file, such as
+    /// `ropes/sink-3-8.strength`.
+    /// Errors: a field that cannot be there, or a library file that does not exist.
+    pub fn set(&mut self, changes: &[(String, Setting)]) -> Result<(), Error> {
+        for (field, value) in changes {
+            let failed = |error: EditError| Error::Message(error.message);
+            let put = |text: &str, field: &str| {
+                let mut document = Document::parse(text).map_err(failed)?;
+                document.put(field, value).map_err(failed)?;
+                Ok::<String, Error>(document.text())
+            };
+            let Some((file, own)) = library_field(field) else {
+                self.scenario = put(&self.scenario, field)?;
+                continue;
+            };
+            let Some(text) = self.library.get(&file) else {
+                let known = self.library.iter().map(|(path, _)| path);
+                let help = endline_gear::hint(&file, known);
+                return Err(Error::Message(format!("the library has no file {file}; {help}")));
+            };
+            let text = put(text, own)?;
+            self.library.set(file, text);
+        }
+        Ok(())
+    }
+
+    /// Prepares with the clips of the host's plugins in the library.
+    pub fn prepare_with_clips(mut self, host: &PluginHost) -> Result<Prepared, Error> {
+        self.library = host.with_clips(self.library);
+        self.prepare(host)
     }
 
     /// Reads the texts and assembles the model.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use endline_gear::Setting;
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
@@ -163,7 +164,7 @@ pub(super) struct SettleArgs {
 }
 
 /// Options that override values of a scenario.
-#[derive(Clone, Copy, Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(super) struct OverArgs {
     /// Seed of the random draws, in place of the scenario's.
     #[arg(long, value_name = "N")]
@@ -180,6 +181,9 @@ pub(super) struct OverArgs {
     /// Whether rope forces move the whale (kinetic) or it follows its pilot regardless (kinematic).
     #[arg(long, value_name = "kinetic|kinematic")]
     whale: Option<Dynamics>,
+    /// Field of the scenario, such as current.speed="0.5 m/s", or of a library file, such as ropes/sink-3-8.strength="2000 lbf"; may be given several times.
+    #[arg(long, value_name = "FIELD=VALUE", value_parser = field_and_value)]
+    pub(super) set: Vec<(String, Setting)>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -437,6 +441,15 @@ impl OverArgs {
         let kinetic = self.whale.map(|dynamics| dynamics == Dynamics::Kinetic);
         Overrides { seed: self.seed, step_s: self.dt, weak_links, rating_n: self.rating, kinetic }
     }
+}
+
+/// A field and the value that replaces it: a TOML value, else a text.
+fn field_and_value(text: &str) -> Result<(String, Setting), String> {
+    let (field, value) = text
+        .split_once('=')
+        .filter(|(field, _)| !field.trim().is_empty())
+        .ok_or_else(|| "expected FIELD=VALUE, such as current.speed=\"0.5 m/s\"".to_owned())?;
+    Ok((field.trim().to_owned(), Setting::plain(value.trim())))
 }
 
 fn share(text: &str) -> Result<f64, String> {

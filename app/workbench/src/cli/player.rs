@@ -4,11 +4,12 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
+use endline_gear::Setting;
 use endline_sdk::Controls;
 use endline_session::export::tables;
 use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{
-    Overrides, PluginHost, Prepared, Recording, Run, RunOptions, locate, prepare, prepare_text,
+    Overrides, PluginHost, Prepared, Recording, Run, RunOptions, Source, locate, prepare,
 };
 use endline_sim::Frame;
 
@@ -112,12 +113,12 @@ impl Player {
     }
 }
 
-/// Prepares the scenario that the command line names.
+/// Prepares the scenario that the command line names, with fields set over its own.
 pub(super) fn prepared(
     named: &Path,
     library: Option<&Path>,
     host: &PluginHost,
-    over: Overrides,
+    (over, set): (Overrides, &[(String, Setting)]),
 ) -> Result<Prepared, Failure> {
     let is_stream = named == Path::new("-");
     if output::is_shown(Verbosity::Details) {
@@ -126,10 +127,13 @@ pub(super) fn prepared(
             output::detail(&format!("gear library: {}", folder.display()));
         }
     }
-    if !is_stream {
-        return Ok(prepare(named, library, host, over)?);
-    }
-    let text = endline_gear::read::stream(io::stdin().lock())
-        .map_err(|error| Failure::failed(format!("standard input cannot be read: {error}")))?;
-    Ok(prepare_text(("standard input", text), library, host, over)?)
+    let mut source = if is_stream {
+        let text = endline_gear::read::stream(io::stdin().lock())
+            .map_err(|error| Failure::failed(format!("standard input cannot be read: {error}")))?;
+        Source::of_text(("standard input", text), library, over)?
+    } else {
+        Source::read(named, library, over)?
+    };
+    source.set(set)?;
+    Ok(source.prepare_with_clips(host)?)
 }

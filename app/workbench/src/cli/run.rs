@@ -31,7 +31,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         .as_ref()
         .map(|recording| recording.source.overrides.clone())
         .unwrap_or_default());
-    let prepared = player::prepared(&args.scenario, library, &host, over)?;
+    let prepared = player::prepared(&args.scenario, library, &host, (over, &args.over.set))?;
     let mut run = started(args, recording.as_ref(), prepared)?;
     let interrupt = Interrupt::watch();
     to_end(args, &mut run, &interrupt);
@@ -128,7 +128,8 @@ fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
 
 pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let over = args.over.overrides();
-    let prepared = player::prepared(&args.scenario, library, &host::load(), over)?;
+    let prepared =
+        player::prepared(&args.scenario, library, &host::load(), (over, &args.over.set))?;
     let start = Instant::now();
     let settled = find_rest(&prepared.model);
     let shape = SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64());
