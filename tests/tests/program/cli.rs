@@ -533,15 +533,15 @@ fn fields_are_set_on_the_command_line() {
         "--set",
         "current.speed=0.5 m/s",
         "--set",
-        "ropes/sink-3-8.mass=\"0.08 kg/m\"",
+        "ropes/sink-3-8.drag_normal=1.5",
     ]);
     assert_ne!(plain, by_option);
     place.endline(&["settle", &scenario, "--set", "current.sped=0.5 m/s"]).fails(1, &["sped"]);
     place
-        .endline(&["settle", &scenario, "--set", "ropes/sink-3-9.mass=1 kg/m"])
+        .endline(&["settle", &scenario, "--set", "ropes/sink-3-9.drag_normal=1.5"])
         .fails(1, &["ropes/sink-3-9.toml", "ropes/sink-3-8.toml"]);
     place.endline(&["settle", &scenario, "--set", "current.speed"]).fails(2, &["FIELD=VALUE"]);
     edit(scenario.as_ref(), "speed", "speed = \"0.5 m/s\"");
-    let by_file = rest(&["settle", &scenario, "--json", "--set", "ropes/sink-3-8.mass=0.08 kg/m"]);
+    let by_file = rest(&["settle", &scenario, "--json", "--set", "ropes/sink-3-8.drag_normal=1.5"]);
     assert_eq!(by_file, by_option);
 }
