@@ -319,9 +319,9 @@ impl Dialogs {
         self.typed = Some((waiting, path));
     }
 
-    /// Whether a path is being typed, so that keys give no commands.
+    /// Whether a dialog is opening or open, or a path is being typed, so that keys give no commands and do not steer.
     pub fn asks(&self) -> bool {
-        self.typed.is_some()
+        self.waiting.is_some() || self.typed.is_some()
     }
 
     /// Draws the question for a path; returns the command and the typed path, once.
@@ -415,6 +415,21 @@ fn answer(question: FileQuestion) -> Option<PathBuf> {
 mod tests {
 
     use super::*;
+    use crate::gui::command::find;
+
+    #[test]
+    fn keys_are_held_back_from_the_opening_of_a_dialog_until_its_answer() {
+        let mut dialogs = Dialogs::default();
+        assert!(!dialogs.asks());
+        let command = find("view.save-picture").unwrap();
+        let question = FileQuestion::write("picture", &["png"], "a.png".to_owned());
+        let waiting = Waiting { command, question, since: Instant::now() };
+        dialogs.waiting = Some(waiting.clone());
+        assert!(dialogs.asks(), "its window is not up yet");
+        dialogs.waiting = None;
+        dialogs.type_instead(waiting);
+        assert!(dialogs.asks(), "the path is typed in this window");
+    }
 
     #[test]
     fn an_unusable_path_gets_a_reason_before_it_is_confirmed() {
