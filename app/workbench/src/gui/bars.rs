@@ -1,5 +1,7 @@
 //! The bars of the window: the menu bar, made from the declared commands, and the status bar.
 
+use std::time::Duration;
+
 use egui::{Align, Button, MenuBar, RichText, Sense, Ui, vec2};
 use egui_dock::DockState;
 use endline_session::live::Status;
@@ -280,9 +282,7 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
         if unsaved > 0 {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
         }
-        let message = shared.workbench.view().and_then(|view| view.message.clone());
-        let notice = shared.workbench.notice().cloned().or(message.map(Notice::done));
-        if let Some(Notice { text: notice, kind }) = notice {
+        if let Some(Notice { text: notice, kind }) = current_notice(ui, shared) {
             let colour = match kind {
                 NoticeKind::Done => palette.good,
                 NoticeKind::Hint => palette.warning,
@@ -295,10 +295,72 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
+/// Times at which the notice and the message of the run were first shown [s].
+#[derive(Debug, Default)]
+pub struct FirstShown {
+    notice: Option<(Notice, f64)>,
+    message: Option<(Notice, f64)>,
+}
+
+/// Time after which a notice is removed [s]; a failure stays longer.
+fn lifetime_s(kind: NoticeKind) -> f64 {
+    match kind {
+        NoticeKind::Done | NoticeKind::Hint => 20.0,
+        NoticeKind::Fault => 60.0,
+    }
+}
+
+/// The time for which a notice is still shown [s]; `None` if its time is over.
+fn left_s(first: &mut Option<(Notice, f64)>, now: &Notice, now_s: f64) -> Option<f64> {
+    let since_s = match first {
+        Some((known, since_s)) if known == now => *since_s,
+        _ => {
+            *first = Some((now.clone(), now_s));
+            now_s
+        }
+    };
+    Some(since_s + lifetime_s(now.kind) - now_s).filter(|left_s| *left_s > 0.0)
+}
+
+/// The notice, or else the message of the run, until its time is over.
+fn current_notice(ui: &Ui, shared: &mut Shared) -> Option<Notice> {
+    let now_s = ui.input(|input| input.time);
+    let first = &mut shared.notice_shown;
+    let notice = shared.workbench.notice().cloned();
+    let message = shared.workbench.view().and_then(|view| view.message.clone()).map(Notice::done);
+    let current = |notice: Option<Notice>, first: &mut Option<(Notice, f64)>| {
+        let Some(notice) = notice else {
+            *first = None;
+            return None;
+        };
+        let left_s = left_s(first, &notice, now_s)?;
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left_s));
+        Some(notice)
+    };
+    let message = current(message, &mut first.message);
+    let shown = current(notice, &mut first.notice);
+    if shown.is_none() {
+        shared.workbench.dismiss_notice();
+    }
+    shown.or(message)
+}
+
 #[cfg(test)]
 mod tests {
 
     use super::*;
+
+    #[test]
+    fn a_notice_is_removed_after_its_time_and_a_new_one_has_its_own() {
+        let (saved, failed) = (Notice::done("saved a"), Notice::fault("no ffmpeg"));
+        let mut first = None;
+        assert!(left_s(&mut first, &saved, 5.0).is_some());
+        assert!(left_s(&mut first, &saved, 24.0).is_some());
+        assert!(left_s(&mut first, &saved, 26.0).is_none());
+        assert!(left_s(&mut first, &failed, 26.0).is_some(), "another notice");
+        assert!(left_s(&mut first, &failed, 80.0).is_some(), "a failure stays longer");
+        assert!(left_s(&mut first, &failed, 90.0).is_none());
+    }
 
     #[test]
     fn every_command_of_a_menu_is_declared() {
