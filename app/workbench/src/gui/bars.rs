@@ -13,6 +13,7 @@ use crate::gui::command::{Offer, find};
 use crate::gui::layout;
 use crate::gui::layout::Layout;
 use crate::gui::panel::PanelId;
+use crate::gui::questions::unsaved_names;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
@@ -269,7 +270,7 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     let problems =
         shared.workbench.project().problems().count() + shared.workbench.plugins().problems.len();
-    let unsaved = shared.workbench.project().documents.unsaved().len();
+    let unsaved = unsaved_names(shared.documents());
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let (text, colour) = match problems {
             0 => ("no problems".to_owned(), palette.faint),
@@ -279,8 +280,9 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
         if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
             shared.give(PanelAction::Show(PanelId::Problems));
         }
-        if unsaved > 0 {
-            ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
+        if !unsaved.is_empty() {
+            let text = RichText::new(format!("{} unsaved", unsaved.len())).color(palette.warning);
+            ui.label(text).on_hover_text(unsaved.join("\n"));
         }
         if let Some(Notice { text: notice, kind }) = current_notice(ui, shared) {
             let colour = match kind {
