@@ -25,22 +25,40 @@ pub enum Item {
     Command(&'static str),
     /// A submenu with the choices of a command, then further commands: title, command, further commands.
     Submenu(&'static str, &'static str, &'static [&'static str]),
+    /// A submenu with commands: title, commands.
+    Group(&'static str, &'static [&'static str]),
     /// A line.
     Separator,
 }
 
-use Item::{Command, Separator, Submenu};
+use Item::{Command, Group, Separator, Submenu};
 
 /// Title and items of each menu.
 pub static MENUS: [(&str, &[Item]); 4] = [
     (
         "File",
         &[
+            Group("New", &["edit.new-assembly", "study.duplicate", "search.new"]),
             Submenu("Open scenario", "edit.open", &["edit.open-file"]),
+            Command("run.open-recording"),
             Command("edit.save"),
             Command("edit.save-scenario-as"),
-            Command("run.open-recording"),
-            Command("export.recording"),
+            Group(
+                "Export",
+                &[
+                    "view.save-picture",
+                    "view.save-film",
+                    "panel.plots-png",
+                    "panel.plots-svg",
+                    "panel.plots-csv",
+                    "panel.export-table",
+                    "panel.model-stl",
+                    "panel.model-gltf",
+                    "rules.sheet",
+                    "study.save-bundle",
+                    "export.recording",
+                ],
+            ),
             Separator,
             Command("window.quit"),
         ],
@@ -149,6 +167,9 @@ fn show_item(ui: &mut Ui, shared: &mut Shared, item: Item) {
                 ui.separator();
                 further.iter().for_each(|id| command(ui, shared, id));
             });
+        }
+        Group(title, ids) => {
+            ui.menu_button(title, |ui| ids.iter().for_each(|id| command(ui, shared, id)));
         }
         Separator => {
             ui.separator();
@@ -370,6 +391,7 @@ mod tests {
             let ids: Vec<&str> = match item {
                 Command(id) => vec![id],
                 Submenu(_, id, further) => [id].into_iter().chain(*further).copied().collect(),
+                Group(_, ids) => ids.to_vec(),
                 Separator => Vec::new(),
             };
             ids.iter().for_each(|id| assert!(find(id).is_some(), "{id}"));
