@@ -300,7 +300,7 @@ impl ViewPanel {
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return;
         };
-        let (outcome, _, colour) = words::outcome(whale.outcome, palette);
+        let (outcome, _, colour) = words::outcome_at(whale, view.newest_s, palette);
         let place = pos2(top.x, top.y + 8.0 + 1.3 * LETTERS);
         painter.text(
             place,
