@@ -110,6 +110,19 @@ fn a_model_that_is_ready_withdraws_what_was_said_before_it_and_not_what_was_said
 }
 
 #[test]
+fn an_action_that_succeeds_withdraws_the_notice_of_one_that_failed() {
+    let folder = Folder::new("notice-withdrawn");
+    let mut workbench = folder.workbench();
+    status(&mut workbench, &Status::Paused);
+    workbench.perform(Command::Run(RunAction::OpenRecording("none".into()))).unwrap_err();
+    assert!(workbench.notice().is_some());
+    workbench.perform(Command::Edit(EditAction::LetGo)).unwrap();
+    assert!(workbench.notice().is_some(), "the end of a drag is no action of its own");
+    workbench.perform(set("duration", "3 s")).unwrap();
+    assert_eq!(workbench.notice(), None);
+}
+
+#[test]
 fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_commands() {
     let folder = Folder::new("whole");
     let mut workbench = folder.workbench();

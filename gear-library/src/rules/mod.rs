@@ -11,6 +11,7 @@ use std::fmt;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
 use crate::fields::{Fields, Problems, Provenance, id_of, read_file};
+use crate::study::texts;
 use crate::tree::{Content, Node};
 
 pub use rule::{Parameter, Rule, RuleDraft, Standing, Subject};
@@ -41,6 +42,8 @@ pub struct Area {
     pub name: String,
     /// The area that contains it, of this or another pack, whose rules also apply here.
     pub within: Option<At<String>>,
+    /// Ids of the library's sites that lie in it.
+    pub sites: Vec<At<String>>,
 }
 
 impl RulePack {
@@ -94,8 +97,8 @@ fn rules(
 fn area(fields: &Fields<'_>) -> Option<Area> {
     let id = fields.need_id("id", "write an id such as \"lma-1\"");
     let name = fields.need_text("name", "write a name in quotes");
-    let within = fields.text("within");
-    Some(Area { id: id?, name: name?.value, within })
+    let (within, sites) = (fields.text("within"), texts(fields, "sites"));
+    Some(Area { id: id?, name: name?.value, within, sites })
 }
 
 /// Reports duplicate ids.

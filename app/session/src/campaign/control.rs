@@ -202,6 +202,14 @@ impl Control {
         });
     }
 
+    /// Changes the number of encounters that are to be done.
+    pub(crate) fn expect(&self, encounters: usize) {
+        let Count { total, .. } = Count::of(encounters);
+        if self.progress().encounters.total != total {
+            self.note(|progress| progress.encounters.total = total);
+        }
+    }
+
     /// Counts encounters that an earlier run has done.
     pub(crate) fn encounters_found(&self, count: usize) {
         let count = u32::try_from(count).unwrap_or(u32::MAX);

@@ -3,8 +3,10 @@
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use endline_gear::Kind;
+use endline_sdk::GearType;
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
 use super::info::{Choice, FileQuestion, Make, When, has_moments, has_whale, require};
@@ -179,7 +181,21 @@ pub(super) fn commands() -> Vec<Info> {
         Info::values(EditVerb::LetGo, "nothing"),
         Info::values(EditVerb::Replace, "path, text"),
         Info::values(EditVerb::Paste, "kind, cells, place"),
-        Info::values(EditVerb::NewAssembly, "gear type"),
+        Info::of(
+            EditVerb::NewAssembly,
+            Make::Choices(|workbench| {
+                let types = workbench.gear_types();
+                let choice = |gear: &Arc<dyn GearType>| {
+                    let about = gear.descriptor();
+                    let new = EditAction::NewAssembly(about.id.to_string());
+                    Choice::new(about.name.to_lowercase(), Command::Edit(new))
+                };
+                types.iter().map(choice).collect()
+            }),
+        )
+        .only_if(|workbench| {
+            require(!workbench.gear_types().is_empty(), "no plugin has a gear type")
+        }),
         Info::values(EditVerb::Recover, "the edits kept"),
         Info::values(EditVerb::Reconcile, "path, what is kept"),
         Info::values(EditVerb::AddInserts, "gear"),

@@ -126,11 +126,21 @@ impl Command {
             Self::Plugin(action) => action.discriminant().into(),
         }
     }
+
+    /// Whether a user gives it on its own. Steering is given in every frame, and the end of a drag follows its edits.
+    fn is_an_action(&self) -> bool {
+        !matches!(self, Self::Run(RunAction::Steer(_)) | Self::Edit(EditAction::LetGo))
+    }
 }
 
 impl Workbench {
-    /// Performs the command. Its results are in the workbench, at once or later; the notice describes them.
+    /// Performs the command. Its results are in the workbench, at once or later; the notice describes them. A command that
+    /// succeeds without a notice of its own withdraws the notice of an earlier one.
     pub fn perform(&mut self, command: Command) -> Result<(), String> {
+        // A failure has a notice of its own.
+        if command.is_an_action() {
+            self.notice = None;
+        }
         if let Err(reason) = find(command.id()).map_or(Ok(()), |info| (info.enabled)(self)) {
             self.notice = Some(Notice::hint(&reason));
             return Err(reason);

@@ -56,16 +56,16 @@ pub static LINE: &[Figure<Line>] = &[
     ),
     Figure::new(
         "end_a_tension_N",
-        "end A now",
-        "Tension at end A, at the joint.",
+        "end A at end",
+        "Tension at end A, at the joint, at the end of the run or at its newest moment so far.",
         Quantity::Force,
         |line: &Line| line.summary.end_a_tension_n.into(),
     )
     .shown(&[InSummary]),
     Figure::new(
         "end_b_tension_N",
-        "end B now",
-        "Tension at end B, at the joint.",
+        "end B at end",
+        "Tension at end B, at the joint, at the end of the run or at its newest moment so far.",
         Quantity::Force,
         |line: &Line| line.summary.end_b_tension_n.into(),
     )

@@ -27,6 +27,8 @@ pub struct Kept {
     pub simulated_s: f64,
     /// Outcome by its name in results; none without a whale.
     pub outcome: Option<String>,
+    /// Whether the run was too short for a final outcome.
+    pub undecided: bool,
     /// Greatest tension of any line [N].
     pub greatest_tension_n: f64,
     /// Its user's note.
@@ -42,6 +44,7 @@ impl Kept {
             of,
             simulated_s,
             outcome: whale.map(|whale| whale.outcome.name().to_owned()),
+            undecided: whale.is_some_and(|whale| !whale.decided),
             greatest_tension_n: lines.iter().map(|line| line.peak_tension_n).fold(0.0, f64::max),
             note: String::new(),
         }

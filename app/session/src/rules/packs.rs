@@ -75,6 +75,12 @@ impl Packs {
         named.map_or_else(|| id.to_owned(), |area| area.name.clone())
     }
 
+    /// Id of the area in which a site of the library lies; `None` if no pack names the site.
+    pub fn area_of_site(&self, site: &str) -> Option<&str> {
+        let area = self.areas().find(|area| area.sites.iter().any(|own| own.value == site))?;
+        Some(&area.id.value)
+    }
+
     /// An area and those that contain it, from the inside out.
     pub fn around(&self, area: &str) -> Result<Vec<&str>, String> {
         let find = |id: &str| self.areas().find(|area| area.id.value == id);

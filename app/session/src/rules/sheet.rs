@@ -126,6 +126,30 @@ impl RuleSheet {
         self.counts.fail_binding > 0
     }
 
+    /// What is missing for verdicts on rules that bind; `None` if all of them were checked.
+    pub fn missing(&self) -> Option<String> {
+        const NEEDS: &str = "needs --";
+        let open: Vec<&RuleResult> =
+            self.with(Verdict::CannotBeChecked).filter(|rule| rule.binding).collect();
+        let (by_place, by_gear): (Vec<&RuleResult>, Vec<&RuleResult>) =
+            open.into_iter().partition(|rule| rule.why.contains(NEEDS));
+        let mut names: Vec<&str> = Vec::new();
+        for name in by_place.iter().flat_map(|rule| rule.why.split("; ")) {
+            let name = name.strip_prefix(NEEDS);
+            names.extend(name.filter(|name| !names.contains(name)));
+        }
+        let counted = |count: usize| match count {
+            1 => "1 needs".to_owned(),
+            count => format!("{count} need"),
+        };
+        let place = (!by_place.is_empty())
+            .then(|| format!("{} {}", counted(by_place.len()), names.join(" or ")));
+        let gear = (!by_gear.is_empty())
+            .then(|| format!("{} facts that the assembly does not state", counted(by_gear.len())));
+        let both: Vec<String> = [place, gear].into_iter().flatten().collect();
+        (!both.is_empty()).then(|| both.join(", "))
+    }
+
     /// Rules with a verdict.
     pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &RuleResult> {
         self.rules.iter().filter(move |rule| rule.verdict == verdict)

@@ -36,6 +36,8 @@ pub(super) struct Trial {
     pub(super) mirrored: bool,
     /// The part that rope touched first; empty if it touched none.
     pub(super) first_part: String,
+    /// Whether nothing is on the whale at its end.
+    pub(super) is_free: bool,
     /// Whether the run is valid.
     pub(super) is_valid: bool,
     /// Time simulated [s].
@@ -57,10 +59,16 @@ impl Trial {
             mirrored: at_end.mirrored,
             terms: at_end.terms.into_iter().map(|term| (term.cost, term.says)).collect(),
             first_part: ended.first_part.clone(),
+            is_free: ended.ending.is_free(),
             is_valid,
             simulated_s: ended.simulated_s,
             state_hash: ended.state_hash.clone(),
         }
+    }
+
+    /// Whether it is a story: something is on the whale at its end, or it is like the observation without.
+    pub(super) fn is_story(&self) -> bool {
+        !self.is_free || self.distance <= LIKE
     }
 
     /// The cost that a search minimises.

@@ -52,9 +52,11 @@ pub(super) fn stories(
     Ok(found)
 }
 
-/// The nearest of every kind, the nearest first.
+/// The nearest of every kind of story, the nearest first.
 fn nearest<'a>(rounds: &'a Rounds<'_>) -> Vec<(&'a Kind, &'a Elite)> {
-    let mut elites: Vec<(&Kind, &Elite)> = rounds.elites.best.iter().collect();
+    let all = rounds.elites.best.iter();
+    let mut elites: Vec<(&Kind, &Elite)> =
+        all.filter(|(_, elite)| elite.trial.is_story()).collect();
     elites.sort_by(|one, other| one.1.trial.distance.total_cmp(&other.1.trial.distance));
     elites
 }
@@ -73,6 +75,7 @@ pub(super) fn so_far(rounds: &Rounds<'_>) -> Stories {
         observation: question.observation.id.clone(),
         encounters: question.opened.study.id.clone(),
         stories,
+        free_kinds: rounds.elites.best.values().filter(|elite| !elite.trial.is_story()).count(),
         trials: rounds.trials,
         mean_simulated_s: simulated / net.len().max(1) as f64,
         net: net.len(),

@@ -52,10 +52,15 @@ pub use stories::{Stories, Story};
 
 use batch::Part;
 use ending::RunEnding;
-use rounds::Rounds;
+use rounds::{DRAWS_AT_ONCE, Rounds};
 
 /// Default number of draws from the priors before the first local search.
 pub const DEFAULT_NET: usize = 128;
+
+/// Number of runs in a search of this many at most: the first draws come in whole rounds, and so may have more.
+pub fn whole_rounds(trials: usize) -> usize {
+    if trials < DEFAULT_NET { trials.next_multiple_of(DRAWS_AT_ONCE as usize) } else { trials }
+}
 
 /// The extent of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +82,7 @@ pub struct Effort {
 pub struct Progress {
     /// Trials done.
     pub trials: usize,
-    /// Greatest number of trials.
+    /// Trials at the end of the search, or of the present round if that is more.
     pub of: usize,
     /// The least distance so far.
     pub best: Option<f64>,
@@ -114,11 +119,14 @@ fn rounds_of<'a>(
     mut progress: impl FnMut(Progress),
 ) -> Result<Rounds<'a>, Error> {
     let mut rounds = Rounds::new(question, effort.net);
-    control.begin(Count::of(effort.trials), Count::default());
-    let mut report = |rounds: &Rounds<'_>| {
+    // The round that reaches the number of trials is finished, so that there may be more.
+    let first = rounds.first_draws(effort.trials).last().map_or(0, |part| part.end as usize);
+    let mut planned = effort.trials.max(first);
+    control.begin(Count::of(planned), Count::default());
+    let mut report = |rounds: &Rounds<'_>, of: usize| {
         progress(Progress {
             trials: rounds.trials,
-            of: effort.trials,
+            of,
             best: rounds.best(),
             stories: found::so_far(rounds),
         });
@@ -130,11 +138,13 @@ fn rounds_of<'a>(
     let one = |_, number| run(&points.at(number));
     let mut is_complete = batch::run(&parts, effort, control, one, |_, draws| {
         rounds.take_draws(&draws);
-        report(&rounds);
+        report(&rounds, planned);
     })?;
     // Rounds of local searches, variations and a few more draws.
     while is_complete && rounds.trials < effort.trials {
         let round = rounds.next();
+        planned = planned.max(rounds.trials + round.local.len() + round.draws.len());
+        control.expect(planned);
         let numbers = 0..u32::try_from(round.local.len()).unwrap_or(u32::MAX);
         let local = Part { store: &folder.rounds, name: &round.name, numbers };
         let one = |place, number: u32| match place {
@@ -147,7 +157,7 @@ fn rounds_of<'a>(
             rounds.take(&round, local, draws);
         }
         if is_complete {
-            report(&rounds);
+            report(&rounds, planned);
         }
     }
     Ok(rounds)

@@ -13,7 +13,7 @@ use super::ending::RunEnding;
 use super::question::Question;
 
 /// Greatest number of draws that are added together before the first local search.
-const DRAWS_AT_ONCE: u32 = 32;
+pub(super) const DRAWS_AT_ONCE: u32 = 32;
 
 /// Draws in every later round.
 const DRAWS_BESIDE: u32 = 8;

@@ -25,6 +25,8 @@ pub struct Stories {
     pub encounters: String,
     /// A run of every kind, in order of the least distance: the most robust of those like the observation, else the nearest.
     pub stories: Vec<Story>,
+    /// Number of kinds whose nearest run ends with nothing on the whale; they are not listed.
+    pub free_kinds: usize,
     /// Trials run, neighbours not counted.
     pub trials: usize,
     /// Mean simulated time of the draws [s].
@@ -143,11 +145,26 @@ impl Stories {
         let like = self.stories.iter().filter(|story| story.is_like()).count();
         let fragile =
             self.stories.iter().filter(|story| story.is_like() && story.is_fragile()).count();
-        match like {
+        let free = self.free_in_words().map_or(String::new(), |free| format!(" {free}"));
+        let found = match like {
             0 => format!("Not found in {} runs: no story ends like what was seen.", self.trials),
             1 if fragile == 1 => "One kind of story ends like this, and is fragile.".to_owned(),
             1 => "One kind of story ends like this.".to_owned(),
             _ => format!("{like} kinds of story end like this; {fragile} of them are fragile."),
+        };
+        found + &free
+    }
+
+    /// The kinds that are not listed, in a sentence; `None` without any.
+    pub fn free_in_words(&self) -> Option<String> {
+        match self.free_kinds {
+            0 => None,
+            1 => {
+                Some("One more kind ends with nothing on the whale, and is not listed.".to_owned())
+            }
+            count => Some(format!(
+                "{count} more kinds end with nothing on the whale, and are not listed."
+            )),
         }
     }
 }

@@ -153,6 +153,35 @@ fn local_searches_find_what_the_net_leaves() {
 }
 
 #[test]
+fn endings_with_nothing_on_the_whale_are_counted_and_no_more_runs_are_reported_than_announced() {
+    let place = place("free");
+    let question = asked(&place, 1);
+    let sheds = |point: &[f64]| {
+        let run = made_up(point);
+        let ending =
+            if run.first_part == "left_flipper" { Ending::default() } else { run.ending.clone() };
+        RunEnding { ending, ..run }
+    };
+    for (trials, least) in [(48, 64), (150, 150)] {
+        let folder = folder_of(&place, &format!("of-{trials}"), &question);
+        let (control, mut reported) = (Control::default(), Vec::new());
+        let note = |progress: Progress| reported.push((progress.trials, progress.of));
+        let effort = effort(trials, 1, [0, 1]);
+        let rounds = rounds_of(&question, &folder, &effort, sheds, &control, note).unwrap();
+        assert!(reported.iter().all(|(done, of)| done <= of), "{reported:?}");
+        assert!(reported.last().is_some_and(|(done, of)| done == of && *of >= least));
+        let count = control.progress().encounters;
+        assert_eq!((count.done, count.done as usize), (count.total, rounds.trials));
+        let stories = found::so_far(&rounds);
+        assert_eq!((stories.free_kinds, stories.stories.len()), (1, 2));
+        assert!(stories.stories.iter().all(|story| story.first_part != "left_flipper"));
+        let answer = stories.answer();
+        assert!(answer.contains("One more kind ends with nothing on the whale"), "{answer}");
+    }
+    assert_eq!([48, 64, 150].map(whole_rounds), [64, 64, 150]);
+}
+
+#[test]
 fn another_search_does_not_mix_with_what_a_folder_holds() {
     let place = place("mix");
     let question = asked(&place, 1);

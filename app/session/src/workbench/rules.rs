@@ -107,6 +107,8 @@ pub struct RuleChecks {
     asked: Option<(u64, RuleQuestion)>,
     /// The scenario that was open when it was asked last.
     scenario: Option<PathBuf>,
+    /// Depth of its site; empty where it is not known.
+    scenario_depth: String,
     checking: Task<Checked>,
     finding_remedies: Task<Result<Remedies, String>>,
     comparing: Task<Result<String, String>>,
@@ -157,6 +159,17 @@ impl Workbench {
             let placed = self.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
             checks.question.assembly = placed.unwrap_or_default();
         }
+        let depth = scenario_depth(&self.project.documents).unwrap_or_default();
+        // A depth that was typed here stays until another scenario is opened.
+        if is_another || checks.question.depth == checks.scenario_depth {
+            checks.question.depth.clone_from(&depth);
+        }
+        checks.scenario_depth = depth;
+        if is_another
+            && let Some(area) = area_of_scenario(&self.project.documents, checks.packs.as_deref())
+        {
+            checks.question.area = area;
+        }
         checks.scenario = Some(open.to_owned());
         let wanted = (version, checks.question.clone());
         if checks.asked.as_ref() == Some(&wanted) || checks.busy() {
@@ -178,6 +191,7 @@ impl Workbench {
         let (sources, root) = (Arc::new(documents.sources()), documents.root().to_owned());
         let version = documents.version();
         let known = self.rules.packs.clone();
+        let site = documents.field(Documents::SCENARIO, "site.item").unwrap_or_default();
         let work = move || {
             let packs = match known {
                 Some(packs) => packs,
@@ -185,7 +199,7 @@ impl Workbench {
                     .map(Arc::new)
                     .map_err(|error| error.to_string())?,
             };
-            let question = with_area(question, &packs);
+            let question = with_area(question, &packs, &site);
             let fishing = fishing(&question)?;
             let given = Given { text, sources, fishing };
             let sheet = remedy::checked(given.asked(&question), &packs, &given.fishing, &host);
@@ -391,10 +405,32 @@ fn fault(what: &str) -> String {
     format!("{what} ended by a fault inside the program")
 }
 
-/// With the area where most rules apply where none was chosen.
-fn with_area(question: RuleQuestion, packs: &Packs) -> RuleQuestion {
+/// Depth of the open scenario: its own, or that of its site; `None` if it has none that can be read.
+fn scenario_depth(documents: &Documents) -> Option<String> {
+    let field = |field| documents.field(Documents::SCENARIO, field);
+    let own = field("site.depth").filter(|text| units::parse(text, Quantity::Length).is_ok());
+    let of_site = || {
+        let id = field("site.item")?;
+        let library = documents.library();
+        let site = library.sites.iter().find(|site| site.entry.id == id)?;
+        Some(units::format_si(site.depth_m, Quantity::Length))
+    };
+    own.or_else(of_site)
+}
+
+/// Area in which the site of the open scenario lies; `None` if it is not known.
+fn area_of_scenario(documents: &Documents, packs: Option<&Packs>) -> Option<String> {
+    let site = documents.field(Documents::SCENARIO, "site.item")?;
+    packs?.area_of_site(&site).map(str::to_owned)
+}
+
+/// With the area of a site where none was chosen; if that is not known, with the area where most rules apply.
+fn with_area(question: RuleQuestion, packs: &Packs, site: &str) -> RuleQuestion {
     if !question.area.is_empty() {
         return question;
+    }
+    if let Some(area) = packs.area_of_site(site) {
+        return RuleQuestion { area: area.to_owned(), ..question };
     }
     let rules_in = |id: &str| {
         let around = packs.around(id).unwrap_or_default();

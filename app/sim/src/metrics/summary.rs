@@ -37,9 +37,9 @@ pub struct LineSummary {
     pub peak_at_s: f64,
     /// Greatest tension of any segment in any unconverged solver step [N].
     pub unconverged_peak_n: f64,
-    /// Tension at end A now [N].
+    /// Tension at end A at the newest moment [N].
     pub end_a_tension_n: f64,
-    /// Tension at end B now [N].
+    /// Tension at end B at the newest moment [N].
     pub end_b_tension_n: f64,
     /// Time at which it parted [s].
     pub parted_at_s: Option<f64>,

@@ -32,7 +32,7 @@ pub(super) struct SearchArgs {
     /// Folder of the search [default: results/search- followed by the observation's id].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Runs at most; a greater number continues a finished search.
+    /// Number of runs wanted; the round that reaches it is finished (first rounds of 32). A greater number continues a finished search.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     trials: usize,
     /// Neighbours to run of every story that ends alike; 0 runs none.
@@ -133,7 +133,8 @@ fn words(stories: &Stories) -> String {
     );
     let listed: String =
         stories.stories.iter().enumerate().map(|(n, story)| one(n + 1, story, stories)).collect();
-    format!("{head}{share}\n{found}{listed}")
+    let free = stories.free_in_words().map_or(String::new(), |free| format!("{free}\n"));
+    format!("{head}{share}\n{found}{listed}{free}")
 }
 
 fn one(number: usize, story: &Story, stories: &Stories) -> String {

@@ -1,5 +1,7 @@
 //! The bars of the window: the menu bar, made from the declared commands, and the status bar.
 
+use std::time::Duration;
+
 use egui::{Align, Button, MenuBar, RichText, Sense, Ui, vec2};
 use egui_dock::DockState;
 use endline_session::live::Status;
@@ -11,6 +13,7 @@ use crate::gui::command::{Offer, find};
 use crate::gui::layout;
 use crate::gui::layout::Layout;
 use crate::gui::panel::PanelId;
+use crate::gui::questions::unsaved_names;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
@@ -22,22 +25,40 @@ pub enum Item {
     Command(&'static str),
     /// A submenu with the choices of a command, then further commands: title, command, further commands.
     Submenu(&'static str, &'static str, &'static [&'static str]),
+    /// A submenu with commands: title, commands.
+    Group(&'static str, &'static [&'static str]),
     /// A line.
     Separator,
 }
 
-use Item::{Command, Separator, Submenu};
+use Item::{Command, Group, Separator, Submenu};
 
 /// Title and items of each menu.
 pub static MENUS: [(&str, &[Item]); 4] = [
     (
         "File",
         &[
+            Group("New", &["edit.new-assembly", "study.duplicate", "search.new"]),
             Submenu("Open scenario", "edit.open", &["edit.open-file"]),
+            Command("run.open-recording"),
             Command("edit.save"),
             Command("edit.save-scenario-as"),
-            Command("run.open-recording"),
-            Command("export.recording"),
+            Group(
+                "Export",
+                &[
+                    "view.save-picture",
+                    "view.save-film",
+                    "panel.plots-png",
+                    "panel.plots-svg",
+                    "panel.plots-csv",
+                    "panel.export-table",
+                    "panel.model-stl",
+                    "panel.model-gltf",
+                    "rules.sheet",
+                    "study.save-bundle",
+                    "export.recording",
+                ],
+            ),
             Separator,
             Command("window.quit"),
         ],
@@ -146,6 +167,9 @@ fn show_item(ui: &mut Ui, shared: &mut Shared, item: Item) {
                 ui.separator();
                 further.iter().for_each(|id| command(ui, shared, id));
             });
+        }
+        Group(title, ids) => {
+            ui.menu_button(title, |ui| ids.iter().for_each(|id| command(ui, shared, id)));
         }
         Separator => {
             ui.separator();
@@ -267,7 +291,7 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     let problems =
         shared.workbench.project().problems().count() + shared.workbench.plugins().problems.len();
-    let unsaved = shared.workbench.project().documents.unsaved().len();
+    let unsaved = unsaved_names(shared.documents());
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let (text, colour) = match problems {
             0 => ("no problems".to_owned(), palette.faint),
@@ -277,12 +301,11 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
         if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
             shared.give(PanelAction::Show(PanelId::Problems));
         }
-        if unsaved > 0 {
-            ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
+        if !unsaved.is_empty() {
+            let text = RichText::new(format!("{} unsaved", unsaved.len())).color(palette.warning);
+            ui.label(text).on_hover_text(unsaved.join("\n"));
         }
-        let message = shared.workbench.view().and_then(|view| view.message.clone());
-        let notice = shared.workbench.notice().cloned().or(message.map(Notice::done));
-        if let Some(Notice { text: notice, kind }) = notice {
+        if let Some(Notice { text: notice, kind }) = current_notice(ui, shared) {
             let colour = match kind {
                 NoticeKind::Done => palette.good,
                 NoticeKind::Hint => palette.warning,
@@ -295,10 +318,72 @@ fn status_right(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
+/// Times at which the notice and the message of the run were first shown [s].
+#[derive(Debug, Default)]
+pub struct FirstShown {
+    notice: Option<(Notice, f64)>,
+    message: Option<(Notice, f64)>,
+}
+
+/// Time after which a notice is removed [s]; a failure stays longer.
+fn lifetime_s(kind: NoticeKind) -> f64 {
+    match kind {
+        NoticeKind::Done | NoticeKind::Hint => 20.0,
+        NoticeKind::Fault => 60.0,
+    }
+}
+
+/// The time for which a notice is still shown [s]; `None` if its time is over.
+fn left_s(first: &mut Option<(Notice, f64)>, now: &Notice, now_s: f64) -> Option<f64> {
+    let since_s = match first {
+        Some((known, since_s)) if known == now => *since_s,
+        _ => {
+            *first = Some((now.clone(), now_s));
+            now_s
+        }
+    };
+    Some(since_s + lifetime_s(now.kind) - now_s).filter(|left_s| *left_s > 0.0)
+}
+
+/// The notice, or else the message of the run, until its time is over.
+fn current_notice(ui: &Ui, shared: &mut Shared) -> Option<Notice> {
+    let now_s = ui.input(|input| input.time);
+    let first = &mut shared.notice_shown;
+    let notice = shared.workbench.notice().cloned();
+    let message = shared.workbench.view().and_then(|view| view.message.clone()).map(Notice::done);
+    let current = |notice: Option<Notice>, first: &mut Option<(Notice, f64)>| {
+        let Some(notice) = notice else {
+            *first = None;
+            return None;
+        };
+        let left_s = left_s(first, &notice, now_s)?;
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left_s));
+        Some(notice)
+    };
+    let message = current(message, &mut first.message);
+    let shown = current(notice, &mut first.notice);
+    if shown.is_none() {
+        shared.workbench.dismiss_notice();
+    }
+    shown.or(message)
+}
+
 #[cfg(test)]
 mod tests {
 
     use super::*;
+
+    #[test]
+    fn a_notice_is_removed_after_its_time_and_a_new_one_has_its_own() {
+        let (saved, failed) = (Notice::done("saved a"), Notice::fault("no ffmpeg"));
+        let mut first = None;
+        assert!(left_s(&mut first, &saved, 5.0).is_some());
+        assert!(left_s(&mut first, &saved, 24.0).is_some());
+        assert!(left_s(&mut first, &saved, 26.0).is_none());
+        assert!(left_s(&mut first, &failed, 26.0).is_some(), "another notice");
+        assert!(left_s(&mut first, &failed, 80.0).is_some(), "a failure stays longer");
+        assert!(left_s(&mut first, &failed, 90.0).is_none());
+    }
 
     #[test]
     fn every_command_of_a_menu_is_declared() {
@@ -306,6 +391,7 @@ mod tests {
             let ids: Vec<&str> = match item {
                 Command(id) => vec![id],
                 Submenu(_, id, further) => [id].into_iter().chain(*further).copied().collect(),
+                Group(_, ids) => ids.to_vec(),
                 Separator => Vec::new(),
             };
             ids.iter().for_each(|id| assert!(find(id).is_some(), "{id}"));

@@ -79,7 +79,8 @@ impl Questions {
     /// Asks about unsaved edits before the window closes.
     pub fn before_closing(&mut self, context: &Context, shared: &mut Shared) {
         let wanted = context.input(|input| input.viewport().close_requested());
-        let unsaved = shared.documents().unsaved().len();
+        let names = unsaved_names(shared.documents());
+        let unsaved = names.len();
         if wanted && unsaved > 0 && !self.leave {
             context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.closing = true;
@@ -97,6 +98,10 @@ impl Questions {
             } else {
                 format!("{unsaved} files have unsaved edits.")
             });
+            let faint = Theme::palette_of(ui).faint;
+            for name in listed(&names) {
+                ui.label(RichText::new(name).color(faint));
+            }
             ui.horizontal(|ui| {
                 if primary(ui, true, "Save and quit").clicked() {
                     shared.perform(EditAction::Save);
@@ -151,6 +156,22 @@ impl Questions {
             });
         });
     }
+}
+
+/// Names of the files with unsaved edits, as they are shown.
+pub fn unsaved_names(documents: &Documents) -> Vec<String> {
+    documents.unsaved().iter().map(|path| documents.shown_name(path)).collect()
+}
+
+/// Maximum number of unsaved files that are named.
+const FILES_NAMED: usize = 8;
+
+/// The first names, and the number of the others.
+fn listed(names: &[String]) -> Vec<String> {
+    let shown = if names.len() > FILES_NAMED { FILES_NAMED - 1 } else { names.len() };
+    let more = names.len() - shown;
+    let more = (more > 0).then(|| format!("and {more} more"));
+    names[..shown].iter().cloned().chain(more).collect()
 }
 
 /// Maximum number of lines shown of a file that was changed on disk.
@@ -319,9 +340,9 @@ impl Dialogs {
         self.typed = Some((waiting, path));
     }
 
-    /// Whether a path is being typed, so that keys give no commands.
+    /// Whether a dialog is opening or open, or a path is being typed, so that keys give no commands and do not steer.
     pub fn asks(&self) -> bool {
-        self.typed.is_some()
+        self.waiting.is_some() || self.typed.is_some()
     }
 
     /// Draws the question for a path; returns the command and the typed path, once.
@@ -415,6 +436,32 @@ fn answer(question: FileQuestion) -> Option<PathBuf> {
 mod tests {
 
     use super::*;
+    use crate::gui::command::find;
+
+    #[test]
+    fn keys_are_held_back_from_the_opening_of_a_dialog_until_its_answer() {
+        let mut dialogs = Dialogs::default();
+        assert!(!dialogs.asks());
+        let command = find("view.save-picture").unwrap();
+        let question = FileQuestion::write("picture", &["png"], "a.png".to_owned());
+        let waiting = Waiting { command, question, since: Instant::now() };
+        dialogs.waiting = Some(waiting.clone());
+        assert!(dialogs.asks(), "its window is not up yet");
+        dialogs.waiting = None;
+        dialogs.type_instead(waiting);
+        assert!(dialogs.asks(), "the path is typed in this window");
+    }
+
+    #[test]
+    fn unsaved_files_are_named_up_to_a_number() {
+        let names = |count: usize| -> Vec<String> {
+            (0..count).map(|number| format!("ropes/{number}.toml")).collect()
+        };
+        assert_eq!(listed(&names(1)), ["ropes/0.toml"]);
+        assert_eq!(listed(&names(8)).len(), 8);
+        let many = listed(&names(20));
+        assert_eq!((many.len(), many[7].as_str()), (8, "and 13 more"));
+    }
 
     #[test]
     fn an_unusable_path_gets_a_reason_before_it_is_confirmed() {

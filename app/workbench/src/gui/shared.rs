@@ -12,6 +12,7 @@ use endline_session::task::Waker;
 use endline_session::workbench::{Notice, Preferences as WorkbenchPreferences, Workbench};
 use serde::{Deserialize, Serialize};
 
+use crate::gui::bars::FirstShown;
 use crate::gui::command::action::WindowCommand;
 use crate::gui::panel::PanelId;
 use crate::gui::pictures::{FilmJob, Thumbnail};
@@ -42,6 +43,8 @@ pub struct Shared {
     pub thumbnail: Thumbnail,
     /// Folder for documents as HTML pages; `None` if the system has no data folder.
     pub pages: Option<PathBuf>,
+    /// Times at which notices of the status bar were first shown.
+    pub notice_shown: FirstShown,
     /// Panels drawn in this frame.
     pub drawn: Vec<PanelId>,
     /// Commands of the panels, performed after drawing.
@@ -102,6 +105,7 @@ impl Shared {
             film: None,
             thumbnail: Thumbnail::default(),
             pages: None,
+            notice_shown: FirstShown::default(),
             drawn: Vec::new(),
             commands: Vec::new(),
         }

@@ -1,10 +1,11 @@
 //! Films of a run: pictures written to a GIF, or by ffmpeg to MP4 or WebM.
 
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use endline_session::scene::Show;
 use endline_session::units::Units;
@@ -102,6 +103,19 @@ fn begin_gif(out: &Path, size: [u32; 2]) -> Result<Encoder<BufWriter<File>>, Str
     let mut encoder = Encoder::new(file, width, height, &[]).map_err(|error| explain(&error))?;
     encoder.set_repeat(Repeat::Infinite).map_err(|error| explain(&error))?;
     Ok(encoder)
+}
+
+/// Whether the program ffmpeg, which MP4 and WebM need, is in the search path. It is looked up once.
+pub fn has_ffmpeg() -> bool {
+    static FOUND: LazyLock<bool> = LazyLock::new(|| {
+        std::env::var_os("PATH").is_some_and(|folders| has_program("ffmpeg", &folders))
+    });
+    *FOUND
+}
+
+fn has_program(name: &str, folders: &OsStr) -> bool {
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    std::env::split_paths(folders).any(|folder| folder.join(&file).is_file())
 }
 
 fn begin_ffmpeg(out: &Path, size: [u32; 2], fps: u32, format: &str) -> Result<Child, String> {

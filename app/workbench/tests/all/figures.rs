@@ -58,6 +58,8 @@ fn summary_and_entanglement_show_every_figure_that_is_declared_for_them() {
     assert!(count > 40, "{count} figures");
 
     only(&mut harness, PanelId::Entanglement);
+    let red = harness.query_by_label("Entangled").is_some();
+    assert!(whale.decided || !red, "an outcome that is not decided is not stated");
     let count = count_figures(&harness, WHALE, from_ref(whale), View::Entanglement)
         + count_figures(&harness, PART, &parts, View::Entanglement);
     assert!(count > 50, "{count} figures");

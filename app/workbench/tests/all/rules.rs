@@ -100,6 +100,8 @@ fn an_edit_for_a_rule_is_applied_by_a_button_and_undone() {
     give(&mut harness, RuleAction::TakeAll);
     wait_for_edits(&mut harness);
     assert_eq!(answer(&harness).unwrap().sheet.counts.fail_binding, 0);
+    let open = harness.query_all_by_label_contains("No verdict yet").next();
+    assert!(open.is_some(), "facts of the gear are missing for some rules that bind");
 }
 
 #[test]
@@ -112,6 +114,19 @@ fn an_opened_scenario_is_checked_with_its_own_gear() {
         wait(harness, |app| !app.shared.workbench.rules().busy());
         harness.workbench().rules().question.assembly.clone()
     };
+    let place = |harness: &Window| {
+        let question = &harness.workbench().rules().question;
+        [question.area.clone(), question.depth.clone()]
+    };
+    assert_eq!(place(&harness), ["me-b", "25 m"], "the area that was chosen, the site's depth");
+    harness.set(Documents::SCENARIO, "site.depth", "35 m");
+    harness.run_steps(3);
+    assert_eq!(place(&harness), ["me-b", "35 m"]);
+    ask(&mut harness, |question| question.depth = "20 m".to_owned());
+    harness.set(Documents::SCENARIO, "site.depth", "36 m");
+    harness.run_steps(3);
+    assert_eq!(place(&harness), ["me-b", "20 m"], "a depth that was typed stays");
+    give(&mut harness, EditAction::Save);
     assert_eq!(question_after_opening(&mut harness, "trawl-10"), "trawl-10");
     assert_eq!(
         question_after_opening(&mut harness, "study-endline-held"),

@@ -145,9 +145,15 @@ fn the_pad_steers_only_in_flight() {
         "{:?}",
         received.borrow()
     );
+    let camera = |harness: &Window| {
+        let eye = &harness.state().panels.view.eyes[0];
+        (eye.named, eye.follow, eye.frame_again)
+    };
+    let in_flight = camera(&harness);
     harness.key_press(egui::Key::Escape);
     harness.run_steps(3);
     assert_eq!(received.borrow().last().unwrap(), "autopilot");
+    assert_eq!(camera(&harness), in_flight, "the end of a flight does not move the camera");
 }
 
 #[test]

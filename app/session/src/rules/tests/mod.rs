@@ -109,6 +109,24 @@ fn a_rule_applies_in_its_time_its_area_and_its_distance_and_says_what_it_needs()
 }
 
 #[test]
+fn a_sheet_says_what_is_missing_for_verdicts_that_bind() {
+    let (packs, gear) = (packs(), rig(1, "sink-3-8", "20 m", &[line("sink-3-8", "40 m")]));
+    let missing = |place: &str| {
+        let sheet = check(&assembled(&gear), &packs, &fishing(place)).unwrap();
+        sheet.missing().unwrap()
+    };
+    let far = missing("me-b, 2024-01-01");
+    assert!(far.contains("need distance"), "{far}");
+    let known = missing("me-b, 2024-01-01, 5 nmi");
+    assert!(
+        !known.contains("distance") && known.contains("the assembly does not state"),
+        "{known}"
+    );
+    assert_eq!(packs.area_of_site("cape-cod-bay"), Some("ma-lma-1"));
+    assert_eq!(packs.area_of_site("inner-sound"), None);
+}
+
+#[test]
 fn every_fact_has_a_value_of_its_kind() {
     let gear =
         assembled(&rig(2, "sink-3-8", "20 m", &[line("sink-3-8", "40 m") + TWO_INSERTS])).gear;

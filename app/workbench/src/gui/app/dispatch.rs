@@ -92,6 +92,9 @@ impl App {
         if matches!(command, Command::Search(SearchAction::Open(_) | SearchAction::New)) {
             return Some(PanelId::Search);
         }
+        if matches!(command, Command::Edit(EditAction::NewAssembly(_))) {
+            return Some(PanelId::Assembly);
+        }
         if matches!(command, Command::Rules(RuleAction::Compare(_))) {
             return Some(PanelId::Study);
         }

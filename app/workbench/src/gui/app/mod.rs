@@ -114,7 +114,7 @@ impl App {
             .controls_at_s
             .replace(now_s)
             .map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
-        let typing = context.egui_wants_keyboard_input();
+        let typing = context.egui_wants_keyboard_input() || self.dialogs.asks();
         let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
         let controls =
             self.shared.pilot.controls(&held, self.shared.workbench.acts().len(), elapsed_s);
@@ -164,7 +164,7 @@ impl App {
             .frame(Margins::new().fill(ground).inner_margin(6))
             .show(ui, |ui| panels.view.presented(ui, shared));
         let context = ui.ctx().clone();
-        let free = !self.shared.flying && !self.palette.is_open();
+        let free = !self.shared.flying && !self.palette.is_open() && !self.dialogs.asks();
         if free && context.input(|input| input.key_pressed(egui::Key::Escape)) {
             self.present(&context);
         }

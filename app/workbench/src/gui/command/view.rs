@@ -9,6 +9,7 @@ use crate::gui::files::stem;
 use crate::gui::inspector::worst_m;
 use crate::gui::shared::Shared;
 use crate::scene::draw::MOST_PANES;
+use crate::scene::film::has_ffmpeg;
 use crate::scene::{Picked, View};
 
 /// The actions in the 3-D view, declared.
@@ -60,7 +61,7 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             Make::File {
                 question: |shared| {
                     let scenario = stem(shared.workbench.project().documents.scenario_path());
-                    FileQuestion::write("film", &["mp4", "webm", "gif"], format!("{scenario}.mp4"))
+                    film_question(&scenario, has_ffmpeg())
                 },
                 command: |_, file| ViewAction::SaveFilm(file).into(),
             },
@@ -77,6 +78,13 @@ pub(super) fn commands() -> Vec<WindowInfo> {
             require(shared.selection.inspects, "nothing is inspected or measured")
         }),
     ]
+}
+
+/// The question for the file of a film; a GIF needs no other program.
+fn film_question(scenario: &str, has_ffmpeg: bool) -> FileQuestion {
+    let extensions: &[&str] =
+        if has_ffmpeg { &["mp4", "webm", "gif"] } else { &["gif", "mp4", "webm"] };
+    FileQuestion::write("film", extensions, format!("{scenario}.{}", extensions[0]))
 }
 
 /// The command that looks at everything from one side.
@@ -123,4 +131,16 @@ fn inspected(shared: &Shared) -> Vec<Choice<WindowCommand>> {
         Choice::new(body.id.clone(), ViewAction::Inspect(Picked::Body(index)).into())
     });
     lines.chain(bodies).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_film_is_proposed_in_a_format_that_can_be_written() {
+        assert_eq!(film_question("trawl", true).file_name, "trawl.mp4");
+        let without = film_question("trawl", false);
+        assert_eq!((without.file_name.as_str(), without.extensions[0]), ("trawl.gif", "gif"));
+    }
 }

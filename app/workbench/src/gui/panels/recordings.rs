@@ -148,7 +148,11 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
     };
     let named = |outcome: &Outcome| kept.outcome.as_deref() == Some(outcome.name());
     if let Some(outcome) = Outcome::ALL.iter().copied().find(named) {
-        let (words, help, colour) = words::outcome(outcome, palette);
+        let (mut words, mut help, mut colour) = words::outcome(outcome, palette);
+        let holds = matches!(outcome, Outcome::Entangled | Outcome::PartedEntangled);
+        if kept.undecided && holds {
+            ((words, help), colour) = (words::UNDECIDED, palette.faint);
+        }
         ui.label(RichText::new(words).color(colour)).on_hover_text(help);
     }
     let force = shared.workbench.preferences().units.force().text(kept.greatest_tension_n);

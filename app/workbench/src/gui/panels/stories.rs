@@ -37,7 +37,12 @@ impl Panel for StoriesPanel {
         };
         head(ui, shared, &found);
         if found.stories.is_empty() {
-            return widgets::nothing(ui, "No rope has touched the whale in any run so far.");
+            let none = if found.free_kinds == 0 {
+                "No rope has touched the whale in any run so far."
+            } else {
+                "Rope has touched the whale, but every run so far ends with nothing on it."
+            };
+            return widgets::nothing(ui, none);
         }
         ui.separator();
         let number = self.number(&found);
@@ -163,7 +168,10 @@ impl StoriesPanel {
 
 const HEADS: [(&str, &str); 6] = [
     ("", "Rank, nearest first"),
-    ("Distance", "Distance of the ending from the observation; up to 1 it matches"),
+    (
+        "Distance",
+        "Distance of the ending from the observation. Green, up to 1: it matches. Amber, up to 3: about one place differs. Plain, up to 6: about two. Grey: more",
+    ),
     ("First", "Body part that rope touched first"),
     ("Acts", "Acts of the whale, before and after first contact"),
     ("Course", "Direction of approach, relative to the current"),
@@ -173,6 +181,16 @@ const HEADS: [(&str, &str); 6] = [
     ),
 ];
 
+/// Colour of a distance. A place with rope that should have none, or the reverse, costs up to 3.
+fn distance_colour(distance: f64, palette: Palette) -> Color32 {
+    match distance {
+        ..=LIKE => palette.good,
+        ..=3.0 => palette.warning,
+        ..=6.0 => palette.text,
+        _ => palette.faint,
+    }
+}
+
 fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
     line.col(|ui| {
         ui.add_space(4.0);
@@ -180,7 +198,7 @@ fn cells(line: &mut TableRow<'_, '_>, index: usize, story: &Story) {
     });
     line.col(|ui| {
         let palette = Theme::palette_of(ui);
-        let colour = if story.is_like() { palette.good } else { palette.text };
+        let colour = distance_colour(story.distance, palette);
         let mirrored = if story.mirrored { " mirrored" } else { "" };
         let text = RichText::new(format!("{:.2}{mirrored}", story.distance)).color(colour);
         let response = ui.label(text);

@@ -39,6 +39,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     widgets::kinematic_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         headline(ui, &view, summary, style.units);
+        whole_run(ui, &view);
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(
             of_whale.or(of_gear(ui, summary, style)).map(|chosen| TimeAction::Seek(chosen).into()),
@@ -74,6 +75,17 @@ fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
         }
     });
     ui.separator();
+}
+
+/// While an earlier moment is shown: says that the figures are not of that moment.
+fn whole_run(ui: &mut Ui, view: &LiveView) {
+    if view.sought {
+        let text = format!(
+            "These figures are of the run up to {:.2} s, not of the moment shown, {:.2} s.",
+            view.newest_s, view.frame.time_s
+        );
+        ui.label(RichText::new(text).color(Theme::palette_of(ui).faint));
+    }
 }
 
 /// Draws figures of the whale and its body parts; returns the moment that was clicked [s].

@@ -9,12 +9,13 @@ use egui::{
     WidgetType, vec2,
 };
 use egui_plot::{
-    AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Polygon,
-    VLine,
+    AxisHints, FilledArea, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoint,
+    PlotPoints, PlotUi, Polygon, VLine,
 };
 use endline_session::command::TimeAction;
 use endline_session::export::chart::{Chart, Curve, Kind, Style};
 use endline_session::live::LiveView;
+use endline_session::scales::{decimals, ticks};
 use endline_session::units::Units;
 use endline_sim::Model;
 
@@ -153,14 +154,63 @@ fn why_empty(kind: Kind) -> &'static str {
     }
 }
 
+/// Distance of two lines of a grid at which they begin to be visible, and at which they have their full colour [points].
+const GRID: Rangef = Rangef { min: 14.0, max: 220.0 };
+
+/// Fewest values that an axis names.
+const FEWEST: usize = 3;
+
+/// Wanted distance of two values along the horizontal and the vertical axis [points].
+const TICK_DISTANCE: [f64; 2] = [80.0, 36.0];
+
+/// A horizontal axis whose values are written with the decimals that distinguish them.
+pub fn x_axis<'a>(label: String) -> AxisHints<'a> {
+    axis(AxisHints::new_x(), label).label_spacing(Rangef::new(16.0, 32.0))
+}
+
+/// A vertical axis whose values are written with the decimals that distinguish them.
+pub fn y_axis<'a>(label: String) -> AxisHints<'a> {
+    axis(AxisHints::new_y(), label).label_spacing(Rangef::new(8.0, 14.0))
+}
+
+fn axis<'a>(hints: AxisHints<'a>, label: String) -> AxisHints<'a> {
+    hints
+        .label(label)
+        .tick_label_font(FontId::proportional(11.0))
+        .formatter(|mark, _| written(mark))
+}
+
+fn written(mark: GridMark) -> String {
+    format!("{:.*}", decimals(mark.step_size), mark.value)
+}
+
+/// A plot with round values on both axes, at least three on each.
+pub fn with_ticks<'a>(plot: Plot<'a>, palette: Palette) -> Plot<'a> {
+    plot.grid_spacing(GRID)
+        .grid_color(palette.faint.gamma_multiply(0.5))
+        .x_grid_spacer(|input| marks(&input, TICK_DISTANCE[0]))
+        .y_grid_spacer(|input| marks(&input, TICK_DISTANCE[1]))
+}
+
+/// Round values between the bounds of an axis, about as far apart as wanted [points].
+fn marks(input: &GridInput, wanted: f64) -> Vec<GridMark> {
+    let (least, most) = input.bounds;
+    let length = (most - least) / input.base_step_size * f64::from(GRID.min);
+    // Smaller steps than these do not fit on any screen.
+    let counts = (length / wanted).clamp(FEWEST as f64, 20.0) as u32..40;
+    let values = counts
+        .map(|count| ticks(least, most, count))
+        .find(|values| values.len() >= FEWEST)
+        .unwrap_or_default();
+    let [first, second, ..] = values[..] else { return Vec::new() };
+    let step_size = second - first;
+    values.into_iter().map(|value| GridMark { value, step_size }).collect()
+}
+
 /// Axes and grid of a chart.
 fn frame<'a>(chart: &Chart, height: f32, palette: Palette) -> Plot<'a> {
-    let x = AxisHints::new_x().label(chart.x.clone()).label_spacing(Rangef::new(24.0, 48.0));
-    let y = AxisHints::new_y()
-        .label(chart.y.clone())
-        .label_spacing(Rangef::new(14.0, 26.0))
-        .min_thickness(46.0);
-    let plot = Plot::new(("plot", chart.kind.name()))
+    let (x, y) = (x_axis(chart.x.clone()), y_axis(chart.y.clone()).min_thickness(46.0));
+    let plot = with_ticks(Plot::new(("plot", chart.kind.name())), palette)
         .height(height)
         .include_x(0.0)
         .include_x(chart.end_x)
@@ -168,8 +218,6 @@ fn frame<'a>(chart: &Chart, height: f32, palette: Palette) -> Plot<'a> {
         .include_y(1.1 * top(chart))
         .custom_x_axes(vec![x])
         .custom_y_axes(vec![y])
-        .grid_spacing(Rangef::new(14.0, 220.0))
-        .grid_color(palette.faint.gamma_multiply(0.5))
         .allow_scroll(false)
         .show_background(false);
     if chart.kind.over_time() {
@@ -338,4 +386,31 @@ fn peak(chart: &Chart, curve: &Curve) -> String {
     };
     let value = if top.abs() < 100.0 { format!("{top:.1}") } else { format!("{top:.0}") };
     format!(" peak {value} {} at {top_x:.1} s", chart.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_axis_names_three_values_and_no_two_alike() {
+        for most in [0.03, 0.7, 1.0, 3.3, 26.0, 47.0, 512.0, 7562.0] {
+            for points in [70.0, 100.0, 400.0, 1500.0] {
+                for least in [0.0, -0.05 * most, -1.3 * most] {
+                    let base_step_size = (most - least) / points * f64::from(GRID.min);
+                    let input = GridInput { bounds: (least, most), base_step_size };
+                    let marks = marks(&input, TICK_DISTANCE[1]);
+                    assert!(marks.len() >= FEWEST, "{most}, {points}: {marks:?}");
+                    let apart = marks[0].step_size / (most - least) * points;
+                    assert!(apart > 12.0, "{apart} points, {marks:?}");
+                    let mut texts: Vec<String> = marks.into_iter().map(written).collect();
+                    let count = texts.len();
+                    texts.dedup();
+                    assert_eq!(texts.len(), count, "{texts:?}");
+                }
+            }
+        }
+        let empty = GridInput { bounds: (0.0, 0.0), base_step_size: 1.0 };
+        assert!(marks(&empty, TICK_DISTANCE[0]).is_empty());
+    }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::Color32;
 use endline_gear::Confidence;
 use endline_session::live::Status;
-use endline_sim::metrics::{EventKind, Outcome};
+use endline_sim::metrics::{EventKind, Outcome, WhaleSummary};
 
 use super::super::theme::Palette;
 
@@ -77,6 +77,35 @@ pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static st
     }
 }
 
+/// Words and meaning of an entanglement that may still end: that of a run which is too short, or goes on.
+pub const UNDECIDED: (&str, &str) =
+    ("Not decided", "rope touches, or did within 10 s; not decided yet");
+
+/// The outcome of a run up to a time [s], in words, with its meaning and its colour. Until it is decided, an entanglement is the present
+/// contact or the time since the last one, in grey.
+pub fn outcome_at(
+    whale: &WhaleSummary,
+    time_s: f64,
+    palette: Palette,
+) -> (String, &'static str, Color32) {
+    let (words, meaning, colour) = outcome(whale.outcome, palette);
+    let holds = matches!(whale.outcome, Outcome::Entangled | Outcome::PartedEntangled);
+    if whale.decided || !holds {
+        return (words.to_owned(), meaning, colour);
+    }
+    let touches = whale.regions.iter().any(|part| part.touching);
+    let last_s = whale.last_contact_s.filter(|_| !touches);
+    (in_contact(last_s.map(|last_s| time_s - last_s)), UNDECIDED.1, palette.faint)
+}
+
+/// The present contact, or the time since the last one [s].
+fn in_contact(ago_s: Option<f64>) -> String {
+    match ago_s {
+        None => "In contact".to_owned(),
+        Some(ago_s) => format!("In contact {:.0} s ago", ago_s.max(0.0)),
+    }
+}
+
 /// Colour of a confidence.
 pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
     match confidence {
@@ -133,6 +162,12 @@ pub fn title(key: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_contact_that_has_ended_is_told_with_its_age() {
+        assert_eq!(in_contact(None), "In contact");
+        assert_eq!(in_contact(Some(6.2)), "In contact 6 s ago");
+    }
 
     #[test]
     fn keys_become_titles_in_words() {

@@ -8,7 +8,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::statics::TrialGear;
 
-use super::{AssemblyPanel, inserts, item};
+use super::{AssemblyPanel, WhenEmpty, inserts, item, with_usual};
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -81,11 +81,15 @@ fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     match &attribute.kind {
         AttributeKind::Item { library, default } => {
             let Some(kind) = Kind::in_folder(library) else { return };
-            item(ui, shared, file, &field, kind, default.is_empty());
+            let empty =
+                if default.is_empty() { WhenEmpty::Nothing } else { WhenEmpty::Usual(default) };
+            item(ui, shared, file, &field, kind, &empty);
         }
-        AttributeKind::Choice { words, .. } => {
-            let choices: Vec<(String, String)> =
+        AttributeKind::Choice { words, default } => {
+            let documents = &shared.workbench.project().documents;
+            let mut choices: Vec<(String, String)> =
                 words.iter().map(|word| (word.to_string(), word.to_string())).collect();
+            with_usual(&mut choices, default, documents.field(file, &field).as_deref());
             if let Some(taken) = fields::choose(
                 ui,
                 &shared.workbench.project().documents,

@@ -6,7 +6,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
-use super::{AssemblyPanel, item};
+use super::{AssemblyPanel, WhenEmpty, item};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::{fields, widgets};
@@ -198,7 +198,7 @@ fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
     ui.indent(inserts, |ui| {
         Grid::new(("inserts", inserts)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
-            item(ui, shared, file, &format!("{inserts}.rope"), Kind::Rope, false);
+            item(ui, shared, file, &format!("{inserts}.rope"), Kind::Rope, &WhenEmpty::Missing);
             ui.end_row();
             for row in rows {
                 figure(ui, shared, file, inserts, row);

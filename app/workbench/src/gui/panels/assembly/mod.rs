@@ -299,18 +299,71 @@ fn said(help: &str) -> fields::Said<'_> {
     fields::Said { hint: "", help }
 }
 
-/// Draws the choice of a library item for a field; with `none` it can be empty.
-fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, none: bool) {
-    let library = shared.workbench.project().documents.library();
-    let mut choices: Vec<(String, String)> =
-        library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
-    if none {
-        choices.insert(0, (String::new(), "none".to_owned()));
+/// Meaning of an empty field that takes a library item.
+enum WhenEmpty<'a> {
+    /// The field must not be empty.
+    Missing,
+    /// No item.
+    Nothing,
+    /// The item with this id.
+    Usual(&'a str),
+}
+
+/// Draws the choice of a library item for a field.
+fn item(
+    ui: &mut Ui,
+    shared: &mut Shared,
+    file: &str,
+    field: &str,
+    kind: Kind,
+    empty: &WhenEmpty<'_>,
+) {
+    let documents = &shared.workbench.project().documents;
+    let mut choices: Vec<(String, String)> = documents
+        .library()
+        .entries(kind)
+        .iter()
+        .map(|entry| (entry.id.clone(), entry.name.clone()))
+        .collect();
+    match empty {
+        WhenEmpty::Missing => {}
+        WhenEmpty::Nothing => choices.insert(0, (String::new(), "none".to_owned())),
+        WhenEmpty::Usual(id) => {
+            with_usual(&mut choices, id, documents.field(file, field).as_deref());
+        }
     }
     let width = ui.available_width() - 8.0;
-    if let Some(taken) =
-        fields::choose(ui, &shared.workbench.project().documents, file, field, &choices, width)
-    {
+    if let Some(taken) = fields::choose(ui, documents, file, field, &choices, width) {
         shared.set(file, field, &taken);
+    }
+}
+
+/// Puts the usual choice first, which leaves the field empty. Its own entry is omitted, unless the field names it.
+fn with_usual(choices: &mut Vec<(String, String)>, usual: &str, stored: Option<&str>) {
+    let known = choices.iter().position(|(id, _)| id == usual);
+    let name = known.map_or(usual, |place| choices[place].1.as_str());
+    let first = (String::new(), format!("{name} (usual)"));
+    if let Some(place) = known.filter(|_| stored != Some(usual)) {
+        choices.remove(place);
+    }
+    choices.insert(0, first);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_usual;
+
+    #[test]
+    fn the_usual_item_is_named_first_and_is_listed_once_unless_the_file_names_it() {
+        let two = || [("a", "Link A"), ("b", "Link B")].map(|(id, name)| (id.into(), name.into()));
+        let listed = |usual: &str, stored: Option<&str>| -> Vec<String> {
+            let mut choices = Vec::from(two());
+            with_usual(&mut choices, usual, stored);
+            assert_eq!(choices[0].0, "", "it leaves the field empty");
+            choices.into_iter().map(|(_, name)| name).collect()
+        };
+        assert_eq!(listed("b", None), ["Link B (usual)", "Link A"]);
+        assert_eq!(listed("b", Some("b")), ["Link B (usual)", "Link A", "Link B"]);
+        assert_eq!(listed("c", None), ["c (usual)", "Link A", "Link B"]);
     }
 }

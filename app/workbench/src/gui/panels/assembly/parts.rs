@@ -9,7 +9,7 @@ use endline_session::command::EditAction;
 use endline_session::edit::{Documents, assembly};
 use endline_session::statics::TrialGear;
 
-use super::{inserts, item, said};
+use super::{WhenEmpty, inserts, item, said};
 use crate::gui::fields;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -175,7 +175,7 @@ fn body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let out = head(ui, part, &format!("{id} ({word})"), |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Item").color(Theme::palette_of(ui).faint));
-            item(ui, shared, file, &format!("{at}.item"), kind, false);
+            item(ui, shared, file, &format!("{at}.item"), kind, &WhenEmpty::Missing);
             ui.end_row();
             row(
                 ui,
@@ -261,7 +261,7 @@ fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let out = head(ui, part, &title, |ui| {
         let rating = format!("{at}.rating");
         if text(shared, file, &rating).is_empty() {
-            item(ui, shared, file, &format!("{at}.item"), Kind::WeakLink, false);
+            item(ui, shared, file, &format!("{at}.item"), Kind::WeakLink, &WhenEmpty::Missing);
         } else {
             Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
                 row(
@@ -297,7 +297,7 @@ fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
         length_slider(ui, shared, file, &at);
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
-            item(ui, shared, file, &format!("{at}.rope"), Kind::Rope, false);
+            item(ui, shared, file, &format!("{at}.rope"), Kind::Rope, &WhenEmpty::Missing);
             ui.end_row();
             row(
                 ui,

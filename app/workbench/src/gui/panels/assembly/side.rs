@@ -2,8 +2,8 @@
 
 use egui::{Color32, RichText, Ui, vec2};
 use egui_plot::{
-    AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
-    PlotUi, Points, Text,
+    HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi, Points,
+    Text,
 };
 use endline_gear::WEAK_PLACES;
 use endline_sdk::LineEnd;
@@ -16,6 +16,7 @@ use glam::DVec2;
 use super::{AssemblyPanel, Drawn, Rig, strength, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::plot::{with_ticks, x_axis, y_axis};
 
 /// Width of the drawing relative to the gear, for labels at the right of lines.
 const LABEL_ROOM: f64 = 1.35;
@@ -112,20 +113,16 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
     heading(ui, tide, &gears, units);
     let palette = Theme::palette_of(ui);
     let colors = [A.color(ui), B.color(ui)];
-    let plot = Plot::new(("side", tide))
+    let plot = with_ticks(Plot::new(("side", tide)), palette)
         .data_aspect(1.0)
         .allow_drag(false)
         .allow_zoom(false)
         .allow_boxed_zoom(false)
         .allow_double_click_reset(false)
-        .custom_x_axes(vec![AxisHints::new_x().label(format!("along [{}]", units.length_symbol()))])
+        .custom_x_axes(vec![x_axis(format!("along [{}]", units.length_symbol()))])
         .custom_y_axes(vec![
-            AxisHints::new_y()
-                .label(format!("height [{}]", units.length_symbol()))
-                .min_thickness(42.0),
+            y_axis(format!("height [{}]", units.length_symbol())).min_thickness(42.0),
         ])
-        .grid_spacing(egui::Rangef::new(18.0, 220.0))
-        .grid_color(palette.faint.gamma_multiply(0.5))
         .show_background(false)
         .allow_scroll(false);
     plot.show(ui, |plot| {

@@ -35,7 +35,7 @@ impl Panel for EntanglementPanel {
         let style = Style { view: View::Entanglement, units: shared.workbench.preferences().units };
         let parts = parts(whale, &view.frame.contacts);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let first = outcome(ui, whale, style);
+            let first = outcome(ui, whale, view.newest_s, style);
             self.map.show(ui, &view, whale, style.units);
             let wrap = wrap_list(ui, &view, style.units);
             shared.commands.extend(first.or(wrap).map(|chosen| TimeAction::Seek(chosen).into()));
@@ -46,9 +46,9 @@ impl Panel for EntanglementPanel {
 }
 
 /// Draws the outcome and the figures of the whale; returns the moment that was clicked [s].
-fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
+fn outcome(ui: &mut Ui, whale: &WhaleSummary, time_s: f64, style: Style) -> Option<f64> {
     let palette = Theme::palette_of(ui);
-    let (text, meaning, colour) = words::outcome(whale.outcome, palette);
+    let (text, meaning, colour) = words::outcome_at(whale, time_s, palette);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).heading().color(colour));
         let so_far = if whale.decided { "" } else { "so far: " };

@@ -191,9 +191,9 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
         let none = "Bands exist only for registered events. Select one, or add this event to `registered` in the study before its first run.";
         return widgets::nothing(ui, none);
     }
-    ui.label("Rate of the event with three independent causes of uncertainty. More encounters narrow only the first.");
     let rows: Vec<Vec<(&str, [f64; 3], String)>> =
         found.iter().map(|bands| band_rows(bands)).collect();
+    ui.label(causes(rows.iter().flatten().map(|(cause, ..)| *cause)));
     let ends = rows.iter().flatten().map(|(_, [.., high], _)| *high);
     let most = ends.fold(0.02, f64::max);
     let names: Vec<String> = found
@@ -216,6 +216,41 @@ pub(super) fn bands(ui: &mut Ui, shown: &StudyResults, event: &str) {
             figure.hover(ui, row, &format!("{}, {name}: {text}", bands.name));
             row += 1;
         }
+    }
+}
+
+/// The causes of uncertainty that are drawn, in a sentence.
+fn causes(drawn: impl Iterator<Item = &'static str>) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for name in drawn {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let Some((last, others)) = names.split_last() else { return String::new() };
+    let (count, named) = match others {
+        [] => ("one cause", (*last).to_owned()),
+        others => {
+            let count = if others.len() == 1 { "two causes" } else { "three causes" };
+            (count, format!("{} and {last}", others.join(", ")))
+        }
+    };
+    format!(
+        "Rate of the event with its uncertainty by {count}: {named}. More encounters narrow only that by chance."
+    )
+}
+
+/// Why no effect of an input is known.
+fn no_effects(priors: usize, encounters: u64) -> String {
+    match (priors, encounters) {
+        (0, _) => "This study draws no values: all of its encounters are alike.".to_owned(),
+        (_, 0) => "No encounter has been run yet.".to_owned(),
+        (_, 1) => {
+            "One encounter cannot show the effect of an input. Run more encounters.".to_owned()
+        }
+        (_, count) => format!(
+            "No input has two different values in these {count} encounters. Run more encounters."
+        ),
     }
 }
 
@@ -244,7 +279,8 @@ fn band_rows(bands: &Bands) -> Vec<(&'static str, [f64; 3], String)> {
 pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
     let findings = &shown.findings;
     if findings.inputs.is_empty() {
-        return widgets::nothing(ui, "Nothing was drawn that varies.");
+        let priors = shown.opened.study.priors.len();
+        return widgets::nothing(ui, &no_effects(priors, findings.encounters));
     }
     let most = findings
         .inputs
@@ -295,5 +331,27 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
             "Which option has the lowest rate depends on this input."
         };
         figure.hover(ui, row, &format!("{}\n{best}", text.join("\n")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_causes_named_are_those_drawn() {
+        let of = |names: &[&'static str]| causes(names.iter().copied());
+        assert!(of(&["chance", "chance"]).contains("by one cause: chance. More"));
+        let two = of(&["chance", "assumed inputs", "chance"]);
+        assert!(two.contains("by two causes: chance and assumed inputs."), "{two}");
+        let three = of(&["chance", "assumed inputs", "segments and steps"]);
+        assert!(three.contains("three causes: chance, assumed inputs and segments"), "{three}");
+    }
+
+    #[test]
+    fn missing_effects_of_inputs_have_the_true_reason() {
+        assert!(no_effects(0, 9).contains("draws no values"));
+        assert!(no_effects(10, 1).contains("Run more encounters"));
+        assert!(no_effects(10, 0).contains("No encounter"));
     }
 }

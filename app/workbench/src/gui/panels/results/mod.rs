@@ -30,7 +30,7 @@ pub enum Part {
     /// Table of rates and differences from the baseline.
     #[default]
     Rates,
-    /// Uncertainty of rates by three causes.
+    /// Uncertainty of rates by cause.
     #[strum(serialize = "Uncertainty")]
     Bands,
     /// Chart of differences from the baseline.

@@ -13,8 +13,9 @@ use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
 use crate::gui::shared::Shared;
-use crate::gui::theme::Theme;
+use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
+use crate::gui::widgets::plot::{with_ticks, y_axis};
 
 /// Greatest distance of a click to its dot [points].
 const REACH: f32 = 14.0;
@@ -53,12 +54,13 @@ pub(super) fn show(
         RichText::new("Share of runs with a greatest tension below a value. Each dot is a run; click it to replay the run.")
             .color(Theme::palette_of(ui).faint),
     );
-    let response = frame(unit).height(ui.available_height()).show(ui, |plot| {
-        for (index, option) in shown.findings.options.iter().enumerate() {
-            let own = dots.iter().filter(|dot| dot.option == index);
-            curve(plot, index, &option.name, own.map(|dot| dot.at.into()).collect());
-        }
-    });
+    let response =
+        frame(unit, Theme::palette_of(ui)).height(ui.available_height()).show(ui, |plot| {
+            for (index, option) in shown.findings.options.iter().enumerate() {
+                let own = dots.iter().filter(|dot| dot.option == index);
+                curve(plot, index, &option.name, own.map(|dot| dot.at.into()).collect());
+            }
+        });
     let Some(at) = response.response.hover_pos() else { return };
     let distance = |dot: &&Dot| response.transform.position_from_point(&dot.at.into()).distance(at);
     let nearest = dots.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -77,14 +79,14 @@ pub(super) fn show(
 }
 
 /// Axes: tension on a logarithmic scale, and share of runs.
-fn frame(unit: ForceUnit) -> Plot<'static> {
+fn frame(unit: ForceUnit, palette: Palette) -> Plot<'static> {
     let x = AxisHints::new_x()
         .label(format!("greatest tension [{}]", unit.symbol()))
         .formatter(move |mark, _| format!("{:.0}", 10.0_f64.powf(mark.value) - 1.0));
-    let y = AxisHints::new_y()
+    let y = y_axis(String::new())
         .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
         .min_thickness(46.0);
-    Plot::new("tensions of runs")
+    with_ticks(Plot::new("tensions of runs"), palette)
         // The curves rise to the right, so the lower right is free.
         .legend(Legend::default().position(egui_plot::Corner::RightBottom).background_alpha(0.6))
         .x_grid_spacer(|input| marks(input.bounds))

@@ -7,9 +7,9 @@ mod table;
 
 use std::path::Path;
 
-use egui::{Label, RichText, ScrollArea, Ui};
+use egui::{Color32, Label, RichText, ScrollArea, Ui};
 use endline_session::command::RuleAction;
-use endline_session::rules::{RuleResult, Verdict};
+use endline_session::rules::{RuleResult, RuleSheet, Verdict};
 use endline_session::workbench::RuleAnswer;
 
 use crate::gui::command::action::WindowAction;
@@ -66,12 +66,8 @@ impl RulesPanel {
         let palette = Theme::palette_of(ui);
         let counts = answer.sheet.counts;
         ui.horizontal_wrapped(|ui| {
-            let fails = match counts.fail - counts.fail_binding {
-                0 => format!("{} fail", counts.fail),
-                advice => format!("{} fail, {advice} of them advice", counts.fail),
-            };
-            let fine = if counts.fail_binding > 0 { palette.error } else { palette.good };
-            ui.label(RichText::new(fails).strong().color(fine));
+            let (text, colour) = result(&answer.sheet, palette);
+            ui.label(RichText::new(text).strong().color(colour));
             ui.label(format!(
                 "{} pass, {} cannot be checked, {} do not apply",
                 counts.pass, counts.cannot_be_checked, counts.not_applicable
@@ -137,6 +133,23 @@ impl RulesPanel {
     }
 }
 
+/// The result in a few words, with its colour. It is good only if every binding rule was checked.
+fn result(sheet: &RuleSheet, palette: Palette) -> (String, Color32) {
+    let counts = sheet.counts;
+    let fails = match counts.fail - counts.fail_binding {
+        0 => format!("{} fail", counts.fail),
+        advice => format!("{} fail, {advice} of them advice", counts.fail),
+    };
+    match sheet.missing() {
+        _ if sheet.fails_binding() => (fails, palette.error),
+        Some(missing) if counts.fail == 0 => {
+            (format!("No verdict yet: {missing}"), palette.warning)
+        }
+        Some(missing) => (format!("No verdict yet: {missing}; {fails}"), palette.warning),
+        None => (fails, palette.good),
+    }
+}
+
 /// Draws the buttons that write the compliance sheet and that open the last one, marked if it is outdated.
 fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
     if shared.workbench.rules().writing() {
@@ -176,7 +189,7 @@ fn on_screen(why: &str) -> String {
 }
 
 /// Colour of a verdict; failed advice is a warning.
-fn colour(rule: &RuleResult, palette: Palette) -> egui::Color32 {
+fn colour(rule: &RuleResult, palette: Palette) -> Color32 {
     match (rule.verdict, rule.binding) {
         (Verdict::Pass, _) => palette.good,
         (Verdict::Fail, true) => palette.error,

@@ -5,8 +5,8 @@ use std::time::Duration;
 use egui::{DragValue, Label, ProgressBar, RichText, Ui};
 use endline_session::campaign::State;
 use endline_session::command::SearchAction;
-use endline_session::search::SearchJob;
 use endline_session::search::job::SearchFound;
+use endline_session::search::{SearchJob, whole_rounds};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::shared::Shared;
@@ -76,7 +76,13 @@ fn effort(ui: &mut Ui, shared: &mut Shared) {
         let most = std::thread::available_parallelism().map_or(1, usize::from);
         label(ui, "Runs");
         ui.add(DragValue::new(&mut effort.trials).range(32..=1_000_000).speed(8))
-            .on_hover_text("Maximum number of runs; increase it to continue");
+            .on_hover_text(
+                "Number of runs wanted; increase it to continue. Runs are made in rounds, and the round that reaches this number is finished",
+            );
+        let whole = whole_rounds(effort.trials);
+        if whole != effort.trials {
+            label(ui, &format!("({whole}: the first runs come in rounds of 32)"));
+        }
         label(ui, "threads");
         ui.add(DragValue::new(&mut effort.threads).range(1..=most).speed(0.05))
             .on_hover_text("Simultaneous runs");
@@ -95,13 +101,14 @@ fn effort(ui: &mut Ui, shared: &mut Shared) {
 fn progress(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound) {
     let encounters = job.progress().encounters;
     let share = job.progress().share();
-    let of = job.request.trials;
     let (share, text) = match state {
         State::Finishing => {
             (share, format!("{} of {} neighbours", encounters.done, encounters.total))
         }
         State::Running | State::Paused | State::Cancelling if encounters.total > 0 => {
-            (share, format!("{} of {of} runs", encounters.done))
+            let reads = job.request.only_reads;
+            let of = if reads { String::new() } else { format!(" of {}", encounters.total) };
+            (share, format!("{}{of} runs", encounters.done))
         }
         State::Waiting
         | State::Opening
@@ -110,7 +117,7 @@ fn progress(ui: &mut Ui, job: &SearchJob, state: &State, found: &SearchFound) {
         | State::Cancelling
         | State::Failed(_) => return,
         State::Done | State::Cancelled => {
-            let share = found.trials as f32 / of.max(1) as f32;
+            let share = found.trials as f32 / job.request.trials.max(1) as f32;
             (share, format!("{} runs", found.trials))
         }
     };

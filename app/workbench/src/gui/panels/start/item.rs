@@ -175,6 +175,7 @@ mod tests {
             |id: &str| items.iter().find(|item| files::stem(&item.path) == id).unwrap().group;
         for (id, wanted) in [
             ("hello-endline", Group::Encounter),
+            ("fly-endline", Group::Encounter),
             ("trawl-10", Group::Gear),
             ("portrait", Group::Whale),
             ("reference-c2-snap", Group::Physics),

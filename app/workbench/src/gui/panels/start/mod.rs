@@ -175,6 +175,9 @@ const WIDTH: f32 = 250.0;
 
 type Action = fn(&mut Shared, &Path);
 
+/// Id of the scenario to fly in: its whale feels the gear.
+const FLIGHT: &str = "fly-endline";
+
 /// A purpose: title, description, and buttons with their actions.
 struct Purpose {
     title: &'static str,
@@ -210,7 +213,7 @@ const PURPOSES: [Purpose; 3] = [
         description: "Steer a whale by pad or keys; replay real cases; record an observation on a whale and search for encounters that end like it.",
         buttons: &[
             ("Fly a whale", |shared, root| {
-                open_scenario(shared, root, "hello-endline");
+                open_scenario(shared, root, FLIGHT);
                 shared.give(PanelAction::Arrange(Layout::Fly));
                 shared.give(FlightAction::Toggle);
             }),
@@ -270,4 +273,20 @@ fn design(shared: &mut Shared, root: &Path, id: &str) {
 
 fn open_study(shared: &mut Shared, root: &Path, id: &str) {
     open(shared, What::Study, &root.join(format!("studies/{id}.toml")));
+}
+
+#[cfg(test)]
+mod tests {
+    use endline_gear::Document;
+
+    use super::*;
+
+    #[test]
+    fn the_whale_to_fly_feels_the_gear() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+        let text = endline_gear::read::text(&scenario(&root, FLIGHT)).unwrap();
+        let document = Document::parse(&text).unwrap();
+        assert_eq!(document.get("whale.dynamics").as_deref(), Some("kinetic"));
+        assert!(document.get("gear.0.assembly").is_some());
+    }
 }

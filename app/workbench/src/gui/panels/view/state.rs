@@ -108,14 +108,11 @@ impl ViewPanel {
         self.frame_all();
     }
 
-    /// Frames everything when the model changes or statics have converged; follows the whale while it is steered.
+    /// Frames everything when the model changes or statics have converged; follows the whale from the start of a flight on. The end of a
+    /// flight does not move the camera.
     pub(super) fn follow(&mut self, shared: &Shared) {
-        if std::mem::replace(&mut self.seen.flying, shared.flying) != shared.flying {
-            if shared.flying {
-                self.follow_whale();
-            } else {
-                self.frame();
-            }
+        if !std::mem::replace(&mut self.seen.flying, shared.flying) && shared.flying {
+            self.follow_whale();
         }
         let Some(view) = shared.workbench.view() else { return };
         let known = self.seen.model.as_ref().is_some_and(|model| Arc::ptr_eq(model, &view.model));
@@ -303,7 +300,7 @@ impl ViewPanel {
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return;
         };
-        let (outcome, _, colour) = words::outcome(whale.outcome, palette);
+        let (outcome, _, colour) = words::outcome_at(whale, view.newest_s, palette);
         let place = pos2(top.x, top.y + 8.0 + 1.3 * LETTERS);
         painter.text(
             place,
