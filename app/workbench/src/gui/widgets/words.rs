@@ -77,7 +77,7 @@ pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static st
     }
 }
 
-/// Words and meaning of an entanglement that may still end: that of a run which is too short, or goes on.
+/// Words and meaning of an entanglement that may still end: that of a run which is too short, or continues.
 pub const UNDECIDED: (&str, &str) =
     ("Not decided", "rope touches, or did within 10 s; not decided yet");
 
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_contact_that_has_ended_is_told_with_its_age() {
+    fn a_contact_that_has_ended_is_said_with_its_age() {
         assert_eq!(in_contact(None), "In contact");
         assert_eq!(in_contact(Some(6.2)), "In contact 6 s ago");
     }
