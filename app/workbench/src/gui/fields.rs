@@ -1,7 +1,7 @@
 //! Text boxes for fields of a file: a value is committed by Enter or when the box loses the focus; an invalid value is red.
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{Context, FontId, Id, Key, Rect, Response, Stroke, TextEdit, Ui, vec2};
+use egui::{Context, FontId, Id, Key, Rect, Response, RichText, Stroke, TextEdit, Ui, vec2};
 use endline_gear::Diagnostic;
 use endline_session::edit::Documents;
 use endline_session::edit::problems::message;
@@ -236,10 +236,15 @@ pub fn choose(
         .find(|(id, _)| *id == stored)
         .map_or(stored.clone(), |(_, name)| name.clone());
     let mut taken = None;
+    let mut selected = RichText::new(&shown);
+    // As in a text box, what an empty field stands for is faint.
+    if stored.is_empty() {
+        selected = selected.color(Theme::palette_of(ui).faint);
+    }
     let combo = egui::ComboBox::from_id_salt(("choice", path, field))
         .width(width)
         .truncate()
-        .selected_text(&shown);
+        .selected_text(selected);
     let response = combo.show_ui(ui, |ui| {
         for (id, name) in choices {
             if ui.selectable_label(*id == stored, name).on_hover_text(id).clicked() {
