@@ -64,10 +64,14 @@ fn verdict(sheet: &ComplianceSheet) -> String {
     let named = |rule: &&RuleResult| format!("{} ({})", rule.asks.trim_end_matches('.'), rule.rule);
     let fails = binding(Verdict::Fail);
     let (met, unknown) = (binding(Verdict::Pass).len(), binding(Verdict::CannotBeChecked).len());
+    let open = match unknown {
+        1 => "one binding rule".to_owned(),
+        several => format!("{several} binding rules"),
+    };
     let mut text = match fails.as_slice() {
-        [] if unknown > 0 => format!(
-            "No verdict yet: {unknown} binding rules cannot be checked. It meets the {met} that could be."
-        ),
+        [] if unknown > 0 => {
+            format!("No verdict yet: {open} cannot be checked. It meets the {met} that could be.")
+        }
         [] => "It meets every binding rule.".to_owned(),
         [one] => format!("It fails one binding rule: {}.", named(one)),
         several => {
@@ -76,7 +80,7 @@ fn verdict(sheet: &ComplianceSheet) -> String {
         }
     };
     if unknown > 0 && !fails.is_empty() {
-        text += &format!(" {unknown} more apply and cannot be checked.");
+        text += &format!(" Further, {open} cannot be checked.");
     }
     for says in &sheet.rules.uncovered {
         text += &format!(" Note: {says}.");
@@ -145,22 +149,35 @@ fn rules(sheet: &ComplianceSheet, citations: &mut Citations) -> Table {
 
 fn rule_row(rule: &RuleResult, citations: &mut Citations) -> Vec<Cell> {
     let standing = if rule.binding { String::new() } else { rule.standing.to_owned() };
-    let said = rule.measured.iter().map(|measured| {
-        let part = if measured.part.is_empty() { "" } else { &measured.part };
-        [part, &measured.says]
-            .into_iter()
-            .filter(|word| !word.is_empty())
-            .collect::<Vec<_>>()
-            .join(": ")
-    });
+    let said = said(rule);
     let fix = (rule.verdict == Verdict::Fail).then(|| format!("Fix: {}", rule.remedy));
     let name = [rule.asks.clone(), rule.rule.clone(), standing];
     vec![
         Cell::lines(name.into_iter().filter(|line| !line.is_empty())),
         rule.verdict.words().to_uppercase().into(),
-        Cell::lines(said.take(4).chain(fix)),
+        Cell::lines(said.into_iter().take(4).chain(fix)),
         citations.cell(&rule.cite, rule.confidence),
     ]
+}
+
+/// Measured values with their limits; parts of the same value share a line.
+fn said(rule: &RuleResult) -> Vec<String> {
+    let mut groups: Vec<(Vec<&str>, &str)> = Vec::new();
+    for measured in &rule.measured {
+        let part = Some(measured.part.as_str()).filter(|part| !part.is_empty());
+        match groups.iter_mut().find(|(_, says)| *says == measured.says) {
+            Some((parts, _)) => parts.extend(part),
+            None => groups.push((part.into_iter().collect(), &measured.says)),
+        }
+    }
+    let line = |(parts, says): (Vec<&str>, &str)| match parts.as_slice() {
+        [] => says.to_owned(),
+        [first, .., last] if parts.len() > 3 => {
+            format!("{first} to {last}, {} parts: {says}", parts.len())
+        }
+        few => format!("{}: {says}", few.join(", ")),
+    };
+    groups.into_iter().map(line).collect()
 }
 
 /// Rules that apply and cannot be checked, with the reason.

@@ -163,7 +163,8 @@ impl Compared {
 
     /// What the comparison asks, such as `at most 1,700 lbf allowed`.
     fn asks(&self) -> String {
-        let limit = self.text(self.right);
+        let whole = self.text(self.right);
+        let limit = whole.strip_prefix("specific gravity ").unwrap_or(&whole);
         match self.sign {
             "<=" => format!("at most {limit} allowed"),
             ">=" => format!("at least {limit} required"),
