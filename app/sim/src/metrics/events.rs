@@ -60,7 +60,7 @@ pub enum EventKind {
     JammedKnot,
     /// A buoy was submerged; value: its height [m].
     PulledUnder,
-    /// The whale touched the seabed; value: height of its lowest point above it [m].
+    /// The whale's trunk touched the seabed; value: height of the trunk's lowest point above it [m].
     AtSeabed,
     /// The whale broke the surface; value: height of its highest point [m].
     AtSurface,

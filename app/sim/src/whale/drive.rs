@@ -4,8 +4,8 @@
 //! whale's own axes,
 //! `u` the mean speed through the water over the step [m/s], and `U` the velocity of the current [m/s]. Kinetic: mass, drag and
 //! strength determine the response to the plugin's request (`kinetic/mod.rs`), also for a dead whale.
-//! The whale cannot enter the seabed with any part of its skin: it is lifted by the depth of its lowest vertex. It leaves the water at most as far as its speed carries it ([`carried_m`]); for a kinetic
-//! whale its weight in air limits this. The jaws close as far as contact permits (`jaws.rs`), and joints turn within their
+//! No part of its skin enters the seabed: the whale is lifted by the depth of its lowest vertex. It leaves the water at most as far as its
+//! speed carries it ([`carried_m`]); for a kinetic whale its weight in air limits this. The jaws close as far as contact permits (`jaws.rs`), and joints turn within their
 //! ranges (`pose.rs`).
 
 use endline_sdk::{MotionInput, MotionOutput, Posture};
@@ -14,13 +14,9 @@ use glam::{DAffine3, DQuat, DVec3};
 use super::kinetic::muscle::{MotionRequest, Surroundings, reported_speed, swim, thrust_speed};
 use super::kinetic::{drift, weight_out};
 use super::pose::pose;
-use crate::model::{Model, Seabed, Whale};
+use crate::model::{Model, Whale};
 use crate::state::WhaleState;
 use crate::step::{Input, Stop};
-use crate::whale::Skin;
-
-/// How far its skin reaches from the whale's origin along its own axes in any posture, as shares of its length; estimate.
-const REACH: DVec3 = DVec3::new(0.6, 0.35, 0.3);
 
 /// Gravity on the part above the surface [m/s²].
 const GRAVITY_M_S2: f64 = 9.81;
@@ -30,7 +26,7 @@ const GRAVITY_M_S2: f64 = 9.81;
 pub(crate) struct DriveScratch {
     /// Vertices of a kinetic whale's hull near the surface.
     hull: Vec<DVec3>,
-    /// Bone transforms near the seabed.
+    /// Bone transforms at the end of the step.
     bones: Vec<DAffine3>,
 }
 
@@ -169,13 +165,11 @@ fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
 /// Limits the whale's height to the range from the seabed to [`carried_m`], which does not apply to a kinetic whale with weight
 /// in air. A kinetic whale loses its velocity into the limit.
 fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState, bones: &mut Vec<DAffine3>) {
-    let seabed = model.spec.seabed.as_ref();
-    let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| {
-        whale.position.z + depth_in_seabed(seabed, spec, whale, bones)
-    });
+    let depth_m = depth_in_seabed(model, spec, whale, bones);
     let weighs = spec.kinetic.as_ref().is_some_and(|kinetic| kinetic.hull.volume_m3 > 0.0);
     let ceiling = if weighs { f64::INFINITY } else { carried_m(spec.length_m, whale) };
-    let held = whale.position.z.min(ceiling).max(floor);
+    let held =
+        if depth_m > 0.0 { whale.position.z + depth_m } else { whale.position.z.min(ceiling) };
     let [port, back] = whale.exertion.slip_m_s;
     if (whale.orientation * DVec3::new(0.0, port, back)).z * (whale.position.z - held) > 0.0 {
         whale.exertion.slip_m_s = [0.0; 2];
@@ -183,34 +177,20 @@ fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState, bones: &mu
     whale.position.z = held;
 }
 
-/// How far the whale must be lifted so that no vertex of its skin is below the seabed; negative infinity if it is well above [m].
+/// How far the whale must be lifted so that no vertex of its skin is below the seabed; 0 if none is [m].
 fn depth_in_seabed(
-    seabed: &Seabed,
+    model: &Model,
     spec: &Whale,
     whale: &WhaleState,
     bones: &mut Vec<DAffine3>,
 ) -> f64 {
-    let normal = seabed.normal;
-    let height_m = (whale.position.z - seabed.height_at(whale.position)) * normal.z;
-    let reach_m = (whale.orientation.inverse() * normal).abs().dot(REACH) * spec.length_m;
-    if height_m > reach_m {
-        return f64::NEG_INFINITY;
+    let (Some(seabed), Some(tree)) = (&model.spec.seabed, &model.skin_tree) else { return 0.0 };
+    let seabed_m = -seabed.depth_m * seabed.normal.z;
+    if seabed.normal.dot(whale.position) - tree.reach_m > seabed_m {
+        return 0.0;
     }
     pose(&spec.skin, whale.position, whale.orientation, &whale.posture, bones);
-    let lowest_m = lowest_m(&spec.skin, bones, normal) - normal.dot(whale.position);
-    debug_assert!(-lowest_m <= reach_m, "skin reaches {lowest_m} m, bound {reach_m} m");
-    -(height_m + lowest_m) / normal.z
-}
-
-/// The least component of the skin's vertices along `up` [m].
-fn lowest_m(skin: &Skin, bones: &[DAffine3], up: DVec3) -> f64 {
-    let height = |(rest, weights): (&DVec3, &[(u16, f64); 4])| {
-        let by_bone = |&(bone, weight): &(u16, f64)| {
-            weight * up.dot(bones[usize::from(bone)].transform_point3(*rest))
-        };
-        weights.iter().filter(|(_, weight)| *weight > 0.0).map(by_bone).sum::<f64>()
-    };
-    skin.vertices.iter().zip(&skin.weights).map(height).fold(f64::INFINITY, f64::min)
+    (seabed_m - tree.lowest_m(bones, seabed.normal, seabed_m)) / seabed.normal.z
 }
 
 /// Bone transforms at a share between two states of the whale.

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::Skin;
+use super::pose::skin_vertex;
 
 /// An axis-aligned box; the empty box has `low` above `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,6 +97,8 @@ pub struct SkinTree {
     nodes: Vec<Node>,
     spheres: Vec<Sphere>,
     order: Vec<u32>,
+    /// Greatest distance of a vertex from the whale's origin in any posture [m].
+    pub(super) reach_m: f64,
 }
 
 /// A node: its bounding spheres, its triangles, and its children unless it is a leaf.
@@ -137,6 +140,26 @@ impl BoneMove {
     }
 }
 
+/// Bound of the distance of a vertex from the whale's origin in any posture: the sum of the distances from bone to bone, which turn about
+/// their origins, and to the vertex [m].
+fn reach_m(skin: &Skin) -> f64 {
+    let mut along_m: Vec<f64> = Vec::with_capacity(skin.bones.len());
+    for bone in &skin.bones {
+        let parent = bone.parent.filter(|parent| *parent < along_m.len());
+        let (before_m, origin) = parent
+            .map_or((0.0, DVec3::ZERO), |parent| (along_m[parent], skin.bones[parent].origin));
+        along_m.push(before_m + origin.distance(bone.origin));
+    }
+    let moved = skin.vertices.iter().zip(&skin.weights).flat_map(|(vertex, weights)| {
+        weights.iter().filter(|(_, weight)| *weight > 0.0).map(move |(bone, _)| (vertex, bone))
+    });
+    let reach = moved.filter_map(|(vertex, bone)| {
+        let bone = usize::from(*bone);
+        Some(along_m.get(bone)? + skin.bones[bone].origin.distance(*vertex))
+    });
+    reach.fold(0.0, f64::max)
+}
+
 impl SkinTree {
     /// Builds the tree, deterministically.
     pub fn new(skin: Arc<Skin>) -> Self {
@@ -151,7 +174,8 @@ impl SkinTree {
             .map(|corners| corners.iter().map(|&corner| skin.vertices[corner as usize]).sum())
             .collect();
         let order = (0_u32..).take(skin.triangles.len()).collect();
-        let mut tree = Self { skin, nodes: Vec::new(), spheres: Vec::new(), order };
+        let reach_m = reach_m(&skin);
+        let mut tree = Self { skin, nodes: Vec::new(), spheres: Vec::new(), order, reach_m };
         if !tree.order.is_empty() {
             let bones = tree.skin.bones.len();
             let mut vertices = Vertices {
@@ -233,6 +257,33 @@ impl SkinTree {
             sphere.add_to(&mut bounds, bones);
         }
         bounds.grown(ROUNDING)
+    }
+
+    /// The least component of the skin's vertices along the unit vector `up` in one pose, or `limit_m` if none is below it [m].
+    pub(super) fn lowest_m(&self, bones: &[DAffine3], up: DVec3, limit_m: f64) -> f64 {
+        debug_assert!((up.length() - 1.0).abs() < 1e-9, "a unit vector: {up}");
+        if self.nodes.is_empty() { limit_m } else { self.lowest_in(0, bones, up, limit_m) }
+    }
+
+    fn lowest_in(&self, node: usize, bones: &[DAffine3], up: DVec3, limit_m: f64) -> f64 {
+        let Node { spheres, triangles, children } = &self.nodes[node];
+        let height = |sphere: &Sphere| {
+            up.dot(bones[sphere.bone].transform_point3(sphere.centre)) - sphere.radius
+        };
+        let bound_m =
+            self.spheres[spheres.clone()].iter().map(height).fold(f64::INFINITY, f64::min);
+        if bound_m - ROUNDING > limit_m {
+            return limit_m;
+        }
+        let Some(children) = children else {
+            let corners = self.order[triangles.clone()]
+                .iter()
+                .flat_map(|&at| self.skin.triangles[at as usize]);
+            let heights =
+                corners.map(|vertex| up.dot(skin_vertex(&self.skin, bones, vertex as usize)));
+            return heights.fold(limit_m, f64::min);
+        };
+        children.iter().fold(limit_m, |limit_m, child| self.lowest_in(*child, bones, up, limit_m))
     }
 
     /// Radius of a sphere with the centre of each sphere of a node that contains the spheres of the same bone of all clusters below
@@ -388,4 +439,32 @@ fn farthest(points: &[DVec3], from: DVec3) -> DVec3 {
         }
     }
     far.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pose::skin_all;
+    use super::super::surface::tests::{Dice, random_bones, tube};
+    use super::*;
+
+    /// The lowest vertex is that among all vertices; a limit below it is returned as it is, and no vertex is farther from the first bone
+    /// than the reach.
+    #[test]
+    fn the_lowest_vertex_is_that_of_all() {
+        let skin = Arc::new(tube());
+        let tree = SkinTree::new(skin.clone());
+        let (mut dice, mut places) = (Dice(31), Vec::new());
+        for _ in 0..200 {
+            let bones = random_bones(&skin, &mut dice);
+            skin_all(&skin, &bones, &mut places);
+            let up = dice.point().normalize();
+            let lowest_m = places.iter().map(|place| up.dot(*place)).fold(f64::INFINITY, f64::min);
+            assert_eq!(tree.lowest_m(&bones, up, f64::INFINITY), lowest_m);
+            assert_eq!(tree.lowest_m(&bones, up, lowest_m + 0.1), lowest_m);
+            assert_eq!(tree.lowest_m(&bones, up, lowest_m - 0.1), lowest_m - 0.1);
+            let first = bones[0].transform_point3(skin.bones[0].origin);
+            let farthest_m = places.iter().map(|place| place.distance(first)).fold(0.0, f64::max);
+            assert!(farthest_m <= tree.reach_m, "{farthest_m} m, {} m", tree.reach_m);
+        }
+    }
 }

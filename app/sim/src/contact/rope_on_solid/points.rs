@@ -16,9 +16,8 @@ const FOLLOWED_M: f64 = 0.05;
 /// Largest total stiffness of contact on a body, as a share of its mass over the step squared: rope and body respond to each other from
 /// iteration to iteration, which converges faster the softer the contact is.
 const BODY_SHARE: f64 = 0.3;
-/// While rope stays on a body, its contact stiffness rises by this factor at most in this time, as `1 + dt / STIFFER_S` in a step. The
-/// share above rises by the square of the step when steps become shorter, and rope that lies 10 mm deep in soft contact would be pushed
-/// out by ten times the force that it bore [s].
+/// While rope stays on a body, the bound of its stiffness rises by the factor `1 + dt / STIFFER_S` in a step at most. The share above grows
+/// with the inverse square of the step; without this limit, rope that lay in soft contact was thrown out when steps became shorter [s].
 const STIFFER_S: f64 = 0.5;
 
 /// A point of rope that may touch a solid.
