@@ -194,9 +194,21 @@ pub(super) fn value(fact: &Fact, gear: &Gear, part: Part<'_>, fishing: &Fishing)
     value.unwrap_or_else(|| Value::Unknown { kind: fact.kind, why: why() })
 }
 
+/// Why a value of the fishing is unknown: the option that gives it.
+pub(super) fn needs(name: &str) -> String {
+    format!("{NEEDS}{name}")
+}
+
+/// The values of the fishing that a reason asks for (see [`needs`]), such as `distance`.
+pub(super) fn needed(why: &str) -> impl Iterator<Item = &str> {
+    why.split("; ").filter_map(|reason| reason.strip_prefix(NEEDS))
+}
+
+const NEEDS: &str = "needs --";
+
 fn of_fishing(fact: &Fact, fishing: &Fishing) -> Option<Value> {
     let known = if fact.name == "depth" { fishing.depth_m } else { fishing.distance_m };
-    let missing = || format!("needs --{}", fact.name);
+    let missing = || needs(fact.name);
     let unknown = || Value::Unknown { kind: fact.kind, why: missing() };
     Some(known.map_or_else(unknown, |length| Value::measure(length, Quantity::Length)))
 }

@@ -6,7 +6,7 @@ use endline_gear::{Assembled, Date, Library, Options, Rule, Scenario, Setting, a
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::facts::NETTING;
+use super::facts::{NETTING, needed};
 use super::gear::{Gear, gear_of};
 use super::packs::Packs;
 use super::verdict::{RuleResult, Verdict, of};
@@ -128,16 +128,13 @@ impl RuleSheet {
 
     /// What is missing for verdicts on rules that bind; `None` if all of them were checked.
     pub fn missing(&self) -> Option<String> {
-        const NEEDS: &str = "needs --";
         let open: Vec<&RuleResult> =
             self.with(Verdict::CannotBeChecked).filter(|rule| rule.binding).collect();
         let (by_place, by_gear): (Vec<&RuleResult>, Vec<&RuleResult>) =
-            open.into_iter().partition(|rule| rule.why.contains(NEEDS));
-        let mut names: Vec<&str> = Vec::new();
-        for name in by_place.iter().flat_map(|rule| rule.why.split("; ")) {
-            let name = name.strip_prefix(NEEDS);
-            names.extend(name.filter(|name| !names.contains(name)));
-        }
+            open.into_iter().partition(|rule| needed(&rule.why).next().is_some());
+        let mut names: Vec<&str> = by_place.iter().flat_map(|rule| needed(&rule.why)).collect();
+        names.sort_unstable();
+        names.dedup();
         let counted = |count: usize| match count {
             1 => "1 needs".to_owned(),
             count => format!("{count} need"),

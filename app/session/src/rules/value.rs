@@ -139,7 +139,7 @@ impl Default for Value {
 }
 
 impl Compared {
-    /// A number of the comparison in its unit, such as `60 ft` or `1,700 lbf`; `none` for one that is infinite.
+    /// A number of the comparison in its unit, such as `60 ft` or `1,700 lbf`, without a unit for a specific gravity; `none` for one that is infinite.
     pub fn text(&self, si: f64) -> String {
         if !si.is_finite() {
             return "none".to_owned();
@@ -153,18 +153,14 @@ impl Compared {
         let scale = 10f64.powf(digits);
         let rounded = (number * scale).round() / scale * factor;
         grouped(&match unit {
-            Some(unit) if unit.name() == SPECIFIC_GRAVITY => {
-                format!("specific gravity {}", (number * scale).round() / scale)
-            }
-            Some(unit) => units::format(rounded, unit),
-            None => format!("{}", (number * scale).round() / scale),
+            Some(unit) if unit.name() != SPECIFIC_GRAVITY => units::format(rounded, unit),
+            _ => format!("{}", (number * scale).round() / scale),
         })
     }
 
     /// What the comparison asks, such as `at most 1,700 lbf allowed`.
     fn asks(&self) -> String {
-        let whole = self.text(self.right);
-        let limit = whole.strip_prefix("specific gravity ").unwrap_or(&whole);
+        let limit = self.text(self.right);
         match self.sign {
             "<=" => format!("at most {limit} allowed"),
             ">=" => format!("at least {limit} required"),
@@ -177,13 +173,15 @@ impl Compared {
     }
 }
 
-/// Name of the unit of specific gravity.
+/// Unit of specific gravity, which is written before the number.
 const SPECIFIC_GRAVITY: &str = "SG";
 
 /// Writes measured value and limit, such as `2,440 lbf; at most 1,700 lbf allowed`.
 impl std::fmt::Display for Compared {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}; {}", self.text(self.left), self.asks())
+        let is_gravity = self.unit.is_some_and(|unit| unit.name() == SPECIFIC_GRAVITY);
+        let name = if is_gravity { "specific gravity " } else { "" };
+        write!(f, "{name}{}; {}", self.text(self.left), self.asks())
     }
 }
 

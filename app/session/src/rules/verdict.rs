@@ -1,11 +1,11 @@
 //! One rule on one assembly: whether it applies, the measured values, the verdict.
 
-use endline_gear::units::{Quantity, find, format_si};
+use endline_gear::units::{self, Quantity, find, format_si};
 use endline_gear::{At, Diagnostic, Rule, RulePack, Subject};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::facts::{Part, of_subject, value};
+use super::facts::{Part, needs, of_subject, value};
 use super::gear::Gear;
 use super::packs::expression;
 use super::sheet::Fishing;
@@ -68,7 +68,7 @@ pub struct Measured {
     /// The line that the rule was checked on; empty for the gear as a whole.
     #[serde(skip)]
     pub line: String,
-    /// The comparison in words, such as `57 ft <= 60 ft`.
+    /// The comparison in words, such as `57 ft; at most 60 ft allowed`.
     pub says: String,
     /// The measured value in SI units; none where there is none.
     pub value: Option<f64>,
@@ -166,30 +166,37 @@ fn applies(rule: &Rule, gear: &Gear, fishing: &Fishing, around: &[&str]) -> Opti
     {
         return not(format!("applies to {least} to {most} traps, not {traps}"));
     }
-    within("distance", rule.distance_m, fishing.distance_m)
-        .or_else(|| within("depth", rule.depth_m, fishing.depth_m))
+    within(("distance", "nmi"), rule.distance_m, fishing.distance_m)
+        .or_else(|| within(("depth", "ft"), rule.depth_m, fishing.depth_m))
 }
 
 fn list(areas: &[At<String>]) -> String {
     areas.iter().map(|area| area.value.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// Why a range keeps a rule from applying, or leaves it in doubt.
-fn within(name: &str, range: Option<[f64; 2]>, given: Option<f64>) -> Option<Found> {
+/// Why a range keeps a rule from applying, or leaves it in doubt; `unit` is that of the range in messages.
+fn within(
+    (name, unit): (&str, &str),
+    range: Option<[f64; 2]>,
+    given: Option<f64>,
+) -> Option<Found> {
     let [least, most] = range?;
     let Some(value) = given else {
-        return Some(Found::because(Verdict::CannotBeChecked, format!("needs --{name}")));
+        return Some(Found::because(Verdict::CannotBeChecked, needs(name)));
     };
-    let unit = find(if name == "distance" { "nmi" } else { "ft" }, Quantity::Length);
-    let length = |length_m: f64| match unit {
-        Some(unit) => {
-            format!("{} {}", (length_m / unit.factor() * 10.0).round() / 10.0, unit.name())
+    let unit = find(unit, Quantity::Length);
+    let length = |length_m| {
+        unit.map_or_else(
+            || format_si(length_m, Quantity::Length),
+            |unit| units::format(length_m, unit),
+        )
+    };
+    let why = || {
+        if most.is_finite() {
+            format!("applies at a {name} from {} to {}", length(least), length(most))
+        } else {
+            format!("applies at a {name} of {} and more", length(least))
         }
-        None => format_si(length_m, Quantity::Length),
-    };
-    let why = || match most.is_finite() {
-        true => format!("applies at a {name} from {} to {}", length(least), length(most)),
-        false => format!("applies at a {name} of {} and more", length(least)),
     };
     (!(least..most).contains(&value)).then(|| Found::because(Verdict::NotApplicable, why()))
 }
