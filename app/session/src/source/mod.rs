@@ -10,7 +10,7 @@ use endline_gear::limits::{Beyond, STEP, amount};
 use endline_gear::units::Quantity;
 use endline_gear::{
     Assembled, Diagnostic, Document, EditError, Library, Options, Scenario, Setting, Sources,
-    StrengthBudget, assemble_traced, library_field,
+    StrengthBudget, assemble_traced, hint, library_field,
 };
 use endline_sdk::Descriptor;
 use endline_sim::Model;
@@ -86,6 +86,36 @@ pub fn prepare(
     Source::read(scenario, library, overrides)?.prepare_with_clips(host)
 }
 
+/// Why a field cannot be set, and how to correct it.
+pub(crate) struct FieldError {
+    pub message: String,
+    pub help: String,
+}
+
+/// Sets a field of a scenario, or of a library file as `ropes/sink-3-8.strength`.
+pub(crate) fn set_field(
+    scenario: &mut Document,
+    library: &mut Sources,
+    field: &str,
+    value: &Setting,
+) -> Result<(), FieldError> {
+    let failed =
+        |error: EditError, help: &str| FieldError { message: error.message, help: help.to_owned() };
+    let Some((file, own)) = library_field(field) else {
+        let help =
+            "name a field of the scenario by its dotted path, such as gear.0.attributes.buoy";
+        return scenario.put(field, value).map_err(|error| failed(error, help));
+    };
+    let Some(text) = library.get(&file) else {
+        let help = hint(&file, library.iter().map(|(path, _)| path));
+        return Err(FieldError { message: format!("the library has no file {file}"), help });
+    };
+    let mut item = Document::parse(text).map_err(|error| failed(error, "correct the file"))?;
+    item.put(own, value).map_err(|error| failed(error, "name a field of the item"))?;
+    library.set(file, item.text());
+    Ok(())
+}
+
 fn library_at(scenario: Option<&Path>, given: Option<&Path>) -> Result<Sources, Error> {
     let root: PathBuf = locate::library(scenario, given).map_err(Error::Message)?;
     Sources::from_folder(&root).map_err(Error::Diagnostics)
@@ -137,25 +167,16 @@ impl Source {
     /// `ropes/sink-3-8.strength`.
     /// Errors: a field that cannot be there, or a library file that does not exist.
     pub fn set(&mut self, changes: &[(String, Setting)]) -> Result<(), Error> {
-        for (field, value) in changes {
-            let failed = |error: EditError| Error::Message(error.message);
-            let put = |text: &str, field: &str| {
-                let mut document = Document::parse(text).map_err(failed)?;
-                document.put(field, value).map_err(failed)?;
-                Ok::<String, Error>(document.text())
-            };
-            let Some((file, own)) = library_field(field) else {
-                self.scenario = put(&self.scenario, field)?;
-                continue;
-            };
-            let Some(text) = self.library.get(&file) else {
-                let known = self.library.iter().map(|(path, _)| path);
-                let help = endline_gear::hint(&file, known);
-                return Err(Error::Message(format!("the library has no file {file}; {help}")));
-            };
-            let text = put(text, own)?;
-            self.library.set(file, text);
+        if changes.is_empty() {
+            return Ok(());
         }
+        let message =
+            |error: FieldError| Error::Message(format!("{}; {}", error.message, error.help));
+        let mut scenario = Document::parse(&self.scenario)?;
+        for (field, value) in changes {
+            set_field(&mut scenario, &mut self.library, field, value).map_err(message)?;
+        }
+        self.scenario = scenario.text();
         Ok(())
     }
 

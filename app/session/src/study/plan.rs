@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 
 use endline_gear::{
     Diagnostic, Document, EditError, Law, Level, OptionSetting, Prior, Sources, Study, StudyOption,
-    hint, library_field,
+    library_field,
 };
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
-use crate::source::{Prepared, Source};
+use crate::source::{Prepared, Source, set_field};
 
 use crate::encounters::equilibria::is_drawn_for_gear;
 use crate::encounters::priors::{field_of, put_drawn};
@@ -163,33 +163,15 @@ impl Base<'_> {
         scenario: &mut Document,
         sources: &mut Sources,
     ) -> Result<(), Error> {
-        let located = |field: &endline_gear::At<String>, error: EditError, help: &str| {
-            field.place.error(error.message, help)
-        };
         for field in &option.removes {
+            let help = "name a field of the baseline scenario";
             scenario
                 .remove(&field.value)
-                .map_err(|error| located(field, error, "name a field of the baseline scenario"))?;
+                .map_err(|error| field.place.error(error.message, help))?;
         }
         for setting in &option.settings {
-            let Some((file, field)) = setting.library_field() else {
-                let help = "name a field of the scenario by its dotted path, such as gear.0.attributes.buoy";
-                scenario
-                    .put(&setting.field.value, &setting.value)
-                    .map_err(|error| located(&setting.field, error, help))?;
-                continue;
-            };
-            let Some(text) = sources.get(&file) else {
-                let known: Vec<&str> = sources.iter().map(|(path, _)| path).collect();
-                let message = format!("the library has no file {file}");
-                return Err(setting.field.place.error(message, hint(&file, known)).into());
-            };
-            let mut item =
-                Document::parse(text).map_err(|error| located(&setting.field, error, ""))?;
-            item.put(field, &setting.value)
-                .map_err(|error| located(&setting.field, error, "name a field of the item"))?;
-            let text = item.text();
-            sources.set(file, text);
+            set_field(scenario, sources, &setting.field.value, &setting.value)
+                .map_err(|error| setting.field.place.error(error.message, error.help))?;
         }
         Ok(())
     }
