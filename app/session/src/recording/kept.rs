@@ -27,7 +27,7 @@ pub struct Kept {
     pub simulated_s: f64,
     /// Outcome by its name in results; none without a whale.
     pub outcome: Option<String>,
-    /// Whether the run was too short for a final outcome.
+    /// Whether the whale was held and the run too short for a final outcome.
     pub undecided: bool,
     /// Greatest tension of any line [N].
     pub greatest_tension_n: f64,
@@ -44,7 +44,7 @@ impl Kept {
             of,
             simulated_s,
             outcome: whale.map(|whale| whale.outcome.name().to_owned()),
-            undecided: whale.is_some_and(|whale| !whale.decided),
+            undecided: whale.is_some_and(|whale| whale.is_held() && !whale.decided),
             greatest_tension_n: lines.iter().map(|line| line.peak_tension_n).fold(0.0, f64::max),
             note: String::new(),
         }

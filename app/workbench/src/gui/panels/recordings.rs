@@ -149,8 +149,7 @@ fn ended(ui: &mut Ui, shared: &Shared, file: &Recorded) {
     let named = |outcome: &Outcome| kept.outcome.as_deref() == Some(outcome.name());
     if let Some(outcome) = Outcome::ALL.iter().copied().find(named) {
         let (mut words, mut help, mut colour) = words::outcome(outcome, palette);
-        let holds = matches!(outcome, Outcome::Entangled | Outcome::PartedEntangled);
-        if kept.undecided && holds {
+        if kept.undecided {
             ((words, help), colour) = (words::UNDECIDED, palette.faint);
         }
         ui.label(RichText::new(words).color(colour)).on_hover_text(help);

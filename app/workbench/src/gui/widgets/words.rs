@@ -89,8 +89,7 @@ pub fn outcome_at(
     palette: Palette,
 ) -> (String, &'static str, Color32) {
     let (words, meaning, colour) = outcome(whale.outcome, palette);
-    let holds = matches!(whale.outcome, Outcome::Entangled | Outcome::PartedEntangled);
-    if whale.decided || !holds {
+    if whale.decided || !whale.is_held() {
         return (words.to_owned(), meaning, colour);
     }
     let touches = whale.regions.iter().any(|part| part.touching);
