@@ -57,9 +57,9 @@ use rounds::{DRAWS_AT_ONCE, Rounds};
 /// Default number of draws from the priors before the first local search.
 pub const DEFAULT_NET: usize = 128;
 
-/// Number of runs in a search of this many at most: the first draws come in whole rounds, and so may have more.
-pub fn whole_rounds(trials: usize) -> usize {
-    if trials < DEFAULT_NET { trials.next_multiple_of(DRAWS_AT_ONCE as usize) } else { trials }
+/// Number of runs in a search of `trials` runs at least. The first `net` draws are made in whole rounds, so that there may be more.
+pub fn whole_rounds(trials: usize, net: usize) -> usize {
+    trials.max(net.min(trials.min(net).next_multiple_of(DRAWS_AT_ONCE as usize)))
 }
 
 /// The extent of a search.
@@ -119,9 +119,7 @@ fn rounds_of<'a>(
     mut progress: impl FnMut(Progress),
 ) -> Result<Rounds<'a>, Error> {
     let mut rounds = Rounds::new(question, effort.net);
-    // The round that reaches the number of trials is finished, so that there may be more.
-    let first = rounds.first_draws(effort.trials).last().map_or(0, |part| part.end as usize);
-    let mut planned = effort.trials.max(first);
+    let mut planned = whole_rounds(effort.trials, effort.net);
     control.begin(Count::of(planned), Count::default());
     let mut report = |rounds: &Rounds<'_>, of: usize| {
         progress(Progress {

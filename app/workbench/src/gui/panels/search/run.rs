@@ -6,7 +6,7 @@ use egui::{DragValue, Label, ProgressBar, RichText, Ui};
 use endline_session::campaign::State;
 use endline_session::command::SearchAction;
 use endline_session::search::job::SearchFound;
-use endline_session::search::{SearchJob, whole_rounds};
+use endline_session::search::{DEFAULT_NET, SearchJob, whole_rounds};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::shared::Shared;
@@ -79,7 +79,7 @@ fn effort(ui: &mut Ui, shared: &mut Shared) {
             .on_hover_text(
                 "Number of runs wanted; increase it to continue. Runs are made in rounds, and the round that reaches this number is finished",
             );
-        let whole = whole_rounds(effort.trials);
+        let whole = whole_rounds(effort.trials, DEFAULT_NET);
         if whole != effort.trials {
             label(ui, &format!("({whole}: the first runs come in rounds of 32)"));
         }
