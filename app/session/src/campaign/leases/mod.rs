@@ -21,14 +21,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
 use endline_gear::read;
 
 use crate::error::Error;
+use crate::task::lock;
 
 use process::{BEAT, Place, Process, ProcessFile, SILENCE};
 
@@ -38,6 +39,8 @@ pub(crate) struct Leases {
     folder: PathBuf,
     process: Arc<Process>,
     heartbeat: Option<Heartbeat>,
+    /// Held by the thread that takes a lease, so that no other one reads a lease file that is being written.
+    taking: Mutex<()>,
 }
 
 /// The thread that shows other processes that this one is at work, until the sender is dropped.
@@ -93,11 +96,12 @@ impl Leases {
         let joined = fs::create_dir_all(&folder).and_then(|()| Process::begin(&folder, place));
         let process = joined
             .map_err(|error| Error::at(&folder, format!("cannot be written: {error}; each process on a study notes there which encounters it runs")))?;
-        Ok(Self { folder, process: Arc::new(process), heartbeat: None })
+        Ok(Self { folder, process: Arc::new(process), heartbeat: None, taking: Mutex::new(()) })
     }
 
     /// Leases one of the wanted blocks: one without a lease, else one whose process has ended.
     pub(crate) fn next(&self, wanted: &[u32]) -> Result<Next<'_>, Error> {
+        let _one_at_a_time = lock(&self.taking);
         self.take(wanted).map_err(Error::on(&self.folder, "cannot be used"))
     }
 
