@@ -38,6 +38,7 @@ struct Over {
 #[derive(FromPyObject)]
 enum Value {
     Flag(bool),
+    Integer(i64),
     Number(f64),
     Text(String),
     Texts(Vec<String>),
@@ -47,6 +48,7 @@ impl Value {
     fn setting(&self) -> Setting {
         match self {
             Self::Flag(flag) => Setting::plain(&flag.to_string()),
+            Self::Integer(integer) => Setting::plain(&integer.to_string()),
             Self::Number(number) => Setting::number(*number),
             Self::Text(text) => Setting::text(text),
             Self::Texts(texts) => Setting::texts(texts),
