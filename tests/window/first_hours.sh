@@ -104,7 +104,7 @@ hearing() {
     press 573 76                                            # area
     press 540 240; still 20                                 # Maine lobster zone B
     press 468 104; typed "5 nmi"; keys Return; still 10     # distance from shore
-    press 580 104; typed "30 fathom"; keys Return; still 20 # depth
+    press 580 104; keys ctrl+a; typed "30 fathom"; keys Return; still 20 # depth
     picture regulator-0-rules
     press 325 168                                           # Compliance sheet
     check "the trawl's sheet is written" "within 120 \"ls '$DATA'/studies/sheets/trawl-10-me-b-*.html >/dev/null 2>&1\""
