@@ -5,11 +5,9 @@
 
 mod driven;
 mod instructions;
-mod long_tests;
 mod materials;
 mod package;
 mod plugins;
-mod processors;
 mod python;
 mod run;
 mod system_packages;
@@ -85,14 +83,14 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["golden"] => Box::new(test::write_golden),
         [which @ ("fuzz" | "soak"), "--hours", hours] => {
             let hours: f64 = hours.parse().ok().filter(|hours| *hours > 0.0)?;
-            let test = if *which == "fuzz" { long_tests::fuzz } else { long_tests::soak };
+            let test = if *which == "fuzz" { test::fuzz } else { test::soak };
             Box::new(move |workspace| test(workspace, hours))
         }
         ["window"] => Box::new(driven::window),
         ["package"] => Box::new(package::package),
         ["slurm"] => Box::new(driven::slurm),
         ["windows"] => Box::new(driven::windows),
-        ["processors"] => Box::new(processors::emulate),
+        ["processors"] => Box::new(driven::emulate),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {
             Box::new(|workspace| plugins::build(workspace, Profile::Release))

@@ -1,5 +1,6 @@
 //! The program as its users call it: the command line, recordings, studies and cases.
 
+mod aim;
 mod alone;
 mod animation;
 mod cases;

@@ -13,23 +13,28 @@ use crate::error::Error;
 
 /// The lines of a model that a study aims at, in its order; a line made of pieces is all its pieces. All lines if it names none.
 pub(crate) fn lines_aimed_at(model: &Model, wanted: &[At<String>]) -> Result<Vec<usize>, Error> {
-    let ids = || model.spec.lines.iter().map(|line| line.id.as_str());
     if wanted.is_empty() {
-        return Ok((0..ids().count()).collect());
+        return Ok((0..model.spec.lines.len()).collect());
     }
     let mut lines = Vec::new();
     for id in wanted {
-        let is_piece =
-            |known: &str| known.strip_prefix(&id.value).is_some_and(|rest| rest.starts_with('.'));
-        let found = ids().enumerate().filter(|(_, known)| *known == id.value || is_piece(known));
-        let before = lines.len();
-        lines.extend(found.map(|(line, _)| line));
-        if lines.len() == before {
+        let own = lines_named(model, &id.value);
+        if own.is_empty() {
             let message = format!("the baseline's gear has no line `{}`", id.value);
-            return Err(id.place.error(message, hint(&id.value, ids())).into());
+            let known = model.spec.lines.iter().map(|line| line.id.as_str());
+            return Err(id.place.error(message, hint(&id.value, known)).into());
         }
+        lines.extend(own);
     }
     Ok(lines)
+}
+
+/// The lines of an id: the line itself, or the pieces of which it is made.
+pub(crate) fn lines_named(model: &Model, id: &str) -> Vec<usize> {
+    let is_piece = |known: &str| known.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
+    let lines = model.spec.lines.iter().enumerate();
+    let own = lines.filter(|(_, line)| line.id == id || is_piece(&line.id));
+    own.map(|(index, _)| index).collect()
 }
 
 /// East and north of the first of these lines at a depth, else of the node nearest to that depth [m].

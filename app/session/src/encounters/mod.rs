@@ -7,13 +7,15 @@
 //! | `fitted` | proposals fitted to the held encounters of earlier stages, and the mixture from which encounters are drawn |
 //! | `priors` | the fields that a prior sets in scenario and library |
 //! | `equilibria` | gear at rest in the sea of an encounter |
-//! | `aim` | the lines at which the whale is aimed, and its start |
+//! | `aim` | the lines at which the whales of a study are aimed, and their starts |
+//! | `meet` | the start from which a whale meets a line at a depth with a part of its body |
 
 pub(crate) mod aim;
 pub(crate) mod density;
 pub mod draw;
 pub(crate) mod equilibria;
 pub(crate) mod fitted;
+pub mod meet;
 pub(crate) mod priors;
 
 use endline_gear::Study;

@@ -22,7 +22,7 @@ pub struct Row {
     pub a: String,
     /// Of the run it is compared with.
     pub b: String,
-    /// A less B, the change since the run that was held; empty where one of them has no value.
+    /// A − B, the change since the run that was held; empty where one of them has no value.
     pub difference: String,
 }
 
@@ -100,7 +100,7 @@ fn row<S>(figure: &Figure<S>, sources: [Option<&S>; 2], units: Units, of: &str) 
     }
 }
 
-/// A less B with its sign, and as a share of B where that means something.
+/// A − B with its sign, and as a share of B where that means something.
 fn difference(a: &Value, b: &Value, text: &impl Fn(&Value) -> String) -> String {
     let (Some(now), Some(held)) = (a.number(), b.number()) else {
         return match (a, b) {

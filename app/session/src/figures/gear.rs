@@ -110,7 +110,7 @@ pub static LINE: &[Figure<Line>] = &[
     ),
     Figure::new(
         "twist",
-        "legs twisted",
+        "turns of its legs about each other",
         "Turns of its two legs about each other beyond the whale, at the end of the run; positive: \
          right-handed. Lines joined by splices are one rope.",
         Quantity::Turns,
@@ -119,7 +119,7 @@ pub static LINE: &[Figure<Line>] = &[
     .shown(&[Table, InSummary, Compare]),
     Figure::new(
         "peak_twist",
-        "legs twisted at most",
+        "greatest turns of its legs about each other",
         "Greatest magnitude of these turns at any time, with its sign.",
         Quantity::Turns,
         |line: &Line| line.summary.peak_twist.into(),

@@ -90,10 +90,15 @@ fn missing(opened: &PreparedStudy, folder: &Folder) -> Error {
     let named: Vec<String> = blocks.iter().take(20).map(u32::to_string).collect();
     let more =
         if blocks.len() > 20 { format!(" and {} more", blocks.len() - 20) } else { String::new() };
+    let first = folder.encounters_of(blocks.first().copied().unwrap_or_default()).start;
+    let so_far = match first {
+        0 => String::new(),
+        first => format!("\nadd `--encounters {first}` to merge the first {first} alone"),
+    };
     Error::at(
         &folder.path,
         format!(
-            "lacks {} of {} blocks of encounters: {}{more}\nrun `endline study run {} --out {}` to add them{}",
+            "lacks {} of {} blocks of encounters: {}{more}\nrun `endline study run {} --out {}` to add them{}{so_far}",
             blocks.len(),
             folder.blocks(),
             named.join(", "),

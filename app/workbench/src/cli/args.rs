@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use endline_gear::Setting;
+use endline_sdk::BodyPart;
 use endline_session::Overrides;
 use endline_session::plugins::{Language, PluginKind};
 
 use super::haul::HaulArgs;
 use super::mill::MillArgs;
 use super::output::Verbosity;
-use super::quantity::{body_length, force, step, time};
+use super::quantity::{body_length, force, length, step, time};
 use super::rules::RulesCommand;
 use super::search::SearchArgs;
 use super::sheet::SheetArgs;
@@ -322,6 +323,31 @@ pub(super) struct CheckArgs {
 pub(super) enum WhaleCommand {
     /// Write the skinned mesh of a whale in the library as glTF 2.0.
     Build(WhaleBuildArgs),
+    /// Compute the start from which a scenario's whale meets a line at a depth with a part of its body.
+    Aim(AimArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct AimArgs {
+    /// Scenario file, or a scenario of the gear library by its id.
+    pub(super) scenario: PathBuf,
+    /// Line to meet, such as endline-top.
+    #[arg(long, value_name = "ID")]
+    pub(super) line: String,
+    /// Depth of the place on the line, such as "5 fathom".
+    #[arg(long, value_name = "DEPTH", value_parser = length)]
+    pub(super) depth: f64,
+    /// Part of the body that meets it.
+    #[arg(long, value_name = "PART", value_parser = body_part)]
+    pub(super) part: BodyPart,
+    /// Way over the ground before the foremost skin reaches the line.
+    #[arg(long, value_name = "LENGTH", value_parser = length, default_value = "3 m")]
+    pub(super) gap: f64,
+    /// Print the result as one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) over: OverArgs,
 }
 
 #[derive(Debug, clap::Args)]
@@ -450,6 +476,11 @@ fn field_and_value(text: &str) -> Result<(String, Setting), String> {
         .filter(|(field, _)| !field.trim().is_empty())
         .ok_or_else(|| "expected FIELD=VALUE, such as current.speed=\"0.5 m/s\"".to_owned())?;
     Ok((field.trim().to_owned(), Setting::plain(value.trim())))
+}
+
+fn body_part(text: &str) -> Result<BodyPart, String> {
+    let named = BodyPart::ALL.into_iter().find(|part| part.name() == text);
+    named.ok_or_else(|| format!("expected one of {}", BodyPart::ALL.map(BodyPart::name).join(", ")))
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -11,7 +11,7 @@ use endline_session::study::threat::{STRENGTH_SCHEMA, StrengthThreats};
 
 use super::args::Args;
 use super::table::columns;
-use super::{Failure, output, replay, study, validate};
+use super::{Failure, output, replay, study, validate, whale};
 use crate::documents::{self, Document};
 
 /// The forms that only the command line writes.
@@ -27,6 +27,7 @@ static OWN: &[Form] = &[
         commands: &["study status"],
         schema: schema_of::<study::status::Status>,
     },
+    Form { name: whale::AIM, commands: &["whale aim"], schema: schema_of::<whale::AimedStart> },
     Form {
         name: STRENGTH_SCHEMA,
         commands: &["study threat"],

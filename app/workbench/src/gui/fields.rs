@@ -230,6 +230,18 @@ pub fn choose(
     choices: &[(String, String)],
     width: f32,
 ) -> Option<String> {
+    let field = Field { documents, path, field };
+    choose_described(ui, field, choices, str::to_owned, width)
+}
+
+/// Shows a choice of a field's value, with a description of each choice on hover; returns another value that is chosen.
+pub fn choose_described(
+    ui: &mut Ui,
+    Field { documents, path, field }: Field<'_>,
+    choices: &[(String, String)],
+    describe: impl Fn(&str) -> String,
+    width: f32,
+) -> Option<String> {
     let stored = documents.field(path, field).unwrap_or_default();
     let shown = choices
         .iter()
@@ -247,7 +259,7 @@ pub fn choose(
         .selected_text(selected);
     let response = combo.show_ui(ui, |ui| {
         for (id, name) in choices {
-            if ui.selectable_label(*id == stored, name).on_hover_text(id).clicked() {
+            if ui.selectable_label(*id == stored, name).on_hover_text(describe(id)).clicked() {
                 taken = Some(id.clone());
             }
         }
@@ -255,7 +267,9 @@ pub fn choose(
     outline(ui, &response.response, documents.problem_at(path, field));
     // A narrow panel truncates a long name.
     if !shown.is_empty() {
-        response.response.on_hover_text(shown);
+        let about = describe(&stored);
+        let about = if about == stored { String::new() } else { format!("\n{about}") };
+        response.response.on_hover_text(shown + about.trim_end());
     }
     taken.filter(|id| *id != stored)
 }

@@ -2,19 +2,91 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Document, Kind};
-use endline_session::locate;
-pub use endline_session::locate::{scenarios, studies};
+use egui::{ComboBox, PopupCloseBehavior, RichText, TextEdit, Ui};
+use endline_gear::Kind;
+pub use endline_session::locate::scenarios;
 
-/// File and name of each observation of a library.
-pub fn observations(root: &Path) -> Vec<(PathBuf, String)> {
-    let named = |path: PathBuf| {
-        let text = endline_gear::read::text(&path).ok();
-        let name = text.and_then(|text| Document::parse(&text).ok()?.get("name"));
-        let name = name.unwrap_or_else(|| stem(&path));
-        (path, name)
-    };
-    locate::observations(root).into_iter().map(named).collect()
+use super::theme::Theme;
+
+/// A file in a list, under the heading of its subject.
+#[derive(Clone, Debug)]
+pub struct Listed {
+    /// Heading.
+    pub heading: &'static str,
+    /// The file.
+    pub path: PathBuf,
+    /// Its name.
+    pub name: String,
+}
+
+/// A choice among files by name, under headings, with a text box that filters them. The files are read when the list opens.
+#[derive(Debug, Default)]
+pub struct FileChooser {
+    listed: Option<Vec<Listed>>,
+    sought: String,
+}
+
+/// Greatest height of the list of files [points].
+const LIST_HEIGHT: f32 = 460.0;
+
+impl FileChooser {
+    /// Draws the choice, with the name of the present file; returns another file that is chosen.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        (id, width): (&str, f32),
+        (present, name): (Option<&Path>, &str),
+        list: impl FnOnce() -> Vec<Listed>,
+    ) -> Option<PathBuf> {
+        let combo = ComboBox::from_id_salt(id)
+            .width(width)
+            .height(LIST_HEIGHT)
+            .truncate()
+            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+            .selected_text(name);
+        let open = combo.show_ui(ui, |ui| {
+            let is_new = self.listed.is_none();
+            let listed = self.listed.get_or_insert_with(list);
+            let edit = TextEdit::singleline(&mut self.sought).hint_text("Search by name");
+            let edit = ui.add(edit.desired_width(f32::INFINITY));
+            if is_new {
+                edit.request_focus();
+            }
+            let chosen = rows(ui, listed, &self.sought, present);
+            if chosen.is_some() {
+                ui.close();
+            }
+            chosen
+        });
+        if open.inner.is_none() {
+            (self.listed, self.sought) = (None, String::new());
+        }
+        open.inner.flatten().filter(|chosen| Some(chosen.as_path()) != present)
+    }
+}
+
+/// Draws the files whose names or ids contain all words sought; returns the one that is clicked.
+fn rows(ui: &mut Ui, listed: &[Listed], sought: &str, present: Option<&Path>) -> Option<PathBuf> {
+    let words: Vec<String> = sought.to_lowercase().split_whitespace().map(str::to_owned).collect();
+    let (mut heading, mut chosen) = ("", None);
+    for file in listed {
+        let (name, id) = (file.name.to_lowercase(), stem(&file.path));
+        if !words.iter().all(|word| name.contains(word) || id.contains(word.as_str())) {
+            continue;
+        }
+        if file.heading != heading {
+            heading = file.heading;
+            ui.label(RichText::new(heading).small().color(Theme::palette_of(ui).faint));
+        }
+        let own = present == Some(file.path.as_path());
+        if ui.selectable_label(own, &file.name).on_hover_text(id).clicked() {
+            chosen = Some(file.path.clone());
+        }
+    }
+    if heading.is_empty() {
+        ui.label(RichText::new("No name contains these words.").color(Theme::palette_of(ui).faint));
+    }
+    chosen
 }
 
 /// Name of a file without folder and extension.

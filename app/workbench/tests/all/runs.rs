@@ -202,7 +202,7 @@ fn a_run_compared_with_itself_has_no_differences_and_with_another_has_some() {
         "{all:?}"
     );
     only(&mut harness, PanelId::Compare);
-    assert!(harness.query_all_by_label("A less B").next().is_some(), "the table is on screen");
+    assert!(harness.query_all_by_label("A − B").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
     harness.run_steps(3);
     assert!(harness.workbench().comparison().is_none());

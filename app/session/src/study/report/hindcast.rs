@@ -58,9 +58,9 @@ pub fn markdown(opened: &PreparedStudy, findings: &Findings) -> String {
     // Writing to a text cannot fail.
     let _ = writeln!(
         text,
-        "`{}`, {} encounters, program {}, study hash `{}`.\n{} observations: {} agree, {} miss, {} are not settled, {} are decided by construction and test nothing.\n",
+        "`{}`, {}, program {}, study hash `{}`.\n{} observations: {} agree, {} miss, {} are not settled, {} are decided by construction and test nothing.\n",
         opened.study.id,
-        findings.encounters,
+        findings.extent(),
         crate::VERSION,
         &findings.hash[..16],
         findings.observations.len(),

@@ -3,7 +3,7 @@
 use askama::Template;
 
 use crate::study::prepared::PreparedStudy;
-use crate::study::stats::{Findings, OptionFinding, answer, resolution};
+use crate::study::stats::{Findings, OptionFinding, answer, observed, resolution};
 
 use super::hauled::HauledLoad;
 use super::words::event_words;

@@ -2,6 +2,7 @@
 //! it is in counts of whales (`verdict.rs`).
 //!
 //! A second list of sentences reports how often segments near the whale were longer than requested, and what this does to the rates.
+//! A last one counts the observations of real whales with which the study agrees.
 //!
 //! An option differs from the baseline if the 95 % interval of their difference in the same encounters excludes zero. If
 //! several registered comparisons are made, Holm's probability is beside it.
@@ -11,7 +12,7 @@
 
 use endline_gear::StudyEvent;
 
-use super::{Findings, Paired, ResolutionChecks, verdict};
+use super::{Agreement, Findings, Paired, ResolutionChecks, verdict};
 
 /// Encounters below which a study is called small.
 const SMALL: u64 = 314;
@@ -173,6 +174,28 @@ pub fn resolution(findings: &Findings) -> Vec<String> {
     };
     let coarser = coarser(&checks, findings.baseline);
     std::iter::once(share).chain(effects(findings)).chain(coarser).collect()
+}
+
+/// How the study's shares compare with what was observed on real whales; `None` without an observation that tests anything.
+pub fn observed(findings: &Findings) -> Option<String> {
+    let with = |wanted: Agreement| {
+        let all = findings.observations.iter().filter(move |seen| seen.agreement == wanted);
+        all.map(|seen| seen.id.as_str()).collect::<Vec<_>>()
+    };
+    let [agreed, missed, open] = [Agreement::Agrees, Agreement::Misses, Agreement::Open].map(with);
+    let all = agreed.len() + missed.len() + open.len();
+    let named = |ids: &[&str]| match ids {
+        [] => "none".to_owned(),
+        ids => format!("{} ({})", ids.len(), ids.join(", ")),
+    };
+    (all > 0).then(|| {
+        format!(
+            "Of {all} observations of real whales, this study agrees with {}, misses {} and does not settle {}.",
+            named(&agreed),
+            named(&missed),
+            if open.is_empty() { "none".to_owned() } else { open.len().to_string() }
+        )
+    })
 }
 
 /// The share of missed checks over all options, with the least and the greatest of one; `None` without a check.

@@ -11,6 +11,7 @@ use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::{RunRow, Runs};
 use crate::table::Column;
+use crate::units::grouped;
 
 use super::bands::{self, Bands};
 use super::changes::Changes;
@@ -41,6 +42,8 @@ pub struct Findings {
     pub hash: String,
     /// Encounters in the table.
     pub encounters: u64,
+    /// Encounters of the study, the first of which are in the table.
+    pub planned: u64,
     /// Name of the event options are ranked by.
     pub event: String,
     /// The registration before the first run.
@@ -158,6 +161,17 @@ impl Findings {
         options.filter(|(index, _)| *index != self.baseline).map(|(_, option)| option)
     }
 
+    /// The number of encounters, such as `600 encounters` or `the first 195 of 1,800 encounters`.
+    pub fn extent(&self) -> String {
+        let [done, planned] =
+            [self.encounters, self.planned].map(|count| grouped(&count.to_string()));
+        match self.encounters {
+            1 if self.planned <= 1 => "1 encounter".to_owned(),
+            fewer if fewer < self.planned => format!("the first {done} of {planned} encounters"),
+            _ => format!("{done} encounters"),
+        }
+    }
+
     /// The findings of a study's runs; `registration` is that of its folder.
     pub fn of(opened: &PreparedStudy, runs: &Runs, registration: &Registration) -> Self {
         let order = opened.reading_order();
@@ -183,6 +197,7 @@ impl Findings {
             study: opened.study.id.clone(),
             hash: opened.hash.clone(),
             encounters: runs.encounters() as u64,
+            planned: opened.study.encounters,
             event: event.name(),
             registration: registration.clone(),
             comparisons,

@@ -28,7 +28,7 @@ mod weighted;
 #[cfg(test)]
 mod coverage;
 
-pub use answer::{answer, resolution};
+pub use answer::{answer, observed, resolution};
 pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};

@@ -18,7 +18,7 @@ use super::answer::{Asked, holm_words};
 use super::held_whales::{HeldWhales, OptionOnHeld};
 use super::strength_curve::{AskedStrength, StrengthCurve};
 use super::{Findings, Interval, Paired, Rate, z95};
-use crate::units::N_PER_LBF;
+use crate::units::{N_PER_LBF, grouped};
 
 /// Share of held whales that an option must free to be worth finding.
 pub const WORTH_FINDING: f64 = 0.3;
@@ -213,15 +213,7 @@ pub fn rounded(number: f64) -> String {
 
 /// A whole number with commas between thousands.
 fn thousands(number: f64) -> String {
-    let digits = format!("{number:.0}");
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
+    grouped(&format!("{number:.0}"))
 }
 
 #[cfg(test)]

@@ -38,6 +38,10 @@ pub(in crate::cli) struct StudyArgs {
     /// Folder of results [default: results/ followed by the study's id].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Number of encounters, in place of the number in its file. Encounters that are already in the folder of results are kept, so that
+    /// the number can be increased later.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(super) encounters: Option<u32>,
 }
 
 #[derive(Debug, Args)]
@@ -49,7 +53,7 @@ pub(in crate::cli) struct HindcastArgs {
     /// Folder of results of the study [default: results/ followed by its id], or the folder of these folders [default: results].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Encounters of each study, fewer than its file asks for.
+    /// Number of encounters of each study, if its file has more.
     #[arg(long, value_name = "N", conflicts_with = "study", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) encounters: Option<u32>,
     /// Run at normal priority instead of low priority.
@@ -134,6 +138,9 @@ pub(in crate::cli) struct ReportArgs {
     /// times.
     #[arg(long, value_name = "FILE.json")]
     pub(super) haul: Vec<PathBuf>,
+    /// Print all tables after the answer, as --verbose does.
+    #[arg(long)]
+    pub(super) all: bool,
     /// Print the findings as one JSON object.
     #[arg(long)]
     pub(super) json: bool,

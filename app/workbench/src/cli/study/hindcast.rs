@@ -27,7 +27,7 @@ pub(super) fn hindcast(args: &HindcastArgs, library: Option<&Path>) -> Result<Ex
 
 /// A merged study.
 fn of_one(study: &str, args: &HindcastArgs, library: Option<&Path>) -> Result<(), Failure> {
-    let at = StudyArgs { study: study.to_owned(), out: args.out.clone() };
+    let at = StudyArgs { study: study.to_owned(), out: args.out.clone(), encounters: None };
     let opened = open(&at, library)?;
     if opened.study.observations.is_empty() {
         return Err(Failure::usage(format!(
@@ -81,7 +81,7 @@ fn run(
     encounters: Option<u32>,
     library: Option<&Path>,
 ) -> Result<(PreparedStudy, Findings), Failure> {
-    let at = StudyArgs { study: file.display().to_string(), out: None };
+    let at = StudyArgs { study: file.display().to_string(), out: None, encounters: None };
     let mut opened = open(&at, library)?;
     if let Some(fewer) = encounters {
         opened.study.encounters = opened.study.encounters.min(fewer.into());

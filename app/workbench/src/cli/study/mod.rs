@@ -21,6 +21,7 @@ use endline_session::{json, locate, save};
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
 use self::status::Bar;
 use super::interrupt::Interrupt;
+use super::output::Verbosity;
 use super::{Failure, host, output, picture, table};
 
 /// Runs a study command.
@@ -126,7 +127,7 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     output::print(&if args.json {
         json::line(&findings) + "\n"
     } else {
-        words::findings(&opened, &findings)
+        words::findings(&opened, &findings, args.all || output::is_shown(Verbosity::Details))
     })?;
     Ok(ExitCode::SUCCESS)
 }
@@ -204,7 +205,11 @@ fn compare(
 /// Opens a study by its file or its id in the gear library.
 fn open(args: &StudyArgs, library: Option<&Path>) -> Result<PreparedStudy, Failure> {
     let path = locate::named(&args.study, "studies", library).map_err(Failure::failed)?;
-    Ok(PreparedStudy::open(&path, library, &host::load())?)
+    let mut opened = PreparedStudy::open(&path, library, &host::load())?;
+    if let Some(encounters) = args.encounters {
+        opened.study.encounters = encounters.into();
+    }
+    Ok(opened)
 }
 
 fn folder_of(args: &StudyArgs, opened: &PreparedStudy) -> PathBuf {

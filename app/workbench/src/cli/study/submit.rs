@@ -104,11 +104,13 @@ fn arguments(args: &SubmitArgs, library: Option<&Path>, folder: &Path) -> Result
     let study = locate::named(&args.at.study, "studies", library).map_err(Failure::failed)?;
     let root = locate::library(Some(&study), library).map_err(Failure::failed)?;
     let library = absolute(&root)?;
+    let encounters = args.at.encounters.map(|count| format!(" --encounters {count}"));
     Ok(format!(
-        "{} --library {} --out {}",
+        "{} --library {} --out {}{}",
         shell::path(&absolute(&study)?),
         shell::path(&library),
-        shell::path(folder)
+        shell::path(folder),
+        encounters.unwrap_or_default()
     ))
 }
 

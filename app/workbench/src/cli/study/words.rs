@@ -8,7 +8,7 @@ use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::{Cost, Forecast, duration_words};
 use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
-    Change, Findings, Interval, Rate, answer, resolution, rounded,
+    Change, Findings, Interval, Rate, answer, observed, resolution, rounded,
 };
 use endline_session::units::newtons_and_lbf;
 
@@ -161,20 +161,31 @@ pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> Str
     )
 }
 
-pub(super) fn findings(opened: &PreparedStudy, findings: &Findings) -> String {
+/// The answer in sentences, and the tables if `all` are asked for.
+pub(super) fn findings(opened: &PreparedStudy, findings: &Findings, all: bool) -> String {
     let mut text = format!(
-        "{}\n{} encounters; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
-        opened.study.name, findings.encounters
+        "{}\n{}; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
+        opened.study.name,
+        findings.extent()
     );
     for sentence in answer(findings, &findings.event) {
         text += &format!("{sentence}\n");
     }
-    for sentence in resolution(findings) {
+    for sentence in resolution(findings).into_iter().chain(observed(findings)) {
         text += &format!("{sentence}\n");
     }
     text += "\n";
     text += &freed(findings);
-    text += &rates(findings);
+    if all {
+        text + &tables(findings)
+    } else {
+        text + "All tables: the same command with --all, or the report.\n"
+    }
+}
+
+/// The tables of all findings.
+fn tables(findings: &Findings) -> String {
+    let mut text = rates(findings);
     text += &registered(findings).iter().map(|event| compared(findings, event)).collect::<String>();
     text += &several_differences(
         findings.options.iter().map(|option| (option.id.as_str(), option.differs_in.clone())),

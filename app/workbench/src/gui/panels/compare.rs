@@ -4,6 +4,7 @@ use crate::gui::command::action::PanelAction;
 use crate::gui::widgets::command;
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
+use endline_session::edit::Documents;
 use endline_session::figures::compare::{Group, SAME, groups};
 use endline_session::live::{LiveView, Status};
 
@@ -33,9 +34,11 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("A").strong());
-        ui.label(shared.workbench.scenario_stem());
+        let name = shared.documents().field(Documents::SCENARIO, "name");
+        let name = name.unwrap_or_else(|| shared.workbench.scenario_stem());
+        ui.label(format!("{name} (solid in plots)"));
         ui.label(RichText::new("B").strong());
-        ui.label(&other.name);
+        ui.label(format!("{} (dashed)", other.name));
     });
     let (Some(a), Some(b)) = (shared.workbench.view().cloned(), other.view.clone()) else {
         return widgets::nothing(ui, "Assembling the model …");
@@ -79,7 +82,7 @@ fn table(ui: &mut Ui, (head, rows): &Group) {
     Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(
         ui,
         |ui| {
-            for text in ["", "A", "B", "A less B"] {
+            for text in ["", "A", "B", "A − B"] {
                 ui.label(RichText::new(text).small().color(palette.faint));
             }
             ui.end_row();

@@ -28,12 +28,12 @@ pub struct HelpPanel;
 impl Panel for HelpPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-            about::show(ui, shared);
-            widgets::caption(ui, "Files");
-            ui.label("Gear is text in the folder of the library: one TOML file per item, with values such as \"3/8 in\" or \"1700 lbf\".");
             for when in When::ALL.iter().copied() {
                 table(ui, when.title(), &keys(when));
             }
+            widgets::caption(ui, "Files");
+            ui.label("Gear is text in the folder of the library: one TOML file per item, with values such as \"3/8 in\" or \"1700 lbf\".");
+            about::show(ui, shared);
         });
     }
 }

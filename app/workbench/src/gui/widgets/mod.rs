@@ -5,8 +5,8 @@ pub mod plot;
 pub mod words;
 
 use egui::{
-    Align2, Button, FontId, Grid, Id, Label, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2,
-    vec2,
+    Align, Align2, Button, FontId, Grid, Id, Label, Rect, Response, RichText, Sense, Ui, UiBuilder,
+    Vec2, vec2,
 };
 use endline_gear::Diagnostic;
 use endline_session::command::{Command, EditAction};
@@ -31,6 +31,13 @@ pub fn name(ui: &mut Ui, text: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(84.0, 20.0), Sense::hover());
     let (colour, font) = (Theme::palette_of(ui).faint, FontId::proportional(13.0));
     ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
+}
+
+/// Draws a label of a fixed width that may be truncated, with the whole of it and a help on hover.
+pub fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
+    let label = Label::new(RichText::new(text).color(Theme::palette_of(ui).faint)).truncate();
+    let size = vec2(150.0, 20.0);
+    ui.add_sized(size, label.halign(Align::Min)).on_hover_text(format!("{text}\n{help}"));
 }
 
 /// Draws the reason why a panel is empty.

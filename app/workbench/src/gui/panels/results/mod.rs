@@ -11,7 +11,7 @@ use std::sync::Arc;
 use egui::{ComboBox, Label, RichText, ScrollArea, Ui};
 use endline_gear::StudyEvent;
 use endline_session::shell;
-use endline_session::study::stats::answer;
+use endline_session::study::stats::{answer, observed, resolution};
 use endline_session::study::{ResultsReader, StudyResults};
 use strum::{IntoStaticStr, VariantArray};
 
@@ -78,6 +78,11 @@ impl Panel for ResultsPanel {
             for sentence in answer(&shown.findings, &event) {
                 ui.add(Label::new(RichText::new(sentence).strong()).wrap());
             }
+            let limits = resolution(&shown.findings).into_iter().chain(observed(&shown.findings));
+            let faint = Theme::palette_of(ui).faint;
+            for sentence in limits {
+                ui.add(Label::new(RichText::new(sentence).small().color(faint)).wrap());
+            }
             ui.add_space(4.0);
         }
         let scrolled = |ui: &mut Ui, draw: &dyn Fn(&mut Ui)| {
@@ -128,12 +133,7 @@ impl ResultsPanel {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(&study.name).strong()).on_hover_text(&study.notes);
             let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
-            let state = if shown.whole { "" } else { ", so far" };
-            let text = format!(
-                "{} {}{state}; {invalid} invalid runs excluded",
-                findings.encounters,
-                if findings.encounters == 1 { "encounter" } else { "encounters" }
-            );
+            let text = format!("{}; {invalid} invalid runs excluded", findings.extent());
             ui.label(RichText::new(text).color(if shown.whole {
                 palette.faint
             } else {

@@ -1,16 +1,19 @@
 //! The scenario of a run as a form: gear, sea, whale, friction, weak links, run.
 
+mod aim;
 mod attributes;
 mod links;
 
 use crate::gui::command::action::{PanelAction, ViewAction};
-use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
+use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
 use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::problems::message;
 use endline_session::edit::{Documents, scenario};
 
+use crate::gui::files::FileChooser;
 use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panels::start::{What, files_by_subject};
 use crate::gui::scenario_fields::{FLAGS, Flag, RUN, Row, SEA, SWIMS, TIDE, WAVES, WHALE};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
@@ -24,17 +27,20 @@ const NAME_WIDTH: f32 = 74.0;
 
 /// The fields of the scenario.
 #[derive(Debug, Default)]
-pub struct ScenarioPanel;
+pub struct ScenarioPanel {
+    aim: aim::AimForm,
+    files: FileChooser,
+}
 
 impl Panel for ScenarioPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        show(ui, shared);
+        pick(ui, shared, &mut self.files);
+        show(ui, shared, &mut self.aim);
     }
 }
 
-/// Draws the scenario panel.
-fn show(ui: &mut Ui, shared: &mut Shared) {
-    pick(ui, shared);
+/// Draws the fields of the scenario.
+fn show(ui: &mut Ui, shared: &mut Shared, aim: &mut aim::AimForm) {
     let foot = 34.0;
     ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(
         ui,
@@ -43,7 +49,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
             gear(ui, shared, &mut edits);
             sea(ui, shared, &mut edits);
             if shared.documents().field(Documents::SCENARIO, "whale.item").is_some() {
-                whale(ui, shared, &mut edits);
+                whale(ui, shared, aim, &mut edits);
             }
             links::show(ui, shared, &mut edits);
             widgets::caption(ui, "Run");
@@ -61,25 +67,19 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 }
 
 /// Draws the choice of a scenario of the library.
-fn pick(ui: &mut Ui, shared: &mut Shared) {
+fn pick(ui: &mut Ui, shared: &mut Shared, chooser: &mut FileChooser) {
     let path = shared.documents().scenario_path().to_owned();
     let mark = if shared.documents().is_unsaved(Documents::SCENARIO) { "• " } else { "" };
-    let width = ui.available_width() - 8.0;
-    let shown = format!("{mark}{}", files::stem(&path));
-    ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
-        ui,
-        |ui| {
-            for file in files::scenarios(shared.documents().root()) {
-                if ui.selectable_label(file == path, files::stem(&file)).clicked() && file != path {
-                    shared.give(EditAction::OpenScenario(file));
-                }
-            }
-        },
-    );
-    if let Some(name) = shared.documents().field(Documents::SCENARIO, "name") {
-        let notes = shared.documents().field(Documents::SCENARIO, "notes").unwrap_or_default();
-        let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
-        ui.add(label).on_hover_text(notes);
+    let name = shared.documents().field(Documents::SCENARIO, "name");
+    let shown = format!("{mark}{}", name.unwrap_or_else(|| files::stem(&path)));
+    let (root, width) = (shared.documents().root().to_owned(), ui.available_width() - 8.0);
+    let list = || files_by_subject(&root, What::Scenario);
+    if let Some(file) = chooser.show(ui, ("scenario", width), (Some(&path), &shown), list) {
+        shared.give(EditAction::OpenScenario(file));
+    }
+    if let Some(notes) = shared.documents().field(Documents::SCENARIO, "notes") {
+        let notes = RichText::new(notes).color(Theme::palette_of(ui).faint);
+        ui.add(egui::Label::new(notes).truncate());
     }
 }
 
@@ -117,7 +117,7 @@ fn sea(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     rows(ui, shared, "waves", WAVES, edits);
 }
 
-fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
+fn whale(ui: &mut Ui, shared: &mut Shared, aim: &mut aim::AimForm, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Whale");
     let field = |field: &str| shared.documents().field(Documents::SCENARIO, field);
     let dead = field("whale.state").as_deref() == Some("dead");
@@ -136,6 +136,9 @@ fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
             );
         }
         mouth(ui, shared, edits);
+    }
+    if !dead {
+        aim::show(ui, shared, aim);
     }
     let mut posing = shared.posing;
     if ui

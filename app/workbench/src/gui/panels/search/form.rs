@@ -6,6 +6,7 @@ use endline_sdk::Side;
 use endline_session::command::EditAction;
 use endline_session::edit::observation::{Range, Sighting};
 use endline_session::edit::{Documents, observation};
+use endline_session::locate;
 
 use crate::gui::fields::Said;
 use crate::gui::panels::search::{Edits, Words, ends, typed};
@@ -297,7 +298,7 @@ pub(super) fn show_case(ui: &mut Ui, text: &mut Typed, shared: &mut Shared, edit
     typed(ui, shared, "Length", "length", said("not known", help), edits);
     typed(ui, shared, "Notes", "notes", said("", "Remarks, shown in the report"), edits);
     widgets::caption(ui, "Search");
-    let studies = files::studies(shared.documents().root());
+    let studies = locate::studies(shared.documents().root());
     let studies: Vec<(String, String)> =
         studies.iter().map(|file| (files::stem(file), files::stem(file))).collect();
     choice(ui, shared, ("Encounters", "encounters"), &studies, edits);

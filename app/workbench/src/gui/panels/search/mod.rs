@@ -6,7 +6,7 @@ mod run;
 
 use std::path::{Path, PathBuf};
 
-use egui::{ComboBox, RichText, ScrollArea, Ui};
+use egui::{RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Document, Site};
 use endline_session::command::SearchAction;
 use endline_session::edit::Documents;
@@ -14,11 +14,13 @@ use endline_session::edit::observation::{self, Range};
 
 use crate::gui::command::action::WindowAction;
 use crate::gui::fields::{self, Said};
+use crate::gui::files::{self, FileChooser};
 use crate::gui::panel::Panel;
+use crate::gui::panels::start::{What, files_by_subject};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets;
 use crate::gui::widgets::command;
-use crate::gui::{files, widgets};
 
 /// Edits of the observation, each one step of undo.
 type Edits = Vec<Box<dyn FnOnce(&mut Document) -> Result<(), String>>>;
@@ -30,8 +32,7 @@ pub struct SearchPanel {
     /// Observation for which the part was selected.
     of: Option<PathBuf>,
     map: body::Map,
-    /// Observations of the library, by file and name, while the list of them is open.
-    listed: Option<Vec<(PathBuf, String)>>,
+    files: FileChooser,
     text: form::Typed,
 }
 
@@ -41,7 +42,7 @@ impl Default for SearchPanel {
             chosen: Site::Body,
             of: None,
             map: body::Map::default(),
-            listed: None,
+            files: FileChooser::default(),
             text: form::Typed::default(),
         }
     }
@@ -100,23 +101,11 @@ impl SearchPanel {
         );
         ui.horizontal_wrapped(|ui| {
             let width = (ui.available_width() - 224.0).max(120.0);
-            let combo = ComboBox::from_id_salt("observation").width(width).truncate();
-            let open = combo.selected_text(shown).show_ui(ui, |ui| {
-                let root = shared.documents().root();
-                let listed = self.listed.get_or_insert_with(|| files::observations(root));
-                let mut wanted = None;
-                for (file, name) in listed {
-                    let own = path.as_ref() == Some(file);
-                    let stem = files::stem(file);
-                    if ui.selectable_label(own, &*name).on_hover_text(stem).clicked() && !own {
-                        wanted = Some(file.clone());
-                    }
-                }
-                shared.commands.extend(wanted.map(|file| SearchAction::Open(file).into()));
-            });
-            if open.inner.is_none() {
-                self.listed = None;
-            }
+            let root = shared.documents().root().to_owned();
+            let list = || files_by_subject(&root, What::Observation);
+            let chosen =
+                self.files.show(ui, ("observation", width), (path.as_deref(), &shown), list);
+            shared.commands.extend(chosen.map(|file| SearchAction::Open(file).into()));
             command(ui, shared, "Open …", WindowAction::Ask("search.open-file"));
             command(ui, shared, "New", SearchAction::New);
             command(ui, shared, "Duplicate", SearchAction::Duplicate);

@@ -7,11 +7,11 @@ use endline_session::locate;
 use endline_session::sketch::Sketch;
 use strum::{IntoStaticStr, VariantArray};
 
-use crate::gui::files;
+use crate::gui::files::{self, Listed};
 
 /// Kind of a file, which decides where it opens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum What {
+pub enum What {
     /// A run.
     Scenario,
     /// Many runs of options.
@@ -130,16 +130,32 @@ pub(super) fn count(root: &Path) -> usize {
 
 /// Reads all items, in order of names. Files that cannot be read are left out; the panel Problems lists them.
 pub(super) fn all(root: &Path) -> Vec<Item> {
-    let of = |what, paths: Vec<PathBuf>| {
-        paths.into_iter().filter_map(move |path| read(root, what, path))
-    };
-    let mut items: Vec<Item> = of(What::Scenario, locate::scenarios(root))
-        .chain(of(What::Study, locate::studies(root)))
-        .chain(of(What::Observation, locate::observations(root)))
-        .collect();
+    let kinds = [What::Scenario, What::Study, What::Observation];
+    let mut items: Vec<Item> = kinds.into_iter().flat_map(|what| of_kind(root, what)).collect();
     // The simplest examples first.
     items.sort_by_key(|item| !files::stem(&item.path).starts_with("hello-"));
     items
+}
+
+/// The files of a kind by subject, in the order of the start page, each subject in order of names.
+pub fn listed(root: &Path, what: What) -> Vec<Listed> {
+    let mut items: Vec<Item> = of_kind(root, what).collect();
+    let place = |group: Group| Group::ALL.iter().position(|own| *own == group);
+    items.sort_by(|one, other| {
+        place(one.group).cmp(&place(other.group)).then_with(|| one.name.cmp(&other.name))
+    });
+    let row = |item: Item| Listed { heading: item.group.title(), path: item.path, name: item.name };
+    items.into_iter().map(row).collect()
+}
+
+/// Reads the items of a kind.
+fn of_kind(root: &Path, what: What) -> impl Iterator<Item = Item> {
+    let paths = match what {
+        What::Scenario => locate::scenarios(root),
+        What::Study => locate::studies(root),
+        What::Observation => locate::observations(root),
+    };
+    paths.into_iter().filter_map(move |path| read(root, what, path))
 }
 
 fn read(root: &Path, what: What, path: PathBuf) -> Option<Item> {

@@ -9,7 +9,8 @@ use egui::{
 };
 use endline_session::command::{EditAction, SearchAction, StudyAction};
 use endline_session::units::Units;
-use item::{Group, Item, What};
+use item::{Group, Item};
+pub use item::{What, listed as files_by_subject};
 
 use crate::gui::command::action::{FlightAction, PanelAction, WindowAction};
 use crate::gui::layout::Layout;

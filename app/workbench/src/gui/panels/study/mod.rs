@@ -9,33 +9,37 @@ use crate::gui::widgets::command;
 use endline_session::command::{EditAction, StudyAction};
 use std::path::Path;
 
-use egui::{ComboBox, RichText, ScrollArea, Ui};
+use egui::{RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Document, Setting, StudyEvent};
 use endline_session::edit::Documents;
 
 use crate::gui::fields::{self, Said};
+use crate::gui::files::{self, FileChooser};
 use crate::gui::layout::Layout;
 use crate::gui::panel::{Panel, PanelId};
+use crate::gui::panels::start::{What, files_by_subject};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
-use crate::gui::{files, widgets};
+use crate::gui::widgets;
 
 /// Edits of the study: dotted path and value as TOML; `None` removes the field.
 type Edits = Vec<(String, Option<Setting>)>;
 
 /// The designer of a study, and the queue.
 #[derive(Debug, Default)]
-pub struct StudyPanel;
+pub struct StudyPanel {
+    files: FileChooser,
+}
 
 impl Panel for StudyPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        pick(ui, shared, &mut self.files);
         show(ui, shared);
     }
 }
 
-/// Draws the study panel.
+/// Draws the study with its queue.
 fn show(ui: &mut Ui, shared: &mut Shared) {
-    pick(ui, shared);
     if shared.documents().text(Documents::STUDY).is_none() {
         widgets::nothing(
             ui,
@@ -73,30 +77,21 @@ fn apply(shared: &mut Shared, edits: Edits) {
     shared.alter(Documents::STUDY, change);
 }
 
-fn pick(ui: &mut Ui, shared: &mut Shared) {
+fn pick(ui: &mut Ui, shared: &mut Shared, chooser: &mut FileChooser) {
     let path = shared.documents().study_path().map(Path::to_owned);
     let mark =
         if path.is_some() && shared.documents().is_unsaved(Documents::STUDY) { "• " } else { "" };
     ui.horizontal(|ui| {
+        let name = shared.documents().field(Documents::STUDY, "name");
         let shown = path.as_deref().map_or_else(
             || "Select a study".to_owned(),
-            |path| format!("{mark}{}", files::stem(path)),
+            |path| format!("{mark}{}", name.unwrap_or_else(|| files::stem(path))),
         );
-        let width = ui.available_width() - 152.0;
-        ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
-            ui,
-            |ui| {
-                for file in files::studies(shared.documents().root()) {
-                    if ui
-                        .selectable_label(path.as_ref() == Some(&file), files::stem(&file))
-                        .clicked()
-                        && path.as_ref() != Some(&file)
-                    {
-                        shared.give(StudyAction::Open(file));
-                    }
-                }
-            },
-        );
+        let (root, width) = (shared.documents().root().to_owned(), ui.available_width() - 152.0);
+        let list = || files_by_subject(&root, What::Study);
+        if let Some(file) = chooser.show(ui, ("study", width), (path.as_deref(), &shown), list) {
+            shared.give(StudyAction::Open(file));
+        }
         command(ui, shared, "Open …", WindowAction::Ask("study.open-file"));
         command(ui, shared, "Duplicate", StudyAction::Duplicate);
     });
@@ -285,5 +280,54 @@ fn problems(ui: &mut Ui, shared: &Shared) {
     }
     if let Some(fault) = check.fault() {
         ui.label(RichText::new(fault).color(Theme::palette_of(ui).error));
+    }
+}
+
+/// A field of the scenario or of a library item in words, by its dotted path: `line.0.weak_places.strength` is
+/// `line 1, weak places: strength`.
+fn field_words(documents: &Documents, path: &str) -> String {
+    path_words(path, |item| documents.field(&format!("{item}.toml"), "name"))
+}
+
+fn path_words(path: &str, name_of: impl Fn(&str) -> Option<String>) -> String {
+    let path = path.replace('"', "");
+    let (item, field) = match path.split_once('.') {
+        Some((item, field)) if item.contains('/') => (Some(item), field),
+        _ => (None, path.as_str()),
+    };
+    let mut words: Vec<String> = Vec::new();
+    if let Some(item) = item {
+        words.push(name_of(item).unwrap_or_else(|| item.to_owned()));
+    }
+    for part in field.split('.').filter(|part| *part != "attributes") {
+        match (part.parse::<usize>(), words.last_mut()) {
+            (Ok(index), Some(before)) => before.push_str(&format!(" {}", index + 1)),
+            _ => words.push(part.replace('_', " ")),
+        }
+    }
+    match words.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, before)) => format!("{}: {last}", before.join(", ")),
+        None => path,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_of_fields_read_as_words() {
+        let name =
+            |item: &str| (item == "ropes/sink-3-8").then(|| "Sinking rope, 3/8 in".to_owned());
+        for (path, words) in [
+            ("tide", "tide"),
+            ("weak_links", "weak links"),
+            ("line.0.weak_places.strength", "line 1, weak places: strength"),
+            ("\"gear.0.attributes.buoy\"", "gear 1: buoy"),
+            ("ropes/sink-3-8.strength", "Sinking rope, 3/8 in: strength"),
+        ] {
+            assert_eq!(path_words(path, name), words);
+        }
     }
 }

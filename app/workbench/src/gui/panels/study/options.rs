@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Align, Frame, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Frame, Label, RichText, ScrollArea, TextEdit, Ui};
 use endline_gear::{Document, Kind, Setting};
 use endline_sdk::Attribute;
 use endline_session::command::StudyAction;
@@ -10,9 +10,10 @@ use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 
 use crate::gui::fields::Said;
-use crate::gui::panels::study::Edits;
+use crate::gui::panels::study::{Edits, field_words};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::words::capital;
 use crate::gui::widgets::{command, words};
 use crate::gui::{fields, scenario_fields, widgets};
 
@@ -161,8 +162,8 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
     for path in leaves {
         ui.horizontal_wrapped(|ui| {
             let shown = path.trim_start_matches(&table).trim_start_matches('.').replace('"', "");
-            ui.label(RichText::new(&shown).monospace())
-                .on_hover_text("Dotted path of a field of the scenario or of a library item");
+            let words = capital(&field_words(shared.documents(), &shown));
+            ui.add(Label::new(words).truncate()).on_hover_text(format!("Field: {shown}"));
             let width = (ui.available_size_before_wrap().x - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,

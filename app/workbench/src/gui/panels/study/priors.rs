@@ -4,11 +4,12 @@ use egui::{ComboBox, RichText, Ui};
 use endline_gear::Setting;
 use endline_session::edit::Documents;
 
-use super::Edits;
+use super::{Edits, field_words};
 use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
+use crate::gui::widgets::words::capital;
 
 /// Quantities of an encounter, each with its first distribution and values.
 const KNOWN: [(&str, &str, &str); 18] = [
@@ -83,7 +84,8 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         return;
     };
     ui.horizontal(|ui| {
-        widgets::name(ui, &name.replace('_', " ").replace('"', ""));
+        let words = capital(&field_words(shared.documents(), name));
+        widgets::name_with_help(ui, &words, name);
         laws(ui, &at, law, name, edits);
         match *law {
             "uniform" | "normal" => pair(ui, shared, &format!("{at}.{law}"), edits),

@@ -1,12 +1,13 @@
 //! Head-up display of the pilot: speed, depth, heading, attitude, greatest tension and its line, rope on each body part, mouth, flippers
 //! and the selected act.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, pos2, vec2};
+use egui::{Align2, Color32, FontId, Id, Key, Painter, Pos2, Rect, Ui, pos2, vec2};
 use endline_sdk::{BodyPart, Controls};
 use endline_session::live::{LiveView, Status};
 use endline_session::units::{Units, bearing_degrees};
 use endline_sim::{DQuat, DVec3};
 
+use crate::gui::panels::help;
 use crate::gui::widgets::words::spoken;
 use crate::input::Hands;
 
@@ -155,6 +156,48 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
     for (text, colour) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {
         line(painter, below, text, colour);
         below.y += 20.0;
+    }
+}
+
+/// Time for which the card of keys is shown when a flight begins [s].
+const CARD_S: f64 = 10.0;
+
+/// Whether the card of keys is shown: in the first seconds of a flight, and while the question mark is held.
+pub(super) fn shows_card(ui: &Ui, flying: bool) -> bool {
+    let id = Id::new("flight began");
+    if !flying {
+        ui.data_mut(|data| data.remove::<f64>(id));
+        return false;
+    }
+    let now_s = ui.input(|input| input.time);
+    let began_s = ui.data_mut(|data| *data.get_temp_mut_or(id, now_s));
+    now_s - began_s < CARD_S || ui.input(|input| input.key_down(Key::Questionmark))
+}
+
+/// Paints the keys of a flight at the bottom of the view, in columns of a function and its keys.
+pub(super) fn card(painter: &Painter, rect: Rect, rows: &[help::Row]) {
+    const COLUMN: f32 = 300.0;
+    const LINE: f32 = 17.0;
+    let columns = (((rect.width() - 24.0) / COLUMN) as usize).clamp(1, 3);
+    let lines = rows.len().div_ceil(columns);
+    let size = vec2(COLUMN * columns as f32 + 16.0, LINE * (lines as f32 + 1.0) + 14.0);
+    let plate = Rect::from_min_size(
+        pos2(rect.center().x - size.x / 2.0, rect.bottom() - size.y - 12.0),
+        size,
+    );
+    painter.rect_filled(plate, 6.0, Color32::from_black_alpha(175));
+    let [faint, bright] =
+        [Color32::from_rgb(0x9f, 0xb6, 0xbf), Color32::from_rgb(0xe8, 0xf2, 0xf4)];
+    let text = |at: Pos2, text: &str, colour: Color32| {
+        painter.text(at, Align2::LEFT_TOP, text, FontId::proportional(12.5), colour);
+    };
+    let corner = plate.left_top() + vec2(14.0, 7.0);
+    text(corner, "Keys of a flight; hold ? to see them again", faint);
+    for (index, row) in rows.iter().enumerate() {
+        let at =
+            corner + vec2(COLUMN * (index / lines) as f32, LINE * ((index % lines) as f32 + 1.0));
+        text(at, &row.keys, bright);
+        text(at + vec2(110.0, 0.0), &row.what, faint);
     }
 }
 

@@ -1,15 +1,17 @@
 //! Panes of the 3-D view: their arrangement, the mouse in them, and what is drawn over the scene.
 
 use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
+use endline_session::command::When;
 use endline_session::live::LiveView;
 use endline_session::scene::forces::greatest_n;
 
+use crate::gui::panels::help;
 use crate::gui::panels::view::{ViewPanel, hud, picking, pose, spoken};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::{Camera, Canvas, Overlay, Water, overlay};
 
-/// Least width of a pane that shows the force of its longest arrow [points].
+/// Least width of a pane that shows the greatest contact force [points].
 const ROOMY: f32 = 480.0;
 
 /// Camera of a pane and its response to the mouse.
@@ -162,6 +164,9 @@ fn paint_over(
                 + &hud::controls_text(&view.controls, act, shared.pilot.hands())),
         );
     }
+    if slot == panel.chosen && run == 0 && hud::shows_card(ui, shared.flying) {
+        hud::card(&painter, rect, &help::keys(When::Flying));
+    }
 }
 
 fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> String {
@@ -178,7 +183,10 @@ fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> S
     };
     let greatest_n = if panel.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
     let arrows = if greatest_n > 0.0 {
-        format!("longest arrow {}", shared.workbench.preferences().units.force().text(greatest_n))
+        format!(
+            "greatest contact force {}",
+            shared.workbench.preferences().units.force().text(greatest_n)
+        )
     } else {
         String::new()
     };

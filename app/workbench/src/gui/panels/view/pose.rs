@@ -8,7 +8,9 @@ use endline_gear::units::{Quantity, find, parse};
 use endline_gear::{Document, Setting};
 use endline_session::command::RunAction;
 use endline_session::edit::Documents;
+use endline_session::encounters::meet::{Path, path};
 use endline_session::units::{Units, bearing_degrees};
+use endline_sim::Model;
 use glam::{DVec2, DVec3};
 
 use super::pane::Pane;
@@ -19,6 +21,10 @@ use crate::scene::Camera;
 const GRIP: f32 = 11.0;
 /// Length if the scenario has none [m].
 const USUAL_LENGTH_M: f64 = 13.0;
+/// Length of the dashes of the path [m].
+const DASH_M: f64 = 0.7;
+/// Time for which the path is drawn if it passes no rope [s].
+const BEYOND_S: f64 = 30.0;
 const INK: Color32 = Color32::from_rgb(0xff, 0xc9, 0x7a);
 
 /// The start of a whale.
@@ -162,6 +168,12 @@ pub(super) fn show(
     let start = held.unwrap_or(written);
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
+    let units = shared.workbench.preferences().units;
+    if let Some(view) = shared.workbench.view()
+        && let Some(path) = path(&view.model, &view.frame, start.place, start.heading)
+    {
+        sheet.path(&start, &path, &view.model, units);
+    }
     let mut moved = None;
     for (handle, name) in [
         (Handle::Place, "Start place"),
@@ -185,7 +197,7 @@ pub(super) fn show(
         sheet.handle(handle, at, active);
         if active {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
-            sheet.label_start(&start, at, shared.workbench.preferences().units);
+            sheet.label_start(&start, at, units);
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
@@ -201,7 +213,7 @@ pub(super) fn show(
 }
 
 /// Writes the start as one edit; applies it immediately if the run has not started.
-fn write_start(shared: &mut Shared, start: &Start) {
+pub(in crate::gui::panels) fn write_start(shared: &mut Shared, start: &Start) {
     if !shared.alter(Documents::SCENARIO, |document| start.write(document)) {
         return;
     }
@@ -254,6 +266,31 @@ impl Sheet<'_> {
         self.line(start.place, DVec3::new(start.place.x, start.place.y, 0.0), 0.5);
     }
 
+    /// Draws the path over the ground, dashed, and the nearest rope on it with its distance from mid-body.
+    fn path(&self, start: &Start, path: &Path, model: &Model, units: Units) {
+        let speed_m_s = path.velocity_m_s.length();
+        let until_s = path.nearest.as_ref().map_or(BEYOND_S, |nearest| nearest.after_s + 2.0);
+        let dashes = (until_s * speed_m_s / (2.0 * DASH_M)).ceil().min(200.0) as u32;
+        let at = |way_m: f64| start.place + path.velocity_m_s * (way_m / speed_m_s);
+        for dash in 0..dashes {
+            let way_m = 2.0 * DASH_M * f64::from(dash);
+            self.line(at(way_m), at(way_m + DASH_M), 1.5);
+        }
+        let Some(nearest) = &path.nearest else { return };
+        let passes = at(nearest.after_s * speed_m_s);
+        self.line(passes, nearest.place_m, 1.0);
+        if let Some(at) = self.place(passes) {
+            let text = format!(
+                "passes {} from {}, {} deep, after {:.0} s",
+                units.length(nearest.distance_m),
+                model.spec.lines[nearest.line].id,
+                units.depth(-nearest.place_m.z),
+                nearest.after_s
+            );
+            self.label(text, at);
+        }
+    }
+
     fn handle(&self, handle: Handle, at: Pos2, active: bool) {
         let size = if active { 8.0 } else { 6.0 };
         let edge = Stroke::new(1.5, Color32::BLACK);
@@ -278,6 +315,11 @@ impl Sheet<'_> {
             units.length(y),
             units.depth(-z)
         );
+        self.label(text, at);
+    }
+
+    /// Draws a text on a dark plate beside a place on screen.
+    fn label(&self, text: String, at: Pos2) {
         let galley = self.painter.layout_no_wrap(text, FontId::proportional(12.5), INK);
         let wanted = at + vec2(14.0, 12.0);
         let left =
