@@ -12,7 +12,8 @@ pub fn newtons_and_lbf(newtons: f64, decimals: usize) -> String {
     if !newtons.is_finite() {
         return "none".to_owned();
     }
-    format!("{newtons:.decimals$} N ({:.decimals$} lbf)", newtons / N_PER_LBF)
+    let [si, pounds] = [newtons, newtons / N_PER_LBF].map(|force| rounded(force, decimals));
+    format!("{si} N ({pounds} lbf)")
 }
 
 /// Unit that forces are shown in.

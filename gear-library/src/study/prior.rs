@@ -43,13 +43,16 @@ pub enum Target {
 impl Prior {
     /// Its name in words: `flipper sweep`, `friction coefficient scale`.
     pub fn words(&self) -> String {
-        let parts = self
-            .name
-            .value
-            .split(['.', '/'])
-            .filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
-        parts.collect::<Vec<_>>().join(" ").replace('_', " ")
+        prior_words(&self.name.value)
     }
+}
+
+/// The name of a prior in words: `flipper sweep`, `friction coefficient scale`.
+pub fn prior_words(name: &str) -> String {
+    let parts = name
+        .split(['.', '/'])
+        .filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
+    parts.collect::<Vec<_>>().join(" ").replace('_', " ")
 }
 
 /// Reads the remaining tables of `[encounter]`, sorted by name.

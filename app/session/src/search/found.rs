@@ -92,7 +92,8 @@ fn story(
     tried: Option<&Tried<'_>>,
 ) -> Story {
     let question = rounds.question;
-    let Trial { distance, terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
+    let Trial { distance, mut terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
+    terms.sort_by(|(one, _), (other, _)| other.total_cmp(one));
     let drawn = Encounter::at_point(&question.opened.study, &elite.point).drawn;
     Story {
         first_part: kind.first_part.clone(),

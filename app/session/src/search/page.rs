@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use askama::Template;
-use endline_gear::{Observation, SeenSite};
+use endline_gear::{Observation, SeenSite, prior_words};
 
 use crate::encounters::in_words;
 use crate::error::Error;
@@ -28,6 +28,9 @@ struct Page<'a> {
     sections: Vec<Section>,
     /// The head of the search's hash.
     hash: &'a str,
+    seed: u64,
+    /// The command that makes the search again.
+    command: String,
 }
 
 /// A story with its terms and its drawn values.
@@ -52,6 +55,8 @@ pub fn write(
         stories,
         sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
         hash: &question.hash[..16],
+        seed: question.seed,
+        command: format!("endline search {} --trials {}", question.observation.id, stories.trials),
     };
     let html = page.render().map_err(Error::on(&file, "cannot be written"))?;
     save::atomically(&file, html.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
@@ -143,7 +148,8 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Section {
         .iter()
         .map(|(cost, says)| vec![format!("{cost:.2}").into(), says.clone().into()]);
     let drawn = story.drawn.iter().map(|(name, text)| {
-        vec![Cell { lines: vec![Line::Code(name.clone())] }, in_words(text).into()]
+        let text = if text.contains(' ') { in_words(text) } else { text.replace('-', " ") };
+        vec![prior_words(name).into(), text.into()]
     });
     Section {
         heading: format!(
@@ -153,7 +159,11 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Section {
         ),
         picture: folder.path.join(&picture).is_file().then_some(picture),
         terms: (!story.terms.is_empty()).then(|| {
-            Table::new("What is different from what was seen", &["cost", ""], terms.collect())
+            Table::new(
+                "What is different from what was seen, by cost",
+                &["cost", ""],
+                terms.collect(),
+            )
         }),
         drawn: Table::new("The encounter", &["drawn", ""], drawn.collect()),
     }

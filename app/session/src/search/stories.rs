@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 use super::distance::LIKE;
 use super::elites::INVALID;
 use super::posterior::Quantity;
+use crate::study::stats::Rate;
 
 /// Name and version of the JSON form.
 pub(super) const SCHEMA: &str = "endline.stories/1";
@@ -50,7 +51,7 @@ pub struct Story {
     pub course: &'static str,
     /// Distance of its ending from the observation.
     pub distance: f64,
-    /// The terms of the distance, each with its reason.
+    /// The terms of the distance, the greatest first, each with its reason.
     pub terms: Vec<(f64, String)>,
     /// Whether the mirror image of its ending is nearer to the observation.
     pub mirrored: bool,
@@ -155,6 +156,30 @@ impl Stories {
         found + &free
     }
 
+    /// The share of draws from the priors that end like the observation, with its uncertainty: Wilson's interval, or for none in `n` draws the
+    /// share `1 - 0.05^(1/n)` with which that has a probability of 5 %.
+    pub fn share_of_draws(&self) -> String {
+        let [like, all] = [self.net_like, self.net].map(|count| count as u64);
+        if all == 0 {
+            return "no draws were made".to_owned();
+        }
+        if like == 0 {
+            #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 draws")]
+            let most = 1.0 - libm::pow(0.05, 1.0 / all as f64);
+            return format!(
+                "0 of {all}; with 95 % confidence fewer than {:.1} % of draws do",
+                100.0 * most
+            );
+        }
+        let Rate { rate, interval, .. } = Rate::from_counts(like, all);
+        format!(
+            "{like} of {all}, {:.1} % [{:.1}, {:.1}]",
+            100.0 * rate,
+            100.0 * interval.low,
+            100.0 * interval.high
+        )
+    }
+
     /// The kinds that are not listed, in a sentence; `None` without any.
     pub fn free_in_words(&self) -> Option<String> {
         match self.free_kinds {
@@ -178,5 +203,27 @@ mod tests {
     fn an_invalid_finer_run_is_1000_in_json() {
         let runs = [Some(FinerRun::Invalid), Some(FinerRun::Distance(0.5)), None];
         assert_eq!(serde_json::to_string(&runs).unwrap(), "[1000.0,0.5,null]");
+    }
+
+    /// No draw of 64: `1 - 0.05^(1/64)` is 4.6 %, near the rule of three, 3/64. Wilson's interval of 3 in 64 is 1.6 to 12.9 %.
+    #[test]
+    fn the_share_of_draws_has_an_upper_limit() {
+        let stories = |net_like| Stories {
+            schema: SCHEMA,
+            observation: String::new(),
+            encounters: String::new(),
+            stories: Vec::new(),
+            free_kinds: 0,
+            trials: 64,
+            mean_simulated_s: 0.0,
+            net: 64,
+            net_like,
+            posterior: Vec::new(),
+        };
+        assert_eq!(
+            stories(0).share_of_draws(),
+            "0 of 64; with 95 % confidence fewer than 4.6 % of draws do"
+        );
+        assert_eq!(stories(3).share_of_draws(), "3 of 64, 4.7 % [1.6, 12.9]");
     }
 }

@@ -35,10 +35,16 @@ pub(super) fn check(args: &CheckArgs, library: Option<&Path>) -> Result<ExitCode
 fn words(paths: &[PathBuf], files: usize, problems: &[Diagnostic], errors: usize) -> String {
     let mut text: String = problems.iter().map(|problem| format!("{problem}\n\n")).collect();
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    let counted = |count: usize, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        count => format!("{count} {noun}s"),
+    };
     text += &format!(
-        "{}: {files} files checked, {errors} errors, {} warnings\n",
+        "{}: {} checked, {}, {}\n",
         names.join(", "),
-        problems.len() - errors
+        counted(files, "file"),
+        counted(errors, "error"),
+        counted(problems.len() - errors, "warning")
     );
     text
 }

@@ -128,8 +128,8 @@ fn words(stories: &Stories) -> String {
         like => format!("{like} kinds of story end like `{}`:\n", stories.observation),
     };
     let share = format!(
-        "{} of {} draws from the priors end like it (distance at most {LIKE})\n",
-        stories.net_like, stories.net
+        "draws from the priors that end like it (distance at most {LIKE}): {}\n",
+        stories.share_of_draws()
     );
     let listed: String =
         stories.stories.iter().enumerate().map(|(n, story)| one(n + 1, story, stories)).collect();

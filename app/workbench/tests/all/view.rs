@@ -407,7 +407,11 @@ fn the_camera_of_a_film_moves_from_key_to_key() {
     let notice = harness.notice();
     assert_eq!(notice.text, "the camera has no keys");
     set_keys(&mut harness);
-    harness.get_by_label("2 camera keys ⏷");
+    harness.get_by_label("Camera ⏷").click();
+    harness.run_steps(2);
+    harness.get_by_label("Keys set: 2");
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(2);
     let app = harness.state();
     let view = app.shared.workbench.view().unwrap();
     let seen = |time_s: f64| {

@@ -31,6 +31,9 @@ pub struct SobolIndex {
 impl SobolIndex {
     /// First-order Sobol index and its permutation baseline; an index below the baseline is omitted.
     pub fn words(&self) -> [String; 2] {
+        if self.index == 0.0 && self.by_chance == 0.0 {
+            return ["not known", "the event does not vary in these encounters"].map(str::to_owned);
+        }
         let by_chance = format!("{:.1} %", 100.0 * self.by_chance.max(0.0));
         if self.index > self.by_chance {
             [format!("{:.1} %", 100.0 * self.index), format!("by chance up to {by_chance}")]

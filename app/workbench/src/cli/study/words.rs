@@ -1,6 +1,6 @@
 //! Texts that the study commands print.
 
-use endline_gear::StudyEvent;
+use endline_gear::{Prior, StudyEvent};
 use endline_session::campaign::Count;
 use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
@@ -36,14 +36,17 @@ pub(super) fn plan(opened: &PreparedStudy) -> String {
     ]);
     text += &several_differences(opened.several_differences());
     let mut rows = vec![vec!["prior".to_owned(), "confidence".into(), "source".into()]];
-    rows.extend(study.priors.iter().map(|prior| {
-        vec![prior.name.value.clone(), prior.confidence.word().into(), prior.source.clone()]
-    }));
+    rows.extend(
+        study
+            .priors
+            .iter()
+            .map(|prior| vec![prior.words(), prior.confidence.word().into(), prior.source.clone()]),
+    );
     text += &columns(&rows);
     let mut rows = vec![
         ["encounter".to_owned()]
             .into_iter()
-            .chain(study.priors.iter().map(|prior| prior.name.value.clone()))
+            .chain(study.priors.iter().map(Prior::words))
             .collect::<Vec<_>>(),
     ];
     for index in 0..SHOWN.min(u32::try_from(study.encounters).unwrap_or(SHOWN)) {

@@ -271,7 +271,7 @@ fn story(ui: &mut Ui, shared: &mut Shared, found: &Stories, number: usize) {
     });
 }
 
-/// Draws the terms of the distance as bars, largest first; a line marks the cost above which one term alone is no match.
+/// Draws the terms of the distance as bars; a line marks the cost above which one term alone is no match.
 fn terms(ui: &mut Ui, story: &Story, palette: Palette) {
     if story.terms.is_empty() {
         ui.label(
@@ -280,10 +280,8 @@ fn terms(ui: &mut Ui, story: &Story, palette: Palette) {
         );
         return;
     }
-    let mut terms: Vec<&(f64, String)> = story.terms.iter().collect();
-    terms.sort_by(|one, other| other.0.total_cmp(&one.0));
-    let most = terms.iter().map(|(cost, _)| *cost).fold(LIKE, f64::max);
-    for (cost, says) in terms {
+    let most = story.terms.iter().map(|(cost, _)| *cost).fold(LIKE, f64::max);
+    for (cost, says) in &story.terms {
         ui.horizontal(|ui| {
             bar(ui, cost / most, LIKE / most, palette);
             ui.label(RichText::new(format!("{cost:.2}")).monospace());

@@ -1,11 +1,12 @@
 //! Attributes of motions and friction laws, as fields of the scenario with defaults; and the friction laws of rope on whale.
 
 use egui::{Grid, Label, RichText, Ui};
-use endline_gear::units::{Quantity, format_si};
+use endline_gear::units::{Quantity, find, format, format_si};
 use endline_gear::{Document, SURFACES};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::scenario::FRICTION_LAWS as ON;
 use endline_session::edit::{Documents, scenario};
+use endline_session::units::grouped;
 
 use crate::gui::panels::scenario::{Edit, name, name_with_help, problem};
 use crate::gui::shared::Shared;
@@ -99,12 +100,28 @@ fn help(attribute: &Attribute) -> String {
     format!("{}{range}", attribute.help)
 }
 
+/// A number with its unit and at most four digits; angles are in degrees.
 fn in_unit(value: f64, unit: &str) -> String {
-    let value = words::rounded(value);
-    Quantity::from_si_unit(unit).map_or_else(
-        || format!("{value} {unit}").trim().to_owned(),
-        |quantity| format_si(value, quantity),
-    )
+    let Some(quantity) = Quantity::from_si_unit(unit) else {
+        return format!("{} {unit}", words::rounded(value)).trim().to_owned();
+    };
+    let degrees = match quantity {
+        Quantity::Angle => find("deg", quantity),
+        Quantity::TurnRate => find("deg/s", quantity),
+        _ => None,
+    };
+    let of_si = |si| degrees.map_or_else(|| format_si(si, quantity), |unit| format(si, unit));
+    let factor = degrees.map_or(1.0, |unit| unit.factor());
+    grouped(&of_si(to_digits(value / factor, 4) * factor))
+}
+
+/// A number rounded to some significant digits.
+fn to_digits(value: f64, digits: i32) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let scale = 10f64.powi(digits - 1 - value.abs().log10().floor() as i32);
+    (value * scale).round() / scale
 }
 
 /// A change of the friction laws for single surfaces.
@@ -193,4 +210,21 @@ fn surfaces(documents: &Documents, table: &str) -> String {
         documents.field(Documents::SCENARIO, &format!("{table}.surfaces.{index}"))
     });
     words.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_unit;
+
+    #[test]
+    fn angles_are_in_degrees_and_numbers_have_four_digits() {
+        for (value, unit, text) in [
+            (0.174_532_925, "rad/s", "10 deg/s"),
+            (0.26, "rad", "14.9 deg"),
+            (1e7, "N/m2", "10,000,000 N/m2"),
+            (1.0 / 3.0, "m", "0.3333 m"),
+        ] {
+            assert_eq!(in_unit(value, unit), text);
+        }
+    }
 }

@@ -5,7 +5,7 @@ mod attributes;
 mod links;
 
 use crate::gui::command::action::{PanelAction, ViewAction};
-use egui::{Grid, RichText, ScrollArea, Ui};
+use egui::{CollapsingHeader, Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
 use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::problems::message;
@@ -127,13 +127,11 @@ fn whale(ui: &mut Ui, shared: &mut Shared, aim: &mut aim::AimForm, edits: &mut V
     if !dead {
         rows(ui, shared, "swims", SWIMS, edits);
         if let Some(motion) = motion {
-            attributes::show(
-                ui,
-                shared,
-                "whale.attributes",
-                &motion.descriptor().attributes,
-                edits,
-            );
+            let attributes = &motion.descriptor().attributes;
+            let folded = CollapsingHeader::new("Motion in detail").id_salt("motion");
+            folded.show(ui, |ui| {
+                attributes::show(ui, shared, "whale.attributes", attributes, edits);
+            });
         }
         mouth(ui, shared, edits);
     }

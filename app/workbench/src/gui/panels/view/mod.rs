@@ -112,8 +112,8 @@ impl ViewPanel {
                 self.look(view);
             }
         }
-        let of_whale = if follow { spoken(named) } else { "Whale".into() };
-        ui.menu_button(format!("{of_whale} ⏷"), |ui| {
+        // Titles of menus do not change, so that no button moves.
+        let of_whale = ui.menu_button("Whale ⏷", |ui| {
             for view in View::OF_WHALE {
                 if ui.selectable_label(follow && named == view, spoken(view)).clicked() {
                     self.look(view);
@@ -121,23 +121,23 @@ impl ViewPanel {
                 }
             }
         });
+        let now = if follow { format!("{} now", spoken(named)) } else { String::new() };
+        of_whale.response.on_hover_text(format!("Views that go with the whale\n{now}").trim_end());
         if ui.button("Frame").on_hover_text("Show everything (F)").clicked() {
             self.frame();
         }
         command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
         command(ui, shared, "Film …", WindowAction::Ask("view.save-film"));
         self.keys(ui, shared);
-        let several =
-            if count == 1 { "1 view ⏷".to_owned() } else { format!("{count} views ⏷") };
-        ui.menu_button(several, |ui| {
-            for count in 1..=MOST_PANES {
-                let text = if count == 1 {
+        ui.menu_button("Views ⏷", |ui| {
+            for panes in 1..=MOST_PANES {
+                let text = if panes == 1 {
                     "One view".to_owned()
                 } else {
-                    format!("{count} views at once")
+                    format!("{panes} views at once")
                 };
-                if ui.button(text).clicked() {
-                    shared.give(ViewAction::Split(count));
+                if ui.selectable_label(panes == count, text).clicked() {
+                    shared.give(ViewAction::Split(panes));
                     ui.close();
                 }
             }
@@ -146,17 +146,13 @@ impl ViewPanel {
 
     /// Draws the menu of camera keys for a film.
     fn keys(&mut self, ui: &mut Ui, shared: &mut Shared) {
-        let keys = match self.path.times().len() {
-            0 => "Camera ⏷".to_owned(),
-            1 => "1 camera key ⏷".to_owned(),
-            count => format!("{count} camera keys ⏷"),
-        };
+        let count = self.path.times().len();
         let help = "The camera of a film moves from key to key: choose a view and a moment, set a key, then go to the next moment.";
-        let menu = ui.menu_button(keys, |ui| {
+        let menu = ui.menu_button("Camera ⏷", |ui| {
+            ui.label(format!("Keys set: {count}"));
             command(ui, shared, "Set a camera key here", ViewAction::SetKey);
             command(ui, shared, "Clear the camera keys", ViewAction::ClearKeys);
-            let any = self.path.times().len() > 0;
-            ui.add_enabled(any, egui::Checkbox::new(&mut self.along, "Preview the film"))
+            ui.add_enabled(count > 0, egui::Checkbox::new(&mut self.along, "Preview the film"))
                 .on_hover_text("The active pane shows the camera of the film");
         });
         menu.response.on_hover_text(help);
