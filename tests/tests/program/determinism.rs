@@ -96,3 +96,38 @@ fn dropping_the_workspace_between_steps_changes_no_bit() {
     }
     assert_eq!(StateHash::of(&Input::default(), &kept).parts[1..], run.state_hash().parts[1..]);
 }
+
+/// A moment of a run, continued with a pilot program that has one more entry later, has the hashes of a run with that program from the
+/// start; a program whose memory cannot be known from the moment is refused.
+#[test]
+fn another_pilot_program_continues_from_a_moment_as_from_the_start() {
+    let place = Place::new("repiloted");
+    let file = place.encounter();
+    let with = |entry: &str| {
+        let other = place.folder.join("other.toml");
+        let text = std::fs::read_to_string(&file).unwrap();
+        std::fs::write(&other, format!("{text}\n[[whale.pilot]]\n{entry}\n")).unwrap();
+        prepared(&other.display().to_string())
+    };
+    let (before, after) = (prepared(&file), with("at = \"1.5 s\"\nyaw = 0.5"));
+    let mut run = Run::new(before, RunOptions::default()).unwrap();
+    (0..100).for_each(|_| run.step(run.pilot()).unwrap());
+    let moment = run.moment();
+    (100..STEPS).for_each(|_| run.step(run.pilot()).unwrap());
+    let inputs = run.inputs(120).unwrap();
+
+    let mut whole = Run::new(after.clone(), RunOptions::default()).unwrap();
+    let known = moment.clone().with_pilot_of(run.model(), &after.model).unwrap();
+    let mut continued = run.branched(&known, after).unwrap();
+    for (begun, of) in [(0, &mut whole), (100, &mut continued)] {
+        inputs[begun..].iter().for_each(|controls| of.step(*controls).unwrap());
+        (120..STEPS).for_each(|_| of.step(of.pilot()).unwrap());
+    }
+    assert_eq!(continued.state_hash(), whole.state_hash());
+    assert_ne!(continued.state_hash(), run.state_hash(), "the entry has an effect");
+
+    for unknown in ["touch = \"any\"\nyaw = 0.5", "at = \"0.5 s\"\nyaw = 0.5"] {
+        let other = with(unknown);
+        assert!(moment.clone().with_pilot_of(run.model(), &other.model).is_none(), "{unknown}");
+    }
+}

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use endline_sdk::BodyPart;
 use endline_sim::{ContactPoint, Frame, Model, State};
 
-use crate::run::Run;
+use crate::run::{Moment, Run};
 
 const PARTS: usize = BodyPart::ALL.len();
 
@@ -159,6 +159,11 @@ impl FrameHistory {
         }
     }
 
+    /// Drops the frames after a step.
+    pub(super) fn truncate(&mut self, step: u64) {
+        self.frames.retain(|frame| frame.step <= step);
+    }
+
     /// Every kept frame, in order.
     pub(super) fn all(&self) -> &[Arc<Frame>] {
         &self.frames
@@ -184,6 +189,66 @@ impl FrameHistory {
         self.frames
             .get(index.saturating_add_signed(isize::try_from(by).unwrap_or(0)).min(last))
             .cloned()
+    }
+}
+
+/// Simulated time between kept states of a run [s].
+const BETWEEN_STATES_S: f64 = 2.0;
+
+/// States kept at most; one of 800 nodes takes about half a megabyte.
+const MOST_STATES: usize = 64;
+
+/// A state of a run from which it can be continued, with what was stored of the run until then.
+#[derive(Clone)]
+pub(super) struct KeptState {
+    pub(super) moment: Moment,
+    /// Samples of each series.
+    pub(super) samples: usize,
+    pub(super) watch: Watch,
+    pub(super) peak_n: Vec<f64>,
+    pub(super) envelope: Envelope,
+}
+
+/// States of a run at an even stride of steps; where they are too many, every other one is dropped and the stride doubles.
+pub(super) struct KeptStates {
+    states: Vec<KeptState>,
+    stride: u64,
+}
+
+impl KeptStates {
+    /// No states; the first stride is two simulated seconds of a run with steps of this length [s].
+    pub(super) fn new(step_s: f64) -> Self {
+        Self { states: Vec::new(), stride: (BETWEEN_STATES_S / step_s).round().max(1.0) as u64 }
+    }
+
+    /// Whether the state of a step is one to keep.
+    pub(super) fn wants(&self, step: u64) -> bool {
+        step > 0 && step.is_multiple_of(self.stride)
+    }
+
+    /// Stores a state, later than all before.
+    pub(super) fn store(&mut self, state: KeptState) {
+        if self.states.len() >= MOST_STATES {
+            self.stride *= 2;
+            let stride = self.stride;
+            self.states.retain(|kept| (kept.moment.step() as u64).is_multiple_of(stride));
+        }
+        if self.wants(state.moment.step() as u64) {
+            self.states.push(state);
+        }
+    }
+
+    /// The last state at or before a step; those after it are dropped.
+    pub(super) fn back_to(&mut self, step: usize) -> Option<KeptState> {
+        self.states.truncate(self.states.partition_point(|kept| kept.moment.step() <= step));
+        self.states.last().cloned()
+    }
+
+    /// Replaces each moment by that of another model; those that are not known are dropped.
+    pub(super) fn convert(&mut self, other: impl Fn(Moment) -> Option<Moment>) {
+        let states = std::mem::take(&mut self.states).into_iter();
+        let converted = |kept: KeptState| Some(KeptState { moment: other(kept.moment)?, ..kept });
+        self.states = states.filter_map(converted).collect();
     }
 }
 
@@ -225,6 +290,16 @@ impl Series {
         if self.open.time_s.len() == CHUNK {
             self.full.push(Arc::new(std::mem::take(&mut self.open)));
         }
+    }
+
+    /// Drops all samples but the first.
+    pub(super) fn truncate(&mut self, first: usize) {
+        if let Some(chunk) = self.full.get(first / CHUNK) {
+            self.open = Chunk::clone(chunk);
+            self.full.truncate(first / CHUNK);
+        }
+        self.open.time_s.truncate(first % CHUNK);
+        self.open.values.truncate(first % CHUNK);
     }
 
     /// How many samples there are.

@@ -2,6 +2,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::*;
+use crate::run::Run;
 use crate::source::sample::hanging_rope;
 
 /// Waits until the view is as wanted; a live run that never gets there fails.
@@ -150,4 +151,31 @@ fn half_speed_waits_twice_as_long_and_lateness_is_forgotten() {
     assert_eq!(pace.wait(late, 10.5), Duration::ZERO);
     assert_eq!(pace.wait(late, 11.0), Duration::from_secs(1));
     assert_eq!(Pace::new(f64::INFINITY, start, 0.0).wait(start, 100.0), Duration::ZERO);
+}
+
+/// A run goes back to a moment from the last state kept before it, with the bits of a run from the start; its history ends there.
+#[test]
+fn a_moment_is_reached_again_with_the_same_bits() {
+    let live = open(12.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
+    until(&live, "the end", |view| view.status == Status::Finished);
+    for time_s in [11.5, 7.1, 7.1, 1.0] {
+        assert!(live.send(RunCommand::Seek(time_s)));
+        let sought = until(&live, "the moment", |view| view.sought);
+        let step = sought.frame.step;
+        assert!(live.send(RunCommand::Branch));
+        let view = until(&live, "the moment again", |view| {
+            view.status == Status::Paused && !view.sought && view.frame.step == step
+        });
+        let options = RunOptions { unsettled: true, ..RunOptions::default() };
+        let mut alone = Run::new(hanging_rope(12.0), options).unwrap();
+        (0..step).for_each(|_| alone.step(alone.pilot()).unwrap());
+        assert_eq!(view.state_hash, alone.state_hash().hex(), "{time_s} s");
+        assert_eq!(view.history.len(), view.tension.len());
+        let last_s = view.tension.samples(0).last().map_or(0.0, |(time_s, _)| time_s);
+        assert!((last_s - view.newest_s).abs() < 0.1, "{last_s} s, {} s", view.newest_s);
+        assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
+        until(&live, "the end", |view| view.status == Status::Finished);
+    }
 }

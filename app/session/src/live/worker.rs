@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use endline_sdk::Controls;
 use endline_sim::{Audit, Cost, Frame, State};
 
-use super::history::{Envelope, FrameHistory, Series, Watch};
+use super::history::{Envelope, FrameHistory, KeptState, KeptStates, Series, Watch};
 use super::{LiveView, Made, Pace, RunCommand, Status};
 use crate::error::Error;
 use crate::plugins::PluginHost;
@@ -105,6 +105,8 @@ struct Worker<'a> {
     watch: Watch,
     /// Greatest tension of each line since the last sample [N].
     peak_n: Vec<f64>,
+    /// States from which the run can be continued.
+    states: KeptStates,
     sought: Option<Arc<Frame>>,
     script: Option<Script>,
     envelope: Envelope,
@@ -137,6 +139,7 @@ impl<'a> Worker<'a> {
             history: Series::default(),
             watch: Watch::default(),
             peak_n: Vec::new(),
+            states: KeptStates::new(1.0),
             sought: None,
             script: None,
             envelope: Envelope::default(),
@@ -271,6 +274,7 @@ impl<'a> Worker<'a> {
         (self.tension, self.history) = (Series::default(), Series::default());
         self.watch = Watch::default();
         self.peak_n.clear();
+        self.states = KeptStates::new(run.step_s());
         self.envelope = Envelope::default();
         (self.sought, self.script) = (None, None);
         self.message = None;
@@ -314,6 +318,15 @@ impl<'a> Worker<'a> {
             self.history.push(run.state().time_s, self.watch.sample(run));
             self.frames.store(run.frame());
             self.tension.push(run.state().time_s, std::mem::take(&mut self.peak_n));
+        }
+        if self.states.wants(run.state().step) {
+            self.states.store(KeptState {
+                moment: run.moment(),
+                samples: self.tension.len(),
+                watch: self.watch.clone(),
+                peak_n: self.peak_n.clone(),
+                envelope: self.envelope.clone(),
+            });
         }
     }
 
@@ -374,8 +387,48 @@ struct Script {
 impl Worker<'_> {
     /// Runs inputs again from the start as fast as possible.
     fn run_again(&mut self, inputs: Vec<Controls>, on: bool) {
-        let speed = self.script.take().map_or(self.pace.speed(), |script| script.speed);
+        let speed = self.wanted_speed();
         self.reset();
+        self.play(inputs, on, speed);
+    }
+
+    /// Runs again up to the moment shown, from the last state kept before it.
+    fn branch(&mut self) {
+        let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
+        let (prepared, speed) = (self.prepared.clone(), self.wanted_speed());
+        match self.back_to_kept_state(inputs.len(), &prepared) {
+            Some(done) => self.play(inputs[done..].to_vec(), false, speed),
+            None => self.run_again(inputs, false),
+        }
+    }
+
+    /// Runs the inputs up to the moment shown in another model, whose pilot program steers from there. If the models differ in the pilot
+    /// program alone, the run continues from the last state kept before that moment.
+    fn rerun(&mut self, prepared: Prepared) {
+        let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
+        self.pilot = None;
+        let speed = self.wanted_speed();
+        if self.prepared.source.differs_in_pilot_alone(&prepared.source)
+            && let Some(done) = self.back_to_kept_state(inputs.len(), &prepared)
+        {
+            self.prepared = prepared;
+            self.play(inputs[done..].to_vec(), true, speed);
+            return;
+        }
+        self.load(prepared);
+        if !matches!(self.status, Status::Failed(_)) {
+            self.run_again(inputs, true);
+        }
+    }
+
+    /// The speed that the user has chosen, while inputs are run again too.
+    fn wanted_speed(&mut self) -> f64 {
+        self.script.take().map_or(self.pace.speed(), |script| script.speed)
+    }
+
+    /// Runs inputs as fast as possible, then pauses, or runs on at a speed.
+    fn play(&mut self, inputs: Vec<Controls>, on: bool, speed: f64) {
+        self.set_speed(speed);
         if !inputs.is_empty() {
             self.script = Some(Script { inputs: inputs.into_iter(), speed, on });
             self.start();
@@ -385,21 +438,21 @@ impl Worker<'_> {
         }
     }
 
-    /// Runs again up to the moment shown.
-    fn branch(&mut self) {
-        if let Some(inputs) = self.inputs_up_to_the_moment_shown() {
-            self.run_again(inputs, false);
-        }
-    }
-
-    /// Runs the inputs up to the moment shown in another model, whose pilot program steers from there.
-    fn rerun(&mut self, prepared: Prepared) {
-        let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
-        self.pilot = None;
-        self.load(prepared);
-        if !matches!(self.status, Status::Failed(_)) {
-            self.run_again(inputs, true);
-        }
+    /// Continues the run with a model from the last state kept at or before a step, which is returned; `None` if there is none.
+    fn back_to_kept_state(&mut self, step: usize, prepared: &Prepared) -> Option<usize> {
+        let before = Arc::clone(self.run.as_ref()?.model());
+        self.states.convert(|moment| moment.with_pilot_of(&before, &prepared.model));
+        let kept = self.states.back_to(step)?;
+        let run = self.run.as_ref()?.branched(&kept.moment, prepared.clone()).ok()?;
+        self.frames.truncate(run.state().step);
+        self.tension.truncate(kept.samples);
+        self.history.truncate(kept.samples);
+        (self.watch, self.peak_n, self.envelope) = (kept.watch, kept.peak_n, kept.envelope);
+        (self.sought, self.script, self.message) = (None, None, None);
+        self.controls = run.pilot();
+        self.run = Some(run);
+        self.status = Status::Paused;
+        Some(kept.moment.step())
     }
 
     /// None where they cannot be read again, which is reported.

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use endline_sdk::Controls;
 use endline_sim::balance::{Balance, BalanceSummary};
 use endline_sim::metrics::{Metrics, Summary};
+use endline_sim::whale::pilot::memory_for;
 use endline_sim::{
     Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle,
     step,
@@ -386,6 +387,17 @@ impl Moment {
     /// Steps so far.
     pub fn step(&self) -> usize {
         self.steps
+    }
+
+    /// The moment that a model with another pilot program would have had after the same inputs; `None` if it cannot be known from this one
+    /// alone ([`memory_for`]).
+    pub fn with_pilot_of(mut self, from: &Model, to: &Model) -> Option<Self> {
+        let (Some(before), Some(after)) = (&from.spec.whale, &to.spec.whale) else {
+            return Some(self);
+        };
+        let programs = [&before.pilot, &after.pilot];
+        self.state.pilot = memory_for(&self.state.pilot, programs, self.state.time_s)?;
+        Some(self)
     }
 }
 

@@ -86,6 +86,9 @@ pub fn prepare(
     Source::read(scenario, library, overrides)?.prepare_with_clips(host)
 }
 
+/// The pilot program in a scenario.
+const PILOT: &str = "whale.pilot";
+
 /// Why a field cannot be set, and how to correct it.
 pub(crate) struct FieldError {
     pub message: String,
@@ -161,6 +164,20 @@ impl Source {
     ) -> Result<Self, Error> {
         let library = library_at(None, library)?;
         Ok(Self { scenario_name: name.to_owned(), scenario: text, library, overrides })
+    }
+
+    /// Whether another source differs at most in the whale's pilot program.
+    pub fn differs_in_pilot_alone(&self, other: &Self) -> bool {
+        let without_pilot = |source: &Self| {
+            let mut document = Document::parse(&source.scenario).ok()?;
+            if document.has(PILOT) {
+                document.remove(PILOT).ok()?;
+            }
+            Some(document.text())
+        };
+        self.library == other.library
+            && self.overrides == other.overrides
+            && (self.scenario == other.scenario || without_pilot(self) == without_pilot(other))
     }
 
     /// Sets fields as the options of a study do: of the scenario, such as `current.speed`, or of a library file, such as

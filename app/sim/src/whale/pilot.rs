@@ -73,6 +73,36 @@ pub(crate) fn begin(model: &Model, state: &mut State) {
     poll(model, state);
 }
 
+/// The memory that another program would have at a moment if the same controls had been given until then; `None` if that cannot be known
+/// from this moment alone.
+///
+/// An entry that equals that of the same index has its memory. Of other entries only those are known that begin at a later time.
+pub fn memory_for(
+    memory: &PilotMemory,
+    [from, to]: [&PilotProgram; 2],
+    time_s: f64,
+) -> Option<PilotMemory> {
+    let is_kept = |index: usize| {
+        let entry = to.entries.get(index);
+        entry.is_some() && entry == from.entries.get(index)
+    };
+    let seen = |(index, entry): (usize, &PilotEntry)| match entry.trigger {
+        // The observation of an entry that follows another one is that entry's own.
+        Trigger::After(other) if is_kept(index) && is_kept(other) => {
+            memory.seen.get(index).copied()
+        }
+        Trigger::After(_) => None,
+        _ if is_kept(index) => memory.seen.get(index).copied(),
+        Trigger::Time(at_s) if at_s + entry.delay_s > time_s + GRACE_S => {
+            Some(Seen { met_s: Some(at_s), ..Seen::default() })
+        }
+        _ => None,
+    };
+    let seen = to.entries.iter().enumerate().map(seen).collect::<Option<Vec<Seen>>>()?;
+    let begun = memory.begun.iter().filter(|begun| is_kept(begun.entry)).copied().collect();
+    Some(PilotMemory { seen, begun })
+}
+
 /// Evaluates triggers at a new state and starts entries.
 pub(crate) fn poll(model: &Model, state: &mut State) {
     let Some(whale) = &model.spec.whale else { return };
