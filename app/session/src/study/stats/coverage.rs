@@ -71,6 +71,31 @@ fn rare_events_are_covered_too() {
     assert!((0.93..=0.97).contains(&share), "{share}");
 }
 
+/// A share of 15 % among 24 held whales whose weights differ by a factor of 90, as in `rope-strength`: the interval covers the truth at least
+/// as often as stated, and is narrower than that of a rate, which covers it always.
+#[test]
+fn shares_among_few_whales_of_unlike_weight_are_covered() {
+    const WEIGHTS: [f64; 8] = [0.03, 0.06, 0.1, 0.2, 0.3, 0.8, 1.4, 2.6];
+    let mut draws = Draws::of("among");
+    let (mut covered, mut widths) = ([0; 2], [0.0; 2]);
+    for _ in 0..STUDIES {
+        let whale = |_| {
+            let weight = WEIGHTS[draws.below(WEIGHTS.len())];
+            Some(EventIndicator { occurred: draws.below(100) < 15, weight })
+        };
+        let whales = EventIndicators((0..24).map(whale).collect());
+        for (place, rate) in [Rate::among(&whales), Rate::of(&whales)].into_iter().enumerate() {
+            let Interval { low, high } = rate.interval;
+            covered[place] += usize::from((low..=high).contains(&0.15));
+            widths[place] += (high - low) / STUDIES as f64;
+        }
+    }
+    let [among, of] = covered.map(|count| count as f64 / STUDIES as f64);
+    println!("covered {among}, {of}; widths {widths:?}");
+    assert!(among >= 0.95 && of >= among, "{among}, {of}");
+    assert!(widths[0] < 0.75 * widths[1], "{widths:?}");
+}
+
 /// The median of differences by drawing again: of a symmetric law about 3 the truth is 3.
 #[test]
 fn the_bootstrap_covers_the_truth() {

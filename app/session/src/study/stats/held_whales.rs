@@ -171,7 +171,7 @@ impl HeldWhales {
                 let held = indicator.filter(|indicator| indicator.occurred)?;
                 Some(EventIndicator { occurred: *known == Some(route), weight: held.weight })
             });
-            Rate::of(&EventIndicators(held.collect()))
+            Rate::among(&EventIndicators(held.collect()))
         };
         Some(Self {
             event: event.name(),
@@ -208,13 +208,13 @@ fn option_on_held(
     let held: f64 = freed.values().iter().map(|(_, weight)| weight).sum();
     let on = |route: Route| {
         let keep: Vec<bool> = routes.iter().map(|known| *known == Some(route)).collect();
-        Rate::of(&freed.within(&keep))
+        Rate::among(&freed.within(&keep))
     };
     let freed_by_route: Vec<Rate> = Route::ALL.map(on).into();
     OptionOnHeld {
         id: id.to_owned(),
         name: name.to_owned(),
-        freed: Rate::of(&freed),
+        freed: Rate::among(&freed),
         newly_held: Rate::of(&newly).hits,
         newly_held_share: if held > 0.0 { weight_of(&newly) / held } else { 0.0 },
         weighted: observed.and_then(|shares| Weighted::of(&freed_by_route, &shares)),

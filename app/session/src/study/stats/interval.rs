@@ -5,6 +5,9 @@
 //! small weights only. The interval is then extended to that of Fay and Feuer, which allows for one more event of the largest weight.
 //! With `y` the sum of the weights of events, `v` that of their squares and `w` the largest weight of any encounter, its upper end is the
 //! quantile of the gamma law of mean `y + w` and variance `v + w²`.
+//!
+//! For a share among encounters with a property, such as held whales, another encounter of the largest weight changes both counts. The
+//! interval is then extended to those of Wilson with one more such encounter, with the event and without it.
 //! Reference: Wilson 1927 (doi:10.1080/01621459.1927.10502953); Brown, Cai and DasGupta 2001 (doi:10.1214/ss/1009213286);
 //! Fay and Feuer 1997 (doi:10.1002/(SICI)1097-0258(19970415)16:7<791::AID-SIM500>3.0.CO;2-#).
 
@@ -78,6 +81,25 @@ impl Rate {
             }
             if are_few(&without) {
                 rate.interval.low = rate.interval.low.min(1.0 - most(&without));
+            }
+        }
+        rate
+    }
+
+    /// The share of encounters with an event among those that have another property; the indicators are of these alone.
+    pub fn among(indicators: &EventIndicators) -> Self {
+        let values = indicators.values();
+        let share = |values: &[(f64, f64)]| {
+            let hits = values.iter().filter(|(occurred, _)| *occurred > 0.0).count();
+            let WeightedMean { mean, effective } = WeightedMean::of(values);
+            Self::from_share(hits as u64, values.len() as u64, mean, effective)
+        };
+        let mut rate = share(&values);
+        if is_uneven(&values) {
+            let greatest = values.iter().map(|(_, weight)| *weight).fold(0.0, f64::max);
+            for occurred in [0.0, 1.0] {
+                let one_more = [values.as_slice(), &[(occurred, greatest)]].concat();
+                rate.interval = rate.interval.with(share(&one_more).interval);
             }
         }
         rate

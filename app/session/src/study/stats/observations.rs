@@ -84,11 +84,15 @@ pub(super) fn compare(
 ) -> ObservationFinding {
     let option = observation.option.as_deref().unwrap_or(baseline);
     let own = indicators(observation, runs, option);
-    let rate = Rate::of(&own);
+    let share = |own: &EventIndicators| match observation.among {
+        Some(_) => Rate::among(own),
+        None => Rate::of(own),
+    };
+    let rate = share(&own);
     let (rate, simulated, interval) = match &observation.fewer_with {
         None => (rate, (rate.runs > 0).then_some(rate.rate), rate.interval),
         Some(fewer) if observation.among.is_some() => {
-            fewer_apart(rate, Rate::of(&indicators(observation, runs, fewer)))
+            fewer_apart(rate, share(&indicators(observation, runs, fewer)))
         }
         Some(fewer) => fewer_by(&own, &indicators(observation, runs, fewer)),
     };

@@ -248,7 +248,7 @@ fn curve(
             let (needed_n, weight) = (*needed)?;
             (is_held(held, place)?).then(|| EventIndicator { occurred: occurs(needed_n), weight })
         };
-        Rate::of(&EventIndicators(needed.iter().enumerate().map(of).collect()))
+        Rate::among(&EventIndicators(needed.iter().enumerate().map(of).collect()))
     };
     let asked = asked_n.map(|strength_n| AskedStrength {
         strength_n,
