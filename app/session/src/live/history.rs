@@ -195,7 +195,7 @@ impl FrameHistory {
 /// Simulated time between kept states of a run [s].
 const BETWEEN_STATES_S: f64 = 2.0;
 
-/// States kept at most; one of 800 nodes takes about half a megabyte.
+/// States kept at most.
 const MOST_STATES: usize = 64;
 
 /// A state of a run from which it can be continued, with what was stored of the run until then.
@@ -292,14 +292,14 @@ impl Series {
         }
     }
 
-    /// Drops all samples but the first.
-    pub(super) fn truncate(&mut self, first: usize) {
-        if let Some(chunk) = self.full.get(first / CHUNK) {
+    /// Drops all samples after the first `count`.
+    pub(super) fn truncate(&mut self, count: usize) {
+        if let Some(chunk) = self.full.get(count / CHUNK) {
             self.open = Chunk::clone(chunk);
-            self.full.truncate(first / CHUNK);
+            self.full.truncate(count / CHUNK);
         }
-        self.open.time_s.truncate(first % CHUNK);
-        self.open.values.truncate(first % CHUNK);
+        self.open.time_s.truncate(count % CHUNK);
+        self.open.values.truncate(count % CHUNK);
     }
 
     /// How many samples there are.

@@ -197,7 +197,10 @@ impl<'a> Worker<'a> {
                 self.pause();
                 self.show_stored(|frames, now_s| frames.beside(now_s, by));
             }
-            RunCommand::Inputs(inputs) => self.run_again(inputs, false),
+            RunCommand::Inputs(inputs) => {
+                let speed = self.wanted_speed();
+                self.run_again(inputs, false, speed);
+            }
             RunCommand::Rerun(prepared) => self.rerun(*prepared),
             RunCommand::Program(thin) => self.make_program(thin),
             RunCommand::Branch => self.branch(),
@@ -385,9 +388,8 @@ struct Script {
 }
 
 impl Worker<'_> {
-    /// Runs inputs again from the start as fast as possible.
-    fn run_again(&mut self, inputs: Vec<Controls>, on: bool) {
-        let speed = self.wanted_speed();
+    /// Runs inputs again from the start as fast as possible, then pauses, or runs on at a speed.
+    fn run_again(&mut self, inputs: Vec<Controls>, on: bool, speed: f64) {
         self.reset();
         self.play(inputs, on, speed);
     }
@@ -398,7 +400,7 @@ impl Worker<'_> {
         let (prepared, speed) = (self.prepared.clone(), self.wanted_speed());
         match self.back_to_kept_state(inputs.len(), &prepared) {
             Some(done) => self.play(inputs[done..].to_vec(), false, speed),
-            None => self.run_again(inputs, false),
+            None => self.run_again(inputs, false, speed),
         }
     }
 
@@ -408,7 +410,7 @@ impl Worker<'_> {
         let Some(inputs) = self.inputs_up_to_the_moment_shown() else { return };
         self.pilot = None;
         let speed = self.wanted_speed();
-        if self.prepared.source.differs_in_pilot_alone(&prepared.source)
+        if self.prepared.differs_in_pilot_alone(&prepared)
             && let Some(done) = self.back_to_kept_state(inputs.len(), &prepared)
         {
             self.prepared = prepared;
@@ -417,7 +419,7 @@ impl Worker<'_> {
         }
         self.load(prepared);
         if !matches!(self.status, Status::Failed(_)) {
-            self.run_again(inputs, true);
+            self.run_again(inputs, true, speed);
         }
     }
 
@@ -438,7 +440,7 @@ impl Worker<'_> {
         }
     }
 
-    /// Continues the run with a model from the last state kept at or before a step, which is returned; `None` if there is none.
+    /// Continues the run with a model from the last state kept at or before a step; returns the step of that state, `None` if there is none.
     fn back_to_kept_state(&mut self, step: usize, prepared: &Prepared) -> Option<usize> {
         let before = Arc::clone(self.run.as_ref()?.model());
         self.states.convert(|moment| moment.with_pilot_of(&before, &prepared.model));

@@ -75,6 +75,24 @@ pub struct Prepared {
     pub strengths: Arc<[StrengthBudget]>,
 }
 
+impl Prepared {
+    /// Whether another model differs at most in the whale's pilot program.
+    pub fn differs_in_pilot_alone(&self, other: &Self) -> bool {
+        let without_pilot = |source: &Source| {
+            let mut document = Document::parse(&source.scenario).ok()?;
+            if document.has(PILOT) {
+                document.remove(PILOT).ok()?;
+            }
+            Some(document.text())
+        };
+        let (own, other_source) = (&self.source, &other.source);
+        self.plugins == other.plugins
+            && own.library == other_source.library
+            && own.overrides == other_source.overrides
+            && without_pilot(own) == without_pilot(other_source)
+    }
+}
+
 /// Reads a scenario, by its file or by its id in the library, and its gear library (found as [`locate::library`] says where `library` is
 /// `None`) and assembles the model.
 pub fn prepare(
@@ -164,20 +182,6 @@ impl Source {
     ) -> Result<Self, Error> {
         let library = library_at(None, library)?;
         Ok(Self { scenario_name: name.to_owned(), scenario: text, library, overrides })
-    }
-
-    /// Whether another source differs at most in the whale's pilot program.
-    pub fn differs_in_pilot_alone(&self, other: &Self) -> bool {
-        let without_pilot = |source: &Self| {
-            let mut document = Document::parse(&source.scenario).ok()?;
-            if document.has(PILOT) {
-                document.remove(PILOT).ok()?;
-            }
-            Some(document.text())
-        };
-        self.library == other.library
-            && self.overrides == other.overrides
-            && (self.scenario == other.scenario || without_pilot(self) == without_pilot(other))
     }
 
     /// Sets fields as the options of a study do: of the scenario, such as `current.speed`, or of a library file, such as
