@@ -39,7 +39,8 @@ fn first_touched(prepared: Prepared) -> Option<(BodyPart, f64)> {
     None
 }
 
-/// In a tide of 0.25 m/s, nine of ten whales meet the line with the part asked for, within a second of the time computed: a whale that feels rope slows at the start of its beat.
+/// In a tide of 0.25 m/s, nine of ten whales meet the line with the part asked for, within a second of the time computed. A kinetic whale
+/// slows at the start of its beat.
 #[test]
 fn whales_meet_the_line_with_the_part_asked_for() {
     let [left, right, head] = [BodyPart::LeftFlipper, BodyPart::RightFlipper, BodyPart::Head];

@@ -1,7 +1,7 @@
 //! The start from which a whale meets a line at a depth with a part of its body.
 //!
 //! A whale that keeps its heading and its speed `v` through the water moves over the ground with `u = v f + c`, where `f` is the unit vector
-//! ahead and `c` the current at its depth. Gear at rest stays where it is. A point `p` of the skin, counted from mid-body, is at the place
+//! ahead and `c` the current at the place of contact. Gear at rest stays where it is. A point `p` of the skin, counted from mid-body, is at the place
 //! `a` of the line after the time `t` if mid-body starts at `a - p - u t`.
 //!
 //! Which part meets rope first follows from the picture seen along `u`: skin and rope that lie over each other there meet, and the pair with
@@ -30,6 +30,9 @@ const ENOUGH_M: f64 = 0.5;
 /// Vertices of the wanted part that are tried at most.
 const TRIED: usize = 200;
 
+/// Usual distance over the ground before the foremost skin reaches the line [m].
+pub const USUAL_GAP_M: f64 = 3.0;
+
 /// The place that a whale is to meet, and the part of its body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meeting {
@@ -39,7 +42,7 @@ pub struct Meeting {
     pub depth_m: f64,
     /// Part of the body.
     pub part: BodyPart,
-    /// Way over the ground before the foremost skin reaches the line [m].
+    /// Distance over the ground before the foremost skin reaches the line [m].
     pub gap_m: f64,
 }
 
@@ -268,8 +271,9 @@ fn in_words(part: BodyPart) -> String {
 
 /// Rope of gear at rest, seen along the path of the whale, from a place on it.
 struct Seen {
-    /// Unit vectors along the path, to starboard of it and down.
+    /// Unit vector along the path.
     ahead: DVec3,
+    /// Two unit vectors across it.
     across: [DVec3; 2],
     /// Least distance along the path of the rope in each cell [m].
     rope: BTreeMap<[i64; 2], f64>,
@@ -300,9 +304,9 @@ impl Seen {
 
     /// Lead of skin at a place over skin at the place of the line, if it meets rope [m].
     fn lead(&self, place: DVec3) -> Option<f64> {
-        let [right, down] = self.cell(place);
+        let [first, second] = self.cell(place);
         let around =
-            (-1..=1).flat_map(|side| (-1..=1).map(move |height| [right + side, down + height]));
+            (-1..=1).flat_map(|side| (-1..=1).map(move |height| [first + side, second + height]));
         let rope = around.filter_map(|cell| self.rope.get(&cell)).copied().reduce(f64::min)?;
         Some(place.dot(self.ahead) - rope)
     }

@@ -340,7 +340,7 @@ pub(super) struct AimArgs {
     /// Part of the body that meets it.
     #[arg(long, value_name = "PART", value_parser = body_part)]
     pub(super) part: BodyPart,
-    /// Way over the ground before the foremost skin reaches the line.
+    /// Distance over the ground before the foremost skin reaches the line.
     #[arg(long, value_name = "LENGTH", value_parser = length, default_value = "3 m")]
     pub(super) gap: f64,
     /// Print the result as one JSON object.

@@ -2,8 +2,10 @@
 //! are lost; wraps of a whale.
 
 use egui_kittest::kittest::Queryable;
+use endline_sdk::BodyPart;
 use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::Documents;
+use endline_session::encounters::meet::{Meeting, USUAL_GAP_M, meet};
 use endline_session::live::Status;
 use endline_session::units::Units;
 use endline_workbench::gui::command::action::ViewAction;
@@ -89,6 +91,37 @@ fn fields_choices_and_flags_of_the_panel_change_the_scenario() {
     harness.get_by_label("Pilot program …").click();
     harness.run_steps(3);
     assert!(harness.query_by_label("Timeline").is_some());
+}
+
+#[test]
+fn the_start_is_placed_for_a_flipper_to_meet_the_endline() {
+    let folder = Folder::new("aim");
+    let mut harness = settled(&folder, "hello-endline", PanelId::Scenario);
+    let before = Start::of(harness.documents()).unwrap();
+    let view = harness.view();
+    harness.get_by_label("Aim at a line").scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label("Aim at a line").click();
+    harness.run_steps(12);
+    harness.get_by_label("Place the start").scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label("Place the start").click();
+    harness.run_steps(3);
+    let meeting = Meeting {
+        line: "endline-top".to_owned(),
+        depth_m: 10.0,
+        part: BodyPart::LeftFlipper,
+        gap_m: USUAL_GAP_M,
+    };
+    let wanted = meet(&view.model, &view.frame, &meeting).unwrap();
+    let placed = Start::of(harness.documents()).unwrap();
+    assert!((placed.place - wanted.start_m).length() < 0.02, "{placed:?}, {wanted:?}");
+    assert!((placed.heading - before.heading).abs() < 1e-9, "the heading is kept");
+    // The view with the path came to the front.
+    only(&mut harness, PanelId::Scenario);
+    assert!(harness.query_by_label_contains("The left flipper meets endline-top").is_some());
+    harness.perform(EditAction::Undo);
+    assert_eq!(Start::of(harness.documents()).unwrap(), before, "one undo takes it back");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use egui::{CollapsingHeader, ComboBox, Grid, Label, RichText, TextEdit, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_sdk::BodyPart;
-use endline_session::encounters::meet::{Meeting, meet};
+use endline_session::encounters::meet::{Meeting, USUAL_GAP_M, meet};
 use endline_session::live::LiveView;
 
 use super::name;
@@ -12,9 +12,7 @@ use crate::gui::panel::PanelId;
 use crate::gui::panels::view::pose::{Start, write_start};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-
-/// Way over the ground before the foremost skin reaches the line [m].
-const GAP_M: f64 = 5.0;
+use crate::gui::widgets::words::spoken;
 
 /// What the whale is to meet, and the answer to the last try.
 #[derive(Debug)]
@@ -82,22 +80,38 @@ fn why_not(shared: &Shared, view: &LiveView) -> Option<&'static str> {
     (view.frame.time_s > 0.0).then_some("Restart the run first: the aim needs the gear at rest")
 }
 
+/// Id of a line, or of the whole of which it is a piece.
+fn whole_id(id: &str) -> &str {
+    match id.rsplit_once('.') {
+        Some((whole, piece)) if piece.bytes().all(|letter| letter.is_ascii_digit()) => whole,
+        _ => id,
+    }
+}
+
 /// Ids of lines; the pieces of a line have the id of the whole.
 fn lines(view: &LiveView) -> Vec<&str> {
-    let whole = |id: &'_ str| match id.rsplit_once('.') {
-        Some((whole, piece)) if piece.bytes().all(|letter| letter.is_ascii_digit()) => whole.len(),
-        _ => id.len(),
-    };
     let mut lines: Vec<&str> =
-        view.model.spec.lines.iter().map(|line| &line.id[..whole(&line.id)]).collect();
+        view.model.spec.lines.iter().map(|line| whole_id(&line.id)).collect();
     lines.dedup();
     lines
+}
+
+/// Id of the line that rises most, which is met at most depths.
+fn highest(view: &LiveView) -> Option<&str> {
+    let rise_m = |line: usize| {
+        let nodes = &view.frame.nodes[view.model.line_nodes[line].clone()];
+        let heights = || nodes.iter().map(|node| node.z);
+        heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min)
+    };
+    let lines = view.model.spec.lines.iter().enumerate();
+    let highest = lines.max_by(|(one, _), (other, _)| rise_m(*one).total_cmp(&rise_m(*other)));
+    highest.map(|(_, line)| line.id.as_str())
 }
 
 fn line(ui: &mut Ui, view: &LiveView, form: &mut AimForm) {
     let lines = lines(view);
     if !lines.contains(&form.line.as_str()) {
-        form.line = lines.first().map_or_else(String::new, |line| (*line).to_owned());
+        form.line = highest(view).map_or_else(String::new, |line| whole_id(line).to_owned());
     }
     let width = ui.available_width() - 8.0;
     let combo = ComboBox::from_id_salt("aim line").width(width).truncate();
@@ -111,12 +125,11 @@ fn line(ui: &mut Ui, view: &LiveView, form: &mut AimForm) {
 }
 
 fn part(ui: &mut Ui, form: &mut AimForm) {
-    let words = |part: BodyPart| part.name().replace('_', " ");
     let width = ui.available_width() - 8.0;
     let combo = ComboBox::from_id_salt("aim part").width(width).truncate();
-    combo.selected_text(words(form.part)).show_ui(ui, |ui| {
+    combo.selected_text(spoken(form.part.name())).show_ui(ui, |ui| {
         for part in BodyPart::ALL {
-            ui.selectable_value(&mut form.part, part, words(part));
+            ui.selectable_value(&mut form.part, part, spoken(part.name()));
         }
     });
 }
@@ -125,7 +138,7 @@ fn part(ui: &mut Ui, form: &mut AimForm) {
 fn aim(shared: &mut Shared, view: &LiveView, form: &AimForm) -> Result<String, String> {
     let depth_m =
         parse(&form.depth, Quantity::Length).map_err(|error| format!("Depth: {error}"))?;
-    let meeting = Meeting { line: form.line.clone(), depth_m, part: form.part, gap_m: GAP_M };
+    let meeting = Meeting { line: form.line.clone(), depth_m, part: form.part, gap_m: USUAL_GAP_M };
     let met = meet(&view.model, &view.frame, &meeting).map_err(|error| error.to_string())?;
     let Some(start) = Start::of(shared.documents()) else {
         return Err("The scenario's start cannot be read; correct its position".to_owned());
@@ -138,7 +151,7 @@ fn aim(shared: &mut Shared, view: &LiveView, form: &AimForm) -> Result<String, S
     let units = shared.workbench.preferences().units;
     Ok(format!(
         "The {} meets {} at a depth of {} after {:.1} s.",
-        form.part.name().replace('_', " "),
+        spoken(form.part.name()),
         form.line,
         units.depth(-met.place_m.z),
         met.after_s
