@@ -56,7 +56,10 @@ pub fn write(
         sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
         hash: &question.hash[..16],
         seed: question.seed,
-        command: format!("endline search {} --trials {}", question.observation.id, stories.trials),
+        command: format!(
+            "endline search {} --encounters {} --trials {} --net {}",
+            question.observation.id, stories.encounters, stories.trials, stories.net
+        ),
     };
     let html = page.render().map_err(Error::on(&file, "cannot be written"))?;
     save::atomically(&file, html.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;

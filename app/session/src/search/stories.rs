@@ -167,7 +167,7 @@ impl Stories {
             #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 draws")]
             let most = 1.0 - libm::pow(0.05, 1.0 / all as f64);
             return format!(
-                "0 of {all}; with 95 % confidence fewer than {:.1} % of draws do",
+                "0 of {all}; with 95 % confidence, fewer than {:.1} % of all draws",
                 100.0 * most
             );
         }
@@ -222,7 +222,7 @@ mod tests {
         };
         assert_eq!(
             stories(0).share_of_draws(),
-            "0 of 64; with 95 % confidence fewer than 4.6 % of draws do"
+            "0 of 64; with 95 % confidence, fewer than 4.6 % of all draws"
         );
         assert_eq!(stories(3).share_of_draws(), "3 of 64, 4.7 % [1.6, 12.9]");
     }
