@@ -267,9 +267,13 @@ pub fn choose_described(
     outline(ui, &response.response, documents.problem_at(path, field));
     // A narrow panel truncates a long name.
     if !shown.is_empty() {
+        let mut whole = shown;
         let about = describe(&stored);
-        let about = if about == stored { String::new() } else { format!("\n{about}") };
-        response.response.on_hover_text(shown + about.trim_end());
+        // Without a description of its own, a choice is described by its id.
+        if !about.is_empty() && about != stored {
+            whole = format!("{whole}\n{about}");
+        }
+        response.response.on_hover_text(whole);
     }
     taken.filter(|id| *id != stored)
 }

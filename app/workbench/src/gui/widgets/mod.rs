@@ -5,8 +5,8 @@ pub mod plot;
 pub mod words;
 
 use egui::{
-    Align, Align2, Button, FontId, Grid, Id, Label, Rect, Response, RichText, Sense, Ui, UiBuilder,
-    Vec2, vec2,
+    Align, Align2, Button, FontId, Grid, Id, Label, Layout, Rect, Response, RichText, Sense, Ui,
+    UiBuilder, Vec2, vec2,
 };
 use endline_gear::Diagnostic;
 use endline_session::command::{Command, EditAction};
@@ -33,11 +33,14 @@ pub fn name(ui: &mut Ui, text: &str) {
     ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, text, font, colour);
 }
 
-/// Draws a label of a fixed width that may be truncated, with the whole of it and a help on hover.
-pub fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
+/// Draws a label of 150 to 230 points, truncated if it is longer, with the whole of it and a help on hover.
+pub fn long_name(ui: &mut Ui, text: &str, help: &str) {
     let label = Label::new(RichText::new(text).color(Theme::palette_of(ui).faint)).truncate();
-    let size = vec2(150.0, 20.0);
-    ui.add_sized(size, label.halign(Align::Min)).on_hover_text(format!("{text}\n{help}"));
+    let layout = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(vec2(230.0, 20.0), layout, |ui| {
+        ui.set_min_width(150.0);
+        ui.add(label).on_hover_text(format!("{text}\n{help}"));
+    });
 }
 
 /// Draws the reason why a panel is empty.

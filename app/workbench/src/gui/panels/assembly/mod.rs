@@ -11,7 +11,6 @@ mod sweep;
 mod table;
 mod toolbar;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -321,13 +320,14 @@ fn item(
     empty: &WhenEmpty<'_>,
 ) {
     let documents = &shared.workbench.project().documents;
-    let units = shared.workbench.preferences().units;
-    let mut offered = offered(documents.library(), kind, units);
-    offered.sort_by(|one, other| one.rank.total_cmp(&other.rank).then(one.name.cmp(&other.name)));
-    let about: BTreeMap<String, String> =
-        offered.iter().map(|item| (item.id.clone(), item.about.clone())).collect();
+    let (library, units) = (documents.library(), shared.workbench.preferences().units);
+    let mut entries = library.entries(kind);
+    entries.sort_by(|one, other| {
+        let rank = |entry: &Entry| rank(library, kind, &entry.id);
+        rank(one).total_cmp(&rank(other)).then(one.name.cmp(&other.name))
+    });
     let mut choices: Vec<(String, String)> =
-        offered.into_iter().map(|item| (item.id, item.name)).collect();
+        entries.iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     match empty {
         WhenEmpty::Missing => {}
         WhenEmpty::Nothing => choices.insert(0, (String::new(), "none".to_owned())),
@@ -336,52 +336,57 @@ fn item(
         }
     }
     let width = ui.available_width() - 8.0;
-    let describe = |id: &str| about.get(id).cloned().unwrap_or_default();
+    let describe = |id: &str| values_of(library, kind, id, units);
     let field_of = fields::Field { documents, path: file, field };
     if let Some(taken) = fields::choose_described(ui, field_of, &choices, describe, width) {
         shared.set(file, field, &taken);
     }
 }
 
-/// An item of the library in a list: by rank, with the values that tell it from others.
-struct Offered {
-    id: String,
-    name: String,
-    rank: f64,
-    about: String,
+/// Order of an item in a list: ropes and weak links by strength, buoys by volume; 0 for others, which are in order of their names.
+fn rank(library: &Library, kind: Kind, id: &str) -> f64 {
+    let found = match kind {
+        Kind::Rope => {
+            library.ropes.iter().find(|rope| rope.entry.id == id).map(|rope| rope.strength_n)
+        }
+        Kind::WeakLink => {
+            library.weak_links.iter().find(|link| link.entry.id == id).map(|link| link.rating_n)
+        }
+        Kind::Buoy => {
+            library.buoys.iter().find(|buoy| buoy.entry.id == id).map(|buoy| buoy.volume_m3)
+        }
+        _ => None,
+    };
+    found.unwrap_or_default()
 }
 
-/// The items of a kind: ropes and weak links by strength, buoys by volume, others by name.
-fn offered(library: &Library, kind: Kind, units: Units) -> Vec<Offered> {
+/// Values that tell an item from others of its kind; empty for a kind without such values.
+fn values_of(library: &Library, kind: Kind, id: &str, units: Units) -> String {
     /// Pounds for 1,000 ft in one kilogram for a metre.
     const LB_PER_1000_FT: f64 = 671.969;
     let force = |force_n: f64| units.force().text(force_n);
-    let values = |id: &str| match kind {
-        Kind::Rope => library.ropes.iter().find(|rope| rope.entry.id == id).map(|rope| {
-            let mass = format!(
-                "{:.0} g/m ({:.0} lb for 1,000 ft)",
-                1000.0 * rope.mass_kg_m,
-                LB_PER_1000_FT * rope.mass_kg_m
-            );
-            let (diameter, strength) = (units.diameter(rope.diameter_m), force(rope.strength_n));
-            (rope.strength_n, format!("{diameter}, {mass}, {strength} new"))
-        }),
-        Kind::WeakLink => library
-            .weak_links
-            .iter()
-            .find(|link| link.entry.id == id)
-            .map(|link| (link.rating_n, format!("parts at {}", force(link.rating_n)))),
-        Kind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == id).map(|buoy| {
-            let litres = 1000.0 * buoy.volume_m3;
-            (buoy.volume_m3, format!("{litres:.1} litres, {:.1} kg", buoy.mass_kg))
-        }),
-        _ => None,
-    };
-    let row = |entry: &&Entry| {
-        let (rank, about) = values(&entry.id).unwrap_or_default();
-        Offered { id: entry.id.clone(), name: entry.name.clone(), rank, about }
-    };
-    library.entries(kind).iter().map(row).collect()
+    let found =
+        match kind {
+            Kind::Rope => library.ropes.iter().find(|rope| rope.entry.id == id).map(|rope| {
+                format!(
+                    "{}, {:.0} g/m ({:.0} lb for 1,000 ft), {} new",
+                    units.diameter(rope.diameter_m),
+                    1000.0 * rope.mass_kg_m,
+                    LB_PER_1000_FT * rope.mass_kg_m,
+                    force(rope.strength_n)
+                )
+            }),
+            Kind::WeakLink => library
+                .weak_links
+                .iter()
+                .find(|link| link.entry.id == id)
+                .map(|link| format!("parts at {}", force(link.rating_n))),
+            Kind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == id).map(|buoy| {
+                format!("{:.1} litres, {:.1} kg", 1000.0 * buoy.volume_m3, buoy.mass_kg)
+            }),
+            _ => None,
+        };
+    found.unwrap_or_default()
 }
 
 /// Puts the usual choice first, which leaves the field empty. Its own entry is omitted, unless the field names it.

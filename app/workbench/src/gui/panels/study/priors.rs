@@ -1,10 +1,10 @@
 //! How encounters are drawn: a prior for each quantity that varies, with its distribution, source and confidence.
 
 use egui::{ComboBox, RichText, Ui};
-use endline_gear::Setting;
+use endline_gear::{Setting, prior_words};
 use endline_session::edit::Documents;
 
-use super::{Edits, field_words};
+use super::Edits;
 use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -84,8 +84,8 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         return;
     };
     ui.horizontal(|ui| {
-        let words = capital(&field_words(shared.documents(), name));
-        widgets::name_with_help(ui, &words, name);
+        let words = capital(&prior_words(&name.replace('"', "")));
+        widgets::long_name(ui, &words, name);
         laws(ui, &at, law, name, edits);
         match *law {
             "uniform" | "normal" => pair(ui, shared, &format!("{at}.{law}"), edits),

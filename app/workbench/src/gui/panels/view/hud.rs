@@ -1,6 +1,8 @@
 //! Head-up display of the pilot: speed, depth, heading, attitude, greatest tension and its line, rope on each body part, mouth, flippers
 //! and the selected act.
 
+use std::time::Duration;
+
 use egui::{Align2, Color32, FontId, Id, Key, Painter, Pos2, Rect, Ui, pos2, vec2};
 use endline_sdk::{BodyPart, Controls};
 use endline_session::live::{LiveView, Status};
@@ -171,7 +173,11 @@ pub(super) fn shows_card(ui: &Ui, flying: bool) -> bool {
     }
     let now_s = ui.input(|input| input.time);
     let began_s = ui.data_mut(|data| *data.get_temp_mut_or(id, now_s));
-    now_s - began_s < CARD_S || ui.input(|input| input.key_down(Key::Questionmark))
+    let left_s = CARD_S - (now_s - began_s);
+    if left_s > 0.0 {
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(left_s));
+    }
+    left_s > 0.0 || ui.input(|input| input.key_down(Key::Questionmark))
 }
 
 /// Paints the keys of a flight at the bottom of the view, in columns of a function and its keys.
