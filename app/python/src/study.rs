@@ -97,9 +97,9 @@ impl Study {
     fn report(&self, python: Python<'_>, out: PathBuf) -> PyResult<(PathBuf, String)> {
         let folder = self.folder(&out)?;
         let written = python.detach(|| {
-            let table = merge::load(&self.opened, &folder)?;
-            let findings = Findings::of(&self.opened, &table, &folder.registration);
-            let page = report::write(&self.opened, &folder, &findings, &[])?;
+            let table = merge::load(&folder)?;
+            let findings = Findings::of(&self.opened, &table, &folder);
+            let page = report::write(&self.opened, &folder, &findings, report::Beside::default())?;
             Ok((page, json::line(&findings)))
         });
         written.map_err(raised)

@@ -145,6 +145,12 @@ impl Svg {
     }
 }
 
+/// A finished picture as a file of its own: with its style, on white.
+pub(crate) fn standalone(picture: String) -> String {
+    let style = "<style>svg{font:12px system-ui,sans-serif;background:#fff}.grid{stroke:#ddd}.zero{stroke:#333;stroke-width:1.5}</style>";
+    picture.replacen("<title>", &format!("{style}<title>"), 1) + "\n"
+}
+
 /// The colour of a series by its number.
 fn colour_of(series: usize) -> String {
     scales::hex(SERIES_ON_WHITE[series % SERIES_ON_WHITE.len()])

@@ -74,7 +74,7 @@ impl PreparedStudy {
         let own = before(&self.study, known.len() + 1);
         let mut table = Table::default();
         for block in 0..folder.blocks_of(own) {
-            if !folder.file_of(block).is_file() {
+            if !folder.is_stored(block) {
                 let message = format!(
                     "encounter {index} is drawn from proposals fitted to encounters 0 to {}, and encounter {block} has not been run; run the study first",
                     own - 1

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `study.json` | the study: hash, version, size, registered events and claims (`registration`) |
 //! | `block-00012.parquet` | rows of encounter 12, whole or not there |
-//! | `table.parquet`, `table.csv` | all rows, once merged |
+//! | `table.parquet`, `table.csv` | all rows, once merged; rows of blocks whose files are not there are read from it |
 //! | `leases` | which process runs which block, while some do |
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 use std::{fs, io};
 
 use endline_gear::read;
@@ -72,8 +74,32 @@ pub struct Folder {
     pub path: PathBuf,
     /// The registration before the first run.
     pub registration: Registration,
-    hash: String,
+    /// Hash of the study whose rows are in the folder.
+    pub hash: String,
+    /// Version of Endline that computed them.
+    pub version: String,
     encounters: u32,
+    merged: Arc<OnceLock<MergedRows>>,
+}
+
+/// Rows of the merged table, and where those of each encounter are. Empty if there is no table of the study.
+#[derive(Debug, Default)]
+struct MergedRows {
+    table: Table,
+    places: BTreeMap<u32, Range<usize>>,
+}
+
+impl MergedRows {
+    fn of(table: Table) -> Self {
+        let mut places: BTreeMap<u32, Range<usize>> = BTreeMap::new();
+        if let Some(Column::Whole(encounters)) = table.column("encounter") {
+            for (row, encounter) in encounters.iter().enumerate() {
+                let Ok(encounter) = u32::try_from(*encounter) else { continue };
+                places.entry(encounter).or_insert(row..row).end = row + 1;
+            }
+        }
+        Self { table, places }
+    }
 }
 
 impl Folder {
@@ -88,16 +114,70 @@ impl Folder {
         folder::make(path)?;
         let file = path.join("study.json");
         let label = Label::of(opened);
-        let registration = match folder::read_label(&file)? {
+        let label = match folder::read_label(&file)? {
             None => {
                 without_blocks(path)?;
                 folder::write_label(&file, &label)?;
-                label.registration
+                label
             }
             Some(found) => same(&file, found, &label)?,
         };
-        let encounters = u32::try_from(opened.study.encounters).unwrap_or(u32::MAX);
-        Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
+        Ok(Self::with(path, opened, label))
+    }
+
+    /// Opens a folder of kept results for reading: another version of the program, or another library, may have computed its rows.
+    /// Errors: a folder without a label, or whose study has another id or other options.
+    pub fn open_kept(path: &Path, opened: &PreparedStudy) -> Result<Self, Error> {
+        let file = path.join("study.json");
+        let found: Label = folder::read_label(&file)?
+            .ok_or_else(|| Error::at(&file, "is missing: no results are kept in this folder"))?;
+        let own = Label::of(opened);
+        if found.study != own.study || found.options != own.options {
+            let message = format!(
+                "belongs to the study `{}` with the options {}, not to `{}` with the options {}; name the study file that is kept beside it",
+                found.study,
+                found.options.join(", "),
+                own.study,
+                own.options.join(", ")
+            );
+            return Err(Error::at(&file, message));
+        }
+        Ok(Self::with(path, opened, found))
+    }
+
+    fn with(path: &Path, opened: &PreparedStudy, label: Label) -> Self {
+        Self {
+            path: path.to_path_buf(),
+            registration: label.registration,
+            hash: label.hash,
+            version: label.version,
+            encounters: u32::try_from(opened.study.encounters).unwrap_or(u32::MAX),
+            merged: Arc::default(),
+        }
+    }
+
+    /// Whether the program, the library or the study have changed since the rows were computed.
+    pub fn is_of_other_program(&self, opened: &PreparedStudy) -> bool {
+        self.hash != opened.hash
+    }
+
+    /// The rows of the merged table.
+    /// Errors: no merged table, one that is damaged, or of another study.
+    pub fn merged(&self) -> Result<Table, Error> {
+        let file = self.path.join("table.parquet");
+        let bytes = read::bytes(&file).map_err(|error| {
+            Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
+        })?;
+        let (table, tags) = parquet::read(bytes)
+            .map_err(|error| Error::at(&file, format!("is damaged: {error}; merge again")))?;
+        if !tags.iter().any(|(key, value)| key == "study" && *value == self.hash) {
+            return Err(Error::at(&file, "was merged from another study; merge again"));
+        }
+        Ok(table)
+    }
+
+    fn merged_rows(&self) -> &MergedRows {
+        self.merged.get_or_init(|| self.merged().map(MergedRows::of).unwrap_or_default())
     }
 
     /// The folder with the first encounters only.
@@ -117,7 +197,7 @@ impl Folder {
     }
 
     /// The encounters of a block.
-    pub fn encounters_of(&self, block: u32) -> std::ops::Range<u32> {
+    pub fn encounters_of(&self, block: u32) -> Range<u32> {
         block * BLOCK..((block + 1) * BLOCK).min(self.encounters)
     }
 
@@ -126,21 +206,33 @@ impl Folder {
         self.path.join(format!("block-{block:05}.parquet"))
     }
 
-    /// Whether a block is there, whole and of this study.
-    pub fn has(&self, block: u32) -> bool {
-        self.file_of(block).is_file() && self.read(block).is_ok()
+    /// Whether the rows of a block are in its file or in the merged table; the file may be damaged.
+    pub fn is_stored(&self, block: u32) -> bool {
+        self.file_of(block).is_file() || self.is_merged(block)
     }
 
-    /// Blocks whose files are there, read or not.
+    fn is_merged(&self, block: u32) -> bool {
+        self.encounters_of(block)
+            .all(|encounter| self.merged_rows().places.contains_key(&encounter))
+    }
+
+    /// Whether a block is there, whole and of this study.
+    pub fn has(&self, block: u32) -> bool {
+        self.is_stored(block) && self.read(block).is_ok()
+    }
+
+    /// Blocks whose files are there, read or not, and those of the merged table.
     /// Errors: a folder that cannot be read.
     pub fn written(&self) -> Result<BTreeSet<u32>, Error> {
         let number =
             |name: &str| name.strip_prefix("block-")?.strip_suffix(".parquet")?.parse::<u32>().ok();
         let entries = fs::read_dir(&self.path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
         let entries = entries.map_err(Error::on(&self.path, "cannot be read"))?;
+        let merged = (0..self.blocks()).filter(|block| self.is_merged(*block));
         Ok(entries
             .iter()
             .filter_map(|entry| number(&entry.file_name().to_string_lossy()))
+            .chain(merged)
             .collect())
     }
 
@@ -174,9 +266,18 @@ impl Folder {
     }
 
     /// The rows of a block.
-    /// Errors: a file that is not there, is damaged, or belongs to another study.
+    /// Errors: a block that is neither in a file nor in the merged table; a file that is damaged or belongs to another study.
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
+        if !file.is_file() && self.is_merged(block) {
+            let merged = self.merged_rows();
+            let mut rows = Table::default();
+            for encounter in self.encounters_of(block) {
+                // One table has the same columns in every row.
+                let _ = rows.append(merged.table.slice(merged.places[&encounter].clone()));
+            }
+            return Ok(rows);
+        }
         let bytes = read::bytes(&file).map_err(Error::on(&file, "cannot be read"))?;
         let wrong =
             |what: &str| Error::at(&file, format!("{what}; delete it and run the study again"));
@@ -214,14 +315,14 @@ fn without_blocks(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// The registration of a folder's label, if the label is that of the study, with any number of encounters.
-fn same(file: &Path, found: Label, label: &Label) -> Result<Registration, Error> {
+/// A folder's label, if it is that of the study, with any number of encounters.
+fn same(file: &Path, found: Label, label: &Label) -> Result<Label, Error> {
     if found.hash == label.hash && found.block == label.block {
-        return Ok(found.registration);
+        return Ok(found);
     }
     let short = |hash: &str| hash.chars().take(16).collect::<String>();
     let message = format!(
-        "belongs to the study `{}` of hash {} (Endline {}), not to `{}` of hash {}: study, scenario, library, plugins or program have changed; choose another folder with --out",
+        "belongs to the study `{}` of hash {} (Endline {}), not to `{}` of hash {}: study, scenario, library, plugins or program have changed; choose another folder with --out, or report these rows with --kept",
         found.study,
         short(&found.hash),
         found.version,

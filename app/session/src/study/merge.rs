@@ -18,7 +18,7 @@ const TEST_EVERY: u32 = 4;
 pub fn merge(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
     let mut table = Table::default();
     for block in 0..folder.blocks() {
-        if !folder.file_of(block).is_file() {
+        if !folder.is_stored(block) {
             return Err(missing(opened, folder));
         }
         folder.append(block, &mut table)?;
@@ -46,17 +46,9 @@ pub fn save(opened: &PreparedStudy, folder: &Folder, runs: &Runs) -> Result<(), 
 
 /// The merged rows.
 /// Errors: where the study was not merged, or its table belongs to another study.
-pub fn load(opened: &PreparedStudy, folder: &Folder) -> Result<Runs, Error> {
+pub fn load(folder: &Folder) -> Result<Runs, Error> {
     let file = folder.path.join("table.parquet");
-    let bytes = endline_gear::read::bytes(&file).map_err(|error| {
-        Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
-    })?;
-    let (table, tags) = parquet::read(bytes)
-        .map_err(|error| Error::at(&file, format!("is damaged: {error}; merge again")))?;
-    if !tags.iter().any(|(key, value)| key == "study" && *value == opened.hash) {
-        return Err(Error::at(&file, "was merged from another study; merge again"));
-    }
-    Runs::read(table).map_err(|wrong| Error::at(&file, format!("{wrong}; merge again")))
+    Runs::read(folder.merged()?).map_err(|wrong| Error::at(&file, format!("{wrong}; merge again")))
 }
 
 /// Whether the blocks before the first missing one are enough for the interval that the study asks for.
@@ -85,8 +77,7 @@ fn narrow(opened: &PreparedStudy, table: &Table, encounters: u32) -> bool {
 }
 
 fn missing(opened: &PreparedStudy, folder: &Folder) -> Error {
-    let blocks: Vec<u32> =
-        (0..folder.blocks()).filter(|block| !folder.file_of(*block).is_file()).collect();
+    let blocks: Vec<u32> = (0..folder.blocks()).filter(|block| !folder.is_stored(*block)).collect();
     let named: Vec<String> = blocks.iter().take(20).map(u32::to_string).collect();
     let more =
         if blocks.len() > 20 { format!(" and {} more", blocks.len() - 20) } else { String::new() };

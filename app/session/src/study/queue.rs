@@ -108,7 +108,12 @@ fn run(
     job.enter(State::Finishing);
     let table = merge::merge(&opened, &folder)?;
     merge::save(&opened, &folder, &table)?;
-    report::write(&opened, &folder, &Findings::of(&opened, &table, &folder.registration), &[])?;
+    report::write(
+        &opened,
+        &folder,
+        &Findings::of(&opened, &table, &folder),
+        report::Beside::default(),
+    )?;
     Ok(State::Done)
 }
 

@@ -70,11 +70,11 @@ impl StudyResults {
             return Ok(None);
         }
         let folder = Folder::open(&path, &opened)?;
-        let (runs, whole) = runs(&opened, &folder, at_work)?;
+        let (runs, whole) = runs(&folder, at_work)?;
         if runs.rows().is_empty() {
             return Ok(None);
         }
-        let findings = Findings::of(&opened, &runs, &folder.registration);
+        let findings = Findings::of(&opened, &runs, &folder);
         Ok(Some(Self { opened, folder: path, runs, findings, whole }))
     }
 
@@ -101,9 +101,9 @@ impl StudyResults {
 
 /// The merged runs, else those of the blocks before the first missing one; and whether they are
 /// all runs of the study.
-fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
+fn runs(folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
     if !at_work && folder.path.join("table.parquet").is_file() {
-        return Ok((merge::load(opened, folder)?, true));
+        return Ok((merge::load(folder)?, true));
     }
     first_runs(folder)
 }
@@ -112,7 +112,7 @@ fn runs(opened: &PreparedStudy, folder: &Folder, at_work: bool) -> Result<(Runs,
 /// Errors: a block that is damaged or belongs to another study.
 pub(super) fn first_runs(folder: &Folder) -> Result<(Runs, bool), Error> {
     let mut table = Table::default();
-    let there = (0..folder.blocks()).take_while(|block| folder.file_of(*block).is_file()).count();
+    let there = (0..folder.blocks()).take_while(|block| folder.is_stored(*block)).count();
     for block in 0..u32::try_from(there).unwrap_or_default() {
         folder.append(block, &mut table)?;
     }

@@ -112,6 +112,16 @@ impl Column {
         Ok(())
     }
 
+    /// The values in a range of rows.
+    fn slice(&self, rows: std::ops::Range<usize>) -> Self {
+        match self {
+            Self::Whole(values) => Self::Whole(values[rows].to_vec()),
+            Self::Real(values) => Self::Real(values[rows].to_vec()),
+            Self::Text(values) => Self::Text(values[rows].to_vec()),
+            Self::Flag(values) => Self::Flag(values[rows].to_vec()),
+        }
+    }
+
     /// Number of values.
     pub fn len(&self) -> usize {
         match self {
@@ -172,6 +182,12 @@ impl Table {
     /// A column by name.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|(known, _)| known == name).map(|(_, column)| column)
+    }
+
+    /// A range of rows as a table.
+    pub(crate) fn slice(&self, rows: std::ops::Range<usize>) -> Self {
+        let column = |(name, column): &(String, Column)| (name.clone(), column.slice(rows.clone()));
+        Self { columns: self.columns.iter().map(column).collect() }
     }
 
     /// Adds the rows of another table.

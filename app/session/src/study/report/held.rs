@@ -3,10 +3,11 @@
 
 use crate::study::stats::{
     Banded, Findings, HeldWhales, OptionFinding, OptionOnHeld, Rate, RouteFinding, StrengthCurve,
-    Survival,
+    Survival, Weighted,
 };
 use crate::units::N_PER_LBF;
 
+use super::Beside;
 use super::figures::{WIDE, break_away_scales, grouped, legend};
 use super::words::{event_words, percent_interval, rate};
 use crate::page::svg::{Axis, Side, Svg};
@@ -148,7 +149,7 @@ pub(super) fn freed(held: &HeldWhales) -> Table {
             met.iter().map(|found| Cell::from(few(&option.freed_by_route[found.route as usize]))),
         );
         if held.observed_from.is_some() {
-            row.push(weighted(option));
+            row.push(weighted(option.weighted));
         }
         row
     };
@@ -173,9 +174,9 @@ fn few(rate: &Rate) -> String {
     format!("{} % [{low},\u{a0}{high}] ({} of {})", percent(rate.rate), rate.hits, rate.runs)
 }
 
-/// The share weighted by observed routes.
-fn weighted(option: &OptionOnHeld) -> Cell {
-    let Some(weighted) = option.weighted else { return "no route met".into() };
+/// A share weighted by observed routes.
+fn weighted(share: Option<Weighted>) -> Cell {
+    let Some(weighted) = share else { return "no route met".into() };
     let [low, high] = [weighted.interval.low, weighted.interval.high].map(percent);
     format!("{} % [{low},\u{a0}{high}]", percent(weighted.share)).into()
 }
@@ -198,63 +199,153 @@ pub(super) fn covered(held: &HeldWhales) -> Option<String> {
     ))
 }
 
-/// Share of the held whales whose rope or link parts, against its strength, with the band, and the share that stays held.
-pub(super) fn curves(all: &[StrengthCurve]) -> Option<String> {
+/// A line of a figure: its points, the outline of its band if it has one, and the words of its legend.
+struct Series<'a> {
+    line: Vec<[f64; 2]>,
+    band: Vec<[f64; 2]>,
+    words: Vec<&'a str>,
+}
+
+/// Share of the held whales whose rope or link parts, against its strength, with the band, and the share that stays held. NOAA's threat is
+/// drawn as the share that is no threat.
+pub(super) fn curves(all: &[StrengthCurve], beside: &Beside<'_>) -> Option<String> {
     let drawn = |curve: &&StrengthCurve| curve.parts_given_held.encounters >= LEAST_WHALES;
     let curves: Vec<&StrengthCurve> = all.iter().filter(drawn).collect();
     if curves.is_empty() {
         return None;
     }
-    let most_n = greatest_n(&curves);
+    let most_n = greatest_n(&curves, beside);
     let (top, bottom) = (20.0, 310.0);
     let mut svg = Svg::new(WIDE, 382.0, "Held whales whose rope parts, by strength");
     let right = WIDE - 250.0;
     let across = Axis { values: [0.0, most_n / N_PER_LBF], places: [70.0, right] };
     let up = Axis { values: [0.0, 1.0], places: [bottom, top] };
     break_away_scales(&mut svg, &across, &up);
-    let mut y = top + 6.0;
-    for (kind, curve) in curves.iter().enumerate() {
-        let drawn = || curve.strengths_n.iter().enumerate().filter(|(_, n)| **n <= most_n);
-        let x = |strength_n: f64| across.at(strength_n / N_PER_LBF);
+    let strengths_n = || (1..=400).map(|step| most_n * f64::from(step) / 400.0);
+    let line = |share: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
+        strengths_n().map(|n| [across.at(n / N_PER_LBF), up.at(share(n))]).collect()
+    };
+    let mut series: Vec<Series<'_>> = Vec::new();
+    for curve in &curves {
         let Banded { shares, .. } = &curve.parts_given_held;
-        let ends = |end: usize| {
-            drawn().map(move |(place, n)| [x(*n), up.at(curve.parts_given_held.band(place)[end])])
-        };
-        let band: Vec<[f64; 2]> =
-            ends(0).chain(ends(1).collect::<Vec<_>>().into_iter().rev()).collect();
-        svg.area(&band, 2 * kind);
-        let line: Vec<[f64; 2]> = drawn().map(|(place, n)| [x(*n), up.at(shares[place])]).collect();
-        svg.path(&line, 2 * kind);
-        let words = format!("{} parts", curve.part);
-        y = legend(&mut svg, [right, y], 2 * kind, &[words.as_str()]);
-        let Some(whole) = curve.held.last().filter(|share| **share > 0.0) else { continue };
-        let held: Vec<[f64; 2]> =
-            drawn().map(|(place, n)| [x(*n), up.at(curve.held[place] / whole)]).collect();
-        svg.path(&held, 2 * kind + 1);
-        let words = format!("still held, {}", curve.part);
-        y = legend(&mut svg, [right, y], 2 * kind + 1, &[words.as_str()]);
+        let at = |n: f64| place_of(curve, n);
+        let band = between(
+            line(&|n| curve.parts_given_held.band(at(n))[0]),
+            line(&|n| curve.parts_given_held.band(at(n))[1]),
+        );
+        series.push(Series {
+            line: line(&|n| shares[at(n)]),
+            band,
+            words: vec![&curve.part, "parts"],
+        });
+        if let Some(whole) = curve.held.last().filter(|share| **share > 0.0) {
+            let held = line(&|n| curve.held[at(n)] / whole);
+            series.push(Series {
+                line: held,
+                band: Vec::new(),
+                words: vec!["still held:", &curve.part],
+            });
+        }
+    }
+    if let Some(threats) = beside.threats {
+        let at = |n: f64| threats.range(n / N_PER_LBF);
+        let band = between(line(&|n| 1.0 - at(n).upper), line(&|n| 1.0 - at(n).lower));
+        let words = vec!["NOAA's model V3.1:", "1 less threat"];
+        series.push(Series { line: line(&|n| 1.0 - at(n).threat), band, words });
+    }
+    for haul in beside.hauls {
+        let words = haul.name.split_inclusive(", ").collect();
+        series.push(Series { line: line(&|n| haul.parts(n)), band: Vec::new(), words });
+    }
+    let mut y = top + 6.0;
+    for (kind, Series { line, band, words }) in series.iter().enumerate() {
+        if !band.is_empty() {
+            svg.area(band, kind);
+        }
+        svg.path(line, kind);
+        y = legend(&mut svg, [right, y], kind, words);
     }
     Some(svg.done())
 }
 
-/// Strength beyond which nothing parts in any curve, with some room [N].
-fn greatest_n(curves: &[&StrengthCurve]) -> f64 {
+/// The place of a strength [N] among those of a curve: the nearest.
+fn place_of(curve: &StrengthCurve, strength_n: f64) -> usize {
+    let above = curve.strengths_n.partition_point(|n| *n < strength_n);
+    let apart = |place: &usize| (curve.strengths_n[*place] - strength_n).abs();
+    let near = above.saturating_sub(1)..(above + 1).min(curve.strengths_n.len());
+    near.min_by(|one, other| apart(one).total_cmp(&apart(other))).unwrap_or_default()
+}
+
+/// The outline of the area between two lines.
+fn between(low: Vec<[f64; 2]>, high: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    low.into_iter().chain(high.into_iter().rev()).collect()
+}
+
+/// Greatest strength of the axis: nothing parts in any curve or haul beyond it, with some room [N].
+fn greatest_n(curves: &[&StrengthCurve], beside: &Beside<'_>) -> f64 {
     let last = |curve: &&StrengthCurve| {
         let places = curve.strengths_n.iter().zip(&curve.parts_given_held.shares);
         places.filter(|(_, share)| **share > 0.0).map(|(n, _)| *n).fold(0.0, f64::max)
     };
-    let most_n = curves.iter().map(last).fold(0.0, f64::max);
+    let hauled = beside.hauls.iter().map(|haul| haul.tension_n * (1.0 + 3.0 * haul.variation));
+    let most_n = curves.iter().map(last).chain(hauled).fold(0.0, f64::max);
     let end_n = curves.iter().flat_map(|curve| &curve.strengths_n).copied().fold(0.0, f64::max);
-    (1.15 * most_n).clamp(2000.0 * N_PER_LBF, end_n)
+    (1.15 * most_n).clamp(3000.0 * N_PER_LBF, end_n)
+}
+
+/// Shares of held whales on which whole rope parts, at the strengths asked for most: of all, and of each kind of held whale.
+pub(super) fn strengths(all: &[StrengthCurve]) -> Option<Table> {
+    let rope = all.iter().find(|curve| curve.is_of_rope())?;
+    let headings: Vec<String> = ["whales", "number held"]
+        .into_iter()
+        .map(str::to_owned)
+        .chain(rope.asked.iter().map(|asked| format!("{:.0} lbf", asked.strength_n / N_PER_LBF)))
+        .collect();
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    let share = |rate: &Rate| {
+        let [low, high] = [rate.interval.low, rate.interval.high].map(percent);
+        Cell::from(format!("{} % [{low},\u{a0}{high}]", percent(rate.rate)))
+    };
+    let whales = rope.asked.first().map_or(0, |asked| asked.parts.runs);
+    let mut rows = vec![row_of("all", whales, rope.asked.iter().map(|asked| share(&asked.parts)))];
+    if rope.asked.iter().any(|asked| asked.weighted.is_some()) {
+        let cells = rope.asked.iter().map(|asked| weighted(asked.weighted));
+        rows.push(row_of("all, weighted as observed", whales, cells));
+    }
+    let met = rope.kinds.iter().filter(|kind| kind.parts.iter().any(|rate| rate.runs > 0));
+    rows.extend(met.map(|kind| {
+        let runs = kind.parts.first().map_or(0, |rate| rate.runs);
+        row_of(&format!("{}: {}", kind.of, kind.name), runs, kind.parts.iter().map(share))
+    }));
+    let caption = "Of the whales held if nothing parts: share on which whole rope parts if it delivers this strength. The inputs are those of \
+                   the encounters";
+    Some(Table::new(caption, &headings, rows))
+}
+
+fn row_of(name: &str, whales: u64, cells: impl Iterator<Item = Cell>) -> Vec<Cell> {
+    [Cell::from(name.to_owned()), whales.to_string().into()].into_iter().chain(cells).collect()
 }
 
 /// Caption of the figure of [`curves`].
-pub(super) fn curves_caption(all: &[StrengthCurve]) -> String {
+pub(super) fn curves_caption(all: &[StrengthCurve], beside: &Beside<'_>) -> String {
     let whales = all.iter().map(|curve| curve.parts_given_held.encounters);
+    let noaa = match beside.threats {
+        Some(_) => {
+            " NOAA's threat is a logistic curve fitted to the strengths of ropes that were taken off right whales; what it leaves to 1 is drawn, with \
+             the range of its three curves. These whales had carried rope for days to months, the simulated ones for minutes."
+        }
+        None => "",
+    };
+    let hauls = match beside.hauls {
+        [] => "",
+        _ => {
+            " At the hauler: probability that a line that delivers this strength parts in one haul."
+        }
+    };
     format!(
         "Of the {} whales that are held if nothing can part: share in which the part parts if it delivers this strength, with a band that \
          contains the whole curve with a probability of 95 %. Every strength is known from the same runs. \"Still held\" is the rate of \
-         holding as a share of that of the greatest strength; between the strengths that were simulated it is that of the nearest.",
+         holding as a share of that of the greatest strength; between the strengths that were simulated it is that of the nearest.{noaa}{hauls}",
         whales.max().unwrap_or_default()
     )
 }
@@ -281,6 +372,7 @@ mod tests {
             parts_given_held: banded(),
             held: shares().map(|parts| 0.06 * (1.0 - 0.5 * parts)).collect(),
             asked: Vec::new(),
+            kinds: Vec::new(),
             strengths_n: strengths_n.clone(),
         }
     }
@@ -289,12 +381,12 @@ mod tests {
     fn a_figure_has_a_band_for_each_part_and_none_of_few_whales() {
         let all =
             [curve("whole rope", 60), curve("weak link", 60), curve("other", LEAST_WHALES - 1)];
-        let figure = curves(&all).unwrap();
+        let figure = curves(&all, &Beside::default()).unwrap();
         assert_eq!(figure.matches("<polygon").count(), 2);
-        for words in ["whole rope parts", "still held, weak link", "100 %", "4000 lbf"] {
+        for words in ["whole rope", "still held:", "100 %", "4000 lbf"] {
             assert!(figure.contains(words), "{words}");
         }
         assert!(!figure.contains("other"));
-        assert_eq!(curves(&all[2..]), None);
+        assert_eq!(curves(&all[2..], &Beside::default()), None);
     }
 }

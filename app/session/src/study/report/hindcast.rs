@@ -61,7 +61,7 @@ pub fn markdown(opened: &PreparedStudy, findings: &Findings) -> String {
         "`{}`, {}, program {}, study hash `{}`.\n{} observations: {} agree, {} miss, {} are not settled, {} are decided by construction and test nothing.\n",
         opened.study.id,
         findings.extent(),
-        crate::VERSION,
+        findings.version,
         &findings.hash[..16],
         findings.observations.len(),
         count(Agreement::Agrees),

@@ -15,6 +15,7 @@ pub use words::{NOT_FOLLOWED, lowest};
 
 use crate::error::Error;
 use crate::json;
+use crate::page::svg;
 use crate::save::atomically;
 
 use hauled::HauledLoad;
@@ -22,28 +23,42 @@ use hauled::HauledLoad;
 use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::stats::{Findings, OptionFinding, Paired, Rate};
+use super::threat::StrengthThreatTable;
 use crate::table::{Column, Table};
 
-/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; returns the path of the page. Hauls are shown beside what
-/// parts on whales.
+/// What is drawn on the axis of strength beside what parts on whales.
+#[derive(Clone, Copy, Default)]
+pub struct Beside<'a> {
+    /// Loads of hauls.
+    pub hauls: &'a [HauledLoad],
+    /// NOAA's threat by breaking strength.
+    pub threats: Option<&'a StrengthThreatTable>,
+}
+
+/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; returns the path of the page. Kept results of another
+/// program have no bundle, because the present library did not give their rows. `strength.svg` is the figure of shares by strength alone.
 /// Errors: where the folder cannot be written.
 pub fn write(
     opened: &PreparedStudy,
     folder: &Folder,
     findings: &Findings,
-    hauls: &[HauledLoad],
+    beside: Beside<'_>,
 ) -> Result<PathBuf, Error> {
     let page = folder.path.join("report.html");
-    let html = page::html(opened, findings, hauls).map_err(Error::on(&page, "cannot be made"))?;
+    let html = page::html(opened, findings, beside).map_err(Error::on(&page, "cannot be made"))?;
+    let figure = held::curves(&findings.strength_curves, &beside).map(svg::standalone);
     let files = [
-        (page.clone(), html),
-        (folder.path.join("report.csv"), numbers(findings).csv()),
-        (folder.path.join("findings.json"), json::line(findings) + "\n"),
+        (page.clone(), Some(html)),
+        (folder.path.join("report.csv"), Some(numbers(findings).csv())),
+        (folder.path.join("findings.json"), Some(json::line(findings) + "\n")),
+        (folder.path.join("strength.svg"), figure),
     ];
-    for (file, text) in files {
+    for (file, text) in files.into_iter().filter_map(|(file, text)| Some((file, text?))) {
         atomically(&file, text.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
     }
-    bundle::write(opened, &folder.path.join("bundle"))?;
+    if !folder.is_of_other_program(opened) {
+        bundle::write(opened, &folder.path.join("bundle"))?;
+    }
     Ok(page)
 }
 

@@ -5,7 +5,7 @@ use askama::Template;
 use crate::study::prepared::PreparedStudy;
 use crate::study::stats::{Findings, OptionFinding, answer, observed, resolution};
 
-use super::hauled::HauledLoad;
+use super::Beside;
 use super::words::event_words;
 use super::{bundle, figures, held, inputs, results};
 use crate::page::{Line, STYLE};
@@ -16,7 +16,7 @@ use crate::page::{Line, STYLE};
 struct Page<'a> {
     opened: &'a PreparedStudy,
     findings: &'a Findings,
-    hauls: &'a [HauledLoad],
+    beside: Beside<'a>,
     /// The event by which options are ranked, in words.
     event: String,
     /// Runs that are invalid.
@@ -32,7 +32,7 @@ struct Page<'a> {
 pub(super) fn html(
     opened: &PreparedStudy,
     findings: &Findings,
-    hauls: &[HauledLoad],
+    beside: Beside<'_>,
 ) -> Result<String, askama::Error> {
     let count = |of: fn(&OptionFinding) -> u64| findings.options.iter().map(of).sum();
     let plugins = opened.options[opened.baseline].prepared.plugins.iter();
@@ -41,7 +41,7 @@ pub(super) fn html(
     Page {
         opened,
         findings,
-        hauls,
+        beside,
         event: event_words(&findings.event),
         invalid: count(|option| option.invalid),
         undecided: count(|option| option.undecided),

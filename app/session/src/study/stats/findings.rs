@@ -26,6 +26,7 @@ use super::sensitivity::{self, InputFinding, Lowest};
 use super::strength_curve::{self, StrengthCurve};
 use super::survival::Survival;
 use super::tensions::Tensions;
+use crate::study::folder::Folder;
 
 /// Name of the schema.
 const SCHEMA: &str = "endline.findings/2";
@@ -40,6 +41,8 @@ pub struct Findings {
     pub study: String,
     /// Hash of what defines its runs.
     pub hash: String,
+    /// Version of Endline that computed the runs.
+    pub version: String,
     /// Encounters in the table.
     pub encounters: u64,
     /// Encounters of the study, the first of which are in the table.
@@ -172,8 +175,9 @@ impl Findings {
         }
     }
 
-    /// The findings of a study's runs; `registration` is that of its folder.
-    pub fn of(opened: &PreparedStudy, runs: &Runs, registration: &Registration) -> Self {
+    /// The findings of a study's runs in a folder.
+    pub fn of(opened: &PreparedStudy, runs: &Runs, folder: &Folder) -> Self {
+        let registration = &folder.registration;
         let order = opened.reading_order();
         let ids: Vec<String> =
             order.iter().map(|option| opened.options[*option].id.clone()).collect();
@@ -195,7 +199,8 @@ impl Findings {
         Self {
             schema: SCHEMA,
             study: opened.study.id.clone(),
-            hash: opened.hash.clone(),
+            hash: folder.hash.clone(),
+            version: folder.version.clone(),
             encounters: runs.encounters() as u64,
             planned: opened.study.encounters,
             event: event.name(),

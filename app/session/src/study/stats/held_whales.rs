@@ -141,7 +141,7 @@ pub struct Weighted {
 }
 
 /// Shares of the routes among observed whales, by [`Route::ALL`]; their sum is 1.
-fn observed_shares(observed: &ObservedRoutes) -> [f64; 5] {
+pub(super) fn observed_shares(observed: &ObservedRoutes) -> [f64; 5] {
     let ObservedRoutes { mouth, flipper, tail, several, .. } = observed;
     let counts = [*mouth, *flipper, *tail, *several, 0];
     let all: u64 = counts.iter().sum();
@@ -224,7 +224,7 @@ fn option_on_held(
 
 impl Weighted {
     /// Rates by stratum, weighted by the shares of the strata; `None` if no stratum with a share has a run.
-    fn of(rates: &[Rate], shares: &[f64]) -> Option<Self> {
+    pub(super) fn of(rates: &[Rate], shares: &[f64]) -> Option<Self> {
         debug_assert_eq!(rates.len(), shares.len(), "a share for each stratum");
         let known = || rates.iter().zip(shares).filter(|(rate, _)| rate.runs > 0);
         let covered: f64 = known().map(|(_, share)| share).sum();

@@ -16,6 +16,8 @@
 //!
 //! What follows the parting is known at the strengths that were simulated. `P(held | S)` takes, where rope parts, the run of the option
 //! whose strength is nearest on a scale of ratios among those that part too.
+//! Shares of held whales at the strengths asked for most are also given by route of attachment, by parts of each input, and weighted by the
+//! observed shares of routes (`held_whales.rs`).
 //! References: Massart 1990 (doi:10.1214/aop/1176990746); Kish 1965, Survey Sampling, section 11.2.
 
 use endline_gear::StudyEvent;
@@ -27,9 +29,10 @@ use crate::study::prepared::PreparedStudy;
 use crate::study::runs::{RunRow, Runs};
 use crate::units::N_PER_LBF;
 
-use super::Rate;
+use super::held_whales::{Route, Weighted, observed_shares};
 use super::indicators::{EventIndicator, EventIndicators};
 use super::weighted::kish;
+use super::{Rate, sensitivity};
 
 /// Least and greatest strength of a curve [lbf], and the step between its points.
 const FROM_LBF: u32 = 200;
@@ -59,6 +62,58 @@ pub struct StrengthCurve {
     pub strengths_n: Vec<f64>,
     /// Shares of held whales at the strengths asked for most, from the least.
     pub asked: Vec<AskedStrength>,
+    /// The same shares among held whales of one kind; for whole rope alone.
+    pub kinds: Vec<HeldKind>,
+}
+
+/// Held whales that have a route of attachment or a part of an input in common.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct HeldKind {
+    /// `held by`, or the input in words.
+    pub of: String,
+    /// The route, or the part of the input.
+    pub name: String,
+    /// Share on which the part parts, at each of the strengths asked for most.
+    pub parts: Vec<Rate>,
+}
+
+/// The encounters of a kind.
+struct Kind {
+    of: String,
+    name: String,
+    keep: Vec<bool>,
+}
+
+/// Kinds of held whales, and observed shares of routes.
+#[derive(Default)]
+struct Kinds {
+    /// A kind for each route, in the order of the routes.
+    by_route: Vec<Kind>,
+    /// A kind for each part of an input.
+    by_input: Vec<Kind>,
+    /// Observed shares of the routes.
+    observed: Option<[f64; 5]>,
+}
+
+impl Kinds {
+    /// Of the run in which nothing can part.
+    fn of(opened: &PreparedStudy, runs: &Runs, id: &str) -> Self {
+        let routes = runs.by_encounter(id, |run| Some(Route::of(run)));
+        let on = |route: Route| Kind {
+            of: "held by".to_owned(),
+            name: route.words().to_owned(),
+            keep: routes.iter().map(|known| *known == Some(route)).collect(),
+        };
+        let by_input = opened.study.priors.iter().flat_map(|prior| {
+            let parts = sensitivity::parts_of(prior, runs).unwrap_or_default();
+            parts.into_iter().map(|(name, keep)| Kind { of: prior.words(), name, keep })
+        });
+        Self {
+            by_route: Route::ALL.map(on).into(),
+            by_input: by_input.collect(),
+            observed: opened.study.routes.as_ref().map(observed_shares),
+        }
+    }
 }
 
 /// Shares of the whales held if nothing parts, at one strength.
@@ -70,6 +125,8 @@ pub struct AskedStrength {
     pub parts: Rate,
     /// Share on which it parts, but would not with the greatest of these strengths.
     pub parts_alone: Rate,
+    /// Share on which it parts, weighted by the observed shares of routes.
+    pub weighted: Option<Weighted>,
 }
 
 impl StrengthCurve {
@@ -201,17 +258,22 @@ pub(super) fn of_study(
         let needed = runs.by_encounter(id, |run| Some((part.needed_n(run)?, run.weight)));
         let held = EventIndicators::of(runs, id, event);
         let known = needed.iter().any(Option::is_some);
-        known.then(|| curve(part, id, &needed, &held, &simulated(part)))
+        let kinds = if part == Part::Rope { Kinds::of(opened, runs, id) } else { Kinds::default() };
+        known.then(|| StrengthCurve {
+            option: id.clone(),
+            ..curve(part, &needed, &held, &simulated(part), &kinds)
+        })
     };
     Part::ALL.into_iter().filter_map(curve).collect()
 }
 
+/// The curve of a part, without the name of its option.
 fn curve(
     part: Part,
-    option: &str,
     needed: &[Option<(f64, f64)>],
     held: &EventIndicators,
     simulated: &[Simulated],
+    kinds: &Kinds,
 ) -> StrengthCurve {
     let strengths_n: Vec<f64> =
         (FROM_LBF..=TO_LBF).step_by(STEP_LBF).map(|lbf| f64::from(lbf) * N_PER_LBF).collect();
@@ -220,7 +282,7 @@ fn curve(
     let is_held =
         |indicators: &EventIndicators, place: usize| Some((*indicators.0.get(place)?)?.occurred);
     let all: Vec<(f64, f64)> = known().map(|(_, needed)| needed).collect();
-    let among_held: Vec<(f64, f64)> = known()
+    let needed_by_held: Vec<(f64, f64)> = known()
         .filter(|(place, _)| is_held(held, *place) == Some(true))
         .map(|(_, needed)| needed)
         .collect();
@@ -243,24 +305,40 @@ fn curve(
     };
     let asked_n = ASKED_LBF.map(|lbf| lbf * N_PER_LBF);
     let strongest_n = asked_n.into_iter().fold(0.0, f64::max);
-    let share_of_held = |occurs: &dyn Fn(f64) -> bool| {
+    let among_held = |occurs: &dyn Fn(f64) -> bool| {
         let of = |(place, needed): (usize, &Option<(f64, f64)>)| {
             let (needed_n, weight) = (*needed)?;
             (is_held(held, place)?).then(|| EventIndicator { occurred: occurs(needed_n), weight })
         };
-        Rate::among(&EventIndicators(needed.iter().enumerate().map(of).collect()))
+        EventIndicators(needed.iter().enumerate().map(of).collect())
     };
-    let asked = asked_n.map(|strength_n| AskedStrength {
-        strength_n,
-        parts: share_of_held(&|needed_n| needed_n > strength_n),
-        parts_alone: share_of_held(&|needed_n| needed_n > strength_n && needed_n <= strongest_n),
+    let parts_at = asked_n.map(|strength_n| among_held(&|needed_n| needed_n > strength_n));
+    let parts_of = |kind: &Kind| HeldKind {
+        of: kind.of.clone(),
+        name: kind.name.clone(),
+        parts: parts_at.iter().map(|parts| Rate::among(&parts.within(&kind.keep))).collect(),
+    };
+    let by_route: Vec<HeldKind> = kinds.by_route.iter().map(parts_of).collect();
+    let weighted = |strength: usize| {
+        let rates: Vec<Rate> = by_route.iter().map(|kind| kind.parts[strength]).collect();
+        Weighted::of(&rates, &kinds.observed?)
+    };
+    let asked = asked_n.iter().enumerate().map(|(place, strength_n)| {
+        let alone = |needed_n: f64| needed_n > *strength_n && needed_n <= strongest_n;
+        AskedStrength {
+            strength_n: *strength_n,
+            parts: Rate::among(&parts_at[place]),
+            parts_alone: Rate::among(&among_held(&alone)),
+            weighted: weighted(place),
+        }
     });
     StrengthCurve {
         part: part.name().to_owned(),
-        option: option.to_owned(),
-        asked: asked.into(),
+        option: String::new(),
+        asked: asked.collect(),
+        kinds: by_route.iter().cloned().chain(kinds.by_input.iter().map(parts_of)).collect(),
         parts: Banded::of(&all, &strengths_n),
-        parts_given_held: Banded::of(&among_held, &strengths_n),
+        parts_given_held: Banded::of(&needed_by_held, &strengths_n),
         held: if simulated.is_empty() {
             Vec::new()
         } else {
@@ -293,7 +371,17 @@ mod tests {
                 held: indicators(&[true, true, true, false]),
             },
         ];
-        let found = curve(Part::Rope, "unbreakable", &needed, &held, &simulated);
+        let kind =
+            |of: &str, keep: [bool; 4]| Kind { of: of.into(), name: "x".into(), keep: keep.into() };
+        let mouth = kind("held by", [true, false, false, true]);
+        let others = kind("held by", [false, true, true, false]);
+        let none = || kind("held by", [false; 4]);
+        let kinds = Kinds {
+            by_route: vec![mouth, others, none(), none(), none()],
+            by_input: vec![kind("age", [false, true, false, false])],
+            observed: Some([0.4, 0.4, 0.2, 0.0, 0.0]),
+        };
+        let found = curve(Part::Rope, &needed, &held, &simulated, &kinds);
         let check = |values: &[f64], expected: [(u32, f64); 4]| {
             for (lbf, share) in expected {
                 let found = values[((lbf - FROM_LBF) as usize) / STEP_LBF];
@@ -313,6 +401,18 @@ mod tests {
         assert_eq!(counts(|asked| &asked.parts), [(2, 3), (2, 3), (1, 3), (0, 3)]);
         assert_eq!(counts(|asked| &asked.parts_alone), [(2, 3), (2, 3), (1, 3), (0, 3)]);
         assert!((found.parts.half_width - (40.0_f64.ln() / 8.0).sqrt()).abs() < 1e-12);
+        let of_kind = |kind: usize| -> Vec<(u64, u64)> {
+            found.kinds[kind].parts.iter().map(|parts| (parts.hits, parts.runs)).collect()
+        };
+        assert_eq!(of_kind(0), [(0, 1); 4]);
+        assert_eq!(of_kind(1), [(2, 2), (2, 2), (1, 2), (0, 2)]);
+        assert_eq!(of_kind(5), [(1, 1), (1, 1), (0, 1), (0, 1)]);
+        // Half of the observed whales are held like the first, half like the next two; nothing is known of the third route.
+        let weighted = |place: usize| found.asked[place].weighted.unwrap();
+        assert!(
+            (weighted(0).share - 0.5).abs() < 1e-12 && (weighted(0).covered - 0.8).abs() < 1e-12
+        );
+        assert!((weighted(2).share - 0.25).abs() < 1e-12);
     }
 
     /// Needed strengths of an exponential law, alone and with weights that depend on them: the whole curve is inside its band.
@@ -349,7 +449,8 @@ mod tests {
         assert_eq!((none.encounters, none.band(0)), (0, [0.0, 1.0]));
         let missing =
             EventIndicators(vec![None, Some(EventIndicator { occurred: true, weight: 1.0 })]);
-        let found = curve(Part::Link, "unbreakable", &[None, Some((5.0, 1.0))], &missing, &[]);
+        let needed = [None, Some((5.0, 1.0))];
+        let found = curve(Part::Link, &needed, &missing, &[], &Kinds::default());
         assert_eq!((found.parts.encounters, found.held.len()), (1, 0));
     }
 }

@@ -238,6 +238,7 @@ mod tests {
             strength_n: lbf * N_PER_LBF,
             parts: Rate::from_counts(parts, 40),
             parts_alone: Rate::from_counts(parts - 4, 40),
+            weighted: None,
         };
         let held = |encounters: u64| Banded {
             encounters,
@@ -253,6 +254,7 @@ mod tests {
             held: Vec::new(),
             strengths_n: Vec::new(),
             asked: vec![at(600.0, 30), at(1700.0, 12), at(2600.0, 4)],
+            kinds: Vec::new(),
         };
         let found = of_strengths(&curve(40));
         assert!(found[0].contains("parts on 75 [60, 86] at 600 lbf, 30 ["), "{found:?}");

@@ -107,6 +107,11 @@ impl StrengthThreatTable {
         self.strengths.contains(strength_lbf)
     }
 
+    /// The threat at a strength [lbf], with its bounds.
+    pub fn range(&self, strength_lbf: f64) -> ThreatRange {
+        ThreatRange::of_curves(self.at(strength_lbf))
+    }
+
     /// Values of `Threat`, `Threat_Lower` and `Threat_Upper` at a strength [lbf]; linear between rows, constant outside the table.
     pub(super) fn at(&self, strength_lbf: f64) -> [f64; 3] {
         self.combined(&self.strengths.coefficients(strength_lbf))

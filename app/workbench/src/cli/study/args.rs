@@ -53,6 +53,9 @@ pub(in crate::cli) struct HindcastArgs {
     /// Folder of results of the study [default: results/ followed by its id], or the folder of these folders [default: results].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Compare results of STUDY that another version of the program, or another library, computed.
+    #[arg(long, requires = "study")]
+    pub(super) kept: bool,
     /// Number of encounters of each study, if its file has more.
     #[arg(long, value_name = "N", conflicts_with = "study", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) encounters: Option<u32>,
@@ -138,6 +141,9 @@ pub(in crate::cli) struct ReportArgs {
     /// times.
     #[arg(long, value_name = "FILE.json")]
     pub(super) haul: Vec<PathBuf>,
+    /// Report results that another version of the program, or another library, computed. Name the study file that is kept beside them.
+    #[arg(long)]
+    pub(super) kept: bool,
     /// Print all tables after the answer, as --verbose does.
     #[arg(long)]
     pub(super) all: bool,

@@ -14,7 +14,7 @@ use endline_session::{Error, locate};
 
 use super::args::{HindcastArgs, StudyArgs};
 use super::status::Bar;
-use super::{all_cores, folder_of, lower_priority, open};
+use super::{all_cores, lower_priority, open, stored};
 use crate::cli::{Failure, host, output};
 
 pub(super) fn hindcast(args: &HindcastArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
@@ -35,9 +35,9 @@ fn of_one(study: &str, args: &HindcastArgs, library: Option<&Path>) -> Result<()
             opened.study.id
         )));
     }
-    let folder = Folder::open(&folder_of(&at, &opened), &opened)?;
-    let table = merge::load(&opened, &folder)?;
-    let findings = Findings::of(&opened, &table, &folder.registration);
+    let folder = stored(&at, args.kept, &opened)?;
+    let table = merge::load(&folder)?;
+    let findings = Findings::of(&opened, &table, &folder);
     output::print(&page::markdown(&opened, &findings))
 }
 
@@ -93,7 +93,7 @@ fn run(
     drop(control);
     let table = merge::merge(&opened, &folder)?;
     merge::save(&opened, &folder, &table)?;
-    let findings = Findings::of(&opened, &table, &folder.registration);
+    let findings = Findings::of(&opened, &table, &folder);
     Ok((opened, findings))
 }
 

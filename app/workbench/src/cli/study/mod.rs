@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use endline_session::campaign::{Control, Count, Pace, threads};
 use endline_session::study::folder::Folder;
+use endline_session::study::report::Beside;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
 use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, forecast, merge, report};
@@ -119,10 +120,12 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     let hauls: Vec<HauledLoad> =
         args.haul.iter().map(|file| HauledLoad::read(file)).collect::<Result<_, _>>()?;
     let opened = open(&args.at, library)?;
-    let folder = Folder::open(&folder_of(&args.at, &opened), &opened)?;
-    let table = merge::load(&opened, &folder)?;
-    let findings = Findings::of(&opened, &table, &folder.registration);
-    let page = report::write(&opened, &folder, &findings, &hauls)?;
+    let folder = stored(&args.at, args.kept, &opened)?;
+    let table = merge::load(&folder)?;
+    let findings = Findings::of(&opened, &table, &folder);
+    let threats = threat::noaa(library)?;
+    let beside = Beside { hauls: &hauls, threats: threats.as_ref() };
+    let page = report::write(&opened, &folder, &findings, beside)?;
     output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json {
         json::line(&findings) + "\n"
@@ -188,7 +191,7 @@ fn compare(
     hash: &str,
 ) -> Result<ExitCode, Failure> {
     let folder = Folder::open(&folder_of(&args.at, opened), opened)?;
-    let Ok(runs) = merge::load(opened, &folder) else { return Ok(ExitCode::SUCCESS) };
+    let Ok(runs) = merge::load(&folder) else { return Ok(ExitCode::SUCCESS) };
     match runs.find(&opened.options[option].id, args.row) {
         Some(recorded) if recorded.state_hash != hash => Err(Failure::failed(format!(
             "the run ends in state {hash}, the table has {}: another program ran the study",
@@ -214,6 +217,12 @@ fn open(args: &StudyArgs, library: Option<&Path>) -> Result<PreparedStudy, Failu
 
 fn folder_of(args: &StudyArgs, opened: &PreparedStudy) -> PathBuf {
     args.out.clone().unwrap_or_else(|| Path::new("results").join(&opened.study.id))
+}
+
+/// The folder of results of a study; with `kept`, one whose rows another program or library may have computed.
+fn stored(args: &StudyArgs, kept: bool, opened: &PreparedStudy) -> Result<Folder, Failure> {
+    let path = folder_of(args, opened);
+    Ok(if kept { Folder::open_kept(&path, opened)? } else { Folder::open(&path, opened)? })
 }
 
 /// A thread for each core.

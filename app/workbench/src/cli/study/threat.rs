@@ -42,7 +42,7 @@ fn of_2019(
     let experts = read(args.poll.as_deref(), EXPERTS, library, ExpertTable::read)?;
     let event = event(args, opened)?;
     let folder = Folder::open(&folder_of(&args.at, opened), opened)?;
-    let table = merge::load(opened, &folder)?;
+    let table = merge::load(&folder)?;
     let threats = Threats::of(opened, &table, &event, Some(&experts)).map_err(Failure::usage)?;
     if let Some(to) = &args.to {
         write(to, &threats.fill(&experts), experts.rows.len())?;
@@ -146,6 +146,13 @@ fn line(row: &Threat) -> String {
 /// NOAA's threat by breaking strength, V3.1, in the gear library.
 const THREATS: &str = "cases/tables/noaa-dst-threat-by-strength.csv";
 
+/// NOAA's threat by breaking strength, if the library has it.
+pub(super) fn noaa(library: Option<&Path>) -> Result<Option<StrengthThreatTable>, Failure> {
+    let file = locate::library(None, library).map_err(Failure::failed)?.join(THREATS);
+    let is_there = file.is_file();
+    is_there.then(|| read(Some(&file), THREATS, library, StrengthThreatTable::read)).transpose()
+}
+
 /// NOAA's strengths of lines by traps, V3.1, in the gear library.
 const LINES: &str = "cases/tables/noaa-dst-strength-by-traps.csv";
 
@@ -162,7 +169,7 @@ pub(super) fn by_strength(
     let curve = curve(args, opened)?;
     let event = event(args, opened)?;
     let folder = Folder::open(&folder_of(&args.at, opened), opened)?;
-    let runs = merge::load(opened, &folder)?;
+    let runs = merge::load(&folder)?;
     let noaa = NoaaModel { threats: &threats, lines: &lines, cap_n: args.cap };
     let found = StrengthThreats::of(opened, &runs, &event, curve, noaa).map_err(Failure::usage)?;
     if let Some(to) = &args.to {

@@ -150,7 +150,7 @@ fn in_percent(rate: f64, interval: Interval) -> String {
 
 pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> String {
     let at = folder.path.display();
-    let whole = (0..folder.blocks()).all(|block| folder.file_of(block).is_file());
+    let whole = (0..folder.blocks()).all(|block| folder.is_stored(block));
     let next = if whole {
         format!("next: endline study merge {} --out {at}\n", opened.study.place.source.path)
     } else {
