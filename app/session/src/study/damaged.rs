@@ -1,9 +1,11 @@
 //! Damaged results: a block or table whose bytes are not those that were written is refused, and nothing unread is written over.
+//! Kept results: the merged table stands for the blocks, and another program reports it if asked to.
 
 use std::fs;
 
 use super::folder::Folder;
 use super::results::{ResultsRequest, StudyResults};
+use super::stats::Findings;
 use super::tests::Place;
 use super::{batch, merge};
 use crate::campaign::Shard;
@@ -159,4 +161,61 @@ fn a_block_whose_column_has_another_kind_is_named_with_column_row_and_kind() {
         error.contains("column `drawn_depth`, row 6: expected a number, found a text"),
         "{error}"
     );
+}
+
+#[test]
+fn the_merged_table_stands_for_blocks_that_are_gone_and_a_study_continues_from_it() {
+    let place = Place::new("continued");
+    let mut opened = place.open();
+    opened.study.encounters = 8;
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    batch::run(&opened, &folder, Shard::WHOLE, 2, &Control::default()).unwrap();
+    let first = merge::merge(&opened, &folder).unwrap();
+    merge::save(&opened, &folder, &first).unwrap();
+    for block in 0..folder.blocks() {
+        fs::remove_file(folder.file_of(block)).unwrap();
+    }
+
+    opened.study.encounters = 12;
+    let folder = Folder::open(&folder.path, &opened).unwrap();
+    assert!((0..8).all(|block| folder.has(block)) && !folder.has(8));
+    let done = batch::run(&opened, &folder, Shard::WHOLE, 2, &Control::default()).unwrap();
+    assert_eq!((done.blocks.found, done.blocks.total), (8, 12));
+    assert!(!folder.file_of(0).is_file() && folder.file_of(8).is_file());
+    let continued = merge::merge(&opened, &folder).unwrap();
+
+    let whole = Folder::open(&place.0.join("whole"), &opened).unwrap();
+    batch::run(&opened, &whole, Shard::WHOLE, 2, &Control::default()).unwrap();
+    assert_eq!(continued, merge::merge(&opened, &whole).unwrap());
+}
+
+#[test]
+fn kept_results_of_another_program_are_reported_only_if_asked_for() {
+    let place = Place::new("kept");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    batch::run(&opened, &folder, Shard::WHOLE, 2, &Control::default()).unwrap();
+    let own = merge::merge(&opened, &folder).unwrap();
+    merge::save(&opened, &folder, &own).unwrap();
+
+    // A change of the scenario changes the hash, as another program does.
+    let scenario = place.library().join("studies/small.toml");
+    let text = fs::read_to_string(&scenario).unwrap();
+    fs::write(&scenario, text.replace("length = \"30 m\"", "length = \"31 m\"")).unwrap();
+    let changed = place.open();
+    let refused = Folder::open(&folder.path, &changed).unwrap_err().to_string();
+    assert!(refused.contains("have changed") && refused.contains("--kept"), "{refused}");
+    let kept = Folder::open_kept(&folder.path, &changed).unwrap();
+    assert!(kept.is_of_other_program(&changed) && !folder.is_of_other_program(&opened));
+    let runs = merge::load(&kept).unwrap();
+    assert_eq!(runs, own);
+    let findings = Findings::of(&changed, &runs, &kept);
+    assert_eq!((&findings.hash, findings.options.len()), (&opened.hash, 2));
+
+    let mut fewer = place.open();
+    fewer.options.pop();
+    let refused = Folder::open_kept(&folder.path, &fewer).unwrap_err().to_string();
+    assert!(refused.contains("kept beside it"), "{refused}");
+    let none = Folder::open_kept(&place.library(), &opened).unwrap_err().to_string();
+    assert!(none.contains("no results are kept"), "{none}");
 }

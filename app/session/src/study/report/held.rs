@@ -2,10 +2,10 @@
 //! baseline, by route of attachment; rates against any strength of rope.
 
 use crate::study::stats::{
-    Banded, Findings, HeldWhales, OptionFinding, OptionOnHeld, Rate, RouteFinding, StrengthCurve,
-    Survival, Weighted,
+    AskedStrength, Banded, Findings, HeldKind, HeldWhales, OptionFinding, OptionOnHeld, Rate,
+    RouteFinding, StrengthCurve, Survival, Weighted,
 };
-use crate::units::N_PER_LBF;
+use crate::units::{self, N_PER_LBF};
 
 use super::Beside;
 use super::figures::{WIDE, break_away_scales, grouped, legend};
@@ -293,37 +293,54 @@ fn greatest_n(curves: &[&StrengthCurve], beside: &Beside<'_>) -> f64 {
     (1.15 * most_n).clamp(3000.0 * N_PER_LBF, end_n)
 }
 
-/// Shares of held whales on which whole rope parts, at the strengths asked for most: of all, and of each kind of held whale.
+/// Shares of held whales on which whole rope parts, at the strengths asked for most: of all, and by route of attachment.
 pub(super) fn strengths(all: &[StrengthCurve]) -> Option<Table> {
     let rope = all.iter().find(|curve| curve.is_of_rope())?;
-    let headings: Vec<String> = ["whales", "number held"]
-        .into_iter()
-        .map(str::to_owned)
-        .chain(rope.asked.iter().map(|asked| format!("{:.0} lbf", asked.strength_n / N_PER_LBF)))
-        .collect();
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
-    let share = |rate: &Rate| {
-        let [low, high] = [rate.interval.low, rate.interval.high].map(percent);
-        Cell::from(format!("{} % [{low},\u{a0}{high}]", percent(rate.rate)))
-    };
     let whales = rope.asked.first().map_or(0, |asked| asked.parts.runs);
-    let mut rows = vec![row_of("all", whales, rope.asked.iter().map(|asked| share(&asked.parts)))];
+    let every = rope.asked.iter().map(|asked| short(&asked.parts));
+    let mut rows = vec![row_of("all", whales, every)];
     if rope.asked.iter().any(|asked| asked.weighted.is_some()) {
         let cells = rope.asked.iter().map(|asked| weighted(asked.weighted));
         rows.push(row_of("all, weighted as observed", whales, cells));
     }
-    let met = rope.kinds.iter().filter(|kind| kind.parts.iter().any(|rate| rate.runs > 0));
-    rows.extend(met.map(|kind| {
+    rows.extend(kinds(&rope.by_route));
+    Some(at_strengths(rope, "whales", rows))
+}
+
+/// The same shares by part of each input.
+pub(super) fn strengths_by_input(all: &[StrengthCurve]) -> Option<Table> {
+    let rope = all.iter().find(|curve| curve.is_of_rope())?;
+    let rows: Vec<Vec<Cell>> = kinds(&rope.by_input).collect();
+    (!rows.is_empty()).then(|| at_strengths(rope, "input", rows))
+}
+
+fn at_strengths(rope: &StrengthCurve, of: &str, rows: Vec<Vec<Cell>>) -> Table {
+    let lbf = |asked: &AskedStrength| {
+        format!("{} lbf", units::grouped(&format!("{:.0}", asked.strength_n / N_PER_LBF)))
+    };
+    let strengths: Vec<String> = rope.asked.iter().map(lbf).collect();
+    let headings: Vec<&str> =
+        [of, "number held"].into_iter().chain(strengths.iter().map(String::as_str)).collect();
+    let caption = "Of the whales held if nothing parts: share on which whole rope parts if it delivers this strength";
+    Table::new(caption, &headings, rows)
+}
+
+/// A row for each kind of held whale that occurred.
+fn kinds(kinds: &[HeldKind]) -> impl Iterator<Item = Vec<Cell>> {
+    kinds.iter().filter(|kind| kind.parts.iter().any(|rate| rate.runs > 0)).map(|kind| {
         let runs = kind.parts.first().map_or(0, |rate| rate.runs);
-        row_of(&format!("{}: {}", kind.of, kind.name), runs, kind.parts.iter().map(share))
-    }));
-    let caption = "Of the whales held if nothing parts: share on which whole rope parts if it delivers this strength. The inputs are those of \
-                   the encounters";
-    Some(Table::new(caption, &headings, rows))
+        row_of(&format!("{}: {}", kind.of, kind.name), runs, kind.parts.iter().map(short))
+    })
 }
 
 fn row_of(name: &str, whales: u64, cells: impl Iterator<Item = Cell>) -> Vec<Cell> {
     [Cell::from(name.to_owned()), whales.to_string().into()].into_iter().chain(cells).collect()
+}
+
+/// `25 % [7, 59]`.
+fn short(rate: &Rate) -> Cell {
+    let [low, high] = [rate.interval.low, rate.interval.high].map(percent);
+    format!("{} % [{low},\u{a0}{high}]", percent(rate.rate)).into()
 }
 
 /// Caption of the figure of [`curves`].
@@ -372,7 +389,8 @@ mod tests {
             parts_given_held: banded(),
             held: shares().map(|parts| 0.06 * (1.0 - 0.5 * parts)).collect(),
             asked: Vec::new(),
-            kinds: Vec::new(),
+            by_route: Vec::new(),
+            by_input: Vec::new(),
             strengths_n: strengths_n.clone(),
         }
     }

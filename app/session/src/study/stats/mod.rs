@@ -41,7 +41,7 @@ pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
 pub use sensitivity::{InputFinding, Lowest, Part};
 pub use sobol::SobolIndex;
-pub use strength_curve::{Banded, StrengthCurve};
+pub use strength_curve::{AskedStrength, Banded, HeldKind, StrengthCurve};
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
 pub use verdict::{

@@ -62,8 +62,10 @@ pub struct StrengthCurve {
     pub strengths_n: Vec<f64>,
     /// Shares of held whales at the strengths asked for most, from the least.
     pub asked: Vec<AskedStrength>,
-    /// The same shares among held whales of one kind; for whole rope alone.
-    pub kinds: Vec<HeldKind>,
+    /// The same shares among whales held by each route; for whole rope alone.
+    pub by_route: Vec<HeldKind>,
+    /// The same shares by part of each input; for whole rope alone.
+    pub by_input: Vec<HeldKind>,
 }
 
 /// Held whales that have a route of attachment or a part of an input in common.
@@ -336,7 +338,8 @@ fn curve(
         part: part.name().to_owned(),
         option: String::new(),
         asked: asked.collect(),
-        kinds: by_route.iter().cloned().chain(kinds.by_input.iter().map(parts_of)).collect(),
+        by_input: kinds.by_input.iter().map(parts_of).collect(),
+        by_route,
         parts: Banded::of(&all, &strengths_n),
         parts_given_held: Banded::of(&needed_by_held, &strengths_n),
         held: if simulated.is_empty() {
@@ -401,12 +404,12 @@ mod tests {
         assert_eq!(counts(|asked| &asked.parts), [(2, 3), (2, 3), (1, 3), (0, 3)]);
         assert_eq!(counts(|asked| &asked.parts_alone), [(2, 3), (2, 3), (1, 3), (0, 3)]);
         assert!((found.parts.half_width - (40.0_f64.ln() / 8.0).sqrt()).abs() < 1e-12);
-        let of_kind = |kind: usize| -> Vec<(u64, u64)> {
-            found.kinds[kind].parts.iter().map(|parts| (parts.hits, parts.runs)).collect()
+        let counts = |kind: &HeldKind| -> Vec<(u64, u64)> {
+            kind.parts.iter().map(|parts| (parts.hits, parts.runs)).collect()
         };
-        assert_eq!(of_kind(0), [(0, 1); 4]);
-        assert_eq!(of_kind(1), [(2, 2), (2, 2), (1, 2), (0, 2)]);
-        assert_eq!(of_kind(5), [(1, 1), (1, 1), (0, 1), (0, 1)]);
+        assert_eq!(counts(&found.by_route[0]), [(0, 1); 4]);
+        assert_eq!(counts(&found.by_route[1]), [(2, 2), (2, 2), (1, 2), (0, 2)]);
+        assert_eq!(counts(&found.by_input[0]), [(1, 1), (1, 1), (0, 1), (0, 1)]);
         // Half of the observed whales are held like the first, half like the next two; nothing is known of the third route.
         let weighted = |place: usize| found.asked[place].weighted.unwrap();
         assert!(

@@ -254,7 +254,8 @@ mod tests {
             held: Vec::new(),
             strengths_n: Vec::new(),
             asked: vec![at(600.0, 30), at(1700.0, 12), at(2600.0, 4)],
-            kinds: Vec::new(),
+            by_route: Vec::new(),
+            by_input: Vec::new(),
         };
         let found = of_strengths(&curve(40));
         assert!(found[0].contains("parts on 75 [60, 86] at 600 lbf, 30 ["), "{found:?}");
