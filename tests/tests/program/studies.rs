@@ -8,7 +8,7 @@
 
 use crate::common;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::Instant;
 
@@ -291,6 +291,40 @@ fn one_command_runs_studies_and_cases_and_reports_agreement() {
     let again = call(&whole).stdout;
     assert!(again.contains("| agrees, added after the first run |"), "{again}");
     place.endline(&["study", "hindcast", &study, "--encounters", "3"]).fails(2, &["--encounters"]);
+}
+
+/// The kept results of `docs/results`: one command prints the answer that the page states, and writes its figure again.
+#[test]
+fn kept_results_are_remade_by_one_command() {
+    let docs = endline_tests::root().join("docs");
+    let page = fs::read_to_string(docs.join("results.md")).unwrap();
+    let kept: Vec<PathBuf> =
+        fs::read_dir(docs.join("results")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(!kept.is_empty());
+    for folder in kept {
+        let id = folder.file_name().unwrap().to_str().unwrap().to_owned();
+        let place = Place::new(&format!("kept-{id}"));
+        let again = place.folder.join(&id);
+        fs::create_dir_all(&again).unwrap();
+        for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            fs::copy(&file, again.join(file.file_name().unwrap())).unwrap();
+        }
+        fs::remove_file(again.join("strength.svg")).unwrap();
+        let study = again.join(format!("{id}.toml")).display().to_string();
+        let out = again.display().to_string();
+        let mut command = vec!["study", "report", &study, "--kept", "--out", &out];
+        let hauls = ["single", "trawl-10"].map(|gear| again.join(format!("haul-{gear}.json")));
+        let hauls = hauls.map(|file| file.display().to_string());
+        hauls.iter().for_each(|file| command.extend(["--haul", file]));
+        let printed = place.endline(&command).done();
+        let answer = printed.stdout.lines().filter(|line| !line.is_empty());
+        for line in answer.take_while(|line| !line.starts_with("All tables")) {
+            assert!(page.contains(line), "docs/results.md does not have: {line}");
+        }
+        let [own, committed] = [&again, &folder]
+            .map(|folder| fs::read_to_string(folder.join("strength.svg")).unwrap());
+        assert!(own == committed, "{id}: strength.svg is not that of the kept table");
+    }
 }
 
 /// What the table says of options that are the same, and of a link that parts at a touch.

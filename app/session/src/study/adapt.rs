@@ -1,9 +1,10 @@
 //! Stages of a study that adapts (`[adapt]`): which encounters are drawn from which fitted proposals.
 //!
-//! The encounters before the first number of `after` are stage 0, drawn from the priors and the proposals of the file. Before every
-//! further stage, proposals are fitted to the encounters of all earlier ones that ended in the event, with any option
+//! The encounters before the first number of `after` are stage 0, drawn from the priors and the proposals of the file. The proposals of
+//! a further stage are fitted to the first four fifths of the encounters before it, as far as these ended in the event, with any option
 //! (`encounters/fitted.rs`). The numbers are part of the study's hash and the fit depends on rows alone, so that any number of
-//! machines draws the same encounters, and an interrupted study continues. A stage begins once all blocks of the earlier ones are stored.
+//! machines draws the same encounters, and an interrupted study continues. A stage begins once the blocks of these four fifths are
+//! stored; the last fifth is run meanwhile, because a single encounter can take a hundred times as long as most.
 
 use std::sync::Arc;
 
@@ -26,17 +27,23 @@ pub(super) fn stage_of(study: &Study, index: u32) -> usize {
     after.filter(|after| u64::from(index) >= **after).count()
 }
 
-/// Number of encounters before a stage; 0 for the first.
-fn before(study: &Study, stage: usize) -> u32 {
-    let after = study.adapt.as_ref().and_then(|adapt| adapt.after.get(stage.checked_sub(1)?));
-    after.map_or(0, |after| u32::try_from(*after).unwrap_or(u32::MAX))
+/// Number of encounters to which the proposals of a stage are fitted, by the number of encounters before the stage: four fifths, rounded
+/// up.
+fn fitted_to(before: u32) -> u32 {
+    before - before / 5
 }
 
-/// The encounters that may be run: those before the first stage whose earlier blocks are not all stored.
+/// Number of encounters to which the proposals of a stage are fitted; 0 for the first.
+fn fitted_before(study: &Study, stage: usize) -> u32 {
+    let after = study.adapt.as_ref().and_then(|adapt| adapt.after.get(stage.checked_sub(1)?));
+    after.map_or(0, |after| fitted_to(u32::try_from(*after).unwrap_or(u32::MAX)))
+}
+
+/// The encounters that may be run: those before the first stage whose proposals cannot be fitted because a block is not stored.
 pub(super) fn open_until(study: &Study, is_stored: impl Fn(u32) -> bool) -> u32 {
     let Some(Adapt { after, .. }) = &study.adapt else { return u32::MAX };
-    let ends = after.iter().map(|after| u32::try_from(*after).unwrap_or(u32::MAX));
-    ends.into_iter().find(|end| !(0..*end).all(&is_stored)).unwrap_or(u32::MAX)
+    let mut ends = after.iter().map(|after| u32::try_from(*after).unwrap_or(u32::MAX));
+    ends.find(|end| !(0..fitted_to(*end)).all(&is_stored)).unwrap_or(u32::MAX)
 }
 
 impl PreparedStudy {
@@ -71,7 +78,7 @@ impl PreparedStudy {
     /// Fits the proposals of the next stage, unless another thread does.
     fn fit_next(&self, folder: &Folder, index: u32) -> Result<(), Error> {
         let known = lock(&self.fitted).clone();
-        let own = before(&self.study, known.len() + 1);
+        let own = fitted_before(&self.study, known.len() + 1);
         let mut table = Table::default();
         for block in 0..folder.blocks_of(own) {
             if !folder.is_stored(block) {
@@ -163,13 +170,16 @@ mod tests {
         let place = place("adapt");
         let opened = place.open();
         let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
-        for block in 0..19 {
+        for block in 0..15 {
             folder.write(block, rows(&opened, block)).unwrap();
         }
+        let open = |folder: &Folder| open_until(&opened.study, |encounter| folder.has(encounter));
+        assert_eq!(open(&folder), 20);
         let missing = opened.encounter(&folder, 20).unwrap_err().to_string();
-        assert!(missing.contains("encounter 19 has not been run"), "{missing}");
+        assert!(missing.contains("encounter 15 has not been run"), "{missing}");
         assert!(opened.encounter(&folder, 19).is_ok(), "the first stage needs no results");
-        folder.write(19, rows(&opened, 19)).unwrap();
+        folder.write(15, rows(&opened, 15)).unwrap();
+        assert_eq!(open(&folder), u32::MAX, "the last fifth is not needed");
         let drawn = |opened: &PreparedStudy| -> Vec<Encounter> {
             (20..200).map(|index| opened.encounter(&folder, index).unwrap()).collect()
         };

@@ -221,9 +221,12 @@ pub(super) fn curves(all: &[StrengthCurve], beside: &Beside<'_>) -> Option<Strin
     let across = Axis { values: [0.0, most_n / N_PER_LBF], places: [70.0, right] };
     let up = Axis { values: [0.0, 1.0], places: [bottom, top] };
     break_away_scales(&mut svg, &across, &up);
-    let strengths_n = || (1..=400).map(|step| most_n * f64::from(step) / 400.0);
+    let least_n = curves.iter().filter_map(|curve| curve.strengths_n.first());
+    let least_n = least_n.copied().fold(most_n, f64::min);
     let line = |share: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-        strengths_n().map(|n| [across.at(n / N_PER_LBF), up.at(share(n))]).collect()
+        let strengths_n =
+            (0..=400).map(|step| least_n + (most_n - least_n) * f64::from(step) / 400.0);
+        strengths_n.map(|n| [across.at(n / N_PER_LBF), up.at(share(n))]).collect()
     };
     let mut series: Vec<Series<'_>> = Vec::new();
     for curve in &curves {
@@ -307,7 +310,7 @@ pub(super) fn strengths(all: &[StrengthCurve]) -> Option<Table> {
     Some(at_strengths(rope, "whales", rows))
 }
 
-/// The same shares by part of each input.
+/// Shares of held whales on which whole rope parts, by part of each input.
 pub(super) fn strengths_by_input(all: &[StrengthCurve]) -> Option<Table> {
     let rope = all.iter().find(|curve| curve.is_of_rope())?;
     let rows: Vec<Vec<Cell>> = kinds(&rope.by_input).collect();
@@ -353,6 +356,13 @@ pub(super) fn curves_caption(all: &[StrengthCurve], beside: &Beside<'_>) -> Stri
         }
         None => "",
     };
+    let held = match all.iter().any(|curve| !curve.held.is_empty()) {
+        true => {
+            " \"Still held\" is the rate of holding as a share of that of the greatest strength; between the strengths that were simulated it is \
+             that of the nearest."
+        }
+        false => "",
+    };
     let hauls = match beside.hauls {
         [] => "",
         _ => {
@@ -361,8 +371,7 @@ pub(super) fn curves_caption(all: &[StrengthCurve], beside: &Beside<'_>) -> Stri
     };
     format!(
         "Of the {} whales that are held if nothing can part: share in which the part parts if it delivers this strength, with a band that \
-         contains the whole curve with a probability of 95 %. Every strength is known from the same runs. \"Still held\" is the rate of \
-         holding as a share of that of the greatest strength; between the strengths that were simulated it is that of the nearest.{noaa}{hauls}",
+         contains the whole curve with a probability of 95 %. Every strength is known from the same runs.{held}{noaa}{hauls}",
         whales.max().unwrap_or_default()
     )
 }

@@ -26,7 +26,7 @@ use super::stats::{Findings, OptionFinding, Paired, Rate};
 use super::threat::StrengthThreatTable;
 use crate::table::{Column, Table};
 
-/// What is drawn on the axis of strength beside what parts on whales.
+/// Other figures on the axis of strength, beside the shares of parting on whales.
 #[derive(Clone, Copy, Default)]
 pub struct Beside<'a> {
     /// Loads of hauls.

@@ -244,7 +244,7 @@ weights = [0.9, 0.1]
 source = "assumed"
 "#;
 
-/// One simulated study of 400 encounters, in stages from 0, 100 and 200 on if it adapts: whether a whale is held, with the weights.
+/// One simulated study of 400 encounters, in stages from 0, 100 and 200 on if it adapts, fitted to the first 80 and 160: whether a whale is held, with the weights.
 /// Whales that skim at the left are held by one route, and whales at the right edge by another.
 fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicators {
     let mut uniform = || (draws.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
@@ -252,7 +252,9 @@ fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicat
     let mut indicators = EventIndicators::default();
     for encounter in 0..400 {
         if adapts && (encounter == 100 || encounter == 200) {
-            fitted = Fitted::to(study, &held);
+            let first = held.iter().filter(|(at, _)| *at < encounter - encounter / 5);
+            let first: Vec<Held> = first.map(|(_, held): &(u32, Held)| held.clone()).collect();
+            fitted = Fitted::to(study, &first);
         }
         let draw = draw_from(study, &fitted, &mut uniform);
         let skims = draw.values.iter().any(|drawn| drawn.text == "skim-feed");
@@ -265,10 +267,8 @@ fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicat
         let held_by = route.filter(|(_, chance)| uniform() < *chance);
         let occurred = held_by.is_some();
         indicators.0.push(Some(EventIndicator { occurred, weight: draw.weight }));
-        held.extend(held_by.map(|(route, _)| Held {
-            drawn: draw.values,
-            weight: draw.weight,
-            route,
+        held.extend(held_by.map(|(route, _)| {
+            (encounter, Held { drawn: draw.values, weight: draw.weight, route })
         }));
     }
     indicators

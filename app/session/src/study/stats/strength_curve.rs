@@ -62,9 +62,9 @@ pub struct StrengthCurve {
     pub strengths_n: Vec<f64>,
     /// Shares of held whales at the strengths asked for most, from the least.
     pub asked: Vec<AskedStrength>,
-    /// The same shares among whales held by each route; for whole rope alone.
+    /// Shares among whales held by each route, at these strengths; for whole rope alone.
     pub by_route: Vec<HeldKind>,
-    /// The same shares by part of each input; for whole rope alone.
+    /// Shares by part of each input, at these strengths; for whole rope alone.
     pub by_input: Vec<HeldKind>,
 }
 
