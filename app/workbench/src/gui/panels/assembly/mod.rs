@@ -321,13 +321,16 @@ fn item(
 ) {
     let documents = &shared.workbench.project().documents;
     let (library, units) = (documents.library(), shared.workbench.preferences().units);
-    let mut entries = library.entries(kind);
-    entries.sort_by(|one, other| {
-        let rank = |entry: &Entry| rank(library, kind, &entry.id);
-        rank(one).total_cmp(&rank(other)).then(one.name.cmp(&other.name))
+    let mut entries: Vec<(f64, &Entry)> = library
+        .entries(kind)
+        .into_iter()
+        .map(|entry| (rank(library, kind, &entry.id), entry))
+        .collect();
+    entries.sort_by(|(one, first), (other, second)| {
+        one.total_cmp(other).then_with(|| first.name.cmp(&second.name))
     });
     let mut choices: Vec<(String, String)> =
-        entries.iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
+        entries.iter().map(|(_, entry)| (entry.id.clone(), entry.name.clone())).collect();
     match empty {
         WhenEmpty::Missing => {}
         WhenEmpty::Nothing => choices.insert(0, (String::new(), "none".to_owned())),
