@@ -99,7 +99,7 @@ impl Study {
         let written = python.detach(|| {
             let table = merge::load(&folder)?;
             let findings = Findings::of(&self.opened, &table, &folder);
-            let page = report::write(&self.opened, &folder, &findings, report::Beside::default())?;
+            let page = report::write(&self.opened, &folder, &findings, &[])?;
             Ok((page, json::line(&findings)))
         });
         written.map_err(raised)

@@ -293,6 +293,19 @@ fn one_command_runs_studies_and_cases_and_reports_agreement() {
     place.endline(&["study", "hindcast", &study, "--encounters", "3"]).fails(2, &["--encounters"]);
 }
 
+/// The row of a route of attachment in `docs/results.md`; `None` if no whale was held by it.
+fn row_of_route(route: &serde_json::Value) -> Option<String> {
+    let rates = route["parts"].as_array().unwrap();
+    let held = rates[0]["runs"].as_u64().filter(|runs| *runs > 0)?;
+    let percent = |value: &serde_json::Value| 100.0 * value.as_f64().unwrap();
+    let cell = |rate: &serde_json::Value| {
+        let ends = ["low", "high"].map(|end| percent(&rate["interval"][end]));
+        format!(" {:.0} % [{:.0}, {:.0}] |", percent(&rate["rate"]), ends[0], ends[1])
+    };
+    let cells: String = rates.iter().map(cell).collect();
+    Some(format!("| held by: {} | {held} |{cells}", route["name"].as_str().unwrap()))
+}
+
 /// The kept results of `docs/results`: one command prints the answer that the page states, and writes its figure again.
 #[test]
 fn kept_results_are_remade_by_one_command() {
@@ -319,6 +332,13 @@ fn kept_results_are_remade_by_one_command() {
         let answer = printed.stdout.lines().filter(|line| !line.is_empty());
         for line in answer.take_while(|line| !line.starts_with("All tables")) {
             assert!(page.contains(line), "docs/results.md does not have: {line}");
+        }
+        let found: serde_json::Value =
+            serde_json::from_str(&fs::read_to_string(again.join("findings.json")).unwrap())
+                .unwrap();
+        for route in found["strength_curves"][0]["by_route"].as_array().unwrap() {
+            let row = row_of_route(route);
+            assert!(row.is_none_or(|row| page.contains(&row)), "docs/results.md misses {route}");
         }
         let figures = [again.join("strength.svg"), docs.join(format!("pictures/{id}.svg"))];
         let [own, shown] = figures.map(|file| fs::read_to_string(file).unwrap());

@@ -29,7 +29,7 @@ pub(super) fn stage_of(study: &Study, index: u32) -> usize {
 
 /// Number of encounters to which the proposals of a stage are fitted, by the number of encounters before the stage: four fifths, rounded
 /// up.
-fn fitted_to(before: u32) -> u32 {
+pub(super) fn fitted_to(before: u32) -> u32 {
     before - before / 5
 }
 

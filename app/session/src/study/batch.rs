@@ -34,6 +34,7 @@ pub fn run(
         let message = "a study that adapts cannot be divided into shards, because each stage needs all encounters of the earlier ones; run it without --shard, on several machines in one shared folder";
         return Err(Error::Message(format!("{}: {message}", opened.study.place.source.path)));
     }
+    folder.check_merged()?;
     let own: Vec<u32> = (0..folder.blocks()).filter(|block| shard.holds(*block)).collect();
     let missing: Vec<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
     let encounters = |blocks: &[u32]| {

@@ -90,7 +90,7 @@ struct MergedRows {
 }
 
 impl MergedRows {
-    fn of(table: Table) -> Self {
+    fn new(table: Table) -> Self {
         let mut places: BTreeMap<u32, Range<usize>> = BTreeMap::new();
         if let Some(Column::Whole(encounters)) = table.column("encounter") {
             for (row, encounter) in encounters.iter().enumerate() {
@@ -99,6 +99,15 @@ impl MergedRows {
             }
         }
         Self { table, places }
+    }
+
+    /// The rows of encounters, which lie one after the other.
+    fn of(&self, encounters: Range<u32>) -> Table {
+        let own = || self.places.range(encounters.clone()).map(|(_, rows)| rows);
+        let rows =
+            own().next().map_or(0, |rows| rows.start)..own().next_back().map_or(0, |rows| rows.end);
+        debug_assert_eq!(own().map(ExactSizeIterator::len).sum::<usize>(), rows.len());
+        self.table.slice(rows)
     }
 }
 
@@ -156,11 +165,6 @@ impl Folder {
         }
     }
 
-    /// Whether the program, the library or the study have changed since the rows were computed.
-    pub fn is_of_other_program(&self, opened: &PreparedStudy) -> bool {
-        self.hash != opened.hash
-    }
-
     /// The rows of the merged table.
     /// Errors: no merged table, one that is damaged, or of another study.
     pub fn merged(&self) -> Result<Table, Error> {
@@ -176,8 +180,17 @@ impl Folder {
         Ok(table)
     }
 
+    /// Checks that a merged table without any file of a block can be read: a study would otherwise begin anew beside it.
+    /// Errors: as [`merged`](Self::merged), and a folder that cannot be read.
+    pub fn check_merged(&self) -> Result<(), Error> {
+        if self.path.join("table.parquet").is_file() && self.written()?.is_empty() {
+            self.merged()?;
+        }
+        Ok(())
+    }
+
     fn merged_rows(&self) -> &MergedRows {
-        self.merged.get_or_init(|| self.merged().map(MergedRows::of).unwrap_or_default())
+        self.merged.get_or_init(|| self.merged().map(MergedRows::new).unwrap_or_default())
     }
 
     /// The folder with the first encounters only.
@@ -212,8 +225,8 @@ impl Folder {
     }
 
     fn is_merged(&self, block: u32) -> bool {
-        self.encounters_of(block)
-            .all(|encounter| self.merged_rows().places.contains_key(&encounter))
+        let places = &self.merged_rows().places;
+        self.encounters_of(block).all(|encounter| places.contains_key(&encounter))
     }
 
     /// Whether a block is there, whole and of this study.
@@ -270,13 +283,7 @@ impl Folder {
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
         if !file.is_file() && self.is_merged(block) {
-            let merged = self.merged_rows();
-            let mut rows = Table::default();
-            for encounter in self.encounters_of(block) {
-                // One table has the same columns in every row.
-                let _ = rows.append(merged.table.slice(merged.places[&encounter].clone()));
-            }
-            return Ok(rows);
+            return Ok(self.merged_rows().of(self.encounters_of(block)));
         }
         let bytes = read::bytes(&file).map_err(Error::on(&file, "cannot be read"))?;
         let wrong =
@@ -322,7 +329,7 @@ fn same(file: &Path, found: Label, label: &Label) -> Result<Label, Error> {
     }
     let short = |hash: &str| hash.chars().take(16).collect::<String>();
     let message = format!(
-        "belongs to the study `{}` of hash {} (Endline {}), not to `{}` of hash {}: study, scenario, library, plugins or program have changed; choose another folder with --out, or report these rows with --kept",
+        "belongs to the study `{}` of hash {} (Endline {}), not to `{}` of hash {}: study, scenario, library, plugins or program have changed; choose another folder with --out; `endline study report --kept` reports the rows that are there",
         found.study,
         short(&found.hash),
         found.version,

@@ -33,6 +33,8 @@ pub struct PreparedStudy {
     pub baseline: usize,
     /// BLAKE3 of all that defines its runs, hexadecimal: study, scenario, library, plugins, version.
     pub hash: String,
+    /// Folder of the gear library.
+    pub(super) root: PathBuf,
     pub(super) host: PluginHost,
     pub(super) library: Library,
     /// The library's files, before anything is set.
@@ -121,6 +123,7 @@ impl PreparedStudy {
             baseline,
             hash,
             host: host.clone(),
+            root: files.root,
             library: Library::read(&sources).0,
             sources,
             equilibria: Equilibria::default(),

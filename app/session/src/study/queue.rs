@@ -108,12 +108,7 @@ fn run(
     job.enter(State::Finishing);
     let table = merge::merge(&opened, &folder)?;
     merge::save(&opened, &folder, &table)?;
-    report::write(
-        &opened,
-        &folder,
-        &Findings::of(&opened, &table, &folder),
-        report::Beside::default(),
-    )?;
+    report::write(&opened, &folder, &Findings::of(&opened, &table, &folder), &[])?;
     Ok(State::Done)
 }
 

@@ -5,6 +5,7 @@ use crate::study::stats::{
     AskedStrength, Banded, Findings, HeldKind, HeldWhales, OptionFinding, OptionOnHeld, Rate,
     RouteFinding, StrengthCurve, Survival, Weighted,
 };
+use crate::study::threat::ThreatRange;
 use crate::units::{self, N_PER_LBF};
 
 use super::Beside;
@@ -200,10 +201,10 @@ pub(super) fn covered(held: &HeldWhales) -> Option<String> {
 }
 
 /// A line of a figure: its points, the outline of its band if it has one, and the words of its legend.
-struct Series<'a> {
+struct Series {
     line: Vec<[f64; 2]>,
     band: Vec<[f64; 2]>,
-    words: Vec<&'a str>,
+    words: Vec<String>,
 }
 
 /// Share of the held whales whose rope or link parts, against its strength, with the band, and the share that stays held. NOAA's threat is
@@ -221,44 +222,45 @@ pub(super) fn curves(all: &[StrengthCurve], beside: &Beside<'_>) -> Option<Strin
     let across = Axis { values: [0.0, most_n / N_PER_LBF], places: [70.0, right] };
     let up = Axis { values: [0.0, 1.0], places: [bottom, top] };
     break_away_scales(&mut svg, &across, &up);
-    let least_n = curves.iter().filter_map(|curve| curve.strengths_n.first());
-    let least_n = least_n.copied().fold(most_n, f64::min);
-    let line = |share: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-        let strengths_n =
-            (0..=400).map(|step| least_n + (most_n - least_n) * f64::from(step) / 400.0);
-        strengths_n.map(|n| [across.at(n / N_PER_LBF), up.at(share(n))]).collect()
+    let points = |values: &mut dyn Iterator<Item = (f64, f64)>| -> Vec<[f64; 2]> {
+        let drawn = values.filter(|(n, _)| *n <= most_n);
+        drawn.map(|(n, share)| [across.at(n / N_PER_LBF), up.at(share)]).collect()
     };
-    let mut series: Vec<Series<'_>> = Vec::new();
+    let mut series: Vec<Series> = Vec::new();
     for curve in &curves {
+        let at_strengths = |share: &dyn Fn(usize) -> f64| {
+            let values = curve.strengths_n.iter().enumerate();
+            points(&mut values.map(|(place, n)| (*n, share(place))))
+        };
         let Banded { shares, .. } = &curve.parts_given_held;
-        let at = |n: f64| place_of(curve, n);
-        let band = between(
-            line(&|n| curve.parts_given_held.band(at(n))[0]),
-            line(&|n| curve.parts_given_held.band(at(n))[1]),
-        );
+        let ends = |end: usize| at_strengths(&|place| curve.parts_given_held.band(place)[end]);
         series.push(Series {
-            line: line(&|n| shares[at(n)]),
-            band,
-            words: vec![&curve.part, "parts"],
+            line: at_strengths(&|place| shares[place]),
+            band: between(ends(0), ends(1)),
+            words: vec![format!("{} parts", curve.part)],
         });
         if let Some(whole) = curve.held.last().filter(|share| **share > 0.0) {
-            let held = line(&|n| curve.held[at(n)] / whole);
-            series.push(Series {
-                line: held,
-                band: Vec::new(),
-                words: vec!["still held:", &curve.part],
-            });
+            let line = at_strengths(&|place| curve.held[place] / whole);
+            let words = vec![format!("still held, {}", curve.part)];
+            series.push(Series { line, band: Vec::new(), words });
         }
     }
-    if let Some(threats) = beside.threats {
-        let at = |n: f64| threats.range(n / N_PER_LBF);
-        let band = between(line(&|n| 1.0 - at(n).upper), line(&|n| 1.0 - at(n).lower));
-        let words = vec!["NOAA's model V3.1:", "1 less threat"];
-        series.push(Series { line: line(&|n| 1.0 - at(n).threat), band, words });
+    let strengths_n = || (1..=400).map(|step| most_n * f64::from(step) / 400.0);
+    if let Some(threats) = &beside.threats {
+        let line = |share: &dyn Fn(ThreatRange) -> f64| {
+            let known = strengths_n().filter(|n| threats.contains(n / N_PER_LBF));
+            points(&mut known.map(|n| (n, share(threats.range(n / N_PER_LBF)))))
+        };
+        series.push(Series {
+            line: line(&|range| 1.0 - range.threat),
+            band: between(line(&|range| 1.0 - range.upper), line(&|range| 1.0 - range.lower)),
+            words: vec!["NOAA's model V3.1:".to_owned(), "1 less threat".to_owned()],
+        });
     }
     for haul in beside.hauls {
-        let words = haul.name.split_inclusive(", ").collect();
-        series.push(Series { line: line(&|n| haul.parts(n)), band: Vec::new(), words });
+        let words = haul.name.split(", ").map(str::to_owned).collect();
+        let line = points(&mut strengths_n().map(|n| (n, haul.parts(n))));
+        series.push(Series { line, band: Vec::new(), words });
     }
     let mut y = top + 6.0;
     for (kind, Series { line, band, words }) in series.iter().enumerate() {
@@ -266,17 +268,10 @@ pub(super) fn curves(all: &[StrengthCurve], beside: &Beside<'_>) -> Option<Strin
             svg.area(band, kind);
         }
         svg.path(line, kind);
-        y = legend(&mut svg, [right, y], kind, words);
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        y = legend(&mut svg, [right, y], kind, &words);
     }
     Some(svg.done())
-}
-
-/// The place of a strength [N] among those of a curve: the nearest.
-fn place_of(curve: &StrengthCurve, strength_n: f64) -> usize {
-    let above = curve.strengths_n.partition_point(|n| *n < strength_n);
-    let apart = |place: &usize| (curve.strengths_n[*place] - strength_n).abs();
-    let near = above.saturating_sub(1)..(above + 1).min(curve.strengths_n.len());
-    near.min_by(|one, other| apart(one).total_cmp(&apart(other))).unwrap_or_default()
 }
 
 /// The outline of the area between two lines.
@@ -284,7 +279,7 @@ fn between(low: Vec<[f64; 2]>, high: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     low.into_iter().chain(high.into_iter().rev()).collect()
 }
 
-/// Greatest strength of the axis: nothing parts in any curve or haul beyond it, with some room [N].
+/// Greatest strength of the axis, with some room [N]: nothing parts in any curve or haul beyond it, and it includes the strengths asked for most.
 fn greatest_n(curves: &[&StrengthCurve], beside: &Beside<'_>) -> f64 {
     let last = |curve: &&StrengthCurve| {
         let places = curve.strengths_n.iter().zip(&curve.parts_given_held.shares);
@@ -349,7 +344,7 @@ fn short(rate: &Rate) -> Cell {
 /// Caption of the figure of [`curves`].
 pub(super) fn curves_caption(all: &[StrengthCurve], beside: &Beside<'_>) -> String {
     let whales = all.iter().map(|curve| curve.parts_given_held.encounters);
-    let noaa = match beside.threats {
+    let noaa = match &beside.threats {
         Some(_) => {
             " NOAA's threat is a logistic curve fitted to the strengths of ropes that were taken off right whales; what it leaves to 1 is drawn, with \
              the range of its three curves. These whales had carried rope for days to months, the simulated ones for minutes."
@@ -410,7 +405,7 @@ mod tests {
             [curve("whole rope", 60), curve("weak link", 60), curve("other", LEAST_WHALES - 1)];
         let figure = curves(&all, &Beside::default()).unwrap();
         assert_eq!(figure.matches("<polygon").count(), 2);
-        for words in ["whole rope", "still held:", "100 %", "4000 lbf"] {
+        for words in ["whole rope parts", "still held, weak link", "100 %", "4000 lbf"] {
             assert!(figure.contains(words), "{words}");
         }
         assert!(!figure.contains("other"));

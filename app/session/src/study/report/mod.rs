@@ -27,25 +27,27 @@ use super::threat::StrengthThreatTable;
 use crate::table::{Column, Table};
 
 /// Other figures on the axis of strength, beside the shares of parting on whales.
-#[derive(Clone, Copy, Default)]
-pub struct Beside<'a> {
+#[derive(Default)]
+struct Beside<'a> {
     /// Loads of hauls.
-    pub hauls: &'a [HauledLoad],
+    hauls: &'a [HauledLoad],
     /// NOAA's threat by breaking strength.
-    pub threats: Option<&'a StrengthThreatTable>,
+    threats: Option<StrengthThreatTable>,
 }
 
-/// Writes `report.html`, `report.csv`, `findings.json` and the folder `bundle`; returns the path of the page. Kept results of another
-/// program have no bundle, because the present library did not give their rows. `strength.svg` is the figure of shares by strength alone.
-/// Errors: where the folder cannot be written.
+/// Writes `report.html`, `report.csv`, `findings.json`, `strength.svg` (the figure of shares by strength, if there is one) and the folder
+/// `bundle`; returns the path of the page. Hauls and NOAA's threat, if the library has it, are drawn on the axis of strength. Kept results
+/// of another program have no bundle, because the present library did not give their rows.
+/// Errors: where the folder cannot be written, or NOAA's table cannot be read.
 pub fn write(
     opened: &PreparedStudy,
     folder: &Folder,
     findings: &Findings,
-    beside: Beside<'_>,
+    hauls: &[HauledLoad],
 ) -> Result<PathBuf, Error> {
+    let beside = Beside { hauls, threats: StrengthThreatTable::of_library(&opened.root)? };
     let page = folder.path.join("report.html");
-    let html = page::html(opened, findings, beside).map_err(Error::on(&page, "cannot be made"))?;
+    let html = page::html(opened, findings, &beside).map_err(Error::on(&page, "cannot be made"))?;
     let figure = held::curves(&findings.strength_curves, &beside).map(svg::standalone);
     let files = [
         (page.clone(), Some(html)),
@@ -56,7 +58,7 @@ pub fn write(
     for (file, text) in files.into_iter().filter_map(|(file, text)| Some((file, text?))) {
         atomically(&file, text.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
     }
-    if !folder.is_of_other_program(opened) {
+    if findings.hash == opened.hash {
         bundle::write(opened, &folder.path.join("bundle"))?;
     }
     Ok(page)

@@ -16,7 +16,7 @@ use crate::page::{Line, STYLE};
 struct Page<'a> {
     opened: &'a PreparedStudy,
     findings: &'a Findings,
-    beside: Beside<'a>,
+    beside: &'a Beside<'a>,
     /// The event by which options are ranked, in words.
     event: String,
     /// Runs that are invalid.
@@ -32,7 +32,7 @@ struct Page<'a> {
 pub(super) fn html(
     opened: &PreparedStudy,
     findings: &Findings,
-    beside: Beside<'_>,
+    beside: &Beside<'_>,
 ) -> Result<String, askama::Error> {
     let count = |of: fn(&OptionFinding) -> u64| findings.options.iter().map(of).sum();
     let plugins = opened.options[opened.baseline].prepared.plugins.iter();

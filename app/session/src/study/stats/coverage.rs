@@ -5,6 +5,8 @@ use endline_gear::Study;
 use crate::encounters::draw::{Drawn, draw_from};
 use crate::encounters::fitted::{Fitted, Held, Mixture};
 
+use crate::study::adapt::fitted_to;
+
 use super::bootstrap::Draws;
 use super::indicators::{EventIndicator, EventIndicators};
 use super::interval::{Interval, Rate};
@@ -244,7 +246,7 @@ weights = [0.9, 0.1]
 source = "assumed"
 "#;
 
-/// One simulated study of 400 encounters, in stages from 0, 100 and 200 on if it adapts, fitted to the first 80 and 160: whether a whale is held, with the weights.
+/// One simulated study of 400 encounters: whether a whale is held, with the weights. If it adapts, stages begin at 0, 100 and 200.
 /// Whales that skim at the left are held by one route, and whales at the right edge by another.
 fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicators {
     let mut uniform = || (draws.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30);
@@ -252,7 +254,7 @@ fn adapted_study(study: &Study, draws: &mut Draws, adapts: bool) -> EventIndicat
     let mut indicators = EventIndicators::default();
     for encounter in 0..400 {
         if adapts && (encounter == 100 || encounter == 200) {
-            let first = held.iter().filter(|(at, _)| *at < encounter - encounter / 5);
+            let first = held.iter().filter(|(at, _)| *at < fitted_to(encounter));
             let first: Vec<Held> = first.map(|(_, held): &(u32, Held)| held.clone()).collect();
             fitted = Fitted::to(study, &first);
         }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::settled::PartStrength;
+use crate::study::folder::Folder;
 use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::{RunRow, Runs};
@@ -26,7 +27,6 @@ use super::sensitivity::{self, InputFinding, Lowest};
 use super::strength_curve::{self, StrengthCurve};
 use super::survival::Survival;
 use super::tensions::Tensions;
-use crate::study::folder::Folder;
 
 /// Name of the schema.
 const SCHEMA: &str = "endline.findings/2";

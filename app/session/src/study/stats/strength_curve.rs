@@ -261,17 +261,14 @@ pub(super) fn of_study(
         let held = EventIndicators::of(runs, id, event);
         let known = needed.iter().any(Option::is_some);
         let kinds = if part == Part::Rope { Kinds::of(opened, runs, id) } else { Kinds::default() };
-        known.then(|| StrengthCurve {
-            option: id.clone(),
-            ..curve(part, &needed, &held, &simulated(part), &kinds)
-        })
+        known.then(|| curve(part, id, &needed, &held, &simulated(part), &kinds))
     };
     Part::ALL.into_iter().filter_map(curve).collect()
 }
 
-/// The curve of a part, without the name of its option.
 fn curve(
     part: Part,
+    option: &str,
     needed: &[Option<(f64, f64)>],
     held: &EventIndicators,
     simulated: &[Simulated],
@@ -336,7 +333,7 @@ fn curve(
     });
     StrengthCurve {
         part: part.name().to_owned(),
-        option: String::new(),
+        option: option.to_owned(),
         asked: asked.collect(),
         by_input: kinds.by_input.iter().map(parts_of).collect(),
         by_route,
@@ -384,7 +381,7 @@ mod tests {
             by_input: vec![kind("age", [false, true, false, false])],
             observed: Some([0.4, 0.4, 0.2, 0.0, 0.0]),
         };
-        let found = curve(Part::Rope, &needed, &held, &simulated, &kinds);
+        let found = curve(Part::Rope, "unbreakable", &needed, &held, &simulated, &kinds);
         let check = |values: &[f64], expected: [(u32, f64); 4]| {
             for (lbf, share) in expected {
                 let found = values[((lbf - FROM_LBF) as usize) / STEP_LBF];
@@ -453,7 +450,7 @@ mod tests {
         let missing =
             EventIndicators(vec![None, Some(EventIndicator { occurred: true, weight: 1.0 })]);
         let needed = [None, Some((5.0, 1.0))];
-        let found = curve(Part::Link, &needed, &missing, &[], &Kinds::default());
+        let found = curve(Part::Link, "unbreakable", &needed, &missing, &[], &Kinds::default());
         assert_eq!((found.parts.encounters, found.held.len()), (1, 0));
     }
 }

@@ -6,9 +6,13 @@
 //! least and the greatest of the three curves.
 //! Source: function_DecisionSupportTool_V3.1.0.R and its inputs, github.com/ALoMiller/DecisionSupportToolApp (2021).
 
+use std::path::Path;
+
 use endline_gear::Diagnostic;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
 
 use super::interpolation::{Strengths, combined};
 use super::reading::TableFile;
@@ -68,6 +72,20 @@ pub struct StrengthThreatTable {
 }
 
 impl StrengthThreatTable {
+    /// Its file in the gear library.
+    pub const FILE: &str = "cases/tables/noaa-dst-threat-by-strength.csv";
+
+    /// Reads the table of a gear library; `None` if it has none.
+    /// Errors: as [`read`](Self::read), and a file that cannot be read.
+    pub fn of_library(root: &Path) -> Result<Option<Self>, Error> {
+        let file = root.join(Self::FILE);
+        if !file.is_file() {
+            return Ok(None);
+        }
+        let text = endline_gear::read::text(&file).map_err(Error::on(&file, "cannot be read"))?;
+        Ok(Some(Self::read(&file.display().to_string(), &text)?))
+    }
+
     /// Reads a table with the columns `RopeStrength` [lbf], `Threat`, `Threat_Lower` and `Threat_Upper`; lines that begin with `#` are notes.
     /// Errors: every row that cannot be read or has a value out of its range, at its line; a missing column; strengths that do not ascend.
     pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {

@@ -19,7 +19,7 @@ pub(in crate::cli) enum StudyCommand {
     Submit(SubmitArgs),
     /// Merge all blocks into table.parquet and table.csv.
     Merge(StudyArgs),
-    /// Print the findings of a merged study and write report.html, report.csv and a bundle.
+    /// Print the findings of a merged study and write report.html, report.csv, findings.json, strength.svg and a bundle.
     Report(ReportArgs),
     /// Print simulated shares beside those seen on real whales, as Markdown: of a merged study, or of all.
     Hindcast(HindcastArgs),

@@ -13,7 +13,6 @@ use std::sync::Arc;
 
 use endline_session::campaign::{Control, Count, Pace, threads};
 use endline_session::study::folder::Folder;
-use endline_session::study::report::Beside;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
 use endline_session::study::{PreparedStudy, REPLAY_HZ, batch, forecast, merge, report};
@@ -123,9 +122,7 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     let folder = stored(&args.at, args.kept, &opened)?;
     let table = merge::load(&folder)?;
     let findings = Findings::of(&opened, &table, &folder);
-    let threats = threat::noaa(library)?;
-    let beside = Beside { hauls: &hauls, threats: threats.as_ref() };
-    let page = report::write(&opened, &folder, &findings, beside)?;
+    let page = report::write(&opened, &folder, &findings, &hauls)?;
     output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json {
         json::line(&findings) + "\n"

@@ -143,16 +143,6 @@ fn line(row: &Threat) -> String {
     text
 }
 
-/// NOAA's threat by breaking strength, V3.1, in the gear library.
-const THREATS: &str = "cases/tables/noaa-dst-threat-by-strength.csv";
-
-/// NOAA's threat by breaking strength, if the library has it.
-pub(super) fn noaa(library: Option<&Path>) -> Result<Option<StrengthThreatTable>, Failure> {
-    let file = locate::library(None, library).map_err(Failure::failed)?.join(THREATS);
-    let is_there = file.is_file();
-    is_there.then(|| read(Some(&file), THREATS, library, StrengthThreatTable::read)).transpose()
-}
-
 /// NOAA's strengths of lines by traps, V3.1, in the gear library.
 const LINES: &str = "cases/tables/noaa-dst-strength-by-traps.csv";
 
@@ -164,7 +154,8 @@ pub(super) fn by_strength(
     opened: &PreparedStudy,
     library: Option<&Path>,
 ) -> Result<ExitCode, Failure> {
-    let threats = read(args.model.as_deref(), THREATS, library, StrengthThreatTable::read)?;
+    let threats =
+        read(args.model.as_deref(), StrengthThreatTable::FILE, library, StrengthThreatTable::read)?;
     let lines = read(args.strengths.as_deref(), LINES, library, LineStrengthTable::read)?;
     let curve = curve(args, opened)?;
     let event = event(args, opened)?;
