@@ -1,8 +1,34 @@
-// Open water, lighter towards the surface; air above it.
+// Open water, lighter towards the surface and the sun, with shafts of light; air above it.
+uniform float film;       // 1 for shafts of light
+
 in vec3 sight;
 
 out vec4 shown;
 
+// Light that rays of the sun scatter on the way to the eye, above the mean: the pattern of the surface along the line of sight.
+float shafts(vec3 view) {
+    const int STEPS = 12;
+    const float LENGTH_M = 24.0;
+    float noise = noise_of(gl_FragCoord.xy);
+    float sum = 0.0;
+    for (int step = 0; step < STEPS; step++) {
+        float way = LENGTH_M * (float(step) + noise) / float(STEPS);
+        vec3 at = eye + way * view;
+        if (at.z < 0.0) {
+            vec2 surface = at.xy - SUN.xy / SUN.z * at.z;
+            sum += exp(at.z / 14.0 - way / 12.0) * (caustic(0.22 * surface) + 0.5 * caustic(0.6 * surface + 3.0) - 0.36);
+        }
+    }
+    return sum / float(STEPS);
+}
+
 void main() {
-    shown = vec4(backdrop(normalize(sight)), 1.0);
+    vec3 view = normalize(sight);
+    vec3 light = backdrop(view);
+    if (film > 0.5 && eye.z < 0.0) {
+        float toward = 0.5 + 0.5 * dot(view, SUN);
+        float above = smoothstep(-0.02, 0.30, view.z);  // where the seabed does not end against the water
+        light *= max(1.0 + above * (4.0 + 10.0 * toward * toward) * shafts(view), 0.3);
+    }
+    shown = developed(light, 1.0, gl_FragCoord.xy);
 }

@@ -1,6 +1,7 @@
 // Daylight from above that fades with depth, water that hides what is far, a sandy seabed with grid lines, wet skin.
 uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface, 4 skin, 5 rope, 6 its edge
-uniform float grid_m;     // distance of the seabed's lines [m]
+uniform float grid_m;     // distance of the lines of seabed and surface [m]; 0 for none
+uniform float film;       // 1 for a picture without instruments: rope is lit as everything else
 
 in vec3 world;
 in vec3 outward;
@@ -8,10 +9,6 @@ in vec4 tint;
 in vec3 own;              // place on the body at rest, where its grain sticks [m]
 
 out vec4 shown;
-
-const vec3 SUN = vec3(0.26, -0.34, 0.90);
-// Cosine of the angle from straight up within which light enters the sea: asin(1/1.34) = 48.3 degrees.
-const float WINDOW = 0.665;
 
 float lines(vec2 at, float spacing) {
     vec2 cell = at / spacing;
@@ -22,11 +19,11 @@ float lines(vec2 at, float spacing) {
     return max(line.x, line.y);
 }
 
-// Light on a surface: sky above, seabed's dim return below, sun with the ripples' play, a rim against the water.
+// Light on a surface of a linear colour: sky above, the seabed's dim return below, sun with the ripples' play, a rim against the water.
 vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
-    float sky_light = 0.46 + 0.30 * n.z;
-    float sun = max(dot(n, SUN), 0.0) * (0.56 + 0.75 * ripples(world));
-    vec3 edge = rim * pow(1.0 - abs(dot(n, view)), 3.0) * vec3(0.45, 0.68, 0.78);
+    vec3 sky_light = mix(vec3(0.10, 0.19, 0.20), vec3(0.92, 0.98, 1.0), 0.5 + 0.5 * n.z);
+    float sun = max(dot(n, SUN), 0.0) * (0.85 + 2.2 * ripples(world));
+    vec3 edge = rim * pow(1.0 - abs(dot(n, view)), 4.0) * vec3(0.16, 0.34, 0.40);
     return (colour * (sky_light + sun) + edge) * daylight(world.z);
 }
 
@@ -56,11 +53,14 @@ vec3 skin(vec3 n, vec3 view) {
     float dull = mark.a;
     float mottle = 0.6 * grain_at(own * 2.3) + 0.4 * grain_at(own * 9.0);
     float rough = grain_at(own * 16.0);
-    vec3 colour = mark.rgb * (1.0 + mix(0.13 * mottle, 0.30 * rough, dull));
+    vec3 colour = linear_of(mark.rgb) * (1.0 + mix(0.22 * mottle, 0.45 * rough, dull));
     vec3 tilt = vec3(grain_at(own * 14.0 + 7.0), grain_at(own * 14.0 + 31.0), rough);
-    vec3 m = normalize(n + mix(0.03, 0.16, dull) * tilt);
-    float gloss = pow(max(dot(reflect(view, m), SUN), 0.0), 22.0);
-    return lit(colour, m, view, 0.34) + (1.0 - dull) * gloss * vec3(0.20, 0.24, 0.25) * daylight(world.z);
+    vec3 m = normalize(n + mix(0.03, 0.20, dull) * tilt);
+    vec3 mirrored = reflect(view, m);
+    float glint = pow(max(dot(mirrored, SUN), 0.0), 40.0);
+    float sheen = smoothstep(0.35, 0.95, mirrored.z) * (0.05 + 0.25 * pow(1.0 - abs(dot(m, view)), 3.0));
+    vec3 gloss = (0.22 * glint * (0.5 + ripples(world)) + sheen) * vec3(0.75, 0.95, 1.0);
+    return lit(colour, m, view, 0.30) + (1.0 - dull) * gloss * daylight(world.z);
 }
 
 // Laid rope: three strands that turn to the right, as far as they are wide enough to be seen. Its grain is the place along it and
@@ -71,32 +71,77 @@ vec3 rope(vec3 n, vec3 view) {
     float seen = clamp(1.3 - 8.0 * fwidth(own.x) / LAY_M, 0.0, 1.0);
     float strands = mix(1.0, 0.80 + 0.20 * cos(3.0 * 6.2831853 * turn), seen);
     float round = 0.62 + 0.38 * abs(dot(n, view));
-    return tint.rgb * strands * round * (0.94 + 0.10 * n.z);
-}
-
-// Sand in low ridges, and lines to measure by.
-vec3 seabed(float far) {
-    float fine = exp(-far / 60.0);
-    float sand = 0.5 * grain_at(world * vec3(0.13, 0.13, 0.0)) + fine * 0.5 * grain_at(world * vec3(1.1, 0.5, 0.0));
-    vec3 colour = tint.rgb * (1.0 + 0.16 * sand + 1.2 * ripples(world)) * daylight(world.z);
-    float line = max(0.20 * lines(world.xy, grid_m), 0.055 * lines(world.xy, grid_m * 0.1));
-    return colour + line * vec3(0.45, 0.60, 0.62);
-}
-
-// The surface. From below: daylight within its round window overhead, the deep mirrored beyond; from above: a veil.
-vec4 surface(vec3 view, float hide) {
-    vec2 wave = vec2(grain_at(vec3(world.xy * 0.55, 0.35 * time_s)), grain_at(vec3(world.yx * 0.55 + 9.0, 0.35 * time_s)));
-    float up = abs(normalize(vec3(view.xy + 0.10 * wave, view.z)).z);
-    float flat_angle = pow(1.0 - abs(view.z), 3.0);
-    if (eye.z > 0.0) {
-        vec3 veil = mix(mix(tint.rgb, water_high, 0.7), sky, 0.15 + 0.7 * flat_angle);
-        float thick = mix(0.10, 0.50, flat_angle) + 0.06 * lines(world.xy, grid_m);
-        return vec4(veil, thick * emerged() * (1.0 - hide));
+    if (film > 0.5) {
+        float glint = pow(max(dot(reflect(view, n), SUN), 0.0), 16.0);
+        return lit(linear_of(tint.rgb) * strands * strands, n, view, 0.1) + 0.12 * glint * daylight(world.z);
     }
-    float within = smoothstep(WINDOW - 0.16, WINDOW + 0.10, up);
-    vec3 colour = mix(water_at(-0.35 * depth_m) * (1.0 + 0.10 * wave.x), mix(water_high, sky, 0.75) * (1.0 + 0.12 * wave.y), within);
-    colour += 0.04 * lines(world.xy, grid_m);
-    return vec4(mix(colour, backdrop(view), hide), 0.60);
+    return light_of(tint.rgb * strands * round * (0.94 + 0.10 * n.z));
+}
+
+// Height of the sand's ridges at a place [m]: crests a hand apart that wander and fork, on broad waves.
+float sand_at(vec2 at) {
+    float wander = grain_at(vec3(at * 0.35, 2.0)) + 0.4 * grain_at(vec3(at * 1.3, 5.0));
+    float crest = 1.0 - abs(sin(11.0 * at.x + 4.0 * at.y + 5.0 * wander));
+    return 0.012 * crest * (0.6 + 0.4 * grain_at(vec3(at * 0.8, 9.0))) + 0.06 * grain_at(vec3(at * 0.22, 0.0));
+}
+
+// Sand in ridges, with patches and grains, and lines to measure by.
+vec3 seabed(vec3 view, float far) {
+    float fine = exp(-far / 25.0);
+    float patches = grain_at(world * vec3(0.13, 0.13, 0.0)) + 0.5 * exp(-far / 60.0) * grain_at(world * vec3(0.6, 0.6, 0.0));
+    vec3 colour = linear_of(tint.rgb) * (1.0 + 0.30 * patches);
+    vec3 n = vec3(0.0, 0.0, 1.0);
+    if (fine > 0.02) {
+        const float STEP_M = 0.02;
+        float here = sand_at(world.xy);
+        vec2 slope = vec2(sand_at(world.xy + vec2(STEP_M, 0.0)) - here, sand_at(world.xy + vec2(0.0, STEP_M)) - here) / STEP_M;
+        n = normalize(vec3(-6.0 * fine * slope, 1.0));
+        float speck = smoothstep(0.62, 0.75, grain_at(world * vec3(31.0, 31.0, 0.0)));
+        colour *= 1.0 + fine * (0.35 * speck + 0.25 * grain_at(world * vec3(40.0, 40.0, 0.0)));
+    }
+    vec3 light = lit(1.1 * colour, n, view, 0.0);
+    if (grid_m > 0.0) {
+        light += max(0.20 * lines(world.xy, grid_m), 0.055 * lines(world.xy, grid_m * 0.1)) * vec3(0.25, 0.40, 0.42);
+    }
+    return light;
+}
+
+// Slope of the waves at a place of the surface: three octaves, the finer ones only near by.
+vec2 wave_slope(float far) {
+    vec2 slope = vec2(0.0);
+    float scale = 0.35;
+    float tall = 0.16;
+    for (int octave = 0; octave < 3; octave++) {
+        vec3 at = vec3(world.xy * scale + 7.0 * float(octave), 0.35 * time_s * sqrt(scale / 0.35));
+        float share = tall * exp(-far * scale / 60.0);
+        slope += share * vec2(grain_at(at), grain_at(at + vec3(31.0, 17.0, 0.0)));
+        scale *= 2.7;
+        tall *= 0.75;
+    }
+    return slope;
+}
+
+// The surface. From below: sky within the round window overhead, the deep mirrored beyond it; from above: a veil.
+vec4 surface(vec3 view, float far, vec3 left) {
+    const float INDEX = 1.34;
+    float ruled = grid_m > 0.0 ? lines(world.xy, grid_m) : 0.0;
+    vec3 n = normalize(vec3(wave_slope(far) * smoothstep(0.0, 0.4, abs(view.z)), 1.0));
+    if (eye.z > 0.0) {
+        float flat_angle = pow(1.0 - abs(view.z), 3.0);
+        float glint = pow(max(dot(reflect(view, n), normalize(vec3(SUN.xy * 1.34, 0.8))), 0.0), 120.0);
+        vec3 veil = light_of(mix(mix(tint.rgb, water_high, 0.7), sky, 0.15 + 0.7 * flat_angle)) + 1.5 * glint;
+        float thick = mix(0.10, 0.50, flat_angle) + 0.06 * ruled + 0.4 * glint;
+        return vec4(veil, min(thick, 1.0) * emerged() * left.g);
+    }
+    float up = max(dot(view, n), 0.0);
+    float inside = 1.0 - INDEX * INDEX * (1.0 - up * up);
+    float open = smoothstep(-0.05, 0.12, inside);
+    vec3 out_ray = vec3(INDEX * (view - up * n).xy, sqrt(max(inside, 0.0)));
+    float sun = pow(max(dot(out_ray, normalize(vec3(SUN.xy * INDEX, 0.8))), 0.0), 24.0);
+    vec3 through = light_of(mix(water_high, sky, 0.85)) * (1.05 + 0.3 * up) + 1.6 * sun;
+    vec3 mirrored = backdrop(reflect(view, n)) * 1.05;
+    vec3 light = mix(mirrored, through, open) + 0.05 * ruled;
+    return vec4(light, mix(0.80, 0.60, open) * left.g);
 }
 
 void main() {
@@ -105,28 +150,35 @@ void main() {
     vec3 view = sight / far;
     vec3 n = normalize(outward);
     if (!gl_FrontFacing) { n = -n; }
-    float hide = 1.0 - exp(-max(far - clear_m, 0.0) / hide_m);
-    vec3 colour = tint.rgb;
+    // Colours that are read against a scale are not changed by the water before what the camera looks at.
+    vec3 clear = vec3(exp(-max(far - clear_m, 0.0) / hide_m));
+    vec3 left = passed(far);
     if (look == 3) {
-        shown = surface(view, hide);
+        vec4 sheet = surface(view, far, left);
+        shown = developed(sheet.rgb, sheet.a, gl_FragCoord.xy);
         return;
     }
+    vec3 light;
     if (look == 0) {
-        colour = lit(colour, n, view, 0.16);
+        light = lit(linear_of(tint.rgb), n, view, 0.16);
     } else if (look == 1) {
-        colour *= 0.80 + 0.20 * abs(dot(n, view));
+        light = light_of(tint.rgb * (0.80 + 0.20 * abs(dot(n, view))));
+        left = clear;
     } else if (look == 2) {
-        colour = seabed(far);
+        light = seabed(view, far);
     } else if (look == 5) {
-        colour = rope(n, view);
+        light = rope(n, view);
+        if (film < 0.5) { left = clear; }
     } else if (look == 6) {
-        colour = vec3(0.03, 0.09, 0.13);
+        light = light_of(vec3(0.03, 0.09, 0.13));
+        left = clear;
     } else {
-        colour = skin(n, view);
+        light = skin(n, view);
     }
     if (eye.z > 0.0 && world.z < 0.0) {
         float way = far * world.z / (world.z - eye.z);
-        colour = mix(colour, mix(water_low, water_high, 0.6), emerged() * sunk(way));
+        light = mix(light, light_of(mix(water_low, water_high, 0.6)), emerged() * sunk(way));
+        left = clear;
     }
-    shown = vec4(mix(colour, backdrop(view), hide), 1.0);
+    shown = developed(mix(backdrop(view), light, left), 1.0, gl_FragCoord.xy);
 }

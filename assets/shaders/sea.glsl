@@ -1,28 +1,62 @@
 // What every shader of the scene knows of the sea: how light falls through it, and its colour along a line of sight.
+// Colours are linear light until `developed` turns them into those of the screen.
 uniform vec3 eye;
-uniform float clear_m;    // distance up to which water hides nothing [m]
-uniform float hide_m;     // distance beyond it at which two thirds are hidden [m]
+uniform float clear_m;    // distance of what the camera looks at [m]
+uniform float hide_m;     // distance beyond it at which water hides most [m]
 uniform float depth_m;    // depth of the sea [m]
 uniform float time_s;     // simulated time, which moves the light of the ripples [s]
-uniform vec3 water_low;   // water at the seabed and just below the surface
+uniform vec3 water_low;   // sRGB of water at the seabed and just below the surface
 uniform vec3 water_high;
-uniform vec3 sky;         // air above the surface
+uniform vec3 sky;         // sRGB of the air above the surface
 
-// Colour of open water at a height.
-vec3 water_at(float z) {
-    return mix(water_low, water_high, exp(1.9 * min(z, 0.0) / depth_m));
+// Direction from which the sun shines under water.
+const vec3 SUN = vec3(0.26, -0.34, 0.90);
+// How much faster than the mean water hides red, green and blue.
+const vec3 ABSORBED = vec3(1.45, 0.55, 0.45);
+
+// Linear light of an sRGB colour.
+vec3 linear_of(vec3 srgb) {
+    return pow(srgb, vec3(2.2));
 }
 
-// What is seen along a line of sight where nothing stands in its way: the water (or air) as far off as the eye looks.
+// Light that `developed` shows as this sRGB colour.
+vec3 light_of(vec3 srgb) {
+    return -log(1.0 - 0.97 * linear_of(srgb));
+}
+
+// Even noise of a pixel, 0 to 1 (interleaved gradient noise, Jimenez 2014).
+float noise_of(vec2 pixel) {
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+// sRGB of light at a pixel: an exposure curve that brightens less and less, and half a step of noise against bands.
+vec4 developed(vec3 light, float opacity, vec2 pixel) {
+    vec3 srgb = pow((1.0 - exp(-max(light, 0.0))) / 0.97, vec3(1.0 / 2.2));
+    return vec4(srgb + (noise_of(pixel) - 0.5) / 255.0, opacity);
+}
+
+// Light of open water at a height.
+vec3 water_at(float z) {
+    return light_of(mix(water_low, water_high, exp(1.9 * min(z, 0.0) / depth_m)));
+}
+
+// What is seen along a line of sight where nothing stands in its way: the water (or air) as far off as the eye looks, brighter towards the sun.
 vec3 backdrop(vec3 view) {
     float z = eye.z + view.z * clear_m;
     float wide = 0.004 * clear_m;
-    return mix(water_at(z), sky, smoothstep(-wide, wide, z));
+    float toward = 0.5 + 0.5 * dot(view, SUN);
+    vec3 water = water_at(z) * (0.55 * exp(1.1 * view.z) + 0.45 * toward * toward + 1.2 * pow(toward, 10.0));
+    return mix(water, light_of(sky), smoothstep(-wide, wide, z));
 }
 
-// Share of daylight left at a height: enough is kept to see by, as an eye used to the dark would.
-float daylight(float z) {
-    return mix(0.66, 1.0, exp(1.4 * min(z, 0.0) / depth_m));
+// Share of daylight left at a height, by colour: enough is kept to see by, as an eye used to the dark would.
+vec3 daylight(float z) {
+    return mix(vec3(0.24, 0.46, 0.50), vec3(1.0), exp(1.6 * min(z, 0.0) / depth_m));
+}
+
+// Share of light, by colour, that water leaves of what is this far away.
+vec3 passed(float far) {
+    return exp(-ABSORBED * far / (clear_m + hide_m));
 }
 
 // How far what lies under water goes over into its colour for an eye in the air, by the way of the light through it [m]: never wholly, so that gear stays in sight.
@@ -35,15 +69,19 @@ float emerged() {
     return smoothstep(0.0, 0.2 * clear_m, eye.z);
 }
 
-// Bright lines that ripples at the surface throw on what lies near under it, 0 to 1.
-float ripples(vec3 at) {
-    vec2 p = at.xy * 0.8 + 0.15 * at.z;
+// Pattern of light that passes a place of the surface, 0 to 1: bright lines between dark cells.
+float caustic(vec2 p) {
     for (int turn = 0; turn < 2; turn++) {
         p += 0.7 * vec2(sin(1.3 * p.y + 0.9 * time_s), cos(1.1 * p.x - 0.7 * time_s));
     }
     float ridge = 1.0 - abs(sin(p.x) + sin(p.y + 0.5 * time_s)) * 0.5;
-    float near = exp(min(at.z, 0.0) / 9.0);
-    return near * pow(clamp(ridge, 0.0, 1.0), 5.0);
+    return pow(clamp(ridge, 0.0, 1.0), 5.0);
+}
+
+// Bright lines that ripples at the surface throw on what lies under it, along the sun's rays, 0 to 1. They blur with depth.
+float ripples(vec3 at) {
+    vec2 surface = at.xy - SUN.xy / SUN.z * at.z;
+    return exp(min(at.z, 0.0) / 16.0) * caustic(0.8 * surface);
 }
 
 // Uneven grain of a surface, -1 to 1: smooth noise on a lattice of unit cells.

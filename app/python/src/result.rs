@@ -109,6 +109,7 @@ impl Result {
                 scale_n: None,
                 fit,
                 caption,
+                film: false,
                 out: &out,
                 units: Units::Mixed,
             })

@@ -46,9 +46,11 @@ pub const fn faded(colour: Colour, opacity: f32) -> Colour {
 /// Water far away.
 pub const DEEP: Colour = rgb(0x12, 0x2b, 0x38);
 /// Seabed.
-pub const SEABED: Colour = rgb(0x4b, 0x59, 0x58);
+pub const SEABED: Colour = rgb(0x76, 0x74, 0x66);
 /// Sea surface.
 pub const SURFACE: Colour = rgb(0x8f, 0xc6, 0xd6);
+/// Rope where its tension is not shown: pale, weathered polypropylene.
+pub const ROPE: Colour = rgb(0xb9, 0xad, 0x84);
 /// Weak places of a line.
 pub const WEAK: Colour = rgb(0xd5, 0x5e, 0x00);
 /// Whale skin.

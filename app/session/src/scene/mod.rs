@@ -27,7 +27,7 @@ pub enum Look {
     Own,
     /// Seabed: grid lines at this distance, both ways.
     Seabed {
-        /// Distance between lines [m].
+        /// Distance between lines [m]; 0 for none.
         grid_m: f32,
     },
     /// Sea surface: see-through, brighter at a flat angle, seen from both sides.
@@ -64,6 +64,10 @@ pub struct Scene {
     pub time_s: f64,
     /// Height of the sea surface above the seabed under the gear [m].
     pub depth_m: f64,
+    /// Path of the water since the start of the run [m], along which particles in it drift.
+    pub drift_m: DVec3,
+    /// Whether it is drawn for a film ([`Show::film`]).
+    pub film: bool,
 }
 
 /// Choices of the parts shown.
@@ -85,6 +89,33 @@ pub struct Show {
     pub whale: bool,
     /// Names of buoys, traps and anchors that appear small, written over the scene.
     pub names: bool,
+    /// A picture for films and print: no marks, lines, scales or text; rope in its own colours; particles and shafts of light in the
+    /// water.
+    pub film: bool,
+}
+
+impl Show {
+    /// What is drawn for films and print.
+    pub const FILM: Self = Self {
+        scale_n: None,
+        surface: true,
+        seabed: true,
+        current: false,
+        contacts: false,
+        forces: false,
+        whale: true,
+        names: false,
+        film: true,
+    };
+
+    /// The choices, or those of a film if they ask for one.
+    pub fn effective(self) -> Self {
+        if self.film {
+            Self { surface: self.surface, seabed: self.seabed, whale: self.whale, ..Self::FILM }
+        } else {
+            self
+        }
+    }
 }
 
 impl Default for Show {
@@ -98,6 +129,7 @@ impl Default for Show {
             forces: false,
             whale: true,
             names: true,
+            film: false,
         }
     }
 }
@@ -105,6 +137,7 @@ impl Default for Show {
 impl Scene {
     /// The scene of a frame of a model.
     pub fn of(model: &Model, frame: &Frame, show: &Show) -> Self {
+        let show = show.effective();
         let bounds = bounds(&Self::places_of(model, frame));
         let scale_n = show
             .scale_n
@@ -113,18 +146,20 @@ impl Scene {
         let [skin, eyes] = whale::skin_and_eyes(model, frame);
         let [current, current_heads] = sea::current(model);
         let [shafts, force_heads] = forces::forces(frame);
+        let tinted = (!show.film).then_some(scale_n);
         let mut parts = Vec::new();
         let mut add = |wanted: bool, name, look, least_px, mesh: Mesh| {
             if wanted && !mesh.triangles.is_empty() {
                 parts.push(Part { name, look, least_px, mesh });
             }
         };
-        add(show.seabed, "seabed", Look::Seabed { grid_m: 10.0 }, 0.0, sea::seabed(model, &bounds));
+        let grid_m = if show.film { 0.0 } else { 10.0 };
+        add(show.seabed, "seabed", Look::Seabed { grid_m }, 0.0, sea::seabed(model, &bounds));
         add(true, "obstacles", Look::Solid, 0.0, obstacles::obstacles(model));
         add(show.whale, "whale", Look::Skin, 0.0, skin);
         add(show.whale, "eyes", Look::Solid, 0.0, eyes);
-        add(true, "ropes", Look::Rope, 1.4, rope::lines(model, frame, scale_n));
-        add(true, "weak places", Look::Own, 4.0, rope::weak_places(model, frame));
+        add(true, "ropes", Look::Rope, 1.4, rope::lines(model, frame, tinted));
+        add(!show.film, "weak places", Look::Own, 4.0, rope::weak_places(model, frame));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, current);
         add(show.current, "current heads", Look::Own, 5.0, current_heads);
@@ -132,7 +167,10 @@ impl Scene {
         add(show.forces, "forces", Look::Own, 1.0, shafts);
         add(show.forces, "force heads", Look::Own, 9.0, force_heads);
         add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
-        Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
+        let water = &model.spec.water;
+        let drift_m = water.current.surface_m_s * frame.time_s;
+        let Show { film, .. } = show;
+        Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: water.depth_m, drift_m, film }
     }
 
     /// Places that together show gear and whale: rope nodes, bodies, a box round the whale [m].

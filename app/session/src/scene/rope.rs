@@ -1,4 +1,4 @@
-//! Ropes as tubes coloured by tension, with their knots.
+//! Ropes as tubes coloured by tension or in their own colour, with their knots.
 //!
 //! Between nodes the tube follows a cubic through them (Hermite, with tangents by finite differences), in more pieces where it bends more.
 //! Every node stays where it is.
@@ -6,7 +6,7 @@
 use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
 
-use super::colour::{PARTED, WEAK, tension_colour};
+use super::colour::{PARTED, ROPE, WEAK, tension_colour};
 use super::mesh::{Colour, Mesh, single};
 
 /// Sides of a rope's tube.
@@ -15,8 +15,9 @@ const SIDES: usize = 6;
 /// Radius of the mark of a weak place over its rope's diameter.
 const WEAK_PLACE: f64 = 0.9;
 
-/// Every line as one tube for each whole stretch; a cut segment is a gap whose ends are marked.
-pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
+/// Every line as one tube for each whole stretch; a cut segment is a gap whose ends are marked. Rope is coloured by its tension against
+/// `scale_n`, the tension at the top of the scale [N]; without a scale it has its own colour, and the ends of gaps are not marked.
+pub fn lines(model: &Model, frame: &Frame, scale_n: Option<f64>) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, line) in model.spec.lines.iter().enumerate() {
         let (nodes, segments) =
@@ -42,7 +43,7 @@ pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
 }
 
 /// Knots, splices and links as balls on the rope, in its colour.
-fn knots(model: &Model, frame: &Frame, scale_n: f64, mesh: &mut Mesh) {
+fn knots(model: &Model, frame: &Frame, scale_n: Option<f64>, mesh: &mut Mesh) {
     for knot in &model.knots {
         let line = model.segment_line[knot.segment];
         let node = model.line_nodes[line].start + knot.segment - model.line_segments[line].start;
@@ -54,8 +55,13 @@ fn knots(model: &Model, frame: &Frame, scale_n: f64, mesh: &mut Mesh) {
             continue;
         };
         let place = from.lerp(*to, knot.fraction(*length));
-        mesh.ball(single(place), knot.radius_m as f32, tension_colour(tension / scale_n), 6);
+        mesh.ball(single(place), knot.radius_m as f32, tint(*tension, scale_n), 6);
     }
+}
+
+/// Colour of rope under a tension [N].
+fn tint(tension_n: f64, scale_n: Option<f64>) -> Colour {
+    scale_n.map_or(ROPE, |scale_n| tension_colour(tension_n / scale_n))
 }
 
 /// A ball at every weak place of a line; none where the line has parted.
@@ -158,7 +164,7 @@ struct Rope<'a> {
 }
 
 impl Rope<'_> {
-    fn draw(&self, mesh: &mut Mesh, scale_n: f64) {
+    fn draw(&self, mesh: &mut Mesh, scale_n: Option<f64>) {
         let mut first = 0;
         for segment in 0..=self.cut.len() {
             let ends = segment == self.cut.len();
@@ -166,7 +172,7 @@ impl Rope<'_> {
                 continue;
             }
             self.stretch(mesh, first, segment, scale_n);
-            if !ends {
+            if !ends && scale_n.is_some() {
                 self.mark_cut(mesh, segment);
             }
             first = segment + 1;
@@ -174,7 +180,7 @@ impl Rope<'_> {
     }
 
     /// The tube from node `first` to node `last`.
-    fn stretch(&self, mesh: &mut Mesh, first: usize, last: usize, scale_n: f64) {
+    fn stretch(&self, mesh: &mut Mesh, first: usize, last: usize, scale_n: Option<f64>) {
         let nodes: Vec<Vec3> = self.nodes[first..=last].iter().copied().map(single).collect();
         let colours: Vec<Colour> =
             (first..=last).map(|node| self.colour(node, first, last, scale_n)).collect();
@@ -183,10 +189,10 @@ impl Rope<'_> {
     }
 
     /// Colour at a node: the greater tension of the segments that meet there.
-    fn colour(&self, node: usize, first: usize, last: usize, scale_n: f64) -> Colour {
+    fn colour(&self, node: usize, first: usize, last: usize, scale_n: Option<f64>) -> Colour {
         let before = if node > first { self.tension_n[node - 1] } else { 0.0 };
         let after = if node < last { self.tension_n[node] } else { 0.0 };
-        tension_colour(before.max(after) / scale_n)
+        tint(before.max(after), scale_n)
     }
 
     fn mark_cut(&self, mesh: &mut Mesh, segment: usize) {

@@ -250,6 +250,10 @@ pub(super) struct RenderArgs {
     /// the time at which the camera stands there, such as side@0s,whale@10s,whale-side@14s.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
+    /// What is drawn: measured shows tension as colour, scales, contact and current; film shows rope in its own colour, particles and
+    /// shafts of light, and no marks or text.
+    #[arg(long, value_enum, default_value_t = Look::Measured)]
+    pub(super) look: Look,
     /// File to write: .png is a picture; .gif, .mp4 and .webm are films, the latter two by the program ffmpeg; .glb is an animated 3-D
     /// model for Blender and others.
     #[arg(long, value_name = "FILE")]
@@ -285,6 +289,15 @@ pub(super) struct ExportArgs {
     /// Accept plugins whose version or file differs from the recorded ones.
     #[arg(long)]
     pub(super) other_plugins: bool,
+}
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Look {
+    /// Instruments and measured colours.
+    Measured,
+    /// The scene alone, for films and print.
+    Film,
 }
 
 /// Format of tables.

@@ -11,7 +11,7 @@ use endline_session::units::Units;
 use endline_session::{Report, Run, export};
 use endline_sim::{DVec3, Frame, Model};
 
-use super::args::RenderArgs;
+use super::args::{Look, RenderArgs};
 use super::interrupt::Interrupt;
 use super::output::Progress;
 use super::player::Player;
@@ -54,6 +54,8 @@ pub(super) struct Shot<'a> {
     pub size: [u32; 2],
     /// Line of text at the top left.
     pub caption: &'a str,
+    /// Whether it is drawn for films and print.
+    pub film: bool,
     /// File to write.
     pub out: &'a Path,
     /// Places to fit in [m]; all gear and whale where empty.
@@ -63,7 +65,7 @@ pub(super) struct Shot<'a> {
 /// Draws a frame as a PNG.
 #[cfg(feature = "scene")]
 pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), String> {
-    let Shot { view, size, caption, out, fit } = shot;
+    let Shot { view, size, caption, film, out, fit } = shot;
     scene::render_png(&scene::RenderRequest {
         model,
         frame,
@@ -72,6 +74,7 @@ pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), 
         scale_n: None,
         fit,
         caption,
+        film: *film,
         out,
         units: Units::Mixed,
     })
@@ -126,6 +129,8 @@ pub(super) struct Reel<'a> {
     pub size: [u32; 2],
     /// Line of text at the top left.
     pub caption: &'a str,
+    /// Whether it is drawn without instruments.
+    pub film: bool,
 }
 
 /// Draws a film; `each` receives the number of each picture and ends the film by returning `false`. Returns the number of pictures.
@@ -151,7 +156,7 @@ pub(super) fn film(
         frames: reel.frames,
         size: reel.size,
         camera: &camera,
-        show: Show::default(),
+        show: Show { film: reel.film, ..Show::default() },
         water: scene::Water::DARK,
         caption: reel.caption,
         units: Units::Mixed,
@@ -186,7 +191,14 @@ pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
         .min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
     let Some(frame) = nearest else { return };
     let caption = caption(&report.scenario);
-    let shot = Shot { view: "orbit", size: [1280, 800], caption: &caption, out, fit: Vec::new() };
+    let shot = Shot {
+        view: "orbit",
+        size: [1280, 800],
+        caption: &caption,
+        film: false,
+        out,
+        fit: Vec::new(),
+    };
     if let Err(reason) = draw(run.model(), frame, &shot) {
         output::warn(&format!("no picture: {reason}"));
     }
@@ -220,6 +232,7 @@ pub(super) fn render_film(args: &RenderArgs, library: Option<&Path>) -> Result<E
         view: &args.view,
         size: args.size,
         caption: &caption,
+        film: args.look == Look::Film,
     };
     let progress = Progress::new("drawing");
     let drawn = film(begun, &reel, |done| {

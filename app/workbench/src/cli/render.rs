@@ -8,7 +8,7 @@ use endline_session::recording::replay::{self, ReplayOptions};
 use endline_session::{Overrides, Recording, Run, RunOptions, locate, prepare};
 use endline_sim::{Frame, Model};
 
-use super::args::RenderArgs;
+use super::args::{Look, RenderArgs};
 use super::replay::tell_version;
 use super::{Failure, host, output, picture};
 
@@ -110,6 +110,7 @@ fn shot<'a>(args: &'a RenderArgs, moment: &'a Moment) -> Result<picture::Shot<'a
         view: &args.view,
         size: args.size,
         caption: &moment.caption,
+        film: args.look == Look::Film,
         out: &args.out,
         fit,
     })

@@ -189,6 +189,7 @@ fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
         scale_n: None,
         fit: &[],
         caption: "",
+        film: false,
         out: file,
         units: Units::Mixed,
     };

@@ -50,9 +50,12 @@ pub struct Drawer {
     part: Program,
     backdrop: Program,
     corners: VertexBuffer<[f32; 2]>,
+    snow: Snow,
     loaded: Vec<Loaded>,
     depth_m: f32,
     time_s: f32,
+    drift_m: Vec3,
+    film: bool,
     /// One for each slot.
     pictures: Vec<Option<Picture>>,
 }
@@ -87,6 +90,8 @@ struct Uniforms {
     hide_m: f32,
     depth_m: f32,
     time_s: f32,
+    /// 1 for a film, else 0.
+    film: f32,
     water: [GlVec3; 3],
     viewport: Viewport,
 }
@@ -143,14 +148,18 @@ impl Drawer {
             )?;
             let corners =
                 VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
+            let snow = Snow::new(&context)?;
             Ok(Self {
                 context,
                 part,
                 backdrop,
                 corners,
+                snow,
                 loaded: Vec::new(),
                 depth_m: 1.0,
                 time_s: 0.0,
+                drift_m: Vec3::ZERO,
+                film: false,
                 pictures: Vec::new(),
             })
         };
@@ -160,6 +169,7 @@ impl Drawer {
     /// Copies the triangles of a scene to the graphics card.
     pub fn load(&mut self, scene: &Scene) {
         (self.depth_m, self.time_s) = (scene.depth_m.max(1.0) as f32, scene.time_s as f32);
+        (self.drift_m, self.film) = (scene.drift_m.as_vec3(), scene.film);
         self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
         for (index, part) in scene.parts.iter().enumerate() {
             if self.loaded.get(index).is_none_or(|loaded| loaded.name != part.name) {
@@ -187,10 +197,13 @@ impl Drawer {
         let drawn = target.write::<CoreError>(|| {
             self.draw_backdrop(&eye);
             for loaded in &self.loaded {
-                if loaded.look == Look::Rope {
+                if loaded.look == Look::Rope && !self.film {
                     loaded.draw(&self.part, &eye, Pass::Edge);
                 }
                 loaded.draw(&self.part, &eye, Pass::Whole);
+            }
+            if self.film {
+                self.snow.draw(&eye, self.drift_m);
             }
             Ok(())
         });
@@ -203,6 +216,7 @@ impl Drawer {
             self.backdrop.use_uniform(name, sight);
         }
         eye.set_sea(&self.backdrop);
+        self.backdrop.use_uniform("film", eye.film);
         self.backdrop.use_vertex_attribute("corner", &self.corners);
         let states = RenderStates {
             depth_test: DepthTest::Always,
@@ -272,7 +286,11 @@ impl Loaded {
             (_, Look::Skin) => 4,
             (_, Look::Rope) => 5,
         };
-        let grid_m = if let Look::Seabed { grid_m } = self.look { grid_m } else { 10.0 };
+        let grid_m = match self.look {
+            Look::Seabed { grid_m } => grid_m,
+            _ if eye.film > 0.5 => 0.0,
+            _ => 10.0,
+        };
         eye.set_sea(program);
         program.use_uniform("to_clip", eye.to_clip);
         program.use_uniform("pixel_angle", eye.pixel_angle);
@@ -280,6 +298,7 @@ impl Loaded {
         program.use_uniform("edge_px", if pass == Pass::Edge { EDGE_PX } else { 0.0 });
         program.use_uniform("look", look);
         program.use_uniform("grid_m", grid_m);
+        program.use_uniform("film", eye.film);
         program.use_vertex_attribute("place", &self.place);
         program.use_vertex_attribute("normal", &self.normal);
         program.use_vertex_attribute("radius", &self.radius);
@@ -301,6 +320,68 @@ fn render_states(see_through: bool, pass: Pass) -> RenderStates {
     RenderStates { depth_test: DepthTest::LessOrEqual, cull, blend, write_mask }
 }
 
+/// Particles that drift with the water in films.
+struct Snow {
+    program: Program,
+    seed: VertexBuffer<[f32; 3]>,
+    corner: VertexBuffer<[f32; 3]>,
+    triangles: ElementBuffer<u32>,
+}
+
+/// Number of particles in the cell of 8 m that repeats around the eye.
+const PARTICLES: u32 = 9000;
+
+impl Snow {
+    fn new(context: &Context) -> Result<Self, CoreError> {
+        let program = Program::from_source(
+            context,
+            sea_shader!("snow.vertex"),
+            sea_shader!("snow.fragment"),
+        )?;
+        // The additive recurrence of the plastic number spreads points evenly without a lattice that the eye would see
+        // (Roberts 2018).
+        const STEPS: [f64; 3] =
+            [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
+        let place = |index: u32| STEPS.map(|step| (0.5 + step * f64::from(index)).fract() as f32);
+        let radius_m =
+            |index: u32| 0.0012 + 0.0022 * ((f64::from(index) * 0.618_034).fract() as f32).powi(3);
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let all = 0..PARTICLES;
+        let seeds: Vec<_> = all.clone().flat_map(|index| [place(index); 4]).collect();
+        let squares: Vec<_> =
+            all.clone().flat_map(|index| corners.map(|[x, y]| [x, y, radius_m(index)])).collect();
+        let triangles: Vec<_> =
+            all.flat_map(|index| [0, 1, 2, 0, 2, 3].map(|corner| 4 * index + corner)).collect();
+        Ok(Self {
+            program,
+            seed: VertexBuffer::new_with_data(context, &seeds),
+            corner: VertexBuffer::new_with_data(context, &squares),
+            triangles: ElementBuffer::new_with_data(context, &triangles),
+        })
+    }
+
+    fn draw(&self, eye: &Uniforms, drift_m: Vec3) {
+        let program = &self.program;
+        eye.set_sea(program);
+        program.use_uniform("to_clip", eye.to_clip);
+        program.use_uniform("pixel_angle", eye.pixel_angle);
+        program.use_uniform("drift_m", GlVec3::new(drift_m.x, drift_m.y, drift_m.z));
+        for (name, sight) in ["right", "up"].into_iter().zip(eye.sight) {
+            let length = sight.x.hypot(sight.y).hypot(sight.z);
+            program.use_uniform(name, sight * (1.0 / length.max(1e-9)));
+        }
+        program.use_vertex_attribute("seed", &self.seed);
+        program.use_vertex_attribute("corner", &self.corner);
+        let states = RenderStates {
+            depth_test: DepthTest::LessOrEqual,
+            cull: Cull::None,
+            blend: Blend::TRANSPARENCY,
+            write_mask: WriteMask::COLOR,
+        };
+        program.draw_elements(states, eye.viewport, &self.triangles);
+    }
+}
+
 impl Drawer {
     fn eye(&self, camera: &Camera, size: [u32; 2], water: Water) -> Uniforms {
         let [width, height] = size;
@@ -318,6 +399,7 @@ impl Drawer {
             hide_m: 2.5 * seen_m + 30.0,
             depth_m: self.depth_m,
             time_s: self.time_s,
+            film: f32::from(u8::from(self.film)),
             water: [water.low, water.high, water.sky]
                 .map(|[red, green, blue, _]: Colour| GlVec3::new(red, green, blue)),
             viewport: Viewport::new_at_origo(width, height),
@@ -329,10 +411,10 @@ impl Uniforms {
     /// Sets the uniforms of `sea.glsl`.
     fn set_sea(&self, program: &Program) {
         program.use_uniform("eye", self.place);
-        program.use_uniform("clear_m", self.clear_m);
         program.use_uniform("depth_m", self.depth_m);
+        program.use_uniform_if_required("clear_m", self.clear_m);
         for (name, colour) in ["water_low", "water_high", "sky"].into_iter().zip(self.water) {
-            program.use_uniform(name, colour);
+            program.use_uniform_if_required(name, colour);
         }
         program.use_uniform_if_required("hide_m", self.hide_m);
         program.use_uniform_if_required("time_s", self.time_s);

@@ -190,6 +190,7 @@ impl Reel<'_> {
                 scale_n,
                 fit: &[],
                 caption: self.caption,
+                film: self.show.film,
                 out: Path::new(""),
                 units: self.units,
             };

@@ -30,6 +30,8 @@ pub struct RenderRequest<'a> {
     pub fit: &'a [DVec3],
     /// Line of text at the top left, such as the scenario's name.
     pub caption: &'a str,
+    /// Without marks, scales and text, for films and print ([`Show::film`]).
+    pub film: bool,
     /// PNG file to write.
     pub out: &'a Path,
     /// Units of the scale bar.
@@ -100,7 +102,7 @@ impl Renderer {
         let all = Scene::places_of(model, frame);
         let places = if fit.is_empty() { &all[..] } else { fit };
         let camera = Camera::of_view(view, places, frame.whale.as_ref(), length_m, aspect);
-        let show = Show { scale_n: request.scale_n, ..Show::default() };
+        let show = Show { scale_n: request.scale_n, film: request.film, ..Show::default() };
         Ok(self.seen_by(request, &show, &camera, Water::DARK))
     }
 
@@ -121,6 +123,9 @@ impl Renderer {
             metres_a_point: camera.metres_a_point(f64::from(height)),
             units: request.units,
         };
+        if show.film {
+            return RenderTarget::screen(&self.context, width, height).read_color();
+        }
         self.paint_over(|painter, rect| {
             if show.names {
                 overlay::paint_names(painter, rect, camera, request.model, request.frame);

@@ -4,9 +4,9 @@ use endline_sim::model::WeakPlace;
 use endline_sim::{DVec3, Frame, Model};
 use glam::DVec2;
 
-use endline_session::scene::colour::tension_colour;
+use endline_session::scene::colour::{CURRENT, ROPE, tension_colour};
 use endline_session::scene::mesh::Colour;
-use endline_session::scene::{Scene, Show};
+use endline_session::scene::{Look, Scene, Show};
 use endline_session::units::Units;
 
 use super::pick::{contact_m, length_m, on_line, pick};
@@ -34,6 +34,7 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
         forces: false,
         whale: false,
         names: false,
+        film: false,
     };
     let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare)
         .parts
@@ -184,6 +185,10 @@ fn arrows_have_the_length_of_the_current_at_their_height() {
 
 /// A picture of the sample, its size and its camera.
 fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
+    picture_of(view, false)
+}
+
+fn picture_of(view: View, film: bool) -> (Vec<[u8; 4]>, DVec2, Camera) {
     let model = sample::model();
     let frame = sample::frame(&model);
     let size = [640, 480];
@@ -196,6 +201,7 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
         scale_n: None,
         fit: &[],
         caption: "sample",
+        film,
         out: &out,
         units: Units::Mixed,
     };
@@ -245,6 +251,49 @@ fn the_picture_shows_whale_and_rope_where_the_camera_projects_them() {
 }
 
 #[test]
+fn a_film_has_no_instruments_and_its_rope_has_one_colour() {
+    let model = sample::model();
+    let scene = Scene::of(&model, &sample::frame(&model), &Show { film: true, ..Show::default() });
+    let names: Vec<&str> = scene.parts.iter().map(|part| part.name).collect();
+    assert_eq!(names, ["seabed", "whale", "ropes", "bodies", "surface"]);
+    let ropes = &scene.part("ropes").unwrap().mesh;
+    assert!(ropes.colour.iter().all(|colour| *colour == ROPE));
+    assert_eq!(scene.part("seabed").unwrap().look, Look::Seabed { grid_m: 0.0 });
+}
+
+/// The part of the picture under the scale bar: differences from pixel to pixel along its rows, which letters and lines make large.
+#[test]
+fn a_film_has_no_text() {
+    let sharpest = |film: bool| {
+        let (pixels, size, _) = picture_of(View::Side, film);
+        let (width, height) = (size.x as usize, size.y as usize);
+        let rows = pixels.chunks(width).skip(height - 40);
+        let steps = rows.flat_map(|row| row[..140].windows(2));
+        steps.map(|pair| pair[0][1].abs_diff(pair[1][1])).max().unwrap()
+    };
+    let (measured, film) = (sharpest(false), sharpest(true));
+    assert!(measured > 100 && film < 50, "{measured} with a scale bar, {film} in a film");
+}
+
+#[test]
+fn a_colour_that_is_read_against_a_scale_is_drawn_as_it_is() {
+    let model = sample::model();
+    let (pixels, size, camera) = picture(View::Side);
+    let arrow = Scene::of(&model, &sample::frame(&model), &Show::default());
+    let heads = &arrow.part("current heads").unwrap().mesh;
+    let places: Vec<DVec3> =
+        (0..heads.vertices()).map(|vertex| heads.surface(vertex).as_dvec3()).collect();
+    let wanted = CURRENT.map(|part| part * 255.0);
+    let nearest = places.iter().map(|place| {
+        let seen = pixel(&pixels, size, &camera, *place);
+        (0..3).map(|part| (f32::from(seen[part]) - wanted[part]).abs()).fold(0.0, f32::max)
+    });
+    // The side of a head that is seen at a flat angle is up to a fifth darker.
+    let nearest = nearest.fold(f32::MAX, f32::min);
+    assert!(nearest < 0.1 * 255.0, "{nearest} of 255 away from {wanted:?}");
+}
+
+#[test]
 fn a_picture_is_the_same_twice() {
     assert!(picture(View::Orbit).0 == picture(View::Orbit).0);
 }
@@ -262,6 +311,7 @@ fn an_unknown_view_or_size_is_refused_with_what_is_allowed() {
         scale_n: None,
         fit: &[],
         caption: "",
+        film: false,
         out: &out,
         units: Units::Mixed,
     };
@@ -286,6 +336,7 @@ fn a_png_has_the_requested_size_and_an_unwritable_path_is_named() {
         scale_n: None,
         fit: &[],
         caption: "sample",
+        film: false,
         out,
         units: Units::Mixed,
     };
@@ -327,6 +378,7 @@ const HIDDEN: Show = Show {
     forces: false,
     whale: false,
     names: false,
+    film: false,
 };
 
 #[test]

@@ -281,6 +281,7 @@ const GEAR_ALONE: Show = Show {
     forces: false,
     whale: false,
     names: false,
+    film: false,
     scale_n: None,
 };
 

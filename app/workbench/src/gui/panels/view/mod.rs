@@ -160,6 +160,10 @@ impl ViewPanel {
 
     fn shown(&mut self, ui: &mut Ui) {
         ui.menu_button("Show ⏷", |ui| {
+            ui.checkbox(&mut self.show.film, "Film look").on_hover_text(
+                "For films and print: no marks, scales or text, rope in its own colour, particles and shafts of light in the water",
+            );
+            ui.separator();
             ui.checkbox(&mut self.show.surface, "Sea surface");
             ui.checkbox(&mut self.show.seabed, "Seabed");
             ui.checkbox(&mut self.show.current, "Current");

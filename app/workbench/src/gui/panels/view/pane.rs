@@ -117,20 +117,19 @@ fn paint_over(
     let last = slot + 1 == panel.eyes.len() && run == usize::from(compared);
     let scale_n = if last { panel.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
-    if panel.show.names {
-        overlay::paint_names(&painter, rect, camera, &view.model, &view.frame);
-    }
-    overlay::paint(
-        &painter,
-        rect,
-        &Overlay {
+    if !panel.show.film {
+        if panel.show.names {
+            overlay::paint_names(&painter, rect, camera, &view.model, &view.frame);
+        }
+        let overlay = Overlay {
             caption: &caption,
             time_s: view.frame.time_s,
             scale_n,
             metres_a_point,
             units: shared.workbench.preferences().units,
-        },
-    );
+        };
+        overlay::paint(&painter, rect, &overlay);
+    }
     picking::paint_marks(
         &painter,
         &panel.picks,

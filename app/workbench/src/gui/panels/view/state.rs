@@ -263,6 +263,7 @@ impl ViewPanel {
                 scale_n: show.scale_n,
                 fit: &[],
                 caption: &caption,
+                film: show.film,
                 out: &file,
                 units,
             };
