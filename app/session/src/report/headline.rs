@@ -16,8 +16,8 @@ const NAMED: usize = 2;
 pub enum Tone {
     /// The result.
     Result,
-    /// A reason to doubt it.
-    Doubt,
+    /// Rope segments near the whale were longer than requested.
+    Coarse,
     /// The whale does not feel the gear.
     Kinematic,
     /// A reason not to use it.
@@ -92,7 +92,7 @@ impl<'a> Headline<'a> {
         let toned = |tone: Tone| move |text: String| Sentence { text, tone };
         let result = result.into_iter().flatten().map(toned(Tone::Result));
         let kinematic = self.kinematic().map(toned(Tone::Kinematic));
-        let coarse = self.too_coarse().map(toned(Tone::Doubt));
+        let coarse = self.too_coarse().map(toned(Tone::Coarse));
         let invalid = (!self.invalid_because.is_empty()).then(|| Sentence {
             text: format!("Do not use these numbers: {}.", self.invalid_because.join("; ")),
             tone: Tone::Invalid,
@@ -315,8 +315,8 @@ mod tests {
         };
         let found = doubtful.sentences(|force_n| format!("{force_n} N"));
         let tones: Vec<Tone> = found.iter().map(|sentence| sentence.tone).collect();
-        let [result, doubt, invalid] = [Tone::Result, Tone::Doubt, Tone::Invalid];
-        assert_eq!(tones, [result, result, result, Tone::Kinematic, doubt, invalid]);
+        let [result, coarse, invalid] = [Tone::Result, Tone::Coarse, Tone::Invalid];
+        assert_eq!(tones, [result, result, result, Tone::Kinematic, coarse, invalid]);
         for words in ["99 % of the checks", "4.0 times", "500 rope nodes"] {
             assert!(found[4].text.contains(words), "{words}: {}", found[4].text);
         }

@@ -160,7 +160,7 @@ impl Scene {
         add(show.whale, "eyes", Look::Solid, 0.0, eyes);
         add(true, "ropes", Look::Rope, 1.4, rope::lines(model, frame, tinted));
         add(!show.film, "weak places", Look::Own, 4.0, rope::weak_places(model, frame));
-        add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
+        add(true, "bodies", Look::Solid, 0.8, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, current);
         add(show.current, "current heads", Look::Own, 5.0, current_heads);
         add(show.contacts, "marks", Look::Own, 4.0, forces::contacts(frame));

@@ -246,7 +246,7 @@ pub(super) struct RenderArgs {
     /// Bodies and lines to fit into the picture, such as trap-1,endline-top [default: all].
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
-    /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front. For a film also views with
+    /// View: orbit, side, top, front, whale, first-person, left-eye, right-eye, whale-side, whale-top or whale-front. For a film also views with
     /// the time at which the camera stands there, such as side@0s,whale@10s,whale-side@14s.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,

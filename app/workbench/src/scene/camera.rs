@@ -25,6 +25,10 @@ pub enum View {
     Whale,
     /// First person: from the whale's head, over its rostrum.
     FirstPerson,
+    /// First person: from the whale's left eye.
+    LeftEye,
+    /// First person: from the whale's right eye.
+    RightEye,
     /// The whale alone, from its starboard side.
     WhaleSide,
     /// The whale alone, from above.
@@ -37,8 +41,15 @@ impl View {
     /// Views of everything, in the order of menus.
     pub const WHOLE: [Self; 4] = [Self::Orbit, Self::Side, Self::Top, Self::Front];
     /// Views of the whale or from it, in the order of menus.
-    pub const OF_WHALE: [Self; 5] =
-        [Self::Whale, Self::FirstPerson, Self::WhaleSide, Self::WhaleTop, Self::WhaleFront];
+    pub const OF_WHALE: [Self; 7] = [
+        Self::Whale,
+        Self::FirstPerson,
+        Self::LeftEye,
+        Self::RightEye,
+        Self::WhaleSide,
+        Self::WhaleTop,
+        Self::WhaleFront,
+    ];
 
     /// All views.
     pub fn all() -> impl Iterator<Item = Self> {
@@ -48,6 +59,11 @@ impl View {
     /// Whether the camera follows the whale.
     pub fn is_of_whale(self) -> bool {
         Self::OF_WHALE.contains(&self)
+    }
+
+    /// Whether it is seen by the whale itself.
+    pub fn is_first_person(self) -> bool {
+        matches!(self, Self::FirstPerson | Self::LeftEye | Self::RightEye)
     }
 
     /// Its name on the command line and in menus.
@@ -98,6 +114,11 @@ const FLY_ANGLE: f64 = 1.0;
 /// Angle of view from the whale's head: its rostrum is visible [rad].
 const HEAD_ANGLE: f64 = 1.25;
 
+/// An eye in the whale's frame, just outside its skin: ahead of the middle, to the side and up [body lengths].
+const EYE: [f64; 3] = [0.292, 0.1, 0.0];
+/// Direction of an eye's view from straight ahead [rad]. Eyes of right whales look to the sides.
+const EYE_TURN: f64 = 1.15;
+
 impl Default for Camera {
     fn default() -> Self {
         Self {
@@ -134,7 +155,9 @@ impl Camera {
             View::Side | View::WhaleSide => (-FRAC_PI_2, 0.0, FLAT_ANGLE),
             View::Top | View::WhaleTop => (-FRAC_PI_2, STEEPEST, FLAT_ANGLE),
             View::Front | View::WhaleFront => (0.0, 0.0, FLAT_ANGLE),
-            View::Orbit | View::Whale | View::FirstPerson => (-1.1, 0.12, FREE_ANGLE),
+            View::Orbit | View::Whale | View::FirstPerson | View::LeftEye | View::RightEye => {
+                (-1.1, 0.12, FREE_ANGLE)
+            }
         };
         self.roll = 0.0;
         self.frame(places, aspect);
@@ -146,6 +169,8 @@ impl Camera {
         let heading = ahead.y.atan2(ahead.x);
         match view {
             View::FirstPerson => self.first_person(whale, length_m),
+            View::LeftEye => self.by_eye(whale, length_m, 1.0),
+            View::RightEye => self.by_eye(whale, length_m, -1.0),
             View::WhaleSide => self.portrait(whale, [heading - FRAC_PI_2, 0.0], length_m, aspect),
             View::WhaleTop => {
                 self.portrait(whale, [heading - FRAC_PI_2, STEEPEST], length_m, aspect)
@@ -224,10 +249,23 @@ impl Camera {
 
     /// First person: from above and behind the whale's blowholes ahead over its rostrum, rolled with the whale.
     pub fn first_person(&mut self, whale: &WhaleFrame, length_m: f64) {
-        let [ahead, dorsal] = [DVec3::X, DVec3::Z].map(|axis| whale.orientation * axis);
-        let eye = whale.position + ahead * (0.27 * length_m) + dorsal * (0.115 * length_m);
+        let place = DVec3::new(0.27, 0.0, 0.115) * length_m;
+        self.from_head(whale, place, DVec3::X);
+    }
+
+    /// First person from an eye, to port (1) or starboard (-1): out to the side and a little ahead and down.
+    fn by_eye(&mut self, whale: &WhaleFrame, length_m: f64, side: f64) {
+        let place = DVec3::new(EYE[0], side * EYE[1], EYE[2]) * length_m;
+        let (sin, cos) = EYE_TURN.sin_cos();
+        self.from_head(whale, place, DVec3::new(cos, side * sin, -0.1).normalize());
+    }
+
+    /// Looks from a place in the whale's frame [m] in a direction in that frame, rolled with the whale.
+    fn from_head(&mut self, whale: &WhaleFrame, place: DVec3, direction: DVec3) {
+        let ahead = whale.orientation * direction;
+        let dorsal = whale.orientation * DVec3::Z;
         self.distance_m = 10.0;
-        self.target = eye + ahead * self.distance_m;
+        self.target = whale.position + whale.orientation * place + ahead * self.distance_m;
         self.azimuth = (-ahead.y).atan2(-ahead.x);
         self.elevation = (-ahead.z).clamp(-1.0, 1.0).asin();
         (self.field_of_view, self.roll) = (HEAD_ANGLE, 0.0);
@@ -276,6 +314,15 @@ impl Camera {
     /// Moves closer by a constant factor for each notch of a wheel.
     pub fn zoom(&mut self, notches: f64) {
         self.distance_m = (self.distance_m * 0.88_f64.powf(notches)).clamp(0.5, 20_000.0);
+    }
+
+    /// As [`zoom`](Self::zoom), but what is under a point `at` of a picture of `size` [points] stays there.
+    pub fn zoom_at(&mut self, notches: f64, at: DVec2, size: DVec2) {
+        let ((eye, ray), (_, _, ahead)) = (self.ray(at, size), self.axes());
+        let fixed = eye + ray * (self.distance_m / ray.dot(ahead).max(1e-6));
+        let before_m = self.distance_m;
+        self.zoom(notches);
+        self.target = fixed + (self.target - fixed) * (self.distance_m / before_m);
     }
 
     /// Interpolates between this camera and another by a share, 0 to 1. Angles take the shorter way; the length that the picture spans at
@@ -427,6 +474,38 @@ mod tests {
         let (right, ..) = camera.axes();
         let beside = camera.project(camera.target + right * 2.0, SIZE).unwrap();
         assert!(((beside.x - middle.x) * camera.metres_a_point(SIZE.y) - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_under_the_pointer_stays_there_when_zooming() {
+        let mut camera =
+            Camera::of_view(View::Orbit, &gear().corners(), None, 13.0, SIZE.x / SIZE.y);
+        let at = DVec2::new(620.0, 140.0);
+        let (eye, ray) = camera.ray(at, SIZE);
+        let place = eye + ray * (camera.distance_m / ray.dot(camera.axes().2));
+        let before_m = camera.distance_m;
+        camera.zoom_at(3.0, at, SIZE);
+        assert!((camera.distance_m / before_m - 0.88_f64.powi(3)).abs() < 1e-9);
+        assert!(camera.project(place, SIZE).unwrap().distance(at) < 1e-6);
+    }
+
+    #[test]
+    fn each_eye_sees_what_is_on_its_side_with_the_back_up() {
+        let roll = DQuat::from_rotation_x(0.5);
+        for (view, side) in [(View::LeftEye, 1.0), (View::RightEye, -1.0)] {
+            let whale = swimming(roll);
+            let camera = Camera::of_view(view, &[], Some(&whale), 13.0, SIZE.x / SIZE.y);
+            let beside = whale.position + whale.orientation * DVec3::new(6.0, side * 8.0, 0.0);
+            let over = beside + whale.orientation * DVec3::Z;
+            let [low, high] = [beside, over].map(|place| camera.project(place, SIZE).unwrap());
+            assert!(
+                low.x > 0.0 && low.x < SIZE.x && high.y < low.y - 20.0,
+                "{view:?} {low} {high}"
+            );
+            assert!((high.x - low.x).abs() < 0.2 * (low.y - high.y), "{view:?} {low} {high}");
+            let beyond = whale.position - whale.orientation * DVec3::new(0.0, side * 8.0, 0.0);
+            assert!(camera.project(beyond, SIZE).is_none(), "{view:?}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use endline_gear::units::{self, Quantity};
 use endline_session::live::LiveView;
 use endline_session::scene::Scene;
 use endline_sim::{Frame, Model};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::scene::camera::{Camera, View};
 
@@ -23,6 +23,10 @@ pub struct Eye {
     pub named: View,
     /// Whether to frame everything at the next frame.
     pub frame_again: bool,
+    /// Whether the camera moves along with the whale, at the same distance and direction.
+    pub along: bool,
+    /// Place of the whale that the camera belongs to, if it moves along [m].
+    anchor: Option<DVec3>,
     /// Offsets of the user to the camera that follows the whale: azimuth [rad], elevation [rad], zoom [notches].
     offset: [f64; 3],
 }
@@ -41,13 +45,15 @@ impl Eye {
             follow: view.is_of_whale(),
             named: view,
             frame_again: true,
+            along: false,
+            anchor: None,
             offset: [0.0; 3],
         }
     }
 
     /// Changes to a named view.
     pub fn set_view(&mut self, view: View) {
-        *self = Self { camera: self.camera.clone(), ..Self::at(view) };
+        *self = Self { camera: self.camera.clone(), along: self.along, ..Self::at(view) };
     }
 
     /// Frames everything, and stops following the whale.
@@ -79,9 +85,18 @@ impl Eye {
         } else if response.dragged() {
             self.camera.orbit(drag);
         }
-        if !self.follow {
-            self.camera.zoom(notches);
+        if !self.follow && notches != 0.0 {
+            let size = response.rect.size();
+            let at = response.hover_pos().map_or(0.5 * size, |at| at - response.rect.min);
+            let points = |vector: egui::Vec2| DVec2::new(f64::from(vector.x), f64::from(vector.y));
+            self.camera.zoom_at(notches, points(at), points(size));
         }
+    }
+
+    /// Stores the camera of a frame, for the mouse and for the frames after it.
+    pub fn keep(&mut self, camera: &Camera, frame: &Frame) {
+        (self.camera, self.frame_again) = (camera.clone(), false);
+        self.anchor = frame.whale.as_ref().filter(|_| self.along).map(|whale| whale.position);
     }
 
     /// Camera for the moment of a view, drawn in a rectangle.
@@ -95,7 +110,7 @@ impl Eye {
         let length_m = model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
         if let (true, Some(whale)) = (self.follow, &frame.whale) {
             camera.follow(self.named, whale, length_m, aspect);
-            if self.named != View::FirstPerson {
+            if !self.named.is_first_person() {
                 camera.azimuth += self.offset[0];
                 camera.elevation = (camera.elevation + self.offset[1]).clamp(-1.4, 1.4);
                 camera.zoom(self.offset[2]);
@@ -103,6 +118,8 @@ impl Eye {
         } else if self.frame_again {
             let places = Scene::places_of(model, frame);
             camera = Camera::of_view(self.named, &places, None, length_m, aspect);
+        } else if let (true, Some(whale), Some(anchor)) = (self.along, &frame.whale, self.anchor) {
+            camera.target += whale.position - anchor;
         }
         camera
     }
@@ -188,6 +205,24 @@ impl CameraPath<View> {
 mod tests {
 
     use super::*;
+
+    #[test]
+    fn a_camera_that_moves_along_keeps_the_whale_where_it_is_in_the_picture() {
+        let model = crate::scene::sample::model();
+        let mut frame = crate::scene::sample::frame(&model);
+        let size = DVec2::new(800.0, 600.0);
+        let seen = |eye: &Eye, frame: &Frame| {
+            let camera = eye.at_moment(&model, frame, size.x / size.y);
+            (camera.project(frame.whale.as_ref().unwrap().position, size).unwrap(), camera)
+        };
+        let mut eye = Eye { along: true, ..Eye::at(View::Orbit) };
+        let (before, camera) = seen(&eye, &frame);
+        eye.keep(&camera, &frame);
+        let still = Eye { along: false, ..eye.clone() };
+        frame.whale.as_mut().unwrap().position += DVec3::new(9.0, -4.0, 2.0);
+        assert!(seen(&eye, &frame).0.distance(before) < 1e-6);
+        assert!(seen(&still, &frame).0.distance(before) > 10.0);
+    }
 
     fn far(distance_m: f64) -> Camera {
         Camera { distance_m, ..Camera::default() }

@@ -17,7 +17,7 @@ use endline_workbench::gui::panel::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, Reach as _, Window, flown, give, only, opened, wait};
+use crate::common::{Folder, Reach as _, Window, flown, flown_from, give, only, opened, wait};
 
 /// Checks that the figures of a view are on screen, and that figures without a value are not; returns their number.
 fn count_figures<S>(harness: &Window, figures: &[Figure<S>], sources: &[S], view: View) -> usize {
@@ -176,4 +176,16 @@ fn a_kinematic_whale_is_reported_with_its_tensions_and_made_kinetic_by_a_click()
     });
     harness.run_steps(2);
     assert!(harness.query_by_label_contains(warning).is_none(), "the whale of this run is kinetic");
+}
+
+#[test]
+fn a_run_with_too_long_segments_offers_more_nodes() {
+    let folder = Folder::new("figures-coarse");
+    let mut harness = flown_from(&folder, "-4 m");
+    only(&mut harness, PanelId::Summary);
+    harness.get_by_label_contains("Rope segments near the whale were longer than requested");
+    harness.get_by_label("Use 240 rope nodes").click();
+    harness.run_steps(3);
+    let nodes = harness.documents().field(Documents::SCENARIO, "rope_nodes");
+    assert_eq!(nodes.as_deref(), Some("240"));
 }

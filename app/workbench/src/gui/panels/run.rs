@@ -189,7 +189,7 @@ fn trust(ui: &mut Ui, view: &LiveView) {
     for Sentence { text, tone } in view.headline(Units::default()) {
         let colour = match tone {
             Tone::Result => continue,
-            Tone::Doubt | Tone::Kinematic => palette.warning,
+            Tone::Coarse | Tone::Kinematic => palette.warning,
             Tone::Invalid => palette.error,
         };
         ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());

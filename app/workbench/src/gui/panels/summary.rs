@@ -5,7 +5,6 @@ use endline_session::command::TimeAction;
 use endline_session::figures::{LINE, LINK, PART, Part, View, WHALE, lines, parts};
 use endline_session::live::LiveView;
 use endline_session::report::headline::{Sentence, Tone};
-use endline_session::units::Units;
 use endline_sim::metrics::{Summary, WhaleSummary};
 
 use crate::gui::panel::Panel;
@@ -38,7 +37,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     let style = Style { view: View::Summary, units: shared.workbench.preferences().units };
     widgets::kinematic_whale(ui, shared, &view);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        headline(ui, &view, summary, style.units);
+        headline(ui, shared, &view, summary);
         whole_run(ui, &view);
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
         shared.commands.extend(
@@ -48,7 +47,8 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
 }
 
 /// Draws the result in sentences: the outcome in its colour if it is decided, then loads, partings and reasons for doubt.
-fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
+fn headline(ui: &mut Ui, shared: &mut Shared, view: &LiveView, summary: &Summary) {
+    let units = shared.workbench.preferences().units;
     let palette = Theme::palette_of(ui);
     let outcome = summary.whale.as_ref().map(|whale| {
         let (_, meaning, colour) = words::outcome(whale.outcome, palette);
@@ -63,7 +63,7 @@ fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
                 Tone::Result => RichText::new(text),
                 // The note above the headline states it and offers the correction.
                 Tone::Kinematic => continue,
-                Tone::Doubt => RichText::new(text).color(palette.warning),
+                Tone::Coarse => RichText::new(text).color(palette.warning),
                 Tone::Invalid => RichText::new(text).color(palette.error),
             };
             match outcome.filter(|_| place == 0) {
@@ -72,6 +72,9 @@ fn headline(ui: &mut Ui, view: &LiveView, summary: &Summary, units: Units) {
                 }
                 None => ui.add(Label::new(text).wrap()),
             };
+            if tone == Tone::Coarse {
+                widgets::more_nodes(ui, shared);
+            }
         }
     });
     ui.separator();

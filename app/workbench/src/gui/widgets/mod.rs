@@ -9,6 +9,7 @@ use egui::{
     UiBuilder, Vec2, vec2,
 };
 use endline_gear::Diagnostic;
+use endline_gear::limits::ROPE_NODES;
 use endline_session::command::{Command, EditAction};
 use endline_session::edit::Documents;
 use endline_session::edit::problems::place;
@@ -158,6 +159,29 @@ pub fn problem(ui: &mut Ui, problem: &Diagnostic) -> bool {
 
 /// Field and value that make the gear act on the whale.
 const KINETIC: [&str; 2] = ["whale.dynamics", "kinetic"];
+
+/// Button that doubles the rope nodes of the scenario, where it has a number of them.
+pub fn more_nodes(ui: &mut Ui, shared: &mut Shared) {
+    const FIELD: &str = "rope_nodes";
+    if shared.workbench.shows_guest() {
+        return;
+    }
+    let now = shared.documents().field(Documents::SCENARIO, FIELD);
+    let Some(nodes) = now.and_then(|now| now.parse::<u64>().ok()?.checked_mul(2)) else { return };
+    if nodes as f64 > ROPE_NODES.most {
+        return;
+    }
+    let help = format!(
+        "Sets {FIELD} = {nodes} in the scenario; the next run uses it and takes about twice as long"
+    );
+    if ui.small_button(format!("Use {nodes} rope nodes")).on_hover_text(help).clicked() {
+        shared.give(Command::from(EditAction::Set {
+            path: Documents::SCENARIO.to_owned(),
+            field: FIELD.to_owned(),
+            value: nodes.to_string(),
+        }));
+    }
+}
 
 /// Warns if the whale of a run is kinematic, with a button that makes it kinetic in the scenario.
 pub fn kinematic_whale(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {

@@ -280,8 +280,13 @@ pub fn linked() -> Arc<PluginHost> {
 
 /// The workbench after a short encounter that ran to its end.
 pub fn flown(folder: &Folder) -> Window {
+    flown_from(folder, "-7 m")
+}
+
+/// As [`flown`], with the whale this far north of the gear at the start.
+pub fn flown_from(folder: &Folder, north: &str) -> Window {
     let mut documents = folder.documents_of("hello-endline");
-    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")]
+    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", north)]
     {
         documents.set("scenario", field, value).unwrap();
     }

@@ -120,6 +120,9 @@ impl ViewPanel {
                     ui.close();
                 }
             }
+            ui.separator();
+            ui.checkbox(&mut self.eye().along, "Move along with it")
+                .on_hover_text("Orbit, side, top and front keep the whale in sight");
         });
         let now = if follow { format!("{} now", spoken(named)) } else { String::new() };
         of_whale.response.on_hover_text(format!("Views that go with the whale\n{now}").trim_end());
@@ -183,7 +186,9 @@ impl ViewPanel {
 fn spoken(view: View) -> String {
     match view {
         View::Whale => "Behind the whale".into(),
-        View::FirstPerson => "First person".into(),
+        View::FirstPerson => "First person, ahead".into(),
+        View::LeftEye => "First person, left eye".into(),
+        View::RightEye => "First person, right eye".into(),
         _ => capital(&view.name().replace('-', ", ")),
     }
 }

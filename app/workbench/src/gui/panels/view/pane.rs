@@ -48,7 +48,7 @@ pub(super) fn look(
     }
     let camera = eye.placed(view, rect);
     if run == 0 {
-        (eye.camera, eye.frame_again) = (camera.clone(), false);
+        eye.keep(&camera, &view.frame);
     }
     pick(panel, view, &camera, &response, run);
     Look { camera, response }

@@ -163,7 +163,7 @@ impl ViewPanel {
 
     /// Switches between first and third person.
     pub fn change_person(&mut self) {
-        let first = self.eye().named == View::FirstPerson;
+        let first = self.eye().named.is_first_person();
         self.look(if first { View::Whale } else { View::FirstPerson });
     }
 }
