@@ -41,18 +41,48 @@ pub enum Target {
 }
 
 impl Prior {
-    /// Its name in words: `flipper sweep`, `friction coefficient scale`.
+    /// Its name in words: `sweep of the flippers`, `scale of friction`.
     pub fn words(&self) -> String {
         prior_words(&self.name.value)
     }
 }
 
-/// The name of a prior in words: `flipper sweep`, `friction coefficient scale`.
+/// Names of priors in words, by their paths without numbers.
+const NAMED: [(&str, &str); 19] = [
+    ("along", "place along the line"),
+    ("answer", "first response to rope"),
+    ("answer_above", "force above which it responds"),
+    ("flipper_raise", "raise of the flippers"),
+    ("flipper_sweep", "sweep of the flippers"),
+    ("flipper_twist", "twist of the flippers"),
+    ("friction.attributes.coefficient_scale", "scale of friction"),
+    ("friction.on.model", "law of friction on a part"),
+    ("gear.assembly", "gear"),
+    ("gear.heading", "heading of the gear"),
+    ("offset", "distance of the path from the rope"),
+    ("whale.contact_stiffness", "stiffness of skin"),
+    ("whale.effort", "what limits the thrust"),
+    ("whale.pilot.act", "act of the pilot program"),
+    ("whale.pilot.delay", "delay of the pilot program"),
+    ("whale.pilot.pitch", "pitch by the pilot program"),
+    ("whale.pilot.sees", "distance at which it sees rope"),
+    ("whale.pilot.yaw", "yaw by the pilot program"),
+    ("tide", "current of the tide"),
+];
+
+/// The name of a prior in words: `sweep of the flippers`, `scale of friction`. A path that is not known is its own parts.
 pub fn prior_words(name: &str) -> String {
-    let parts = name
-        .split(['.', '/'])
-        .filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
-    parts.collect::<Vec<_>>().join(" ").replace('_', " ")
+    let parts: Vec<&str> = name.split('.').filter(|part| part.parse::<usize>().is_err()).collect();
+    let path = parts.join(".");
+    if let Some((_, words)) = NAMED.iter().find(|(known, _)| *known == path) {
+        return (*words).to_owned();
+    }
+    let spoken = |part: &str| part.replace('_', " ");
+    if let ["whale", "answers", when, act] = parts[..] {
+        return format!("weight of the act {}, {}", spoken(act), spoken(when));
+    }
+    let parts = parts.iter().flat_map(|part| part.split('/')).filter(|part| *part != "attributes");
+    parts.map(spoken).collect::<Vec<_>>().join(" ")
 }
 
 /// Reads the remaining tables of `[encounter]`, sorted by name.
@@ -520,4 +550,27 @@ fn quantity_of(text: &str) -> Option<(Quantity, f64)> {
         .iter()
         .copied()
         .find_map(|quantity| Some((quantity, units::parse(text, quantity).ok()?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_priors_read_as_words() {
+        for (name, words) in [
+            ("speed", "speed"),
+            ("flipper_sweep", "sweep of the flippers"),
+            ("friction.attributes.coefficient_scale", "scale of friction"),
+            ("friction.on.0.model", "law of friction on a part"),
+            ("whale.pilot.1.sees", "distance at which it sees rope"),
+            ("whale.answers.held_by_fin.bolt", "weight of the act bolt, held by fin"),
+            (
+                "assemblies/groundline-trawl.line.0.length",
+                "assemblies groundline-trawl line length",
+            ),
+        ] {
+            assert_eq!(prior_words(name), words);
+        }
+    }
 }

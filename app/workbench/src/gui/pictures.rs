@@ -21,9 +21,46 @@ use crate::scene::{
     Camera, CameraPath, Eye, Reel, RenderRequest, Renderer, View, Water, write_png,
 };
 
-/// Width and height [px], and pictures per second, of a film.
-const FILM_SIZE: [u32; 2] = [1280, 720];
+/// Widths and heights of films to choose from [px].
+pub const FILM_SIZES: [[u32; 2]; 3] = [[640, 360], [1280, 720], [1920, 1080]];
+/// Pictures per second of a film.
 const FPS: u32 = 20;
+/// Bytes per pixel of a picture in a GIF and in an MP4 file, measured on `case-e25-05-roll`.
+const BYTES_PER_PIXEL: [f64; 2] = [0.29, 0.004];
+
+/// Size and part of the run of a film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmChoice {
+    /// Width and height [px].
+    pub size: [u32; 2],
+    /// First and last moment [s]; the last is at most the end of the run.
+    pub span_s: [f64; 2],
+}
+
+impl Default for FilmChoice {
+    fn default() -> Self {
+        Self { size: FILM_SIZES[1], span_s: [0.0, f64::INFINITY] }
+    }
+}
+
+impl FilmChoice {
+    /// Number of pictures of a run that ends at a time [s].
+    pub fn pictures(&self, end_s: f64) -> usize {
+        let [from_s, to_s] = self.span_s;
+        pictures(to_s.min(end_s) - from_s)
+    }
+
+    /// Expected sizes of a number of pictures as GIF and as MP4 [MB].
+    pub fn megabytes(&self, pictures: usize) -> [f64; 2] {
+        let pixels = self.size.map(f64::from).iter().product::<f64>() * pictures as f64;
+        BYTES_PER_PIXEL.map(|bytes| 1e-6 * bytes * pixels)
+    }
+}
+
+/// Number of pictures in a time [s].
+fn pictures(time_s: f64) -> usize {
+    if time_s < 0.0 { 0 } else { (time_s * f64::from(FPS) + 1e-6).floor() as usize + 1 }
+}
 
 /// Time limit for the run to send its stored frames.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -38,6 +75,8 @@ pub struct FilmOrder {
     pub eye: Eye,
     /// Camera path; its keys override the eye.
     pub path: CameraPath<Eye>,
+    /// Size and part of the run.
+    pub choice: FilmChoice,
     /// What is drawn.
     pub show: Show,
     /// Dark or light.
@@ -68,7 +107,7 @@ struct Progress {
 impl FilmJob {
     /// Starts a film. Errors of its file are returned immediately.
     pub fn begin(order: FilmOrder, waker: Waker) -> Result<Self, String> {
-        let film = Film::begin(&order.out, FILM_SIZE, FPS)?;
+        let film = Film::begin(&order.out, order.choice.size, FPS)?;
         let (progress, mut task) = (Arc::new(Progress::default()), Task::default());
         let (out, shared_progress) = (order.out.clone(), Arc::clone(&progress));
         let awake = Arc::clone(&waker);
@@ -108,9 +147,18 @@ impl FilmJob {
 impl FilmOrder {
     fn draw(&self, film: Film, progress: &Progress, waker: &Waker) -> Result<(), String> {
         let stored = self.frames.recv_timeout(PATIENCE);
-        let frames = paced(&stored.map_err(|_| "the run does not send its frames")?);
+        let FilmChoice { size, span_s } = self.choice;
+        let frames = paced(&stored.map_err(|_| "the run does not send its frames")?, span_s);
+        if frames.is_empty() {
+            return Err(format!(
+                "{}: the run has no moments from {} to {} s; choose another part of it",
+                self.out.display(),
+                span_s[0],
+                span_s[1]
+            ));
+        }
         progress.total.store(frames.len(), Ordering::Relaxed);
-        let aspect = f64::from(FILM_SIZE[0]) / f64::from(FILM_SIZE[1]);
+        let aspect = f64::from(size[0]) / f64::from(size[1]);
         let camera = |frame: &Frame| {
             let placed = |eye: &Eye| eye.at_moment(&self.model, frame, aspect);
             self.path.camera(frame.time_s, placed).unwrap_or_else(|| placed(&self.eye))
@@ -118,7 +166,7 @@ impl FilmOrder {
         let reel = Reel {
             model: &self.model,
             frames: &frames,
-            size: FILM_SIZE,
+            size,
             camera: &camera,
             show: self.show,
             water: self.water,
@@ -134,12 +182,13 @@ impl FilmOrder {
     }
 }
 
-/// The stored frame nearest in time to each picture, from the first stored frame to the last.
-fn paced(stored: &[Arc<Frame>]) -> Vec<Arc<Frame>> {
+/// The stored frame nearest in time to each picture, in a part of the run [s].
+fn paced(stored: &[Arc<Frame>], [from_s, to_s]: [f64; 2]) -> Vec<Arc<Frame>> {
     let (Some(first), Some(last)) = (stored.first(), stored.last()) else { return Vec::new() };
-    let count = ((last.time_s - first.time_s) * f64::from(FPS) + 1e-6).floor() as usize + 1;
+    let begin_s = first.time_s.max(from_s);
+    let count = pictures(last.time_s.min(to_s) - begin_s);
     let at = |picture: usize| {
-        let time_s = first.time_s + picture as f64 / f64::from(FPS);
+        let time_s = begin_s + picture as f64 / f64::from(FPS);
         let after = stored.partition_point(|frame| frame.time_s < time_s).min(stored.len() - 1);
         let before = after.saturating_sub(1);
         let off = |index: usize| (stored[index].time_s - time_s).abs();
@@ -225,7 +274,8 @@ mod tests {
         let model = sample::model();
         let frame = |time_s: f64| Arc::new(Frame { time_s, ..sample::frame(&model) });
         let stored: Vec<Arc<Frame>> = (0..=30).map(|step| frame(f64::from(step) / 30.0)).collect();
-        let times: Vec<f64> = paced(&stored).iter().map(|frame| frame.time_s).collect();
+        let times: Vec<f64> =
+            paced(&stored, FilmChoice::default().span_s).iter().map(|frame| frame.time_s).collect();
         assert_eq!(times.len(), 21);
         for (picture, time_s) in times.iter().enumerate() {
             assert!(
@@ -233,6 +283,24 @@ mod tests {
                 "{picture}: {time_s}"
             );
         }
-        assert!(paced(&[]).is_empty());
+        let part: Vec<f64> = paced(&stored, [0.4, 0.6]).iter().map(|frame| frame.time_s).collect();
+        assert_eq!(part, [0.4, 0.45, 0.5, 0.55, 0.6].map(|time_s: f64| nearest(time_s)));
+        assert!(paced(&stored, [2.0, 3.0]).is_empty() && paced(&[], [0.0, 1.0]).is_empty());
+    }
+
+    /// The moment of thirty in a second that is nearest to a time; of two as near, the later.
+    fn nearest(time_s: f64) -> f64 {
+        (time_s * 30.0 + 1e-9).round() / 30.0
+    }
+
+    #[test]
+    fn pictures_and_sizes_of_a_film_are_counted_before_it_is_made() {
+        let all = FilmChoice::default();
+        assert_eq!(all.pictures(2.0), 41);
+        assert_eq!(FilmChoice { span_s: [0.5, 1.5], ..all }.pictures(2.0), 21);
+        assert_eq!(FilmChoice { span_s: [3.0, 9.0], ..all }.pictures(2.0), 0);
+        // 41 pictures of 1280 by 720 were 10.8 MB as GIF.
+        let [gif, mp4] = all.megabytes(41);
+        assert!((gif / 10.8 - 1.0).abs() < 0.05 && mp4 < 0.3, "{gif} and {mp4} MB");
     }
 }

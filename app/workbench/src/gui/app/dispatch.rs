@@ -122,7 +122,7 @@ impl App {
             }
             ViewAction::ClearKeys => view.clear_keys(),
             ViewAction::SaveFilm(file) => {
-                let film = view.film(&mut self.shared, file)?;
+                let film = view.begin_film(&mut self.shared, file)?;
                 self.shared.film = Some(film);
             }
             ViewAction::CancelFilm => {

@@ -60,7 +60,7 @@ pub enum ViewAction {
     /// Draws what the chosen view shows at full size, 1920 by 1080, into a PNG file.
     #[strum_discriminants(strum(message = "Save a picture of the view"))]
     SavePicture(PathBuf),
-    /// Draws the run from its start by the camera keys, or as the chosen view shows it, 1280 by 720 at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window can be used meanwhile.
+    /// Draws the run, or the part of it chosen in the menu Film, by the camera keys, or as the chosen view shows it, at 20 pictures a second, into a GIF, or by ffmpeg into MP4 or WebM. The window can be used meanwhile.
     #[strum_discriminants(strum(message = "Save a film of the run"))]
     SaveFilm(PathBuf),
     /// Ends the film that is being made; the pictures drawn so far stay.

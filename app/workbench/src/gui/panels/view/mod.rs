@@ -17,6 +17,7 @@ use endline_session::scene::Show;
 pub use state::{Drawn, ScaleTop, ViewPanel};
 
 use crate::gui::panel::Panel;
+use crate::gui::pictures::FILM_SIZES;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::command;
@@ -130,7 +131,7 @@ impl ViewPanel {
             self.frame();
         }
         command(ui, shared, "Picture …", WindowAction::Ask("view.save-picture"));
-        command(ui, shared, "Film …", WindowAction::Ask("view.save-film"));
+        self.films(ui, shared);
         self.keys(ui, shared);
         ui.menu_button("Views ⏷", |ui| {
             for panes in 1..=MOST_PANES {
@@ -144,6 +145,41 @@ impl ViewPanel {
                     ui.close();
                 }
             }
+        });
+    }
+
+    /// Draws the menu of a film: its size, the part of the run, and what that amounts to.
+    fn films(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let end_s = shared.workbench.view().map_or(0.0, |view| view.newest_s);
+        ui.menu_button("Film ⏷", |ui| {
+            for size in FILM_SIZES {
+                let text = format!("{} × {} pixels", size[0], size[1]);
+                ui.radio_value(&mut self.film.size, size, text);
+            }
+            ui.separator();
+            // The end of the whole run grows with the run; it is stored only where it is chosen.
+            let [mut from_s, mut to_s] = self.film.span_s.map(|time_s| time_s.min(end_s));
+            let [first, last] = [0.0..=to_s, from_s..=end_s];
+            let time = |value, range| {
+                egui::DragValue::new(value).suffix(" s").speed(0.1).max_decimals(2).range(range)
+            };
+            let changed = ui.horizontal(|ui| {
+                ui.label("From");
+                let first = ui.add(time(&mut from_s, first)).changed();
+                ui.label("to");
+                ui.add(time(&mut to_s, last)).changed() || first
+            });
+            if changed.inner {
+                self.film.span_s = [from_s, to_s];
+            }
+            if ui.button("Whole run").clicked() {
+                self.film.span_s = [0.0, f64::INFINITY];
+            }
+            let pictures = self.film.pictures(end_s);
+            let [gif, mp4] = self.film.megabytes(pictures);
+            ui.label(format!("{pictures} pictures: about {gif:.0} MB as GIF, {mp4:.1} MB as MP4"));
+            ui.separator();
+            command(ui, shared, "Save the film …", WindowAction::Ask("view.save-film"));
         });
     }
 

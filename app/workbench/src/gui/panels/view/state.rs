@@ -11,7 +11,7 @@ use endline_sim::{Frame, Model};
 use crate::gui::panel::Panel;
 use crate::gui::panels::view::picking::Picks;
 use crate::gui::panels::view::pose::Start;
-use crate::gui::pictures::{FilmJob, FilmOrder};
+use crate::gui::pictures::{FilmChoice, FilmJob, FilmOrder};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
@@ -46,6 +46,8 @@ pub struct ViewPanel {
     pub show: Show,
     /// Top of the tension scale.
     pub scale: ScaleTop,
+    /// Size and part of a film.
+    pub film: FilmChoice,
     /// Camera path of a film.
     pub path: CameraPath<Eye>,
     /// Whether the active pane previews the camera path.
@@ -77,6 +79,7 @@ impl Default for ViewPanel {
             chosen: 0,
             show: Show { forces: true, ..Show::default() },
             scale: ScaleTop::default(),
+            film: FilmChoice::default(),
             path: CameraPath::default(),
             along: false,
             picks: Picks::default(),
@@ -226,7 +229,7 @@ const PICTURE_SIZE: [u32; 2] = [1920, 1080];
 
 impl ViewPanel {
     /// Starts a film of the run, as the active pane shows it.
-    pub fn film(&mut self, shared: &mut Shared, out: PathBuf) -> Result<FilmJob, String> {
+    pub fn begin_film(&mut self, shared: &mut Shared, out: PathBuf) -> Result<FilmJob, String> {
         if shared.film.is_some() {
             return Err("a film is in progress; wait for it or cancel it".to_owned());
         }
@@ -236,6 +239,7 @@ impl ViewPanel {
             frames: shared.workbench.kept_frames()?,
             eye: self.eye().clone(),
             path: self.path.clone(),
+            choice: self.film,
             show: self.show,
             water: water(shared),
             caption: caption(shared),
