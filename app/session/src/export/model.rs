@@ -314,6 +314,8 @@ mod tests {
             scale_n: 1.0,
             time_s: 0.0,
             depth_m: 1.0,
+            drift_m: DVec3::ZERO,
+            film: false,
         }
     }
 
