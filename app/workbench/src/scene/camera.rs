@@ -250,18 +250,18 @@ impl Camera {
     /// First person: from above and behind the whale's blowholes ahead over its rostrum, rolled with the whale.
     pub fn first_person(&mut self, whale: &WhaleFrame, length_m: f64) {
         let place = DVec3::new(0.27, 0.0, 0.115) * length_m;
-        self.from_head(whale, place, DVec3::X);
+        self.look_out(whale, place, DVec3::X);
     }
 
     /// First person from an eye, to port (1) or starboard (-1): out to the side and a little ahead and down.
     fn by_eye(&mut self, whale: &WhaleFrame, length_m: f64, side: f64) {
         let place = DVec3::new(EYE[0], side * EYE[1], EYE[2]) * length_m;
         let (sin, cos) = EYE_TURN.sin_cos();
-        self.from_head(whale, place, DVec3::new(cos, side * sin, -0.1).normalize());
+        self.look_out(whale, place, DVec3::new(cos, side * sin, -0.1).normalize());
     }
 
     /// Looks from a place in the whale's frame [m] in a direction in that frame, rolled with the whale.
-    fn from_head(&mut self, whale: &WhaleFrame, place: DVec3, direction: DVec3) {
+    fn look_out(&mut self, whale: &WhaleFrame, place: DVec3, direction: DVec3) {
         let ahead = whale.orientation * direction;
         let dorsal = whale.orientation * DVec3::Z;
         self.distance_m = 10.0;
