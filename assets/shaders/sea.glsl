@@ -11,8 +11,9 @@ uniform vec3 sky;         // sRGB of the air above the surface
 
 // Direction from which the sun shines under water.
 const vec3 SUN = vec3(0.26, -0.34, 0.90);
-// How much faster than the mean water hides red, green and blue.
-const vec3 ABSORBED = vec3(1.45, 0.55, 0.45);
+// How much water hides of red, green and blue up to what the camera looks at, and in `hide_m` beyond it (optical depths).
+const vec3 BEFORE = vec3(0.42, 0.15, 0.12);
+const vec3 BEYOND = vec3(1.7, 1.1, 1.0);
 
 // Linear light of an sRGB colour.
 vec3 linear_of(vec3 srgb) {
@@ -56,7 +57,7 @@ vec3 daylight(float z) {
 
 // Share of light, by colour, that water leaves of what is this far away.
 vec3 passed(float far) {
-    return exp(-ABSORBED * far / (clear_m + hide_m));
+    return exp(-(BEFORE * min(far / clear_m, 1.0) + BEYOND * max(far - clear_m, 0.0) / hide_m));
 }
 
 // How far what lies under water goes over into its colour for an eye in the air, by the way of the light through it [m]: never wholly, so that gear stays in sight.

@@ -177,7 +177,9 @@ impl ViewPanel {
             }
             let pictures = self.film.pictures(end_s);
             let [gif, mp4] = self.film.megabytes(pictures);
-            ui.label(format!("{pictures} pictures: about {gif:.0} MB as GIF, {mp4:.1} MB as MP4"));
+            let counted =
+                if pictures == 1 { "1 picture".to_owned() } else { format!("{pictures} pictures") };
+            ui.label(format!("{counted}: about {gif:.0} MB as GIF, {mp4:.1} MB as MP4"));
             ui.separator();
             command(ui, shared, "Save the film …", WindowAction::Ask("view.save-film"));
         });
