@@ -21,7 +21,7 @@ float lines(vec2 at, float spacing) {
 
 // Light on a surface of a linear colour: sky above, the seabed's dim return below, sun with the ripples' play, a rim against the water.
 vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
-    vec3 sky_light = mix(vec3(0.10, 0.19, 0.20), vec3(0.92, 0.98, 1.0), 0.5 + 0.5 * n.z);
+    vec3 sky_light = mix(vec3(0.06, 0.12, 0.13), vec3(0.80, 0.88, 0.90), 0.5 + 0.5 * n.z);
     float sun = max(dot(n, SUN), 0.0) * (0.85 + 2.2 * ripples(world));
     vec3 edge = rim * pow(1.0 - abs(dot(n, view)), 4.0) * vec3(0.16, 0.34, 0.40);
     return (colour * (sky_light + sun) + edge) * daylight(world.z);
@@ -53,12 +53,12 @@ vec3 skin(vec3 n, vec3 view) {
     float dull = mark.a;
     float mottle = 0.6 * grain_at(own * 2.3) + 0.4 * grain_at(own * 9.0);
     float rough = grain_at(own * 16.0);
-    vec3 colour = linear_of(mark.rgb) * (1.0 + mix(0.22 * mottle, 0.45 * rough, dull));
+    vec3 colour = mix(0.70, 1.0, dull) * linear_of(mark.rgb) * (1.0 + mix(0.22 * mottle, 0.45 * rough, dull));
     vec3 tilt = vec3(grain_at(own * 14.0 + 7.0), grain_at(own * 14.0 + 31.0), rough);
     vec3 m = normalize(n + mix(0.03, 0.20, dull) * tilt);
     vec3 mirrored = reflect(view, m);
     float glint = pow(max(dot(mirrored, SUN), 0.0), 40.0);
-    float sheen = smoothstep(0.35, 0.95, mirrored.z) * (0.05 + 0.25 * pow(1.0 - abs(dot(m, view)), 3.0));
+    float sheen = smoothstep(0.35, 0.95, mirrored.z) * (0.03 + 0.25 * pow(1.0 - abs(dot(m, view)), 3.0));
     vec3 gloss = (0.22 * glint * (0.5 + ripples(world)) + sheen) * vec3(0.75, 0.95, 1.0);
     return lit(colour, m, view, 0.30) + (1.0 - dull) * gloss * daylight(world.z);
 }

@@ -12,7 +12,7 @@ uniform vec3 sky;         // sRGB of the air above the surface
 // Direction from which the sun shines under water.
 const vec3 SUN = vec3(0.26, -0.34, 0.90);
 // How much water hides of red, green and blue up to what the camera looks at, and in `hide_m` beyond it (optical depths).
-const vec3 BEFORE = vec3(0.42, 0.15, 0.12);
+const vec3 BEFORE = vec3(0.30, 0.10, 0.08);
 const vec3 BEYOND = vec3(1.7, 1.1, 1.0);
 
 // Linear light of an sRGB colour.
@@ -46,7 +46,7 @@ vec3 backdrop(vec3 view) {
     float z = eye.z + view.z * clear_m;
     float wide = 0.004 * clear_m;
     float toward = 0.5 + 0.5 * dot(view, SUN);
-    vec3 water = water_at(z) * (0.55 * exp(1.1 * view.z) + 0.45 * toward * toward + 1.2 * pow(toward, 10.0));
+    vec3 water = water_at(z) * (0.92 * exp(0.9 * view.z) + 0.35 * toward * toward + 1.2 * pow(toward, 10.0));
     return mix(water, light_of(sky), smoothstep(-wide, wide, z));
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use endline_session::scene::Show;
 use endline_session::units::Units;
 use endline_session::{Recording, Report, Run, json};
 use endline_sim::{DVec3, Frame, Model};
@@ -106,10 +107,9 @@ impl Result {
                 frame,
                 size,
                 view,
-                scale_n: None,
+                show: Show::default(),
                 fit,
                 caption,
-                film: false,
                 out: &out,
                 units: Units::Mixed,
             })

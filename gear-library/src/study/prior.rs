@@ -70,7 +70,7 @@ const NAMED: [(&str, &str); 19] = [
     ("tide", "current of the tide"),
 ];
 
-/// The name of a prior in words: `sweep of the flippers`, `scale of friction`. A path that is not known is its own parts.
+/// The name of a prior in words: `sweep of the flippers`, `scale of friction`. The words of another path are its parts.
 pub fn prior_words(name: &str) -> String {
     let parts: Vec<&str> = name.split('.').filter(|part| part.parse::<usize>().is_err()).collect();
     let path = parts.join(".");

@@ -30,8 +30,11 @@ pub enum Look {
         /// Distance between lines [m]; 0 for none.
         grid_m: f32,
     },
-    /// Sea surface: see-through, brighter at a flat angle, seen from both sides.
-    Surface,
+    /// Sea surface: see-through, brighter at a flat angle, seen from both sides; grid lines at this distance, both ways.
+    Surface {
+        /// Distance between lines [m]; 0 for none.
+        grid_m: f32,
+    },
     /// Laid rope in its own colours, with a dark edge; its grain is the place along it [m] and the direction round it.
     Rope,
     /// Wet, mottled skin; its grain sticks to the body at rest.
@@ -95,25 +98,15 @@ pub struct Show {
 }
 
 impl Show {
-    /// What is drawn for films and print.
-    pub const FILM: Self = Self {
-        scale_n: None,
-        surface: true,
-        seabed: true,
-        current: false,
-        contacts: false,
-        forces: false,
-        whale: true,
-        names: false,
-        film: true,
-    };
-
-    /// The choices, or those of a film if they ask for one.
+    /// The choices that apply: a film has no marks, arrows and names.
     pub fn effective(self) -> Self {
-        if self.film {
-            Self { surface: self.surface, seabed: self.seabed, whale: self.whale, ..Self::FILM }
-        } else {
-            self
+        let measures = !self.film;
+        Self {
+            current: self.current && measures,
+            contacts: self.contacts && measures,
+            forces: self.forces && measures,
+            names: self.names && measures,
+            ..self
         }
     }
 }
@@ -166,7 +159,7 @@ impl Scene {
         add(show.contacts, "marks", Look::Own, 4.0, forces::contacts(frame));
         add(show.forces, "forces", Look::Own, 1.0, shafts);
         add(show.forces, "force heads", Look::Own, 9.0, force_heads);
-        add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
+        add(show.surface, "surface", Look::Surface { grid_m }, 0.0, sea::surface(model, &bounds));
         let water = &model.spec.water;
         let drift_m = water.current.surface_m_s * frame.time_s;
         let Show { film, .. } = show;

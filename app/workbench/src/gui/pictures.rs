@@ -149,14 +149,6 @@ impl FilmOrder {
         let stored = self.frames.recv_timeout(PATIENCE);
         let FilmChoice { size, span_s } = self.choice;
         let frames = paced(&stored.map_err(|_| "the run does not send its frames")?, span_s);
-        if frames.is_empty() {
-            return Err(format!(
-                "{}: the run has no moments from {} to {} s; choose another part of it",
-                self.out.display(),
-                span_s[0],
-                span_s[1]
-            ));
-        }
         progress.total.store(frames.len(), Ordering::Relaxed);
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let camera = |frame: &Frame| {
@@ -235,18 +227,16 @@ fn draw_ending(view: &LiveView, file: &PathBuf) -> Result<(), String> {
         frame,
         size: THUMBNAIL_SIZE,
         view: "",
-        scale_n: None,
+        show: Show { names: false, ..Show::default() },
         fit: &[],
         caption: "",
-        film: false,
         out: file,
         units: Units::Mixed,
     };
-    let show = Show { names: false, ..Show::default() };
     write_png(
         file,
         THUMBNAIL_SIZE,
-        &Renderer::new(THUMBNAIL_SIZE)?.bare(&request, &show, &camera, Water::DARK),
+        &Renderer::new(THUMBNAIL_SIZE)?.bare(&request, &camera, Water::DARK),
     )
 }
 

@@ -50,7 +50,8 @@ pub struct Drawer {
     part: Program,
     backdrop: Program,
     corners: VertexBuffer<[f32; 2]>,
-    snow: Snow,
+    /// Made for the first film.
+    snow: Option<Snow>,
     loaded: Vec<Loaded>,
     depth_m: f32,
     time_s: f32,
@@ -148,13 +149,12 @@ impl Drawer {
             )?;
             let corners =
                 VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
-            let snow = Snow::new(&context)?;
             Ok(Self {
                 context,
                 part,
                 backdrop,
                 corners,
-                snow,
+                snow: None,
                 loaded: Vec::new(),
                 depth_m: 1.0,
                 time_s: 0.0,
@@ -170,6 +170,9 @@ impl Drawer {
     pub fn load(&mut self, scene: &Scene) {
         (self.depth_m, self.time_s) = (scene.depth_m.max(1.0) as f32, scene.time_s as f32);
         (self.drift_m, self.film) = (scene.drift_m.as_vec3(), scene.film);
+        if self.film && self.snow.is_none() {
+            self.snow = Snow::new(&self.context).ok();
+        }
         self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
         for (index, part) in scene.parts.iter().enumerate() {
             if self.loaded.get(index).is_none_or(|loaded| loaded.name != part.name) {
@@ -202,8 +205,8 @@ impl Drawer {
                 }
                 loaded.draw(&self.part, &eye, Pass::Whole);
             }
-            if self.film {
-                self.snow.draw(&eye, self.drift_m);
+            if let Some(snow) = self.snow.as_ref().filter(|_| self.film) {
+                snow.draw(&eye, self.drift_m);
             }
             Ok(())
         });
@@ -282,14 +285,13 @@ impl Loaded {
             (_, Look::Solid) => 0,
             (_, Look::Own) => 1,
             (_, Look::Seabed { .. }) => 2,
-            (_, Look::Surface) => 3,
+            (_, Look::Surface { .. }) => 3,
             (_, Look::Skin) => 4,
             (_, Look::Rope) => 5,
         };
         let grid_m = match self.look {
-            Look::Seabed { grid_m } => grid_m,
-            _ if eye.film > 0.5 => 0.0,
-            _ => 10.0,
+            Look::Seabed { grid_m } | Look::Surface { grid_m } => grid_m,
+            _ => 0.0,
         };
         eye.set_sea(program);
         program.use_uniform("to_clip", eye.to_clip);
@@ -304,7 +306,7 @@ impl Loaded {
         program.use_vertex_attribute("radius", &self.radius);
         program.use_vertex_attribute("colour", &self.colour);
         program.use_vertex_attribute("grain", &self.grain);
-        let states = render_states(self.look == Look::Surface, pass);
+        let states = render_states(matches!(self.look, Look::Surface { .. }), pass);
         program.draw_elements(states, eye.viewport, &self.triangles);
     }
 }

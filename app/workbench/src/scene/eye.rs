@@ -24,7 +24,7 @@ pub struct Eye {
     /// Whether to frame everything at the next frame.
     pub frame_again: bool,
     /// Whether the camera moves along with the whale, at the same distance and direction.
-    pub along: bool,
+    pub moves_along: bool,
     /// Place of the whale that the camera belongs to, if it moves along [m].
     anchor: Option<DVec3>,
     /// Offsets of the user to the camera that follows the whale: azimuth [rad], elevation [rad], zoom [notches].
@@ -45,7 +45,7 @@ impl Eye {
             follow: view.is_of_whale(),
             named: view,
             frame_again: true,
-            along: false,
+            moves_along: false,
             anchor: None,
             offset: [0.0; 3],
         }
@@ -53,7 +53,8 @@ impl Eye {
 
     /// Changes to a named view.
     pub fn set_view(&mut self, view: View) {
-        *self = Self { camera: self.camera.clone(), along: self.along, ..Self::at(view) };
+        *self =
+            Self { camera: self.camera.clone(), moves_along: self.moves_along, ..Self::at(view) };
     }
 
     /// Frames everything, and stops following the whale.
@@ -96,7 +97,7 @@ impl Eye {
     /// Stores the camera of a frame, for the mouse and for the frames after it.
     pub fn keep(&mut self, camera: &Camera, frame: &Frame) {
         (self.camera, self.frame_again) = (camera.clone(), false);
-        self.anchor = frame.whale.as_ref().filter(|_| self.along).map(|whale| whale.position);
+        self.anchor = frame.whale.as_ref().filter(|_| self.moves_along).map(|whale| whale.position);
     }
 
     /// Camera for the moment of a view, drawn in a rectangle.
@@ -118,7 +119,9 @@ impl Eye {
         } else if self.frame_again {
             let places = Scene::places_of(model, frame);
             camera = Camera::of_view(self.named, &places, None, length_m, aspect);
-        } else if let (true, Some(whale), Some(anchor)) = (self.along, &frame.whale, self.anchor) {
+        } else if let (true, Some(whale), Some(anchor)) =
+            (self.moves_along, &frame.whale, self.anchor)
+        {
             camera.target += whale.position - anchor;
         }
         camera
@@ -215,10 +218,10 @@ mod tests {
             let camera = eye.at_moment(&model, frame, size.x / size.y);
             (camera.project(frame.whale.as_ref().unwrap().position, size).unwrap(), camera)
         };
-        let mut eye = Eye { along: true, ..Eye::at(View::Orbit) };
+        let mut eye = Eye { moves_along: true, ..Eye::at(View::Orbit) };
         let (before, camera) = seen(&eye, &frame);
         eye.keep(&camera, &frame);
-        let still = Eye { along: false, ..eye.clone() };
+        let still = Eye { moves_along: false, ..eye.clone() };
         frame.whale.as_mut().unwrap().position += DVec3::new(9.0, -4.0, 2.0);
         assert!(seen(&eye, &frame).0.distance(before) < 1e-6);
         assert!(seen(&still, &frame).0.distance(before) > 10.0);

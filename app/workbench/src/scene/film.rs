@@ -187,14 +187,13 @@ impl Reel<'_> {
                 frame,
                 size: self.size,
                 view: "",
-                scale_n,
+                show,
                 fit: &[],
                 caption: self.caption,
-                film: self.show.film,
                 out: Path::new(""),
                 units: self.units,
             };
-            film.add(&renderer.seen_by(&request, &show, &(self.camera)(frame), self.water))?;
+            film.add(&renderer.seen_by(&request, &(self.camera)(frame), self.water))?;
             drawn += 1;
             if !proceed(drawn) {
                 break;

@@ -24,14 +24,12 @@ pub struct RenderRequest<'a> {
     pub size: [u32; 2],
     /// Name of a [`View`].
     pub view: &'a str,
-    /// Tension at the top of the colour scale [N]; `None` uses the peak of the frame.
-    pub scale_n: Option<f64>,
+    /// What is drawn.
+    pub show: Show,
     /// Places that fill the picture [m]; if empty, gear and whale.
     pub fit: &'a [DVec3],
     /// Line of text at the top left, such as the scenario's name.
     pub caption: &'a str,
-    /// Without marks, scales and text, for films and print ([`Show::film`]).
-    pub film: bool,
     /// PNG file to write.
     pub out: &'a Path,
     /// Units of the scale bar.
@@ -102,20 +100,18 @@ impl Renderer {
         let all = Scene::places_of(model, frame);
         let places = if fit.is_empty() { &all[..] } else { fit };
         let camera = Camera::of_view(view, places, frame.whale.as_ref(), length_m, aspect);
-        let show = Show { scale_n: request.scale_n, film: request.film, ..Show::default() };
-        Ok(self.seen_by(request, &show, &camera, Water::DARK))
+        Ok(self.seen_by(request, &camera, Water::DARK))
     }
 
     /// Draws a picture with overlay as seen by a camera.
     pub fn seen_by(
         &mut self,
         request: &RenderRequest<'_>,
-        show: &Show,
         camera: &Camera,
         water: Water,
     ) -> Vec<[u8; 4]> {
         let [width, height] = self.size;
-        let scene = self.draw(request, show, camera, water);
+        let scene = self.draw(request, camera, water);
         let overlay = Overlay {
             caption: request.caption,
             time_s: scene.time_s,
@@ -123,11 +119,11 @@ impl Renderer {
             metres_a_point: camera.metres_a_point(f64::from(height)),
             units: request.units,
         };
-        if show.film {
+        if request.show.film {
             return RenderTarget::screen(&self.context, width, height).read_color();
         }
         self.paint_over(|painter, rect| {
-            if show.names {
+            if request.show.names {
                 overlay::paint_names(painter, rect, camera, request.model, request.frame);
             }
             overlay::paint(painter, rect, &overlay);
@@ -139,24 +135,17 @@ impl Renderer {
     pub fn bare(
         &mut self,
         request: &RenderRequest<'_>,
-        show: &Show,
         camera: &Camera,
         water: Water,
     ) -> Vec<[u8; 4]> {
         let [width, height] = self.size;
-        self.draw(request, show, camera, water);
+        self.draw(request, camera, water);
         RenderTarget::screen(&self.context, width, height).read_color()
     }
 
-    fn draw(
-        &mut self,
-        request: &RenderRequest<'_>,
-        show: &Show,
-        camera: &Camera,
-        water: Water,
-    ) -> Scene {
+    fn draw(&mut self, request: &RenderRequest<'_>, camera: &Camera, water: Water) -> Scene {
         let [width, height] = self.size;
-        let scene = Scene::of(request.model, request.frame, show);
+        let scene = Scene::of(request.model, request.frame, &request.show);
         self.drawer.load(&scene);
         self.drawer.draw(0, camera, self.size, water);
         let clip = ScissorBox::new_at_origo(width, height);

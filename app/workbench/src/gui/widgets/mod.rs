@@ -171,9 +171,8 @@ pub fn more_nodes(ui: &mut Ui, shared: &mut Shared) {
     if nodes as f64 > ROPE_NODES.most {
         return;
     }
-    let help = format!(
-        "Sets {FIELD} = {nodes} in the scenario; the next run uses it and takes about twice as long"
-    );
+    let help =
+        format!("Sets {FIELD} = {nodes} in the scenario; the next run uses it and takes longer");
     if ui.small_button(format!("Use {nodes} rope nodes")).on_hover_text(help).clicked() {
         shared.give(Command::from(EditAction::Set {
             path: Documents::SCENARIO.to_owned(),

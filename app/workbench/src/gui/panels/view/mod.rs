@@ -122,7 +122,7 @@ impl ViewPanel {
                 }
             }
             ui.separator();
-            ui.checkbox(&mut self.eye().along, "Move along with it")
+            ui.checkbox(&mut self.eye().moves_along, "Move along with it")
                 .on_hover_text("Orbit, side, top and front keep the whale in sight");
         });
         let now = if follow { format!("{} now", spoken(named)) } else { String::new() };
@@ -207,11 +207,13 @@ impl ViewPanel {
             ui.separator();
             ui.checkbox(&mut self.show.surface, "Sea surface");
             ui.checkbox(&mut self.show.seabed, "Seabed");
-            ui.checkbox(&mut self.show.current, "Current");
-            ui.checkbox(&mut self.show.contacts, "Contact");
-            ui.checkbox(&mut self.show.forces, "Force on skin");
             ui.checkbox(&mut self.show.whale, "Whale");
-            ui.checkbox(&mut self.show.names, "Names of small bodies");
+            ui.add_enabled_ui(!self.show.film, |ui| {
+                ui.checkbox(&mut self.show.current, "Current");
+                ui.checkbox(&mut self.show.contacts, "Contact");
+                ui.checkbox(&mut self.show.forces, "Force on skin");
+                ui.checkbox(&mut self.show.names, "Names of small bodies");
+            });
             ui.separator();
             ui.label("Top of the tension scale");
             ui.radio_value(&mut self.scale, ScaleTop::Peak, "peak of the run");

@@ -59,7 +59,8 @@ fn pick(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Resp
     let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
     let Some(at) = clicked.or(response.hover_pos()).filter(|_| !response.dragged()) else { return };
     let on_card = panel.picks.cards.iter().any(|card| card.contains(at));
-    let hit = picking::under(&panel.picks, view, camera, (response.rect, at), &panel.show);
+    let hit =
+        picking::under(&panel.picks, view, camera, (response.rect, at), &panel.show.effective());
     if clicked.is_some() && !on_card {
         panel.picks.take(hit);
     }

@@ -234,6 +234,14 @@ impl ViewPanel {
             return Err("a film is in progress; wait for it or cancel it".to_owned());
         }
         let view = shared.workbench.view().cloned().ok_or("there is no run to film")?;
+        // Refused before the file is created, which may replace one.
+        if self.film.pictures(view.newest_s) == 0 {
+            let [from_s, _] = self.film.span_s;
+            return Err(format!(
+                "the run ends at {:.2} s, before the film begins at {from_s:.2} s; choose another part in the menu Film",
+                view.newest_s
+            ));
+        }
         let order = FilmOrder {
             model: Arc::clone(&view.model),
             frames: shared.workbench.kept_frames()?,
@@ -264,14 +272,13 @@ impl ViewPanel {
                 frame: &frame,
                 size: PICTURE_SIZE,
                 view: "",
-                scale_n: show.scale_n,
+                show,
                 fit: &[],
                 caption: &caption,
-                film: show.film,
                 out: &file,
                 units,
             };
-            let pixels = Renderer::new(PICTURE_SIZE)?.seen_by(&request, &show, &camera, water);
+            let pixels = Renderer::new(PICTURE_SIZE)?.seen_by(&request, &camera, water);
             write_png(&file, PICTURE_SIZE, &pixels)
         });
         drawing.join().map_err(|_| "the picture could not be drawn".to_owned())?
