@@ -1,5 +1,4 @@
-// Open water, lighter towards the surface and the sun, with shafts of light; air above it.
-uniform float film;       // 1 for shafts of light
+// Open water, lighter towards the surface and the sun, with shafts of light where the constant FILM is set; air above it.
 
 in vec3 sight;
 
@@ -25,7 +24,7 @@ float shafts(vec3 view) {
 void main() {
     vec3 view = normalize(sight);
     vec3 light = backdrop(view);
-    if (film > 0.5 && eye.z < 0.0) {
+    if (FILM && eye.z < 0.0) {
         float toward = 0.5 + 0.5 * dot(view, SUN);
         float above = smoothstep(-0.02, 0.30, view.z);  // where the seabed does not end against the water
         light *= max(1.0 + above * (4.0 + 10.0 * toward * toward) * shafts(view), 0.3);

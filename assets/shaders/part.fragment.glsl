@@ -1,7 +1,8 @@
 // Daylight from above that fades with depth, water that hides what is far, a sandy seabed with grid lines, wet skin.
-uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface, 4 skin, 5 rope, 6 its edge
+// The program is made once for each look, with the constants LOOK and FILM, SKIN, CALLOSITY and WHITE in front of this text (`shaders.rs`).
+// LOOK is 0 for solid, 1 own colour, 2 seabed, 3 surface, 4 skin, 5 rope, 6 its edge.
+// FILM stands for a picture without instruments: rope is lit as everything else.
 uniform float grid_m;     // distance of the lines of seabed and surface [m]; 0 for none
-uniform float film;       // 1 for a picture without instruments: rope is lit as everything else
 
 in vec3 world;
 in vec3 outward;
@@ -23,7 +24,8 @@ float lines(vec2 at, float spacing) {
 vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
     vec3 sky_light = mix(vec3(0.06, 0.12, 0.13), vec3(0.80, 0.88, 0.90), 0.5 + 0.5 * n.z);
     float sun = max(dot(n, SUN), 0.0) * (0.85 + 2.2 * ripples(world));
-    vec3 edge = rim * pow(1.0 - abs(dot(n, view)), 4.0) * vec3(0.16, 0.34, 0.40);
+    float flat_angle = 1.0 - abs(dot(n, view));
+    vec3 edge = rim * flat_angle * flat_angle * flat_angle * flat_angle * vec3(0.16, 0.34, 0.40);
     return (colour * (sky_light + sun) + edge) * daylight(world.z);
 }
 
@@ -71,7 +73,7 @@ vec3 rope(vec3 n, vec3 view) {
     float seen = clamp(1.3 - 8.0 * fwidth(own.x) / LAY_M, 0.0, 1.0);
     float strands = mix(1.0, 0.80 + 0.20 * cos(3.0 * 6.2831853 * turn), seen);
     float round = 0.62 + 0.38 * abs(dot(n, view));
-    if (film > 0.5) {
+    if (FILM) {
         float glint = pow(max(dot(reflect(view, n), SUN), 0.0), 16.0);
         return lit(linear_of(tint.rgb) * strands * strands, n, view, 0.1) + 0.12 * glint * daylight(world.z);
     }
@@ -85,9 +87,9 @@ float sand_at(vec2 at) {
     return 0.012 * crest * (0.6 + 0.4 * grain_at(vec3(at * 0.8, 9.0))) + 0.06 * grain_at(vec3(at * 0.22, 0.0));
 }
 
-// Sand in ridges, with patches and grains, and lines to measure by.
+// Sand with patches, and lines to measure by; in a film also ridges and grains near by.
 vec3 seabed(vec3 view, float far) {
-    float fine = exp(-far / 25.0);
+    float fine = FILM ? exp(-far / 25.0) : 0.0;
     float patches = grain_at(world * vec3(0.13, 0.13, 0.0)) + 0.5 * exp(-far / 60.0) * grain_at(world * vec3(0.6, 0.6, 0.0));
     vec3 colour = linear_of(tint.rgb) * (1.0 + 0.30 * patches);
     vec3 n = vec3(0.0, 0.0, 1.0);
@@ -106,12 +108,13 @@ vec3 seabed(vec3 view, float far) {
     return light;
 }
 
-// Slope of the waves at a place of the surface: three octaves, the finer ones only near by.
+// Slope of the waves at a place of the surface: one octave, in a film three, the finer ones only near by.
 vec2 wave_slope(float far) {
     vec2 slope = vec2(0.0);
     float scale = 0.35;
     float tall = 0.16;
-    for (int octave = 0; octave < 3; octave++) {
+    int octaves = FILM ? 3 : 1;
+    for (int octave = 0; octave < octaves; octave++) {
         vec3 at = vec3(world.xy * scale + 7.0 * float(octave), 0.35 * time_s * sqrt(scale / 0.35));
         float share = tall * exp(-far * scale / 60.0);
         slope += share * vec2(grain_at(at), grain_at(at + vec3(31.0, 17.0, 0.0)));
@@ -129,7 +132,7 @@ vec4 surface(vec3 view, float far, vec3 left) {
     if (eye.z > 0.0) {
         float flat_angle = pow(1.0 - abs(view.z), 3.0);
         float glint = pow(max(dot(reflect(view, n), normalize(vec3(SUN.xy * 1.34, 0.8))), 0.0), 120.0);
-        vec3 veil = light_of(mix(mix(tint.rgb, water_high, 0.7), sky, 0.15 + 0.7 * flat_angle)) + 1.5 * glint;
+        vec3 veil = mix(mix(light_of(tint.rgb), water_high, 0.7), sky, 0.15 + 0.7 * flat_angle) + 1.5 * glint;
         float thick = mix(0.10, 0.50, flat_angle) + 0.06 * ruled + 0.4 * glint;
         return vec4(veil, min(thick, 1.0) * emerged() * left.g);
     }
@@ -138,7 +141,7 @@ vec4 surface(vec3 view, float far, vec3 left) {
     float open = smoothstep(-0.05, 0.12, inside);
     vec3 out_ray = vec3(INDEX * (view - up * n).xy, sqrt(max(inside, 0.0)));
     float sun = pow(max(dot(out_ray, normalize(vec3(SUN.xy * INDEX, 0.8))), 0.0), 24.0);
-    vec3 through = light_of(mix(water_high, sky, 0.85)) * (1.05 + 0.3 * up) + 1.6 * sun;
+    vec3 through = mix(water_high, sky, 0.85) * (1.05 + 0.3 * up) + 1.6 * sun;
     vec3 mirrored = backdrop(reflect(view, n)) * 1.05;
     vec3 light = mix(mirrored, through, open) + 0.05 * ruled;
     return vec4(light, mix(0.80, 0.60, open) * left.g);
@@ -153,23 +156,23 @@ void main() {
     // Colours that are read against a scale are not changed by the water before what the camera looks at.
     vec3 clear = vec3(exp(-max(far - clear_m, 0.0) / hide_m));
     vec3 left = passed(far);
-    if (look == 3) {
+    if (LOOK == 3) {
         vec4 sheet = surface(view, far, left);
         shown = developed(sheet.rgb, sheet.a, gl_FragCoord.xy);
         return;
     }
     vec3 light;
-    if (look == 0) {
+    if (LOOK == 0) {
         light = lit(linear_of(tint.rgb), n, view, 0.16);
-    } else if (look == 1) {
+    } else if (LOOK == 1) {
         light = light_of(tint.rgb * (0.80 + 0.20 * abs(dot(n, view))));
         left = clear;
-    } else if (look == 2) {
+    } else if (LOOK == 2) {
         light = seabed(view, far);
-    } else if (look == 5) {
+    } else if (LOOK == 5) {
         light = rope(n, view);
-        if (film < 0.5) { left = clear; }
-    } else if (look == 6) {
+        if (!FILM) { left = clear; }
+    } else if (LOOK == 6) {
         light = light_of(vec3(0.03, 0.09, 0.13));
         left = clear;
     } else {
@@ -177,7 +180,7 @@ void main() {
     }
     if (eye.z > 0.0 && world.z < 0.0) {
         float way = far * world.z / (world.z - eye.z);
-        light = mix(light, light_of(mix(water_low, water_high, 0.6)), emerged() * sunk(way));
+        light = mix(light, mix(water_low, water_high, 0.6), emerged() * sunk(way));
         left = clear;
     }
     shown = developed(mix(backdrop(view), light, left), 1.0, gl_FragCoord.xy);

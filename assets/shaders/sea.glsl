@@ -5,9 +5,9 @@ uniform float clear_m;    // distance of what the camera looks at [m]
 uniform float hide_m;     // distance beyond it at which water hides most [m]
 uniform float depth_m;    // depth of the sea [m]
 uniform float time_s;     // simulated time, which moves the light of the ripples [s]
-uniform vec3 water_low;   // sRGB of water at the seabed and just below the surface
+uniform vec3 water_low;   // light of water at the seabed and just below the surface
 uniform vec3 water_high;
-uniform vec3 sky;         // sRGB of the air above the surface
+uniform vec3 sky;         // light of the air above the surface
 
 // Direction from which the sun shines under water.
 const vec3 SUN = vec3(0.26, -0.34, 0.90);
@@ -15,14 +15,15 @@ const vec3 SUN = vec3(0.26, -0.34, 0.90);
 const vec3 BEFORE = vec3(0.30, 0.10, 0.08);
 const vec3 BEYOND = vec3(1.7, 1.1, 1.0);
 
-// Linear light of an sRGB colour.
+// Linear light of a colour of the screen. Its gamma is taken as 2, which needs no powers.
 vec3 linear_of(vec3 srgb) {
-    return pow(srgb, vec3(2.2));
+    return srgb * srgb;
 }
 
-// Light that `developed` shows as this sRGB colour.
+// Light that `developed` shows as this colour of the screen; as `light_of` in `draw.rs`.
 vec3 light_of(vec3 srgb) {
-    return -log(1.0 - 0.97 * linear_of(srgb));
+    vec3 share = 0.95 * linear_of(srgb);
+    return share / (1.0 - share);
 }
 
 // Even noise of a pixel, 0 to 1 (interleaved gradient noise, Jimenez 2014).
@@ -30,15 +31,16 @@ float noise_of(vec2 pixel) {
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-// sRGB of light at a pixel: an exposure curve that brightens less and less, and half a step of noise against bands.
+// Colour of the screen of light at a pixel: a curve that brightens less and less, and half a step of noise against bands.
 vec4 developed(vec3 light, float opacity, vec2 pixel) {
-    vec3 srgb = pow((1.0 - exp(-max(light, 0.0))) / 0.97, vec3(1.0 / 2.2));
+    light = max(light, 0.0);
+    vec3 srgb = sqrt(light / (1.0 + light) / 0.95);
     return vec4(srgb + (noise_of(pixel) - 0.5) / 255.0, opacity);
 }
 
 // Light of open water at a height.
 vec3 water_at(float z) {
-    return light_of(mix(water_low, water_high, exp(1.9 * min(z, 0.0) / depth_m)));
+    return mix(water_low, water_high, exp(1.9 * min(z, 0.0) / depth_m));
 }
 
 // What is seen along a line of sight where nothing stands in its way: the water (or air) as far off as the eye looks, brighter towards the sun.
@@ -46,8 +48,10 @@ vec3 backdrop(vec3 view) {
     float z = eye.z + view.z * clear_m;
     float wide = 0.004 * clear_m;
     float toward = 0.5 + 0.5 * dot(view, SUN);
-    vec3 water = water_at(z) * (0.92 * exp(0.9 * view.z) + 0.35 * toward * toward + 1.2 * pow(toward, 10.0));
-    return mix(water, light_of(sky), smoothstep(-wide, wide, z));
+    float sharp = toward * toward;
+    float upward = 0.92 + view.z * (0.90 + 0.45 * view.z);
+    vec3 water = water_at(z) * (upward + 0.35 * sharp + 1.2 * sharp * sharp * sharp * sharp * sharp);
+    return mix(water, sky, smoothstep(-wide, wide, z));
 }
 
 // Share of daylight left at a height, by colour: enough is kept to see by, as an eye used to the dark would.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{PaintCallback, Rect};
-use endline_session::scene::colour::{CALLOSITY, SKIN, WHITE, rgb};
+use endline_session::scene::colour::rgb;
 use endline_session::scene::mesh::Colour;
 use endline_session::scene::{Look, Part, Scene};
 use glam::Vec3;
@@ -14,6 +14,9 @@ use three_d::{
 };
 
 use crate::scene::camera::Camera;
+
+use super::shaders::Shaders;
+use super::snow::Snow;
 
 /// Samples per pixel for antialiasing.
 const SAMPLES: u32 = 4;
@@ -47,18 +50,23 @@ impl Water {
 /// Draws scenes. Owns shader programs, buffers and textures on the graphics card.
 pub struct Drawer {
     context: Context,
-    part: Program,
-    backdrop: Program,
+    shaders: Shaders,
     corners: VertexBuffer<[f32; 2]>,
     /// Made for the first film.
-    snow: Option<Snow>,
+    film: Option<FilmParts>,
     loaded: Vec<Loaded>,
     depth_m: f32,
     time_s: f32,
     drift_m: Vec3,
-    film: bool,
+    in_film: bool,
     /// One for each slot.
     pictures: Vec<Option<Picture>>,
+}
+
+/// What only films need.
+struct FilmParts {
+    shaders: Shaders,
+    snow: Snow,
 }
 
 /// The last drawing of the scene for one slot.
@@ -81,25 +89,23 @@ struct Loaded {
 }
 
 /// Uniforms of a draw call that describe the camera and the sea.
-struct Uniforms {
-    to_clip: Mat4,
+pub(super) struct Uniforms {
+    pub to_clip: Mat4,
     place: GlVec3,
     /// Vectors from the eye to the right edge, the upper edge and the middle of the picture, at unit distance.
-    sight: [GlVec3; 3],
-    pixel_angle: f32,
+    pub sight: [GlVec3; 3],
+    pub pixel_angle: f32,
     clear_m: f32,
     hide_m: f32,
     depth_m: f32,
     time_s: f32,
-    /// 1 for a film, else 0.
-    film: f32,
     water: [GlVec3; 3],
-    viewport: Viewport,
+    pub viewport: Viewport,
 }
 
 /// What is drawn of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Pass {
+pub(super) enum Pass {
     /// The part itself.
     Whole,
     /// A dark outline.
@@ -109,57 +115,24 @@ enum Pass {
 /// Width of the dark outline of a rope [px].
 const EDGE_PX: f32 = 1.0;
 
-/// Source of a shader in `assets/shaders`.
-macro_rules! source {
-    ($name:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/shaders/", $name, ".glsl"))
-    };
-}
-
-/// Source of a shader that includes the light and colour of the sea.
-macro_rules! sea_shader {
-    ($name:literal) => {
-        concat!(source!("sea"), source!($name))
-    };
-}
-
-/// Colours of skin and its marks, as constants for the shader of parts.
-fn skin_colours() -> String {
-    let colours = [("SKIN", SKIN), ("CALLOSITY", CALLOSITY), ("WHITE", WHITE)];
-    let line = |(name, [red, green, blue, _]): (&str, Colour)| {
-        format!("const vec3 {name} = vec3({red:.5}, {green:.5}, {blue:.5});\n")
-    };
-    colours.map(line).concat()
-}
-
 impl Drawer {
     /// A drawer on the current OpenGL context.
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
         let build = || -> Result<Self, CoreError> {
             let context = Context::from_gl_context(gl)?;
-            let part = Program::from_source(
-                &context,
-                sea_shader!("part.vertex"),
-                &(skin_colours() + sea_shader!("part.fragment")),
-            )?;
-            let backdrop = Program::from_source(
-                &context,
-                source!("backdrop.vertex"),
-                sea_shader!("backdrop.fragment"),
-            )?;
+            let shaders = Shaders::new(&context, false)?;
             let corners =
                 VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
             Ok(Self {
                 context,
-                part,
-                backdrop,
+                shaders,
                 corners,
-                snow: None,
+                film: None,
                 loaded: Vec::new(),
                 depth_m: 1.0,
                 time_s: 0.0,
                 drift_m: Vec3::ZERO,
-                film: false,
+                in_film: false,
                 pictures: Vec::new(),
             })
         };
@@ -169,9 +142,9 @@ impl Drawer {
     /// Copies the triangles of a scene to the graphics card.
     pub fn load(&mut self, scene: &Scene) {
         (self.depth_m, self.time_s) = (scene.depth_m.max(1.0) as f32, scene.time_s as f32);
-        (self.drift_m, self.film) = (scene.drift_m.as_vec3(), scene.film);
-        if self.film && self.snow.is_none() {
-            self.snow = Snow::new(&self.context).ok();
+        (self.drift_m, self.in_film) = (scene.drift_m.as_vec3(), scene.film);
+        if self.in_film && self.film.is_none() {
+            self.film = FilmParts::new(&self.context).ok();
         }
         self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
         for (index, part) in scene.parts.iter().enumerate() {
@@ -197,16 +170,18 @@ impl Drawer {
         );
         let eye = self.eye(camera, [width, height], water);
         target.clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0));
+        let film = self.film.as_ref().filter(|_| self.in_film);
+        let shaders = film.map_or(&self.shaders, |film| &film.shaders);
         let drawn = target.write::<CoreError>(|| {
-            self.draw_backdrop(&eye);
+            self.draw_backdrop(&shaders.backdrop, &eye);
             for loaded in &self.loaded {
-                if loaded.look == Look::Rope && !self.film {
-                    loaded.draw(&self.part, &eye, Pass::Edge);
+                if loaded.look == Look::Rope && !self.in_film {
+                    loaded.draw(shaders, &eye, Pass::Edge);
                 }
-                loaded.draw(&self.part, &eye, Pass::Whole);
+                loaded.draw(shaders, &eye, Pass::Whole);
             }
-            if let Some(snow) = self.snow.as_ref().filter(|_| self.film) {
-                snow.draw(&eye, self.drift_m);
+            if let Some(film) = film {
+                film.snow.draw(&eye, self.drift_m);
             }
             Ok(())
         });
@@ -214,19 +189,18 @@ impl Drawer {
         self.pictures[slot] = Some(Picture { target, picture });
     }
 
-    fn draw_backdrop(&self, eye: &Uniforms) {
+    fn draw_backdrop(&self, program: &Program, eye: &Uniforms) {
         for (name, sight) in ["right", "up", "ahead"].into_iter().zip(eye.sight) {
-            self.backdrop.use_uniform(name, sight);
+            program.use_uniform(name, sight);
         }
-        eye.set_sea(&self.backdrop);
-        self.backdrop.use_uniform("film", eye.film);
-        self.backdrop.use_vertex_attribute("corner", &self.corners);
+        eye.set_sea(program);
+        program.use_vertex_attribute("corner", &self.corners);
         let states = RenderStates {
             depth_test: DepthTest::Always,
             write_mask: WriteMask::COLOR,
             ..RenderStates::default()
         };
-        self.backdrop.draw_arrays(states, eye.viewport, 3);
+        program.draw_arrays(states, eye.viewport, 3);
     }
 
     /// Copies the picture of a slot onto a window of `window` pixels, at `viewport`, clipped to `clip` (both from the bottom left).
@@ -248,6 +222,12 @@ impl Drawer {
                 None,
             );
         }
+    }
+}
+
+impl FilmParts {
+    fn new(context: &Context) -> Result<Self, CoreError> {
+        Ok(Self { shaders: Shaders::new(context, true)?, snow: Snow::new(context)? })
     }
 }
 
@@ -279,16 +259,8 @@ impl Loaded {
         self.triangles.fill(mesh.triangles.as_flattened());
     }
 
-    fn draw(&self, program: &Program, eye: &Uniforms, pass: Pass) {
-        let look = match (pass, self.look) {
-            (Pass::Edge, _) => 6,
-            (_, Look::Solid) => 0,
-            (_, Look::Own) => 1,
-            (_, Look::Seabed { .. }) => 2,
-            (_, Look::Surface { .. }) => 3,
-            (_, Look::Skin) => 4,
-            (_, Look::Rope) => 5,
-        };
+    fn draw(&self, shaders: &Shaders, eye: &Uniforms, pass: Pass) {
+        let program = shaders.of_part(self.look, pass);
         let grid_m = match self.look {
             Look::Seabed { grid_m } | Look::Surface { grid_m } => grid_m,
             _ => 0.0,
@@ -298,17 +270,28 @@ impl Loaded {
         program.use_uniform("pixel_angle", eye.pixel_angle);
         program.use_uniform("least_px", self.least_px);
         program.use_uniform("edge_px", if pass == Pass::Edge { EDGE_PX } else { 0.0 });
-        program.use_uniform("look", look);
-        program.use_uniform("grid_m", grid_m);
-        program.use_uniform("film", eye.film);
+        program.use_uniform_if_required("grid_m", grid_m);
         program.use_vertex_attribute("place", &self.place);
         program.use_vertex_attribute("normal", &self.normal);
         program.use_vertex_attribute("radius", &self.radius);
-        program.use_vertex_attribute("colour", &self.colour);
-        program.use_vertex_attribute("grain", &self.grain);
+        if program.requires_attribute("colour") {
+            program.use_vertex_attribute("colour", &self.colour);
+        }
+        if program.requires_attribute("grain") {
+            program.use_vertex_attribute("grain", &self.grain);
+        }
         let states = render_states(matches!(self.look, Look::Surface { .. }), pass);
         program.draw_elements(states, eye.viewport, &self.triangles);
     }
+}
+
+/// Light that the shaders show as a colour of the screen; as `light_of` in `sea.glsl`.
+fn light_of([red, green, blue, _]: Colour) -> GlVec3 {
+    let light = |part: f32| {
+        let share = 0.95 * part * part;
+        share / (1.0 - share)
+    };
+    GlVec3::new(light(red), light(green), light(blue))
 }
 
 fn render_states(see_through: bool, pass: Pass) -> RenderStates {
@@ -320,68 +303,6 @@ fn render_states(see_through: bool, pass: Pass) -> RenderStates {
     // Only the far side of the wider tube is drawn, so that it outlines the rope and never covers it.
     let cull = if pass == Pass::Edge { Cull::Front } else { Cull::None };
     RenderStates { depth_test: DepthTest::LessOrEqual, cull, blend, write_mask }
-}
-
-/// Particles that drift with the water in films.
-struct Snow {
-    program: Program,
-    seed: VertexBuffer<[f32; 3]>,
-    corner: VertexBuffer<[f32; 3]>,
-    triangles: ElementBuffer<u32>,
-}
-
-/// Number of particles in the cell of 8 m that repeats around the eye.
-const PARTICLES: u32 = 9000;
-
-impl Snow {
-    fn new(context: &Context) -> Result<Self, CoreError> {
-        let program = Program::from_source(
-            context,
-            sea_shader!("snow.vertex"),
-            sea_shader!("snow.fragment"),
-        )?;
-        // The additive recurrence of the plastic number spreads points evenly without a lattice that the eye would see
-        // (Roberts 2018).
-        const STEPS: [f64; 3] =
-            [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
-        let place = |index: u32| STEPS.map(|step| (0.5 + step * f64::from(index)).fract() as f32);
-        let radius_m =
-            |index: u32| 0.0012 + 0.0022 * ((f64::from(index) * 0.618_034).fract() as f32).powi(3);
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        let all = 0..PARTICLES;
-        let seeds: Vec<_> = all.clone().flat_map(|index| [place(index); 4]).collect();
-        let squares: Vec<_> =
-            all.clone().flat_map(|index| corners.map(|[x, y]| [x, y, radius_m(index)])).collect();
-        let triangles: Vec<_> =
-            all.flat_map(|index| [0, 1, 2, 0, 2, 3].map(|corner| 4 * index + corner)).collect();
-        Ok(Self {
-            program,
-            seed: VertexBuffer::new_with_data(context, &seeds),
-            corner: VertexBuffer::new_with_data(context, &squares),
-            triangles: ElementBuffer::new_with_data(context, &triangles),
-        })
-    }
-
-    fn draw(&self, eye: &Uniforms, drift_m: Vec3) {
-        let program = &self.program;
-        eye.set_sea(program);
-        program.use_uniform("to_clip", eye.to_clip);
-        program.use_uniform("pixel_angle", eye.pixel_angle);
-        program.use_uniform("drift_m", GlVec3::new(drift_m.x, drift_m.y, drift_m.z));
-        for (name, sight) in ["right", "up"].into_iter().zip(eye.sight) {
-            let length = sight.x.hypot(sight.y).hypot(sight.z);
-            program.use_uniform(name, sight * (1.0 / length.max(1e-9)));
-        }
-        program.use_vertex_attribute("seed", &self.seed);
-        program.use_vertex_attribute("corner", &self.corner);
-        let states = RenderStates {
-            depth_test: DepthTest::LessOrEqual,
-            cull: Cull::None,
-            blend: Blend::TRANSPARENCY,
-            write_mask: WriteMask::COLOR,
-        };
-        program.draw_elements(states, eye.viewport, &self.triangles);
-    }
 }
 
 impl Drawer {
@@ -401,9 +322,7 @@ impl Drawer {
             hide_m: 2.5 * seen_m + 30.0,
             depth_m: self.depth_m,
             time_s: self.time_s,
-            film: f32::from(u8::from(self.film)),
-            water: [water.low, water.high, water.sky]
-                .map(|[red, green, blue, _]: Colour| GlVec3::new(red, green, blue)),
+            water: [water.low, water.high, water.sky].map(light_of),
             viewport: Viewport::new_at_origo(width, height),
         }
     }
@@ -411,7 +330,7 @@ impl Drawer {
 
 impl Uniforms {
     /// Sets the uniforms of `sea.glsl`.
-    fn set_sea(&self, program: &Program) {
+    pub fn set_sea(&self, program: &Program) {
         program.use_uniform("eye", self.place);
         program.use_uniform("depth_m", self.depth_m);
         program.use_uniform_if_required("clear_m", self.clear_m);

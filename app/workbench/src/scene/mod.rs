@@ -12,7 +12,9 @@ pub mod offscreen;
 pub mod overlay;
 pub mod pick;
 pub mod picture;
+mod shaders;
 pub mod silhouette;
+mod snow;
 
 pub use camera::{Camera, View};
 pub use draw::{Canvas, Drawer, Water};
