@@ -3,6 +3,7 @@
 //! The numbers after `--` are the number of encounters and the first of them (default 10,000 from 0). The same encounters are run
 //! with tests at the end of each step alone, but only a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` omits these.
 //! With the word `ropes` the piece meets two strands of rope that cross, or one rope in a loop, and rope meets rope and skin at once.
+//! With the word `held`, the rope is held until the piece comes near.
 //! With the word `bodies`, buoys and traps meet pieces of all of the skin.
 
 #[path = "../tests/all/fins/mod.rs"]
@@ -27,6 +28,9 @@ fn main() {
     if words.iter().any(|word| word == "ropes") {
         let two = |number| fins.encounter_of_two(number);
         return run("two strands", first..first + count, two);
+    }
+    if words.iter().any(|word| word == "held") {
+        return run("held", first..first + count, |number| fins.approach(number));
     }
     if !words.iter().any(|word| word == "swept") {
         run("discrete", first..first + count / 10, |number| fins.encounter(number, false));
@@ -58,11 +62,11 @@ fn run(name: &str, numbers: std::ops::Range<u64>, encounter: impl Fn(u64) -> Enc
 }
 
 fn print_tally(name: &str, tally: &Tally, spent_s: f64) {
-    let Tally { encounters, met, met_both, crossed, ropes_crossed, ended, .. } = tally;
+    let Tally { encounters, met, met_both, crossed, ropes_crossed, ended, held, .. } = tally;
     let Tally { solver_steps, passes, unconverged, reported, .. } = tally;
     println!(
         "{name}: {encounters} encounters, {met} with contact, {met_both} with rope on rope too, {crossed} crossed, {ropes_crossed} crossed rope, \
-         {ended} ended early, \
+         {ended} ended early, {held} with rope held before, \
          {solver_steps} solver steps, {passes} passes, {unconverged} not converged, {:.2} ms each",
         1e3 * spent_s / *encounters as f64
     );

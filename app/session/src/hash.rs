@@ -158,12 +158,13 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
 }
 
 fn fold_step_control(control: &StepControl, clock: &mut Fold) {
-    let StepControl { step_s, limit, contact_step_s, tension_n, known } = control;
+    let StepControl { step_s, limit, contact_step_s, tension_n, known, still_steps } = control;
     clock.real(*step_s);
     clock.word(*limit as u64);
     clock.real(*contact_step_s);
     tension_n.iter().for_each(|two| clock.reals(two));
     clock.word(u64::from(*known));
+    clock.word(u64::from(*still_steps));
 }
 
 fn fold_body(body: &BodyState, fold: &mut Fold) {

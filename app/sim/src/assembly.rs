@@ -11,6 +11,7 @@ use crate::model::{
     Body, Joint, JointKind, Knot, Line, Link, Model, ModelError, ModelSpec, Obstacle, Resolution,
     Rope, Settings, Strength, WeakPlace,
 };
+use crate::step::rest;
 use crate::water::Sea;
 use crate::whale::tree::SkinTree;
 
@@ -56,6 +57,7 @@ impl Model {
             "segments have positive lengths"
         );
         Self {
+            may_be_held: rest::may_be_held(&spec),
             knots,
             spec,
             line_nodes,

@@ -2,6 +2,8 @@
 //!
 //! Random numbers: SplitMix64, Steele, Lea and Flood 2014 (doi:10.1145/2660193.2660195).
 
+use glam::DVec3;
+
 /// Whether two lists are equal to the bit.
 ///
 /// Compares all numbers without a branch, so that the compiler vectorises the loop: most lists compared are equal, and `==`
@@ -9,6 +11,21 @@
 pub(crate) fn same_bits(one: &[f64], other: &[f64]) -> bool {
     let differences = one.iter().zip(other).map(|(a, b)| a.to_bits() ^ b.to_bits());
     one.len() == other.len() && differences.fold(0, |all, one| all | one) == 0
+}
+
+/// Whether two lists of vectors are equal to the bit.
+pub(crate) fn same_vectors(one: &[DVec3], other: &[DVec3]) -> bool {
+    let bits = |a: f64, b: f64| a.to_bits() ^ b.to_bits();
+    let differences =
+        one.iter().zip(other).map(|(a, b)| bits(a.x, b.x) | bits(a.y, b.y) | bits(a.z, b.z));
+    one.len() == other.len() && differences.fold(0, |all, one| all | one) == 0
+}
+
+/// Whether all vectors are positive zeros.
+pub(crate) fn are_zero(vectors: &[DVec3]) -> bool {
+    let bits =
+        vectors.iter().map(|vector| vector.x.to_bits() | vector.y.to_bits() | vector.z.to_bits());
+    bits.fold(0, |all, one| all | one) == 0
 }
 
 /// Random number in [0, 1) from a seed and an index (SplitMix64).

@@ -107,8 +107,9 @@ pub(crate) fn record_parted_line(
     state.line_parted[model.segment_line[segment]].get_or_insert((time_s, at_m));
 }
 
-/// Cuts a segment.
+/// Cuts a segment. Gear that is held is released.
 pub(crate) fn cut(state: &mut State, segment: usize) {
+    state.step_control.still_steps = 0;
     state.rope.cut[segment] = true;
     state.rope.tension[segment] = 0.0;
 }

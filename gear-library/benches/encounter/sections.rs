@@ -13,7 +13,7 @@ pub struct Section<'a> {
 }
 
 /// All sections, from free rope to rope that touches skin and rope everywhere.
-pub const SECTIONS: [Section<'_>; 11] = [
+pub const SECTIONS: [Section<'_>; 13] = [
     section("far", "hello-endline", &[NODES], [1.0, 9.0], 4.0),
     section("near", "hello-endline", &[NODES], [10.5, 12.0], 1.5),
     section("sliding", "hello-endline", UNIFORM, [15.0, 33.0], 1.0),
@@ -24,7 +24,9 @@ pub const SECTIONS: [Section<'_>; 11] = [
     section("hitches", "hitches", &[], [0.5, 1.5], 0.2),
     section("twisted-bight", "twisted-bight", &[], [4.0, 6.0], 0.5),
     section("held", "../benches/encounter/held", &[], [14.0, 16.0], 0.5),
-    section("trawl-20", "trawl-10", TRAWL, [1.0, 5.0], 2.0),
+    section("trawl-20", "trawl-10", &[TRAWL], [1.0, 5.0], 2.0),
+    section("far-tide", "hello-endline", &[NODES, TIDE], [1.0, 9.0], 4.0),
+    section("trawl-20-tide", "trawl-10", &[TRAWL, TIDE], [1.0, 5.0], 2.0),
 ];
 
 const fn section<'a>(
@@ -53,4 +55,10 @@ const TIGHT: &[(&str, &str)] = &[
 ];
 
 /// Twice the traps.
-const TRAWL: &[(&str, &str)] = &[("assembly = \"trawl-10\"", "assembly = \"trawl-20\"")];
+const TRAWL: (&str, &str) = ("assembly = \"trawl-10\"", "assembly = \"trawl-20\"");
+
+/// A tide that turns, so that the gear moves.
+const TIDE: (&str, &str) = (
+    "toward = \"90 deg\"\n",
+    "toward = \"90 deg\"\n\n[current.tide]\nperiod = \"12.42 h\"\npeak = \"2 h\"\n",
+);

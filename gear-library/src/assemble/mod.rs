@@ -157,6 +157,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         rope_on_rope: scenario.rope_on_rope.then(|| rope_on_rope(scenario)),
         as_placed: scenario.as_placed,
         balance: scenario.balance.unwrap_or(options.balance),
+        holds_still: true,
         ..usual
     }
 }

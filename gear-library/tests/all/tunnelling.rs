@@ -29,6 +29,20 @@ fn fast_taut_rope_crosses_no_edge() {
     assert!(discrete.crossed > DISCRETE * 7 / 10, "what the sweep is for: {discrete:?}");
 }
 
+/// Encounters of rope that is held.
+const HELD: u64 = 1_000;
+
+#[test]
+fn nothing_touches_rope_while_it_is_held() {
+    let (fins, mut tally) = (Fins::new(), Tally::default());
+    (0..HELD).for_each(|number| tally.add(number, fins.approach(number)));
+    println!("{tally:?}");
+    assert!(tally.held > HELD * 9 / 10, "rope is held in nearly all: {tally:?}");
+    assert!(tally.met > HELD * 9 / 10, "and met in nearly all: {tally:?}");
+    assert_eq!(tally.crossed, 0, "{tally:?}");
+    assert!(tally.ended <= HELD / 100, "{tally:?}");
+}
+
 const OF_TWO: u64 = 200;
 
 #[test]

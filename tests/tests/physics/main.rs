@@ -19,6 +19,7 @@ mod friction;
 mod gear;
 mod gear_types;
 mod groundlines;
+mod held;
 mod items;
 mod kinetic;
 #[path = "../linked/mod.rs"]

@@ -41,6 +41,7 @@ const CASES: [Case; 8] = [
 fn model(case: &Case, balance: bool) -> Model {
     let mut spec = spec(case.name, case.changes);
     spec.settings.balance = balance;
+    spec.settings.holds_still = false; // the balance is that of solver steps
     built(spec)
 }
 

@@ -105,6 +105,14 @@ pub static AUDIT: &[Figure<Report>] = &[
     )
     .shown(&[Table]),
     Figure::new(
+        "held_steps",
+        "steps of gear at rest",
+        "Steps without a solver step, in which gear that stood still was held as it was.",
+        Quantity::Count,
+        |run: &Report| run.audit.held.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
         "contact_steps",
         "solver steps in contact",
         "Solver steps with rope near the whale.",

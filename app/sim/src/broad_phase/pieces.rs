@@ -9,7 +9,7 @@
 //! numbers. The list therefore omits nothing, and the boxes of the step remove what is too much: the result does not depend on the age
 //! of the list.
 
-use crate::bits::same_bits;
+use crate::bits::{are_zero, same_bits, same_vectors};
 use crate::model::Model;
 use crate::simd::real::{Lane, Real};
 use crate::simd::rows::{LANES, Part, Row, Row3};
@@ -67,8 +67,10 @@ pub(crate) struct Pieces {
     pub lengths_number: u64,
     arch: Arch,
     rows: Rows,
-    /// Scratch: where nodes are at the end of a step in which they keep their velocities.
+    /// Where nodes are at the end of the step that was measured.
     ends: Vec<DVec3>,
+    /// Whether rope stood still in that step.
+    stood_still: bool,
     /// Time and length of the step that they were measured over last, where rope went on as it moved [s].
     measured: Option<[f64; 2]>,
 }
@@ -116,7 +118,7 @@ impl Pieces {
             self.measure_between(from, &ends, lengths);
             self.ends = ends;
         }
-        self.measured = None;
+        (self.measured, self.stood_still) = (None, false);
     }
 
     fn measure_between(&mut self, from: &[DVec3], to: &[DVec3], lengths: &[f64]) {
@@ -145,14 +147,15 @@ impl Pieces {
 
     /// Copies the lengths of segments, if they have changed.
     fn take_lengths(&mut self, lengths: &[f64]) {
-        if self.holds && !same_bits(&self.lengths, lengths) {
+        if !same_bits(&self.lengths, lengths) {
             self.lengths.clear();
             self.lengths.extend_from_slice(lengths);
             self.lengths_number += 1;
         }
     }
 
-    /// Measures rope over a step of length `dt` in which it keeps its velocities, unless that step was measured already.
+    /// Measures rope over a step of length `dt` in which it keeps its velocities, unless that step was measured already, or
+    /// rope stands still where it stood still then.
     #[expect(clippy::float_cmp, reason = "the same time, to the bit, is that of the same state")]
     pub fn measure_drift(&mut self, state: &State, dt: f64) {
         let is_same = |[time_s, length_s]: [f64; 2]| {
@@ -166,6 +169,15 @@ impl Pieces {
             return;
         }
         let rope = &state.rope;
+        let stands_still = are_zero(&rope.velocity);
+        if stands_still
+            && self.stood_still
+            && same_vectors(&self.ends, &rope.position)
+            && same_bits(&self.lengths, &rope.segment_length)
+        {
+            return;
+        }
+        self.stood_still = stands_still;
         let mut ends = std::mem::take(&mut self.ends);
         let nodes = rope.position.iter().zip(&rope.velocity);
         ends.clear();

@@ -30,7 +30,7 @@ pub mod rope_on_solid;
 pub use body_on_body::bodies_touching;
 
 use endline_sdk::Region;
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 
 use crate::balance::source_forces::SourceForces;
 use crate::broad_phase::pieces::Pieces;
@@ -41,6 +41,7 @@ use crate::system::LinearSystem;
 use crate::trial::plan::Plan;
 use crate::trial::scheme::Scheme;
 use crate::trial::{BodyTrial, StepContext, Trial};
+use crate::whale::drive::EndPose;
 use body_on_body::BodyOnBody;
 use body_on_skin::{BodyContact, BodyOnSkin};
 use failure::{ContactFailure, Kind};
@@ -300,7 +301,7 @@ pub(crate) struct Contacts {
     /// Rope in pieces, measured over the step.
     pub pieces: Pieces,
     /// Bones of the whale at the start and the end of the model's step.
-    pub bones: [Vec<DAffine3>; 2],
+    pub poses: [EndPose; 2],
     /// Pairs of bodies that may touch in the solver step.
     coupled: Vec<[usize; 2]>,
 }
@@ -315,7 +316,7 @@ impl Contacts {
             rope_on_rope: RopeOnRope::new(model),
             body_on_body: BodyOnBody::new(model),
             pieces: Pieces::new(model),
-            bones: [Vec::new(), Vec::new()],
+            poses: Default::default(),
             coupled: Vec::new(),
         }
     }

@@ -10,10 +10,10 @@ const NEAR_M: f64 = 0.2;
 impl Contacts {
     /// Searches for rope and bodies near the whale between its two poses; returns whether there may be any.
     pub fn find_near_whale(&mut self, model: &Model, state: &State) -> bool {
-        let Self { rope_on_skin, body_on_skin, pieces, bones, .. } = self;
+        let Self { rope_on_skin, body_on_skin, pieces, poses, .. } = self;
         let Some(on_skin) = rope_on_skin else { return false };
         let step_s = model.spec.settings.step_s;
-        let [start, end] = bones;
+        let [start, end] = [&poses[0].bones, &poses[1].bones];
         pieces.measure_drift(state, step_s);
         let near = &mut on_skin.near;
         near.pairs.clear();
@@ -38,10 +38,10 @@ impl Contacts {
 
     /// Searches again, for the rest of a step of the model of which a share has passed.
     pub fn find_near_whale_again(&mut self, model: &Model, state: &State, passed: f64) {
-        let Self { rope_on_skin, body_on_skin, bones, .. } = self;
+        let Self { rope_on_skin, body_on_skin, poses, .. } = self;
         let Some(on_skin) = rope_on_skin else { return };
         let left_s = model.spec.settings.step_s * (1.0 - passed);
-        let [start, end] = bones;
+        let [start, end] = [&poses[0].bones, &poses[1].bones];
         on_skin.near.gather(
             model,
             [start, end],

@@ -87,6 +87,8 @@ pub struct Model {
     pub knots: Vec<Knot>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
+    /// Whether the gear is held while it stands still.
+    pub(crate) may_be_held: bool,
     /// Current and waves, prepared for evaluation.
     pub sea: Sea,
 }

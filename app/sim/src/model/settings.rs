@@ -58,6 +58,8 @@ pub struct Settings {
     /// Whether momentum and energy of the gear are recorded by source ([`Balance`](crate::balance::Balance)); the state does
     /// not depend on it.
     pub balance: bool,
+    /// Whether gear that stands still is held until something can move it (`step/rest.rs`). The gear library sets it.
+    pub holds_still: bool,
     /// Whether neither rope nor link parts, whatever its tension.
     pub unbreakable: bool,
     /// Whether moves near skin are shortened where their path would cross it. Off only to demonstrate what is missed by tests
@@ -82,6 +84,7 @@ impl Default for Settings {
             rope_on_rope: None,
             as_placed: false,
             balance: false,
+            holds_still: false,
             unbreakable: false,
             swept: true,
         }

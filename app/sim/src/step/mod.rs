@@ -13,6 +13,7 @@ pub mod audit;
 mod contact;
 pub mod peaks;
 mod rejection;
+pub(crate) mod rest;
 mod solver_step;
 mod stages;
 mod substep_policy;

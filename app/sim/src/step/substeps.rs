@@ -2,11 +2,13 @@
 //!
 //! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several if accuracy asks for
 //! it (`step_control.rs`), each in two stages (`stages.rs`). In contact, solver steps are at most `settings.contact_step_s`.
+//! Gear that stands still takes none (`rest.rs`).
 //! A step that does not converge, or in which a link would part late, is repeated shorter (`substep_policy.rs`).
 //! The run ends if a step of `settings.least_step_s` is rejected.
 
 use super::Stop;
 use super::rejection::StepKind;
+use super::rest;
 use super::solver_step::solver_step;
 use super::substep_policy::{AfterRejection, SubstepPolicy};
 use super::workspace::Workspace;
@@ -17,7 +19,7 @@ use crate::remesh::remesh;
 use crate::solver::Solver;
 use crate::state::{LimitedBy, State, WhaleState};
 use crate::step_control::{self, Taken};
-use crate::whale::drive::pose_between;
+use crate::whale::drive::EndPose;
 use crate::whale::hitch;
 use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::{RopeImpulse, Times, centre_of};
@@ -52,6 +54,13 @@ pub(super) fn advance(
         }
         workspace.solver.contacts.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
+        if remeshed.splits > 0 {
+            state.step_control.still_steps = 0;
+        }
+        if !near && rest::stands_still(model, state) {
+            rest::hold(model, state, workspace);
+            return Ok(());
+        }
         let rope_touches = state.rope.rope_grips.len();
         let policy = SubstepPolicy::new(settings, near, model.whale_is_towed(), rope_touches);
         let may_take_back = taken_back < MOST_TAKEN_BACK;
@@ -62,6 +71,7 @@ pub(super) fn advance(
         workspace.balance = balance;
         take_back(state, workspace);
     }
+    rest::count_still(model, state, workspace);
     Ok(())
 }
 
@@ -84,9 +94,8 @@ fn near_whale(
     let Solver { contacts, trial, cost, .. } = &mut workspace.solver;
     let Some([from, to]) = whale.filter(|_| contacts.rope_on_skin.is_some()) else { return false };
     cost.enter(CostPart::Whale);
-    pose_between(model, from, to, 0.0, &mut contacts.bones[0]);
-    pose_between(model, from, to, 1.0, &mut contacts.bones[1]);
-    trial.hitches.move_to(model, [&contacts.bones[0], &contacts.bones[1]]);
+    EndPose::take_step(&mut contacts.poses, model, [from, to]);
+    trial.hitches.move_to(model, [&contacts.poses[0].bones, &contacts.poses[1].bones]);
     cost.enter(CostPart::Detection);
     let near = contacts.find_near_whale(model, state);
     cost.enter(CostPart::Other);
@@ -179,7 +188,7 @@ fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
         let push = contact.normal * contact.normal_force_n;
         (contact.triangle, contact.position, -(push + contact.friction_n))
     });
-    let bones = &workspace.solver.contacts.bones[1];
+    let bones = &workspace.solver.contacts.poses[1].bones;
     mouth.take(&whale.skin, bones, rope.chain(bodies), dt);
 }
 

@@ -193,28 +193,34 @@ fn depth_in_seabed(
     (seabed_m - tree.lowest_m(bones, seabed.normal, seabed_m)) / seabed.normal.z
 }
 
-/// Bone transforms at a share between two states of the whale.
-pub(crate) fn pose_between(
-    model: &Model,
-    from: &WhaleState,
-    to: &WhaleState,
-    share: f64,
-    out: &mut Vec<DAffine3>,
-) {
-    let Some(spec) = &model.spec.whale else {
-        debug_assert!(false, "a state with a whale belongs to a model with a whale");
-        return;
-    };
-    let posture = mix(&from.posture, &to.posture, share);
-    let orientation = from.orientation.slerp(to.orientation, share);
-    pose(&spec.skin, from.position.lerp(to.position, share), orientation, &posture, out);
+/// The pose of the bones at one end of a step, with the place and posture that it belongs to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct EndPose {
+    of: Option<(DVec3, DQuat, Posture)>,
+    /// Bones, whale's axes at rest to world.
+    pub bones: Vec<DAffine3>,
 }
 
-/// Interpolates between two postures.
-fn mix(from: &Posture, to: &Posture, share: f64) -> Posture {
-    let mut mixed = *from;
-    mixed.angles_mut().zip(to.angles()).for_each(|(angle, to)| *angle += (to - *angle) * share);
-    mixed
+impl EndPose {
+    /// Poses of a whale at the start and at the end of a step; a pose that is known already is not computed again.
+    pub fn take_step(poses: &mut [Self; 2], model: &Model, [from, to]: [&WhaleState; 2]) {
+        let [start, end] = poses;
+        if end.is_of(from) {
+            std::mem::swap(start, end);
+        }
+        start.take(model, from);
+        end.take(model, to);
+    }
+
+    fn is_of(&self, whale: &WhaleState) -> bool {
+        self.of == Some((whale.position, whale.orientation, whale.posture))
+    }
+
+    fn take(&mut self, model: &Model, whale: &WhaleState) {
+        let Some(spec) = model.spec.whale.as_ref().filter(|_| !self.is_of(whale)) else { return };
+        pose(&spec.skin, whale.position, whale.orientation, &whale.posture, &mut self.bones);
+        self.of = Some((whale.position, whale.orientation, whale.posture));
+    }
 }
 
 #[cfg(test)]

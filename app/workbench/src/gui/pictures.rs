@@ -290,8 +290,8 @@ mod tests {
         assert_eq!(all.pictures(2.0), 41);
         assert_eq!(FilmChoice { span_s: [0.5, 1.5], ..all }.pictures(2.0), 21);
         assert_eq!(FilmChoice { span_s: [3.0, 9.0], ..all }.pictures(2.0), 0);
-        // 41 pictures of 1280 by 720 were 10.8 MB as GIF.
+        // 41 pictures of 1280 by 720 were 9.8 MB as GIF.
         let [gif, mp4] = all.megabytes(41);
-        assert!((gif / 10.8 - 1.0).abs() < 0.05 && mp4 < 0.3, "{gif} and {mp4} MB");
+        assert!((gif / 9.8 - 1.0).abs() < 0.05 && mp4 < 0.3, "{gif} and {mp4} MB");
     }
 }

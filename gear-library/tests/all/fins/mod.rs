@@ -89,18 +89,36 @@ impl Fins {
 
     /// The encounter of a number, tested along every path, or only at the end of each step of the model.
     pub fn encounter(&self, number: u64, swept: bool) -> Encounter {
-        let mut dice = Dice::of(number);
         let usual = Settings::default();
         let contact_step_s = if swept { usual.contact_step_s } else { usual.step_s };
-        let settings = Settings { swept, contact_step_s, ..usual };
+        self.drawn(number, Settings { swept, contact_step_s, ..usual })
+    }
+
+    /// The same with rope of neutral weight, from farther off and without rotation: the rope is held before the piece comes near.
+    pub fn approach(&self, number: u64) -> Encounter {
+        let mut encounter =
+            self.drawn(number, Settings { holds_still: true, ..Settings::default() });
+        let density_kg_m3 = encounter.spec.water.density_kg_m3;
+        for rope in &mut encounter.spec.ropes {
+            rope.mass_kg_m = density_kg_m3 * rope.displaced_m3_m;
+        }
+        encounter
+    }
+
+    fn drawn(&self, number: u64, settings: Settings) -> Encounter {
+        let mut dice = Dice::of(number);
         let Meeting { skin, heading, along, strike } = self.meeting(&mut dice);
         let (speed_m_s, radius_m) = (dice.between(2.0, 20.0), dice.between(0.004, 0.007));
         let pull_n = 5.0 * libm::pow(1600.0, dice.share());
         let turn_rate = (dice.direction() * (0.5 * speed_m_s * dice.share())).to_array();
         let friction = dice.between(0.05, 0.6);
         let forward = heading * DVec3::X;
-        let before_m =
-            radius_m / ASLANT + speed_m_s * usual.contact_step_s * dice.between(0.5, 2.0);
+        let (turn_rate, before_s) = if settings.holds_still {
+            ([0.0; 3], dice.between(0.3, 1.0))
+        } else {
+            (turn_rate, Settings::default().contact_step_s * dice.between(0.5, 2.0))
+        };
+        let before_m = radius_m / ASLANT + speed_m_s * before_s;
         let whale = Whale {
             position_m: MET + forward * (strike.way_m - before_m),
             orientation: heading,

@@ -20,6 +20,8 @@ pub struct Tally {
     pub met_both: u64,
     /// Ended for another reason.
     pub ended: u64,
+    /// With steps in which the rope was held.
+    pub held: u64,
     pub solver_steps: u64,
     pub passes: u64,
     pub unconverged: u64,
@@ -36,6 +38,7 @@ impl Tally {
         self.ropes_crossed += other.ropes_crossed;
         self.met_both += other.met_both;
         self.ended += other.ended;
+        self.held += other.held;
         self.solver_steps += other.solver_steps;
         self.passes += other.passes;
         self.unconverged += other.unconverged;
@@ -63,6 +66,7 @@ impl Tally {
         self.ropes_crossed += u64::from(ropes_crossed);
         self.met_both += u64::from(met_both);
         self.ended += u64::from(ended.is_some() && !crossed);
+        self.held += u64::from(workspace.audit.held > 0);
         self.solver_steps += workspace.audit.solver_steps;
         self.passes += workspace.audit.passes;
         self.unconverged += workspace.audit.unconverged;

@@ -1,0 +1,120 @@
+//! Gear that stands still is held as it is until something can move it.
+//!
+//! Gear stands still if no node and no body is faster than [`STILL_M_S`] at the end of a step of the model, for [`STILL_S`] in a
+//! row. It is then in balance: its acceleration is below `2 STILL_M_S / STILL_S` = 1e-4 m/s², and what is held back is at
+//! most `STILL_M_S` per second, 0.6 mm in a minute. While it is held its velocities are zero, and a step of the model costs
+//! the search for gear near the whale only. A balance that is not stable is held too.
+//!
+//! What can move it, and ends the hold before the step in which it does:
+//!
+//! | cause | noticed by |
+//! |---|---|
+//! | the whale comes near | the search over the path of the step of the model (`contact/near_whale.rs`) |
+//! | resolution follows the whale | segments that are split |
+//! | a gear type cuts a line or releases a link | `parting.rs`, which resets the count of still steps |
+//! | a tide, waves; an end that is driven, pulled from a time on, or on the whale; a body let go at a time | gear of such a model is never held ([`may_be_held`]) |
+//!
+//! Slack rope on the seabed has no part in the balance of the rest. Its nodes may move by the tolerance of force, which is a share of
+//! the weight of all gear: some millimetres per second, to and fro. They count as still below [`LYING_M_S`].
+
+use glam::DVec3;
+
+use super::workspace::Workspace;
+use crate::model::{JointKind, Model, ModelSpec};
+use crate::state::State;
+use crate::water::current::Tide;
+
+/// Greatest speed of gear that stands still [m/s]; for the spin of bodies [rad/s].
+const STILL_M_S: f64 = 1e-5;
+/// Greatest speed of the nodes of slack rope on the seabed [m/s].
+const LYING_M_S: f64 = 0.01;
+/// How long gear has to stand still before it is held [s].
+const STILL_S: f64 = 0.2;
+
+/// Whether gear of a model may be held: nothing but the whale and gear types moves it.
+pub(crate) fn may_be_held(spec: &ModelSpec) -> bool {
+    let water = &spec.water;
+    let is_moved = |kind: &JointKind| match kind {
+        JointKind::Driven { .. } | JointKind::Whale(_) => true,
+        JointKind::Pulled { from_s, .. } => *from_s >= 0.0,
+        JointKind::Free | JointKind::Fixed | JointKind::Body { .. } => false,
+    };
+    spec.settings.holds_still
+        && water.waves.is_none()
+        && matches!(water.current.tide, Tide::Steady)
+        && !spec.joints.iter().any(|joint| is_moved(&joint.kind))
+        && spec.bodies.iter().all(|body| body.held_until_s.is_none())
+}
+
+/// Whether gear has stood still long enough to be held.
+pub(super) fn stands_still(model: &Model, state: &State) -> bool {
+    state.step_control.still_steps >= least_steps(model)
+}
+
+/// Steps of the model in which gear has to stand still.
+fn least_steps(model: &Model) -> u32 {
+    (STILL_S / model.spec.settings.step_s).ceil() as u32
+}
+
+/// Holds the gear over a step of the model.
+pub(super) fn hold(model: &Model, state: &mut State, workspace: &mut Workspace) {
+    debug_assert!(
+        state.rope.velocity.iter().all(|velocity| *velocity == DVec3::ZERO),
+        "held gear has no velocity"
+    );
+    workspace.take_tensions(model, &state.rope.tension, true);
+    workspace.audit.held += 1;
+}
+
+/// Counts the steps of the model in which gear stands still; where they suffice, its velocities become zero.
+pub(super) fn count_still(model: &Model, state: &mut State, workspace: &Workspace) {
+    if !model.may_be_held {
+        return;
+    }
+    let still = workspace.contacts.is_empty()
+        && workspace.body_contacts.is_empty()
+        && state.rope.rope_grips.is_empty()
+        && is_slow(model, state);
+    let steps = if still { state.step_control.still_steps.saturating_add(1) } else { 0 };
+    state.step_control.still_steps = steps;
+    if steps >= least_steps(model) {
+        state.rest();
+    }
+}
+
+/// Whether no node and no body is faster than gear that stands still.
+fn is_slow(model: &Model, state: &State) -> bool {
+    let slow = |velocity: DVec3| velocity.length_squared() <= STILL_M_S * STILL_M_S;
+    let rope = &state.rope;
+    state.bodies.iter().all(|body| slow(body.velocity) && slow(body.spin))
+        && model.line_nodes.iter().zip(&model.line_segments).all(|(nodes, segments)| {
+            nodes.clone().all(|node| {
+                slow(rope.velocity[node])
+                    || lies_slack(
+                        model,
+                        state,
+                        segments.start + (node - nodes.start),
+                        node,
+                        segments,
+                    )
+            })
+        })
+}
+
+/// Whether a node lies on the seabed between slack segments and is slow enough for that. `next` is the segment that begins there.
+fn lies_slack(
+    model: &Model,
+    state: &State,
+    next: usize,
+    node: usize,
+    segments: &std::ops::Range<usize>,
+) -> bool {
+    let rope = &state.rope;
+    let Some(seabed) = &model.spec.seabed else { return false };
+    let is_inside = next > segments.start && next < segments.end;
+    is_inside
+        && rope.tension[next - 1] <= 0.0
+        && rope.tension[next] <= 0.0
+        && rope.velocity[node].length_squared() <= LYING_M_S * LYING_M_S
+        && seabed.depth_of(rope.position[node]) > 0.0
+}

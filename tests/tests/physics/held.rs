@@ -1,0 +1,108 @@
+//! Gear that stands still is held, and is then where it would be without that.
+
+use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+
+use crate::linked::{built, spec};
+
+/// A bundled scenario after some seconds, with gear that is held while it stands still or not.
+fn run(name: &str, seconds: f64, holds_still: bool) -> (Model, State, Workspace) {
+    run_changed(name, &[], seconds, holds_still)
+}
+
+/// The same with replacements in its text.
+fn run_changed(
+    name: &str,
+    changes: &[(&str, &str)],
+    seconds: f64,
+    holds_still: bool,
+) -> (Model, State, Workspace) {
+    let mut spec = spec(name, changes);
+    spec.settings.holds_still = holds_still;
+    let model = built(spec);
+    let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
+    for _ in 0..(seconds / model.spec.settings.step_s).round() as u64 {
+        let pilot = model.spec.whale.as_ref().map(|whale| &whale.pilot);
+        let controls = pilot.map(|pilot| pilot.at(&state)).unwrap_or_default();
+        if let Err(stop) = step(&model, &Input { controls }, &mut state, &mut workspace) {
+            panic!("{stop:?}");
+        }
+    }
+    (model, state, workspace)
+}
+
+fn greatest(distances: impl Iterator<Item = f64>) -> f64 {
+    distances.fold(0.0, f64::max)
+}
+
+#[test]
+fn an_endline_that_waits_for_a_whale_is_where_it_would_be() {
+    let seconds = 11.5;
+    let (_, held, workspace) = run("hello-endline", seconds, true);
+    let (model, solved, other) = run("hello-endline", seconds, false);
+    let apart = |one: &[DVec3], two: &[DVec3]| {
+        greatest(one.iter().zip(two).map(|(one, two)| one.distance(*two)))
+    };
+    let apart_m = apart(&held.rope.position, &solved.rope.position);
+    let tensions = held.rope.tension.iter().zip(&solved.rope.tension);
+    let apart_n = greatest(tensions.map(|(one, two)| (one - two).abs()));
+    println!("{apart_m:.2e} m, {apart_n:.2e} N, {} steps held", workspace.audit.held);
+    assert_eq!(held.time_s.to_bits(), solved.time_s.to_bits());
+    assert_eq!(held.whale, solved.whale, "gear has not met the whale");
+    assert!(apart_m < 1e-6, "{apart_m}");
+    assert!(apart_n < 1e-3, "{apart_n}");
+    let steps = held.step;
+    assert!(workspace.audit.held > steps * 9 / 10, "{} of {steps}", workspace.audit.held);
+    assert_eq!(other.audit.held, 0);
+    // The greatest tension of a step is also that of held gear.
+    let peak_n = greatest(workspace.peak_tension_n.iter().copied());
+    let tension_n = greatest(solved.rope.tension.iter().copied());
+    assert!((peak_n - tension_n).abs() < 1e-3, "{peak_n} {tension_n}, {}", model.node_count);
+}
+
+/// Slack gangions on the seabed move by the tolerance of force; traps, groundline and endlines do not.
+#[test]
+fn a_trawl_at_rest_is_where_it_would_be() {
+    let (_, held, workspace) = run("trawl-10", 10.0, true);
+    let (_, solved, _) = run("trawl-10", 10.0, false);
+    let bodies = held.bodies.iter().zip(&solved.bodies);
+    let apart_m = greatest(bodies.map(|(one, two)| one.position.distance(two.position)));
+    println!("{apart_m:.2e} m, {} steps held", workspace.audit.held);
+    assert!(apart_m < 1e-6, "{apart_m}");
+    assert!(workspace.audit.held > 900, "{}", workspace.audit.held);
+}
+
+#[test]
+fn gear_in_a_tide_or_in_waves_is_not_held() {
+    for name in ["tide-turns", "waves-buoy"] {
+        let (_, _, workspace) = run(name, 1.0, true);
+        assert_eq!(workspace.audit.held, 0, "{name}");
+    }
+}
+
+/// The cutter at the buoy, which feels more than 0.3 lbf from the start, cuts an endline at rest after three seconds.
+const CUT_AT_REST: &[(&str, &str)] = &[
+    (
+        "cutter_hold = \"20 s\"",
+        "cutter_hold = \"3 s\"\ncutter_tension = \"0.3 lbf\"\ncutter_at = \"buoy\"",
+    ),
+    ("velocity = [\"1.5 m/s\", \"0 m/s\", \"0 m/s\"]\nfrom = \"5 s\"\nuntil = \"60 s\"\n", ""),
+];
+
+#[test]
+fn a_gear_type_releases_gear_that_is_held() {
+    let (_, state, workspace) = run_changed("time-tension-cutter", CUT_AT_REST, 6.0, true);
+    let (_, solved, _) = run_changed("time-tension-cutter", CUT_AT_REST, 6.0, false);
+    let parted = |state: &State| state.line_parted.iter().flatten().next().copied();
+    let (at_s, _) = parted(&state).expect("the cutter cuts");
+    let places = state.rope.position.iter().zip(&solved.rope.position);
+    let apart_m = greatest(places.map(|(one, two)| one.distance(*two)));
+    let speed_m_s = greatest(state.rope.velocity.iter().map(|velocity| velocity.length()));
+    println!(
+        "cut at {at_s:.2} s; {apart_m:.2e} m, {speed_m_s:.2} m/s, {} steps held",
+        workspace.audit.held
+    );
+    assert_eq!(parted(&state), parted(&solved));
+    assert!(workspace.audit.held > 250, "it is held before: {}", workspace.audit.held);
+    assert!(speed_m_s > 0.01, "the rope falls: {speed_m_s}");
+    assert!(apart_m < 0.02, "slack rope that recoils: {apart_m}");
+}
