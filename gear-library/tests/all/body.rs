@@ -1,4 +1,4 @@
-//! The whale's mesh compared with its tables, and its fins with their published ranges.
+//! The whale's mesh compared with its tables and with the built-in form, and its fins with their published ranges.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
 use std::f64::consts::PI;
@@ -269,5 +269,16 @@ fn the_fins_edges_are_as_round_as_written() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_file_and_the_built_in_form_give_the_same_skin() {
+    let whale = whale("right-whale");
+    let from_file = build_skin(&whale.form);
+    let built_in = build_skin(&WhaleForm::right_whale(whale.form.length_m));
+    assert_eq!(from_file.triangles, built_in.triangles);
+    for (filed, built) in from_file.vertices.iter().zip(&built_in.vertices) {
+        assert!(filed.distance(*built) < 0.001, "{filed} in the file, {built} built in");
     }
 }

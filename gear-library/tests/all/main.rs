@@ -19,7 +19,6 @@ mod mouth;
 mod obstacles;
 mod one_skin;
 mod rig;
-mod right_whale;
 mod routes;
 mod tunnelling;
 mod units;

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex};
 
 use super::control::{Control, Progress};
-use super::threads::lower_priority;
+use super::pool::lower_priority;
 use crate::error::Error;
 use crate::task::{Waker, lock};
 

@@ -4,8 +4,7 @@
 //! | file | content |
 //! |---|---|
 //! | `control` | pause, cancellation and progress, from any thread |
-//! | `pool` | the threads that run the work |
-//! | `threads` | number and priority of threads; the part of the work that one of several machines does |
+//! | `pool` | the threads that run the work, their number and priority; the part of the work that one of several machines does |
 //! | `leases` | which process runs which block, for processes that share a folder |
 //! | `folder` | the folder of results, and the label that says to which campaign it belongs |
 //! | `job` | a campaign behind a window |
@@ -14,10 +13,9 @@ pub mod control;
 pub(crate) mod folder;
 pub mod job;
 pub(crate) mod leases;
-pub(crate) mod pool;
-pub mod threads;
+pub mod pool;
 
 pub use control::{Control, Count, Pace, Progress};
 pub use job::{Job, State};
 pub use leases::{Worker, workers};
-pub use threads::Shard;
+pub use pool::Shard;

@@ -1,5 +1,7 @@
-//! The one runner of studies and searches: threads take pieces of work until none is left, one fails or the control cancels.
+//! The one runner of studies and searches: threads take pieces of work until none is left, one fails or the control cancels. The
+//! number and priority of these threads, and the part of the work that one of several machines does.
 
+use std::io;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -89,6 +91,44 @@ fn on_a_thread(work: &impl Work, control: &Control, failure: &Failure) {
             }
         }
     }
+}
+
+/// The part of a campaign that one of several machines runs: blocks whose number divided by `of` leaves `part`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, from 0.
+    pub part: u32,
+    /// Of how many.
+    pub of: u32,
+}
+
+impl Shard {
+    /// All of a campaign.
+    pub const WHOLE: Self = Self { part: 0, of: 1 };
+
+    /// Whether a block belongs to it.
+    pub fn holds(self, block: u32) -> bool {
+        block % self.of == self.part
+    }
+}
+
+/// Gives this thread, and the threads that it starts, the lowest priority. Does nothing on systems other than Unix.
+pub fn try_lower_priority() -> io::Result<()> {
+    #[cfg(unix)]
+    rustix::process::nice(19)?;
+    Ok(())
+}
+
+/// Lowers the priority of this thread on Linux. Other systems would slow the whole program.
+pub(crate) fn lower_priority() {
+    #[cfg(target_os = "linux")]
+    // A thread whose priority cannot be lowered keeps the normal one.
+    let _ = try_lower_priority();
+}
+
+/// Threads for encounters: all cores but one, which the window uses.
+pub fn default_count() -> usize {
+    std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1))
 }
 
 #[cfg(test)]

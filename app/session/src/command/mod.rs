@@ -16,8 +16,6 @@ pub mod rules;
 pub mod run;
 pub mod search;
 pub mod study;
-#[cfg(test)]
-mod tests;
 pub mod time;
 
 use std::sync::LazyLock;
@@ -156,5 +154,25 @@ impl Workbench {
             Command::Plugin(action) => plugin::perform(self, action),
         };
         done.inspect_err(|reason| self.notice = Some(Notice::fault(reason)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_command_is_declared_once_under_a_name_of_its_own() {
+        let [mut ids, mut names] = [BTreeSet::new(), BTreeSet::new()];
+        for info in declared() {
+            assert!(ids.insert(info.about.id), "{} is declared twice", info.about.id);
+            assert!(names.insert(info.about.name), "two commands are called {}", info.about.name);
+            assert!(info.about.help.ends_with('.'), "{}: {}", info.about.id, info.about.help);
+            if let Make::Plain(command) = &info.make {
+                assert_eq!(command.id(), info.about.id, "the command made is the one declared");
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::documents::Documents;
 use super::figures;
 use super::library_table::id_of;
 use super::option::gather;
-use super::slug::free_file;
+use super::saving::free_file;
 
 /// Fields whose texts are never the id of another file.
 const NO_IDS: [&str; 9] =

@@ -9,7 +9,7 @@ use endline_gear::{Diagnostic, Document, Library, Sources};
 use super::figures;
 use super::history::{Change, History};
 use super::problems::{Named, Problems};
-use super::slug::{free_file, slug};
+use super::saving::{free_file, slug};
 use super::texts::Texts;
 use crate::{save, shipped};
 

@@ -6,7 +6,7 @@
 
 use super::documents::Documents;
 use super::figures;
-use super::slug::slug;
+use super::saving::slug;
 use endline_gear::{Confidence, Document, Kind, Setting};
 
 /// Columns before the kind's own.

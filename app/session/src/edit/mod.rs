@@ -7,9 +7,8 @@
 //! | `texts` | texts as they stand and as their files have them |
 //! | `figures` | figures typed: their sources, and what follows from them |
 //! | `history` | undo and redo |
-//! | `slug` | names of files |
 //! | [`problems`] | located problems of the texts |
-//! | [`saving`] | texts written to their files, none over what someone else wrote since |
+//! | [`saving`] | texts written to their files, none over what someone else wrote since; names of files |
 //! | [`bundled`] | files that came with the program, saved as copies of the user's own |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
 //! | `option` | options of a study, made from unsaved edits or another assembly |
@@ -32,7 +31,6 @@ pub mod problems;
 pub mod recovery;
 pub mod saving;
 pub mod scenario;
-mod slug;
 mod texts;
 
 pub use documents::Documents;

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::bundled::OwnCopy;
 use super::documents::Documents;
-use super::slug::free_file;
 use crate::save::{self, text_if_there};
 
 /// What becomes of a file that was changed on disk since it was read, and of the edits of it here.
@@ -188,6 +187,26 @@ fn write(file: &Path, text: Option<&str>) -> Result<(), String> {
     written.map_err(|error| format!("{}: {error}", file.display()))
 }
 
+/// A name as the stem of a file: lower case, words joined by dashes.
+pub fn slug(name: &str) -> String {
+    let words: String = name
+        .to_lowercase()
+        .chars()
+        .map(|letter| if letter.is_ascii_alphanumeric() { letter } else { ' ' })
+        .collect();
+    let joined = words.split_whitespace().collect::<Vec<_>>().join("-");
+    if joined.is_empty() { "entry".to_owned() } else { joined }
+}
+
+/// A file of a folder that is not there: `stem.toml`, else `stem-2.toml` and so on; none where a thousand are.
+pub fn free_file(folder: &Path, stem: &str) -> Option<PathBuf> {
+    let named = |number: u32| match number {
+        1 => folder.join(format!("{stem}.toml")),
+        number => folder.join(format!("{stem}-{number}.toml")),
+    };
+    (1..=1000).map(named).find(|path| !path.exists())
+}
+
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -338,5 +357,11 @@ mod tests {
         documents.remove("assemblies/other.toml");
         assert!(documents.save().unwrap_err().contains("not deleted"));
         assert!(place.0.join("assemblies/other.toml").exists());
+    }
+
+    #[test]
+    fn a_name_becomes_a_stem() {
+        assert_eq!(slug("3/8 in Poly (mill)"), "3-8-in-poly-mill");
+        assert_eq!(slug("***"), "entry");
     }
 }

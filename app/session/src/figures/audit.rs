@@ -109,7 +109,7 @@ pub static AUDIT: &[Figure<Report>] = &[
         "steps of gear at rest",
         "Steps without a solver step, in which gear that stood still was held as it was.",
         Quantity::Count,
-        |run: &Report| run.audit.held.into(),
+        |run: &Report| run.audit.held_steps.into(),
     )
     .shown(&[Table]),
     Figure::new(

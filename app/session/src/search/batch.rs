@@ -11,8 +11,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use crate::campaign::control::Control;
+use crate::campaign::pool::Shard;
 use crate::campaign::pool::{self, Failure, Next, POLL, Work};
-use crate::campaign::threads::Shard;
 use crate::error::Error;
 use crate::task::lock;
 

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::folder;
-use crate::campaign::threads::Shard;
+use crate::campaign::pool::Shard;
 use crate::error::Error;
 use crate::save;
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::campaign::job::{AtWork, Job, State};
-use crate::campaign::threads::Shard;
+use crate::campaign::pool::Shard;
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;

@@ -136,7 +136,7 @@ mod tests {
     use std::fs;
 
     use crate::campaign::control::Control;
-    use crate::campaign::threads::Shard;
+    use crate::campaign::pool::Shard;
     use crate::study::tests::Place;
     use crate::study::{batch, merge};
     use crate::table::{Cell, Row};

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use crate::campaign::control::{Control, Count, Progress};
 use crate::campaign::leases::{self, Lease, Leases};
+use crate::campaign::pool::Shard;
 use crate::campaign::pool::{self, Next, Work};
-use crate::campaign::threads::Shard;
 use crate::error::Error;
 use crate::task::lock;
 

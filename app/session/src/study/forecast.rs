@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::campaign::control::{Control, Pace};
-use crate::campaign::threads::Shard;
+use crate::campaign::pool::Shard;
 use crate::error::Error;
 
 use super::folder::Folder;

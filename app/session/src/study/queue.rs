@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::campaign::job::{AtWork, Job, State};
-use crate::campaign::threads::{self, Shard};
+use crate::campaign::pool::{self, Shard};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::shell;
@@ -101,7 +101,7 @@ fn run(
     let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
     job.found(|found| found.0 = Some((Arc::clone(&opened), folder.path.clone())));
     job.enter(State::Running);
-    batch::run(&opened, &folder, Shard::WHOLE, threads::default_count(), &job.control)?;
+    batch::run(&opened, &folder, Shard::WHOLE, pool::default_count(), &job.control)?;
     if !job.control.may_continue() {
         return Ok(State::Cancelled);
     }

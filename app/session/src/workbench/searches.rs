@@ -8,7 +8,7 @@ use endline_sim::whale::Skin;
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
-use crate::campaign::{State, threads};
+use crate::campaign::{State, pool};
 use crate::edit::{Documents, observation};
 use crate::save;
 use crate::search::job::{self, SearchJob, SearchRequest};
@@ -43,7 +43,7 @@ pub struct SearchEffort {
 
 impl Default for SearchEffort {
     fn default() -> Self {
-        let threads = threads::default_count();
+        let threads = pool::default_count();
         Self { trials: TRIALS, threads, neighbours: NEIGHBOURS, normal_priority: false }
     }
 }

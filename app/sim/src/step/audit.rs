@@ -25,7 +25,7 @@ pub struct Audit {
     /// Numbers that were not finite.
     pub non_finite: u64,
     /// Steps of the model without a solver step, in which gear that stood still was held.
-    pub held: u64,
+    pub held_steps: u64,
     /// Solver steps taken.
     pub solver_steps: u64,
     /// Solver steps that had rope near the whale.

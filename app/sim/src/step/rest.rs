@@ -63,7 +63,7 @@ pub(super) fn hold(model: &Model, state: &mut State, workspace: &mut Workspace) 
         "held gear has no velocity"
     );
     workspace.take_tensions(model, &state.rope.tension, true);
-    workspace.audit.held += 1;
+    workspace.audit.held_steps += 1;
 }
 
 /// Counts the steps of the model in which gear stands still; where they suffice, its velocities become zero.

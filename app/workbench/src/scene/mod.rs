@@ -14,7 +14,6 @@ pub mod pick;
 pub mod picture;
 mod shaders;
 pub mod silhouette;
-mod snow;
 
 pub use camera::{Camera, View};
 pub use draw::{Canvas, Drawer, Water};

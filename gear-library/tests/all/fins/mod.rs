@@ -94,7 +94,8 @@ impl Fins {
         self.drawn(number, Settings { swept, contact_step_s, ..usual })
     }
 
-    /// The same with rope of neutral weight, from farther off and without rotation: the rope is held before the piece comes near.
+    /// The encounter of a number with rope of neutral weight, from farther off and without rotation: the rope is held before the piece comes
+    /// near.
     pub fn approach(&self, number: u64) -> Encounter {
         let mut encounter =
             self.drawn(number, Settings { holds_still: true, ..Settings::default() });

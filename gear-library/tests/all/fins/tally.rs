@@ -66,7 +66,7 @@ impl Tally {
         self.ropes_crossed += u64::from(ropes_crossed);
         self.met_both += u64::from(met_both);
         self.ended += u64::from(ended.is_some() && !crossed);
-        self.held += u64::from(workspace.audit.held > 0);
+        self.held += u64::from(workspace.audit.held_steps > 0);
         self.solver_steps += workspace.audit.solver_steps;
         self.passes += workspace.audit.passes;
         self.unconverged += workspace.audit.unconverged;

@@ -97,7 +97,7 @@ fn audit(next: &mut Numbers) -> Audit {
         rope_steps: next.whole(),
         least_distance_m: Some(next.real()),
         non_finite: next.whole(),
-        held: next.whole(),
+        held_steps: next.whole(),
         solver_steps: next.whole(),
         contact_steps: next.whole(),
         halved: next.whole(),

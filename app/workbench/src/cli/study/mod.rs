@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use endline_session::campaign::{Control, Count, Pace, threads};
+use endline_session::campaign::{Control, Count, Pace, pool};
 use endline_session::study::folder::Folder;
 use endline_session::study::report::hauled::HauledLoad;
 use endline_session::study::stats::Findings;
@@ -229,7 +229,7 @@ pub(super) fn all_cores() -> usize {
 
 /// Lowers the priority of this process.
 pub(super) fn lower_priority() {
-    if let Err(error) = threads::try_lower_priority() {
+    if let Err(error) = pool::try_lower_priority() {
         output::note(&format!("runs at ordinary priority: {error}"));
     }
 }
