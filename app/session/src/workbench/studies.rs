@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use endline_gear::Document;
+
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
@@ -25,8 +27,8 @@ pub struct Studies {
     pub folder: Option<PathBuf>,
     /// The open study checked as it is edited.
     pub check: StudyCheck,
-    /// Ids of the library's scenarios when the study was opened.
-    pub scenarios: Vec<String>,
+    /// Id and name of each of the library's scenarios when the study was opened.
+    pub scenarios: Vec<(String, String)>,
 }
 
 impl Studies {
@@ -91,9 +93,8 @@ impl Workbench {
             return Err(reason.to_owned());
         }
         documents.open_study(path)?;
-        let id = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        self.studies.scenarios =
-            locate::scenarios(documents.root()).iter().filter_map(id).collect();
+        let scenarios = locate::scenarios(documents.root());
+        self.studies.scenarios = scenarios.iter().filter_map(|path| id_and_name(path)).collect();
         self.ask_for_results(ResultsRequest {
             file: Some(path.to_owned()),
             ..ResultsRequest::default()
@@ -260,6 +261,15 @@ impl Workbench {
         let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
         Some(queue::command_line(path, documents.root(), folder.as_deref()))
     }
+}
+
+/// Id and name of the item in a file; its id in place of a name that cannot be read.
+fn id_and_name(path: &Path) -> Option<(String, String)> {
+    let id = path.file_stem()?.to_string_lossy().into_owned();
+    let text = endline_gear::read::text(path).ok();
+    let document = text.and_then(|text| Document::parse(&text).ok());
+    let name = document.and_then(|document| document.get("name")).unwrap_or_else(|| id.clone());
+    Some((id, name))
 }
 
 fn pause_or_resume(job: &StudyJob) {

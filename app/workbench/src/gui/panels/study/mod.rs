@@ -10,7 +10,7 @@ use endline_session::command::{EditAction, StudyAction};
 use std::path::Path;
 
 use egui::{RichText, ScrollArea, Ui};
-use endline_gear::{Diagnostic, Document, Setting, StudyEvent};
+use endline_gear::{Diagnostic, Document, Setting, StudyEvent, prior_words};
 use endline_session::edit::Documents;
 
 use crate::gui::fields::{self, Said};
@@ -21,6 +21,7 @@ use crate::gui::panels::start::{What, files_by_subject};
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets;
+use crate::gui::widgets::words::capital;
 
 /// Edits of the study: dotted path and value as TOML; `None` removes the field.
 type Edits = Vec<(String, Option<Setting>)>;
@@ -29,17 +30,18 @@ type Edits = Vec<(String, Option<Setting>)>;
 #[derive(Debug, Default)]
 pub struct StudyPanel {
     files: FileChooser,
+    scenarios: FileChooser,
 }
 
 impl Panel for StudyPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         pick(ui, shared, &mut self.files);
-        show(ui, shared);
+        show(ui, shared, &mut self.scenarios);
     }
 }
 
 /// Draws the study with its queue.
-fn show(ui: &mut Ui, shared: &mut Shared) {
+fn show(ui: &mut Ui, shared: &mut Shared, scenarios: &mut FileChooser) {
     if shared.documents().text(Documents::STUDY).is_none() {
         widgets::nothing(
             ui,
@@ -53,7 +55,7 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
     ui.separator();
     ScrollArea::vertical().id_salt("designer").auto_shrink(false).show(ui, |ui| {
         let mut edits = Edits::new();
-        question(ui, shared, &mut edits);
+        question(ui, shared, scenarios, &mut edits);
         options::show(ui, shared, &mut edits);
         priors::show(ui, shared, &mut edits);
         problems(ui, shared);
@@ -121,13 +123,11 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
+fn question(ui: &mut Ui, shared: &mut Shared, scenarios: &mut FileChooser, edits: &mut Edits) {
     widgets::caption(ui, "Question");
     text(ui, shared, "Name", "name", "Shown in the report");
     text(ui, shared, "Notes", "notes", "Purpose of the study, shown below the name in the report");
-    let scenarios = shared.workbench.studies().scenarios.iter();
-    let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
-    choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);
+    scenario(ui, shared, scenarios, edits);
     design(ui, shared);
     number(
         ui,
@@ -142,8 +142,7 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
         events.insert(0, (String::new(), StudyEvent::Entangled.words()));
     }
     choice(ui, shared, ("Event", "event"), &events, edits);
-    let options: Vec<(String, String)> =
-        option_ids(shared.documents()).into_iter().map(|id| (id.clone(), id)).collect();
+    let options = option_names(shared.documents());
     choice(ui, shared, ("Baseline", "baseline"), &options, edits);
     let drawn = shared.documents().keys(Documents::STUDY, "encounter").into_iter();
     let chosen = drawn
@@ -151,7 +150,8 @@ fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
             shared.documents().has(Documents::STUDY, &format!("encounter.{name}.choice"))
         })
         .map(|name| name.replace('"', ""));
-    let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
+    let words = |name: String| (name.clone(), capital(&prior_words(&name)));
+    let mut levels: Vec<(String, String)> = chosen.map(words).collect();
     levels.insert(0, (String::new(), "no split".into()));
     choice(ui, shared, ("Results split by", "split"), &levels, edits);
     number(ui, shared, ("Seed", "seed"), "Seed of the drawn encounters", edits);
@@ -257,11 +257,37 @@ fn choice(
     });
 }
 
+/// Draws the choice of the scenario, by its name.
+fn scenario(ui: &mut Ui, shared: &Shared, chooser: &mut FileChooser, edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        widgets::name(ui, "Scenario");
+        let stored = shared.documents().field(Documents::STUDY, "scenario").unwrap_or_default();
+        let known = &shared.workbench.studies().scenarios;
+        let name = known.iter().find(|(id, _)| *id == stored).map_or(&stored, |(_, name)| name);
+        let root = shared.documents().root().to_owned();
+        let file = root.join(format!("scenarios/{stored}.toml"));
+        let list = || files_by_subject(&root, What::Scenario);
+        let width = ui.available_width() - 12.0;
+        if let Some(file) = chooser.show(ui, ("study scenario", width), (Some(&file), name), list) {
+            edits.push(("scenario".into(), Some(Setting::text(&files::stem(&file)))));
+        }
+    });
+}
+
 /// Ids of the options, in the order of the file.
 fn option_ids(documents: &Documents) -> Vec<String> {
     (0..)
         .map_while(|index| documents.field(Documents::STUDY, &format!("option.{index}.id")))
         .collect()
+}
+
+/// Ids and names of the options.
+fn option_names(documents: &Documents) -> Vec<(String, String)> {
+    let name = |(index, id): (usize, String)| {
+        let name = documents.field(Documents::STUDY, &format!("option.{index}.name"));
+        (id.clone(), name.unwrap_or(id))
+    };
+    option_ids(documents).into_iter().enumerate().map(name).collect()
 }
 
 /// Draws problems of the study's file and of its assembled options.
