@@ -172,8 +172,10 @@ impl Table {
     }
 }
 
+/// A count in millions, with digits enough to compare it within a small part of the tolerance.
 fn millions(count: f64) -> String {
-    format!("{:.1}", 1e-6 * count)
+    let decimals = if count < 1e7 { 3 } else { 1 };
+    format!("{:.decimals$}", 1e-6 * count)
 }
 
 fn put(path: PathBuf, text: &str) -> Outcome {
@@ -210,9 +212,10 @@ mod tests {
     #[test]
     fn the_page_has_a_column_for_each_row() {
         let mut table = Table::parse(TEXT).unwrap();
-        table.add(row(&[("far", 20.0), ("fine", 300.0)]));
+        table.add(row(&[("far", 20.0), ("fine", 1.3343)]));
         let page = table.history();
         assert!(page.contains("| far | 50.0 | 40.0 | 20.0 | 0.40 |"), "{page}");
+        assert!(page.contains("| fine | 600.0 | 500.0 | 1.334 |"), "{page}");
         assert!(page.contains("| 3 | 2026-01-03 | rustc 1 | third |"), "{page}");
     }
 
