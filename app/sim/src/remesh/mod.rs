@@ -30,7 +30,6 @@ use crate::broad_phase::pieces::Pieces;
 use crate::contact::rope_on_rope::near::RopeOnRope;
 use crate::forces::axial::Axial;
 use crate::model::{Model, Resolution, Rope};
-use crate::simd::lesser;
 use crate::simd::real::Real;
 use crate::simd::rows::LANES;
 use crate::state::{RopeState, State};
@@ -283,25 +282,20 @@ fn best(line: &Line<'_>) -> Option<(usize, usize)> {
         inner.clone().all(|segment| line.wanted[segment] > 0.0),
         "target lengths are positive"
     );
-    let lengths = &line.state.segment_length[inner.clone()];
-    let wanted = &line.wanted[inner.clone()];
-    // Ratios are compared by products, because divisions cost most of the search.
     let mut split = None;
     let mut greatest = 1.0;
-    for (segment, (length, wanted)) in inner.clone().zip(lengths.iter().zip(wanted)) {
-        if *length > greatest * wanted && line.may_split(segment) {
+    for segment in inner.clone() {
+        if line.excess(segment) > greatest && line.may_split(segment) {
             (split, greatest) = (Some(segment), line.excess(segment));
         }
     }
     let split = split?;
     let mut merge = None;
     let mut least = greatest / GAIN;
-    let pairs = lengths.windows(2).zip(wanted.windows(2));
-    for (segment, (lengths, wanted)) in inner.zip(pairs) {
+    for segment in inner.start..inner.end.saturating_sub(1) {
         // The split segment and its neighbours must not be merged in the same swap.
         let apart = segment > split + 1 || segment + 2 < split;
-        let is_less = lengths[0] + lengths[1] < least * lesser(wanted[0], wanted[1]);
-        if is_less && apart && line.may_merge(segment) {
+        if apart && line.merged_excess(segment) < least && line.may_merge(segment) {
             (merge, least) = (Some(segment), line.merged_excess(segment));
         }
     }

@@ -1,8 +1,8 @@
 //! Gear that stands still is held as it is until something can move it.
 //!
 //! Gear stands still if no node and no body is faster than [`STILL_M_S`] at the end of a step of the model, for [`STILL_S`] in a
-//! row. It is then in balance: its acceleration is below `2 STILL_M_S / STILL_S` = 1e-4 m/s², and what is held back is at
-//! most `STILL_M_S` per second, 0.6 mm in a minute. While it is held its velocities are zero, and a step of the model costs
+//! row. Its mean acceleration in that time is below `2 STILL_M_S / STILL_S` = 1e-4 m/s², a hundred-thousandth of its weight. At
+//! `STILL_M_S` it would move 0.6 mm in a minute. While it is held its velocities are zero, and a step of the model costs
 //! the search for gear near the whale only. A balance that is not stable is held too.
 //!
 //! What can move it, and ends the hold before the step in which it does:
