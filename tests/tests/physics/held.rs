@@ -1,8 +1,9 @@
 //! Gear that stands still is held, and is then where it would be without that.
 
-use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+use endline_sim::{DVec3, Model, State, Workspace};
 
 use crate::linked::{built, spec};
+use crate::momentum;
 
 /// A bundled scenario after some seconds, with gear that is held while it stands still or not.
 fn run(name: &str, seconds: f64, holds_still: bool) -> (Model, State, Workspace) {
@@ -19,14 +20,7 @@ fn run_changed(
     let mut spec = spec(name, changes);
     spec.settings.holds_still = holds_still;
     let model = built(spec);
-    let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
-    for _ in 0..(seconds / model.spec.settings.step_s).round() as u64 {
-        let pilot = model.spec.whale.as_ref().map(|whale| &whale.pilot);
-        let controls = pilot.map(|pilot| pilot.at(&state)).unwrap_or_default();
-        if let Err(stop) = step(&model, &Input { controls }, &mut state, &mut workspace) {
-            panic!("{stop:?}");
-        }
-    }
+    let (state, workspace) = momentum::run(&model, seconds);
     (model, state, workspace)
 }
 

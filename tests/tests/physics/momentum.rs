@@ -45,7 +45,8 @@ fn model(case: &Case, balance: bool) -> Model {
     built(spec)
 }
 
-fn run(model: &Model, seconds: f64) -> (State, Workspace) {
+/// Steps of a scenario's model for some seconds, from its gear at rest or as placed.
+pub(crate) fn run(model: &Model, seconds: f64) -> (State, Workspace) {
     let settings = &model.spec.settings;
     let mut state = if settings.as_placed { State::start(model) } else { settle(model).state };
     let mut workspace = Workspace::new(model);

@@ -99,6 +99,9 @@ pub(crate) fn remesh(
     grip(model, state, work);
     let lines = 0..model.spec.lines.len();
     let splits = lines.map(|line| remesh_line(model, state, line, work, resolution)).sum();
+    if splits > 0 {
+        state.step_control.still_steps = 0;
+    }
     debug_assert!(
         state.rope.segment_length.iter().all(|length| *length > 0.0),
         "lengths are positive"

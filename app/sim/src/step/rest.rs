@@ -10,8 +10,8 @@
 //! | cause | noticed by |
 //! |---|---|
 //! | the whale comes near | the search over the path of the step of the model (`contact/near_whale.rs`) |
-//! | resolution follows the whale | segments that are split |
-//! | a gear type cuts a line or releases a link | `parting.rs`, which resets the count of still steps |
+//! | resolution follows the whale | `remesh`, which resets the count of still steps where segments are split |
+//! | a gear type cuts a line or releases a link | `parting.rs`, which resets it too |
 //! | a tide, waves; an end that is driven, pulled from a time on, or on the whale; a body let go at a time | gear of such a model is never held ([`may_be_held`]) |
 //!
 //! Slack rope on the seabed has no part in the balance of the rest. Its nodes may move by the tolerance of force, which is a share of
@@ -56,17 +56,17 @@ fn least_steps(model: &Model) -> u32 {
     (STILL_S / model.spec.settings.step_s).ceil() as u32
 }
 
-/// Holds the gear over a step of the model.
+/// Holds the gear over a step of the model. Its velocities become zero in the first such step.
 pub(super) fn hold(model: &Model, state: &mut State, workspace: &mut Workspace) {
-    debug_assert!(
-        state.rope.velocity.iter().all(|velocity| *velocity == DVec3::ZERO),
-        "held gear has no velocity"
-    );
+    let had_solver_step = state.rope.earlier_dt_s > 0.0;
+    if had_solver_step {
+        state.rest();
+    }
     workspace.take_tensions(model, &state.rope.tension, true);
     workspace.audit.held_steps += 1;
 }
 
-/// Counts the steps of the model in which gear stands still; where they suffice, its velocities become zero.
+/// Counts the steps of the model at whose end gear stands still.
 pub(super) fn count_still(model: &Model, state: &mut State, workspace: &Workspace) {
     if !model.may_be_held {
         return;
@@ -75,46 +75,38 @@ pub(super) fn count_still(model: &Model, state: &mut State, workspace: &Workspac
         && workspace.body_contacts.is_empty()
         && state.rope.rope_grips.is_empty()
         && is_slow(model, state);
-    let steps = if still { state.step_control.still_steps.saturating_add(1) } else { 0 };
-    state.step_control.still_steps = steps;
-    if steps >= least_steps(model) {
-        state.rest();
-    }
+    let steps = &mut state.step_control.still_steps;
+    *steps = if still { steps.saturating_add(1) } else { 0 };
 }
 
 /// Whether no node and no body is faster than gear that stands still.
 fn is_slow(model: &Model, state: &State) -> bool {
-    let slow = |velocity: DVec3| velocity.length_squared() <= STILL_M_S * STILL_M_S;
     let rope = &state.rope;
-    state.bodies.iter().all(|body| slow(body.velocity) && slow(body.spin))
-        && model.line_nodes.iter().zip(&model.line_segments).all(|(nodes, segments)| {
-            nodes.clone().all(|node| {
-                slow(rope.velocity[node])
-                    || lies_slack(
-                        model,
-                        state,
-                        segments.start + (node - nodes.start),
-                        node,
-                        segments,
-                    )
+    let is_below = |velocity: DVec3, limit: f64| velocity.length_squared() <= limit * limit;
+    let is_slack = |segment: usize| rope.tension[segment] <= 0.0;
+    let is_on_seabed = |node: usize| {
+        let seabed = model.spec.seabed.as_ref();
+        seabed.is_some_and(|seabed| seabed.depth_of(rope.position[node]) > 0.0)
+    };
+    let mut lines = model.line_nodes.iter().zip(&model.line_segments);
+    let are_bodies_slow = state
+        .bodies
+        .iter()
+        .all(|body| is_below(body.velocity, STILL_M_S) && is_below(body.spin, STILL_M_S));
+    are_bodies_slow
+        && lines.all(|(nodes, segments)| {
+            let lies_slack = |node: usize, next: usize| {
+                segments.start < next
+                    && next < segments.end
+                    && is_slack(next - 1)
+                    && is_slack(next)
+                    && is_on_seabed(node)
+            };
+            // A segment begins at each node but the last.
+            nodes.clone().zip(segments.start..).all(|(node, next)| {
+                let velocity = rope.velocity[node];
+                is_below(velocity, STILL_M_S)
+                    || is_below(velocity, LYING_M_S) && lies_slack(node, next)
             })
         })
-}
-
-/// Whether a node lies on the seabed between slack segments and is slow enough for that. `next` is the segment that begins there.
-fn lies_slack(
-    model: &Model,
-    state: &State,
-    next: usize,
-    node: usize,
-    segments: &std::ops::Range<usize>,
-) -> bool {
-    let rope = &state.rope;
-    let Some(seabed) = &model.spec.seabed else { return false };
-    let is_inside = next > segments.start && next < segments.end;
-    is_inside
-        && rope.tension[next - 1] <= 0.0
-        && rope.tension[next] <= 0.0
-        && rope.velocity[node].length_squared() <= LYING_M_S * LYING_M_S
-        && seabed.depth_of(rope.position[node]) > 0.0
 }

@@ -54,9 +54,6 @@ pub(super) fn advance(
         }
         workspace.solver.contacts.pieces.forget();
         let near = near_whale(model, state, workspace, whale);
-        if remeshed.splits > 0 {
-            state.step_control.still_steps = 0;
-        }
         if !near && rest::stands_still(model, state) {
             rest::hold(model, state, workspace);
             return Ok(());
