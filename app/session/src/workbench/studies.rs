@@ -3,15 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::Document;
-
 use super::Workbench;
 use super::model::Then;
 use super::notice::Notice;
 use super::study_check::StudyCheck;
 use crate::campaign::State;
 use crate::edit::Documents;
-use crate::locate;
 use crate::save::copy_tree;
 use crate::study::queue::{self, Queue, StudyJob, StudyRequest};
 use crate::study::{ResultsReader, ResultsRequest, StudyResults};
@@ -27,8 +24,6 @@ pub struct Studies {
     pub folder: Option<PathBuf>,
     /// The open study checked as it is edited.
     pub check: StudyCheck,
-    /// Id and name of each of the library's scenarios when the study was opened.
-    pub scenarios: Vec<(String, String)>,
 }
 
 impl Studies {
@@ -93,8 +88,6 @@ impl Workbench {
             return Err(reason.to_owned());
         }
         documents.open_study(path)?;
-        let scenarios = locate::scenarios(documents.root());
-        self.studies.scenarios = scenarios.iter().filter_map(|path| id_and_name(path)).collect();
         self.ask_for_results(ResultsRequest {
             file: Some(path.to_owned()),
             ..ResultsRequest::default()
@@ -261,15 +254,6 @@ impl Workbench {
         let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
         Some(queue::command_line(path, documents.root(), folder.as_deref()))
     }
-}
-
-/// Id and name of the item in a file; its id in place of a name that cannot be read.
-fn id_and_name(path: &Path) -> Option<(String, String)> {
-    let id = path.file_stem()?.to_string_lossy().into_owned();
-    let text = endline_gear::read::text(path).ok();
-    let document = text.and_then(|text| Document::parse(&text).ok());
-    let name = document.and_then(|document| document.get("name")).unwrap_or_else(|| id.clone());
-    Some((id, name))
 }
 
 fn pause_or_resume(job: &StudyJob) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use egui::{ComboBox, PopupCloseBehavior, RichText, TextEdit, Ui};
-use endline_gear::Kind;
+use endline_gear::{Document, Kind};
 pub use endline_session::locate::scenarios;
 
 use super::theme::Theme;
@@ -92,6 +92,12 @@ fn rows(ui: &mut Ui, listed: &[Listed], sought: &str, present: Option<&Path>) ->
 /// Name of a file without folder and extension.
 pub fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Name that the file of an item states; `None` if it states none or cannot be read.
+pub fn name_of(path: &Path) -> Option<String> {
+    let text = endline_gear::read::text(path).ok()?;
+    Document::parse(&text).ok()?.get("name")
 }
 
 /// Shows a folder in the file manager of the system, or opens a file with its default program.

@@ -7,7 +7,7 @@ mod queue;
 use crate::gui::command::action::{PanelAction, WindowAction};
 use crate::gui::widgets::command;
 use endline_session::command::{EditAction, StudyAction};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use egui::{RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Document, Setting, StudyEvent, prior_words};
@@ -30,18 +30,26 @@ type Edits = Vec<(String, Option<Setting>)>;
 #[derive(Debug, Default)]
 pub struct StudyPanel {
     files: FileChooser,
-    scenarios: FileChooser,
+    scenario: ScenarioChoice,
+}
+
+/// The choice of the scenario of a study.
+#[derive(Debug, Default)]
+struct ScenarioChoice {
+    files: FileChooser,
+    /// The file of the chosen scenario, and its name.
+    named: (PathBuf, String),
 }
 
 impl Panel for StudyPanel {
     fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         pick(ui, shared, &mut self.files);
-        show(ui, shared, &mut self.scenarios);
+        show(ui, shared, &mut self.scenario);
     }
 }
 
 /// Draws the study with its queue.
-fn show(ui: &mut Ui, shared: &mut Shared, scenarios: &mut FileChooser) {
+fn show(ui: &mut Ui, shared: &mut Shared, scenario: &mut ScenarioChoice) {
     if shared.documents().text(Documents::STUDY).is_none() {
         widgets::nothing(
             ui,
@@ -55,7 +63,7 @@ fn show(ui: &mut Ui, shared: &mut Shared, scenarios: &mut FileChooser) {
     ui.separator();
     ScrollArea::vertical().id_salt("designer").auto_shrink(false).show(ui, |ui| {
         let mut edits = Edits::new();
-        question(ui, shared, scenarios, &mut edits);
+        question(ui, shared, scenario, &mut edits);
         options::show(ui, shared, &mut edits);
         priors::show(ui, shared, &mut edits);
         problems(ui, shared);
@@ -123,11 +131,11 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
     });
 }
 
-fn question(ui: &mut Ui, shared: &mut Shared, scenarios: &mut FileChooser, edits: &mut Edits) {
+fn question(ui: &mut Ui, shared: &mut Shared, scenario: &mut ScenarioChoice, edits: &mut Edits) {
     widgets::caption(ui, "Question");
     text(ui, shared, "Name", "name", "Shown in the report");
     text(ui, shared, "Notes", "notes", "Purpose of the study, shown below the name in the report");
-    scenario(ui, shared, scenarios, edits);
+    scenario.show(ui, shared, edits);
     design(ui, shared);
     number(
         ui,
@@ -257,21 +265,24 @@ fn choice(
     });
 }
 
-/// Draws the choice of the scenario, by its name.
-fn scenario(ui: &mut Ui, shared: &Shared, chooser: &mut FileChooser, edits: &mut Edits) {
-    ui.horizontal(|ui| {
-        widgets::name(ui, "Scenario");
-        let stored = shared.documents().field(Documents::STUDY, "scenario").unwrap_or_default();
-        let known = &shared.workbench.studies().scenarios;
-        let name = known.iter().find(|(id, _)| *id == stored).map_or(&stored, |(_, name)| name);
-        let root = shared.documents().root().to_owned();
-        let file = root.join(format!("scenarios/{stored}.toml"));
-        let list = || files_by_subject(&root, What::Scenario);
-        let width = ui.available_width() - 12.0;
-        if let Some(file) = chooser.show(ui, ("study scenario", width), (Some(&file), name), list) {
-            edits.push(("scenario".into(), Some(Setting::text(&files::stem(&file)))));
-        }
-    });
+impl ScenarioChoice {
+    fn show(&mut self, ui: &mut Ui, shared: &Shared, edits: &mut Edits) {
+        ui.horizontal(|ui| {
+            widgets::name(ui, "Scenario");
+            let id = shared.documents().field(Documents::STUDY, "scenario").unwrap_or_default();
+            let root = shared.documents().root().to_owned();
+            let file = root.join(format!("scenarios/{id}.toml"));
+            if self.named.0 != file {
+                self.named = (file.clone(), files::name_of(&file).unwrap_or(id));
+            }
+            let list = || files_by_subject(&root, What::Scenario);
+            let (width, present) = (ui.available_width() - 12.0, (Some(&*file), &*self.named.1));
+            let chosen = self.files.show(ui, ("study scenario", width), present, list);
+            if let Some(file) = chosen {
+                edits.push(("scenario".into(), Some(Setting::text(&files::stem(&file)))));
+            }
+        });
+    }
 }
 
 /// Ids of the options, in the order of the file.
