@@ -192,6 +192,8 @@ pub(crate) const FORMER_CONFIDENCE: &str = "sureness";
 pub enum Confidence {
     /// Measured, or stated as measured by its source.
     Measured,
+    /// Published by a maker, a dealer or a handbook, which does not describe the measurement.
+    Catalogue,
     /// Computed from measured figures.
     Derived,
     /// An engineering estimate, from similar cases.
@@ -205,10 +207,12 @@ impl Confidence {
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Words of figures; an assumption has no source, which a figure needs.
-    pub(crate) const OF_FIGURES: [&'static str; 3] = ["measured", "derived", "estimate"];
+    pub(crate) const OF_FIGURES: [&'static str; 4] =
+        ["measured", "catalogue", "derived", "estimate"];
 
     /// Words of distributions.
-    pub(crate) const OF_PRIORS: [&'static str; 4] = ["measured", "derived", "estimate", "assumed"];
+    pub(crate) const OF_PRIORS: [&'static str; 5] =
+        ["measured", "catalogue", "derived", "estimate", "assumed"];
 
     /// Its word in files.
     pub fn word(self) -> &'static str {

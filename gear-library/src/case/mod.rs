@@ -124,7 +124,7 @@ impl Case {
 
 /// Checks that the expected values have a source and a confidence.
 fn check_provenance(fields: &Fields<'_>, file: &Provenance) {
-    let help = "write the source of the expected values, and whether they are measured, derived or estimate";
+    let help = "write the source of the expected values, and whether they are measured, catalogue, derived or estimate";
     if file.source.is_none() {
         fields.missing("source", help);
     }

@@ -74,7 +74,7 @@ impl Observation {
             fields.missing("source", "write the source of the observation");
         }
         if file.confidence.is_none() {
-            fields.missing("confidence", "write measured, derived or estimate");
+            fields.missing("confidence", "write measured, catalogue, derived or estimate");
         }
         let encounters = fields.text("encounters");
         let whale = fields.text("whale");

@@ -121,7 +121,7 @@ fn a_figure_needs_source_and_confidence() {
         11,
         68,
         "density.confidence",
-        &["expected one of measured, derived, estimate"],
+        &["expected one of measured, catalogue, derived, estimate"],
     );
 }
 

@@ -30,15 +30,27 @@ pub struct Pace {
     pub encounters: u32,
     sum_s: f64,
     squares_s2: f64,
+    contact: ContactTime,
+}
+
+/// Simulated time in contact, on which most of the processing time is spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactTime {
+    /// Of one encounter, or the sum over several [s].
+    pub spent_s: f64,
+    /// Greatest time that the rules allow in one encounter; 0 without such rules [s].
+    pub longest_s: f64,
 }
 
 impl Pace {
     /// Adds an encounter.
-    pub fn add(&mut self, took: Duration) {
+    pub fn add(&mut self, took: Duration, contact: ContactTime) {
         let took_s = took.as_secs_f64();
         self.encounters += 1;
         self.sum_s += took_s;
         self.squares_s2 += took_s * took_s;
+        self.contact.spent_s += contact.spent_s;
+        self.contact.longest_s = self.contact.longest_s.max(contact.longest_s);
     }
 
     /// Mean time of an encounter; `None` before the first [s].
@@ -46,15 +58,41 @@ impl Pace {
         (self.encounters > 0).then(|| self.sum_s / f64::from(self.encounters))
     }
 
-    /// Factor by which the true mean may be greater or smaller, by two standard errors; `None` for fewer than three encounters.
-    /// Times have a long tail, so that the range is one of ratios.
+    /// Factor by which the true mean may be greater or smaller; `None` for fewer than three encounters, or before the first contact if
+    /// the rules limit its time. Times have a long tail, so that the range is one of ratios.
+    ///
+    /// It is `1 + max(2 s / (m √n), 3 L / C)`: n encounters with mean m and standard deviation s, time in contact C of all of them, and
+    /// its greatest value L in one. The second term is for encounters that last longest: where none of n does, their share may still be
+    /// 3 / n with 95 % confidence (rule of three), and each takes L n / C times the mean if processing time follows time in contact.
     pub fn factor(&self) -> Option<f64> {
+        Some(1.0 + self.spread()?.max(self.unseen()?))
+    }
+
+    /// Number of encounters after which that factor is expected to be at most `factor`.
+    pub fn encounters_for(&self, factor: f64) -> Option<f64> {
+        let excess = factor - 1.0;
+        debug_assert!(excess > 0.0);
+        let by_spread = (self.spread()? / excess).powi(2);
+        Some(f64::from(self.encounters) * by_spread.max(self.unseen()? / excess))
+    }
+
+    /// Two standard errors of the mean time, in means.
+    fn spread(&self) -> Option<f64> {
         let (count, mean_s) = (f64::from(self.encounters), self.mean_s()?);
         if self.encounters < 3 || mean_s <= 0.0 {
             return None;
         }
         let variance = (self.squares_s2 - count * mean_s * mean_s).max(0.0) / (count - 1.0);
-        Some(1.0 + 2.0 * (variance / count).sqrt() / mean_s)
+        Some(2.0 * (variance / count).sqrt() / mean_s)
+    }
+
+    /// Greatest share that encounters of the greatest length can add to the mean if none is among those timed.
+    fn unseen(&self) -> Option<f64> {
+        let ContactTime { spent_s, longest_s } = self.contact;
+        if longest_s <= 0.0 {
+            return Some(0.0);
+        }
+        (spent_s > 0.0).then(|| 3.0 * longest_s / spent_s)
     }
 }
 
@@ -239,10 +277,10 @@ impl Control {
     }
 
     /// Counts an encounter that took this time of a thread.
-    pub(crate) fn encounter_done(&self, took: Duration) {
+    pub(crate) fn encounter_done(&self, took: Duration, contact: ContactTime) {
         self.note(|progress| {
             progress.encounters.done += 1;
-            progress.pace.add(took);
+            progress.pace.add(took, contact);
         });
     }
 
@@ -277,10 +315,31 @@ mod tests {
         let mut pace = Pace::default();
         assert_eq!((pace.mean_s(), pace.factor()), (None, None));
         for seconds in [1, 2, 6] {
-            pace.add(Duration::from_secs(seconds));
+            pace.add(Duration::from_secs(seconds), ContactTime::default());
         }
         let expected = 1.0 + 2.0 * (7.0_f64 / 3.0).sqrt() / 3.0;
         assert!((pace.mean_s().unwrap() - 3.0).abs() < 1e-12);
         assert!((pace.factor().unwrap() - expected).abs() < 1e-12);
+        // Four times as many encounters halve the standard error.
+        let half = 1.0 + 0.5 * (expected - 1.0);
+        assert!((pace.encounters_for(half).unwrap() - 12.0).abs() < 1e-9);
+    }
+
+    /// One encounter of 60 lasts 10 s in contact, the others 2 s; one of 600 s, of which none was seen, may be 3 of 60.
+    #[test]
+    fn the_range_covers_long_encounters_that_were_not_seen() {
+        let mut pace = Pace::default();
+        let contact = |spent_s| ContactTime { spent_s, longest_s: 600.0 };
+        for _ in 0..3 {
+            pace.add(Duration::from_secs(1), contact(0.0));
+        }
+        assert_eq!(pace.factor(), None);
+        for _ in 3..59 {
+            pace.add(Duration::from_secs(1), contact(2.0));
+        }
+        pace.add(Duration::from_secs(1), contact(8.0));
+        let mean_with_unseen = (60.0 * 1.0 + 3.0 * 600.0 * 60.0 / 120.0) / 60.0;
+        assert!((pace.factor().unwrap() - mean_with_unseen).abs() < 1e-9);
+        assert!((pace.encounters_for(1.5).unwrap() - 60.0 * 15.0 / 0.5).abs() < 1e-9);
     }
 }

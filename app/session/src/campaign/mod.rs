@@ -15,7 +15,7 @@ pub mod job;
 pub(crate) mod leases;
 pub mod pool;
 
-pub use control::{Control, Count, Pace, Progress};
+pub use control::{ContactTime, Control, Count, Pace, Progress};
 pub use job::{Job, State};
 pub use leases::{Worker, workers};
 pub use pool::Shard;

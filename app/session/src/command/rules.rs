@@ -2,10 +2,13 @@
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
 
+use std::path::{Path, PathBuf};
+
 use strum::{EnumDiscriminants, EnumMessage, IntoStaticStr};
 
-use super::Info;
 use super::info::{has_verdicts, require};
+use super::{Command, FileQuestion, Info, Make};
+use crate::compliance::can_print;
 use crate::workbench::{RuleQuestion, Workbench};
 
 /// An action on rules.
@@ -29,6 +32,9 @@ pub enum RuleAction {
     /// Writes one page on the assembly checked for a hearing: its shape, rules, strength, hauling and what is not known.
     #[strum_discriminants(strum(message = "Write the compliance sheet"))]
     Sheet,
+    /// Saves the last compliance sheet under a name: as HTML, or printed by an installed browser if the name ends in `.pdf`.
+    #[strum_discriminants(strum(message = "Save the compliance sheet as HTML or PDF"))]
+    SaveSheet(PathBuf),
 }
 
 /// The actions on rules, declared.
@@ -51,6 +57,25 @@ pub(super) fn commands() -> Vec<Info> {
         Info::values(RuleVerb::Ask, "assembly, area, day, depth, distance, traps"),
         Info::values(RuleVerb::Compare, "rules").only_if(has_verdicts),
         Info::plain(RuleAction::Sheet).only_if(has_verdicts),
+        Info::of(
+            RuleVerb::SaveSheet,
+            Make::File {
+                question: |workbench| {
+                    let page = workbench.rules.page().and_then(Path::file_stem);
+                    let stem = page.unwrap_or_default().to_string_lossy();
+                    let extension = if can_print() { "pdf" } else { "html" };
+                    FileQuestion::write("sheet", &["pdf", "html"], format!("{stem}.{extension}"))
+                },
+                command: |_, file| Command::Rules(RuleAction::SaveSheet(file)),
+            },
+        )
+        .only_if(|workbench| {
+            require(workbench.rules.page().is_some(), "write the compliance sheet first")?;
+            require(
+                !workbench.sheet_is_outdated(),
+                "the gear, its place or the rules have changed since the sheet was written; write it again",
+            )
+        }),
     ]
 }
 
@@ -65,5 +90,6 @@ pub(super) fn perform(workbench: &mut Workbench, action: RuleAction) -> Result<(
         RuleAction::TakeAll => workbench.take_rule_edit(None),
         RuleAction::Compare(rules) => workbench.compare_rules(rules),
         RuleAction::Sheet => workbench.write_sheet(),
+        RuleAction::SaveSheet(file) => workbench.save_sheet(file),
     }
 }

@@ -192,6 +192,11 @@ pub fn print_pdf(html: &Path, pdf: &Path) -> Result<(), Error> {
     Err(failed(format!("{}: {}", output.status, said.lines().last().unwrap_or("it said nothing"))))
 }
 
+/// Whether a browser is installed that [`print_pdf`] can use.
+pub fn can_print() -> bool {
+    browser().is_some()
+}
+
 /// The browser chosen, or the first that is installed.
 fn browser() -> Option<PathBuf> {
     if let Some(chosen) = std::env::var_os(CHOICE) {

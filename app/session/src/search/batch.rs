@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
-use crate::campaign::control::Control;
+use crate::campaign::control::{ContactTime, Control};
 use crate::campaign::pool::Shard;
 use crate::campaign::pool::{self, Failure, Next, POLL, Work};
 use crate::error::Error;
@@ -149,7 +149,7 @@ impl<R: Fn(usize, u32) -> RunEnding + Sync> Work for Runs<'_, R> {
     fn run(&self, (place, number): (usize, u32)) -> Result<bool, Error> {
         let start = Instant::now();
         let ended = (self.one)(place, number);
-        self.control.encounter_done(start.elapsed());
+        self.control.encounter_done(start.elapsed(), ContactTime::default());
         let is_complete = {
             let mut own = lock(&self.own[place]);
             own.runs.insert(number, ended);

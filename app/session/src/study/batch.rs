@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use crate::campaign::control::{Control, Count, Progress};
+use crate::campaign::control::{ContactTime, Control, Count, Progress};
 use crate::campaign::leases::{self, Lease, Leases};
 use crate::campaign::pool::Shard;
 use crate::campaign::pool::{self, Next, Work};
 use crate::error::Error;
+use crate::table::{Cell, Row};
 use crate::task::lock;
 
 use super::folder::{BLOCK, Folder};
@@ -76,6 +77,15 @@ fn count(total: usize, missing: usize) -> Count {
     Count { done: found, found, total: u32::try_from(total).unwrap_or(u32::MAX) }
 }
 
+/// Time in contact in the run of an encounter that has the longest [s].
+fn longest_contact_s(rows: &[Row]) -> f64 {
+    let contact = |row: &Row| match row.iter().find(|(name, _)| name == "contact_time_s")?.1 {
+        Cell::Real(contact_s) => contact_s,
+        _ => None,
+    };
+    rows.iter().filter_map(contact).fold(0.0, f64::max)
+}
+
 /// The missing blocks of a study.
 struct Blocks<'a> {
     opened: &'a PreparedStudy,
@@ -131,8 +141,10 @@ impl<'a> Work for Blocks<'a> {
             let Some(own) = self.opened.rows(drawn, &|| !self.control.is_cancelled()) else {
                 return Ok(false);
             };
+            let longest_s = self.opened.study.run.held_s;
+            let contact = ContactTime { spent_s: longest_contact_s(&own), longest_s };
+            self.control.encounter_done(start.elapsed(), contact);
             rows.extend(own);
-            self.control.encounter_done(start.elapsed());
         }
         self.folder.write(lease.block, rows)?;
         self.control.block_done();

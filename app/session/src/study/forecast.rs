@@ -2,7 +2,7 @@
 //!
 //! | figure | from |
 //! |---|---|
-//! | time | mean time of an encounter times the encounters that are left; the range is two standard errors of the mean, as a factor |
+//! | time | mean time of an encounter times the encounters that are left; the range is a factor ([`Pace::factor`]) |
 //! | encounters for a difference | the rate of the study's event with the baseline (`stats/verdict.rs`) |
 //! | encounters for a band | `n = p (1 - p) (1.96 / d)²` whales with the event for a share `p = 0.3` known to `±d = 0.05`: 323 |
 //!
@@ -28,6 +28,9 @@ use super::{batch, results};
 
 /// Half-width of the band about a share of held whales.
 const BAND: f64 = 0.05;
+
+/// Factor within which a forecast of the time is useful.
+pub const USEFUL_FACTOR: f64 = 1.5;
 
 /// The forecast of a study.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -59,6 +62,8 @@ pub struct Cost {
     pub encounter_s: f64,
     /// Factor by which it may be greater or smaller; `None` for fewer than three encounters.
     pub factor: Option<f64>,
+    /// Number of timed encounters after which that factor is expected to be at most 1.5.
+    pub for_useful_factor: Option<f64>,
     /// Encounters that are left.
     pub left: u64,
 }
@@ -71,7 +76,13 @@ impl Cost {
 
     fn of(pace: &Pace, left: u64) -> Option<Self> {
         let encounter_s = pace.mean_s()?;
-        Some(Self { timed: pace.encounters, encounter_s, factor: pace.factor(), left })
+        Some(Self {
+            timed: pace.encounters,
+            encounter_s,
+            factor: pace.factor(),
+            for_useful_factor: pace.encounters_for(USEFUL_FACTOR),
+            left,
+        })
     }
 }
 
@@ -140,6 +151,7 @@ pub fn duration_words(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::ContactTime;
 
     /// 10 of 200 encounters with the event, of equal weight, none newly: 323 whales for the band.
     #[test]
@@ -163,7 +175,7 @@ mod tests {
         let mut pace = Pace::default();
         assert_eq!(Cost::of(&pace, 10), None);
         for seconds in [2.0, 4.0, 6.0] {
-            pace.add(Duration::from_secs_f64(seconds));
+            pace.add(Duration::from_secs_f64(seconds), ContactTime::default());
         }
         let cost = Cost::of(&pace, 100).unwrap();
         assert!((cost.left_s() - 400.0).abs() < 1e-9 && cost.factor.unwrap() > 1.0);

@@ -11,8 +11,9 @@ use endline_gear::{Date, Sources};
 
 use super::Workbench;
 use super::notice::Notice;
-use crate::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S};
+use crate::compliance::{ComplianceSheet, Request, USUAL_TIDE_M_S, print_pdf};
 use crate::edit::Documents;
+use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::rules::remedy::{self, Asked, Proposal, Remedies};
 use crate::rules::study::{self, USUAL_LIKE};
@@ -114,6 +115,7 @@ pub struct RuleChecks {
     comparing: Task<Result<String, String>>,
     sheet: Option<WrittenSheet>,
     writing: Task<Result<WrittenSheet, String>>,
+    saving: Task<Result<PathBuf, String>>,
 }
 
 impl RuleChecks {
@@ -130,6 +132,11 @@ impl RuleChecks {
     /// Whether a compliance sheet is being written.
     pub fn writing(&self) -> bool {
         self.writing.busy()
+    }
+
+    /// Whether the compliance sheet is being saved under a name.
+    pub fn saving(&self) -> bool {
+        self.saving.busy()
     }
 
     /// The page of the compliance sheet written last.
@@ -229,6 +236,15 @@ impl Workbench {
         if let Some(page) = self.rules.writing.poll() {
             let page = page.unwrap_or_else(|Fault| Err(fault("writing the sheet")));
             self.take_sheet(page);
+        }
+        if let Some(saved) = self.rules.saving.poll() {
+            let saved = saved.unwrap_or_else(|Fault| Err(fault("saving the sheet")));
+            self.notice = Some(match saved {
+                Ok(file) => {
+                    Notice::done(format!("the compliance sheet is saved as {}", file.display()))
+                }
+                Err(why) => Notice::fault(why),
+            });
         }
         if let Some(text) = self.rules.comparing.poll() {
             let text = text.unwrap_or_else(|Fault| Err(fault("making the study")));
@@ -344,12 +360,32 @@ impl Workbench {
         started.map_err(|error| error.to_string())
     }
 
+    /// Saves the sheet written last: as it is, or printed if the file's name ends in `.pdf`.
+    pub(crate) fn save_sheet(&mut self, file: PathBuf) -> Result<(), String> {
+        let page = self.rules.page().ok_or("no compliance sheet was written")?.to_owned();
+        let prints =
+            file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pdf"));
+        let work = move || {
+            let saved = if prints { print_pdf(&page, &file) } else { copied(&page, &file) };
+            saved.map(|()| file).map_err(|error| error.to_string())
+        };
+        let started = self.rules.saving.start("endline-sheet-file", work, Arc::clone(&self.waker));
+        started.map_err(|error| error.to_string())
+    }
+
     fn open_rule_study(&mut self, text: &str) -> Result<PathBuf, String> {
         let stem = format!("{}-rules", self.rules.question.assembly);
         let path = self.project.documents.new_study(&stem, text)?;
         self.open_study(&path)?;
         Ok(path)
     }
+}
+
+/// Writes a copy of a page.
+fn copied(page: &Path, file: &Path) -> Result<(), Error> {
+    let at = |place: &Path, error: std::io::Error| Error::at(place, error.to_string());
+    let bytes = endline_gear::read::bytes(page).map_err(|error| at(page, error))?;
+    save::atomically(file, &bytes).map_err(|error| at(file, error))
 }
 
 /// Writes a sheet, named by its gear, area and day; answers where it is.

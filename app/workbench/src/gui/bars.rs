@@ -55,6 +55,7 @@ pub static MENUS: [(&str, &[Item]); 4] = [
                     "panel.model-stl",
                     "panel.model-gltf",
                     "rules.sheet",
+                    "rules.save-sheet",
                     "study.save-bundle",
                     "export.recording",
                 ],

@@ -160,6 +160,10 @@ fn a_button_writes_the_compliance_sheet_for_the_question_on_screen() {
         ["Open it", "Open the outdated sheet"].map(|label| harness.query_by_label(label).is_some())
     };
     assert_eq!(offered(&harness), [true, false]);
+    let copy = folder.0.join("for the hearing.html");
+    give(&mut harness, RuleAction::SaveSheet(copy.clone()));
+    wait(&mut harness, |app| !app.shared.workbench.rules().saving());
+    assert_eq!(std::fs::read_to_string(&copy).unwrap(), text);
     give(&mut harness, RuleAction::TakeAll);
     wait_for_edits(&mut harness);
     assert_eq!(offered(&harness), [false, true], "the gear has been edited since");

@@ -5,7 +5,7 @@ use endline_session::campaign::Count;
 use endline_session::encounters::{Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
-use endline_session::study::forecast::{Cost, Forecast, duration_words};
+use endline_session::study::forecast::{Cost, Forecast, USEFUL_FACTOR, duration_words};
 use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
     Change, Findings, Interval, Rate, answer, observed, resolution, rounded,
@@ -132,8 +132,15 @@ fn time(cost: Option<&Cost>, threads: usize) -> String {
         })
     };
     let (whole_s, count) = (cost.left_s(), threads as f64);
+    let more = match (cost.factor, cost.for_useful_factor) {
+        (Some(factor), Some(number)) if factor > USEFUL_FACTOR => format!(
+            "; about {} timed encounters narrow the range to a factor of {USEFUL_FACTOR}",
+            rounded(number)
+        ),
+        _ => String::new(),
+    };
     format!(
-        "{:.1} s of a core for each of {} timed encounters; {} left take {} of a core{}, {} on {threads} threads",
+        "{:.1} s of a core for each of {} timed encounters; {} left take {} of a core{}, {} on {threads} threads{more}",
         cost.encounter_s,
         cost.timed,
         cost.left,

@@ -109,7 +109,7 @@ fn in_contact(ago_s: Option<f64>) -> String {
 pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
     match confidence {
         Confidence::Measured => palette.good,
-        Confidence::Derived => palette.accent,
+        Confidence::Catalogue | Confidence::Derived => palette.accent,
         Confidence::Estimate | Confidence::Assumed => palette.warning,
     }
 }

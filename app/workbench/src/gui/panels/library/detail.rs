@@ -101,7 +101,7 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str
         (
             "Confidence",
             "confidence",
-            "measured, derived or estimate; for figures without their own confidence",
+            "measured, catalogue, derived or estimate; for figures without their own confidence",
         ),
     ];
     Grid::new("entry-words").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {

@@ -10,7 +10,7 @@ use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets::{self, words};
 
 /// Meaning of the levels of confidence.
-const LEVELS: &str = "measured: a measurement, or published as one\nderived: computed from measured figures\nestimate: from similar items";
+const LEVELS: &str = "measured: a measurement, or published as one\ncatalogue: published by a maker, a dealer or a handbook\nderived: computed from measured figures\nestimate: from similar items";
 
 /// Edited field and its new text.
 type Edit = (String, String);
@@ -63,7 +63,8 @@ fn confidence(ui: &mut Ui, field: &Field, figure: &Figure, palette: Palette) -> 
     let list = egui::ComboBox::from_id_salt(("confidence", field.key)).width(72.0);
     list.selected_text(word(chosen))
         .show_ui(ui, |ui| {
-            for sure in [Confidence::Measured, Confidence::Derived, Confidence::Estimate] {
+            for sure in Confidence::ALL.iter().copied().filter(|sure| *sure != Confidence::Assumed)
+            {
                 ui.selectable_value(&mut chosen, sure, word(sure));
             }
         })

@@ -218,8 +218,8 @@ fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str)
     committed.map(|value| (path.to_owned(), key, value))
 }
 
-/// Draws the confidence of a figure as a letter in the corner of its cell: m measured, d derived, e estimate, or a question mark for a
-/// typed value without a source.
+/// Draws the confidence of a figure as a letter in the corner of its cell: m measured, c catalogue, d derived, e estimate, or a question
+/// mark for a typed value without a source.
 fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
     let entry =
         shared.workbench.project().documents.library().entry(kind, library_table::id_of(path));

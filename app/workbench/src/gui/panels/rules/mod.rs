@@ -168,6 +168,11 @@ fn sheet(ui: &mut Ui, shared: &mut Shared, palette: Palette) {
     if ui.button(text).on_hover_text(help).clicked() {
         shared.give(WindowAction::OpenFolder(page));
     }
+    if shared.workbench.rules().saving() {
+        ui.label(RichText::new("saving the sheet …").color(palette.faint));
+        return;
+    }
+    command(ui, shared, "Save sheet as …", WindowAction::Ask("rules.save-sheet"));
 }
 
 /// Rules in the order of the table: failures first, rules that do not apply last or omitted.

@@ -285,7 +285,8 @@ pub(super) fn show_case(ui: &mut Ui, text: &mut Typed, shared: &mut Shared, edit
         said("observer, publication", "Observer and publication"),
         edits,
     );
-    let known = ["measured", "derived", "estimate"].map(|word| (word.to_owned(), word.to_owned()));
+    let known = ["measured", "catalogue", "derived", "estimate"]
+        .map(|word| (word.to_owned(), word.to_owned()));
     choice(ui, shared, ("Confidence", "confidence"), &known, edits);
     let whales = &shared.documents().library().whales;
     let whales = whales.iter().map(|whale| (whale.entry.id.clone(), whale.entry.name.clone()));

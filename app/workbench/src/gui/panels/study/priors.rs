@@ -252,9 +252,10 @@ fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
         }
         if !assumed {
             let field = format!("{at}.confidence");
-            let words: Vec<(String, String)> = ["measured", "derived", "estimate", "assumed"]
-                .map(|word| (word.to_owned(), word.to_owned()))
-                .to_vec();
+            let words: Vec<(String, String)> =
+                ["measured", "catalogue", "derived", "estimate", "assumed"]
+                    .map(|word| (word.to_owned(), word.to_owned()))
+                    .to_vec();
             if let Some(word) =
                 fields::choose(ui, shared.documents(), Documents::STUDY, &field, &words, 88.0)
             {
