@@ -65,4 +65,5 @@ pub use study::{
     Adapt, Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
     ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study,
     StudyEvent, StudyOption, Target, ThreatLabels, ThreatRow, library_field, prior_words,
+    referenced_folder,
 };

@@ -71,6 +71,21 @@ pub const ROPE_NODES: Limit = Limit {
 };
 /// Parts of gear in a scenario: bodies, joints, lines and links together.
 pub const PARTS: Limit = count_of(1.0, 10_000.0, "each part is found by name and drawn", "");
+/// Gears of a field.
+pub const FIELD: Limit = count_of(
+    1.0,
+    1_000.0,
+    "the parts of all gears are assembled and brought to rest one after the other",
+    "write a smaller field, such as 10 columns in 10 rows",
+);
+/// Least distance, and displacement, of gears of a field.
+pub const FIELD_LENGTH: Limit = Limit {
+    quantity: Quantity::Length,
+    least: 0.0,
+    most: 1e5,
+    why: "a field is a fishing ground, not a sea",
+    correction: "write a length such as \"20 m\"",
+};
 /// Seed of random draws.
 pub const SEED: Limit = count_of(
     0.0,

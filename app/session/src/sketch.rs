@@ -28,7 +28,8 @@ impl Sketch {
     /// Sketch of a scenario and its assembly.
     pub fn of_scenario(root: &Path, scenario: &Document) -> Self {
         let whale = scenario.has("whale");
-        let id = scenario.get("gear.0.assembly");
+        let id =
+            ["gear.0.assembly", "field.0.assembly"].iter().find_map(|field| scenario.get(field));
         let assembly = id.and_then(|id| read(&root.join(format!("assemblies/{id}.toml"))));
         let gear = assembly.map(|assembly| Self::of_assembly(root, &assembly)).unwrap_or_default();
         Self { whale, ..gear }

@@ -32,6 +32,7 @@ use crate::strength::StrengthBudget;
 use builder::Builder;
 
 pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
+pub(crate) use strength::uniform;
 
 /// The available plugins, by id.
 pub trait Hooks {

@@ -291,7 +291,7 @@ pub(super) fn normal([one, other]: [f64; 2]) -> f64 {
 }
 
 /// Two independent random numbers between 0 and 1, by their purpose, seed, index and id.
-pub(super) fn uniform(purpose: &'static str, seed: u64, index: u64, id: &str) -> [f64; 2] {
+pub(crate) fn uniform(purpose: &'static str, seed: u64, index: u64, id: &str) -> [f64; 2] {
     let mut hasher = blake3::Hasher::new_derive_key(purpose);
     hasher.update(&seed.to_le_bytes()).update(&index.to_le_bytes()).update(id.as_bytes());
     let bytes = hasher.finalize();

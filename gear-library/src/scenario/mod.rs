@@ -1,5 +1,6 @@
 //! The scenario document: sea, gear, whale, fixtures and probes of one run.
 
+mod field;
 mod gear;
 mod parts;
 mod sea;
@@ -119,12 +120,15 @@ impl Scenario {
         let resolution = fields.table("resolution");
         let start = fields.choice("start", &[("rest", false), ("placed", true)]);
         let flag = |key, usual| fields.flag(key).unwrap_or(usual);
+        let seed = fields.count("seed", &limits::SEED).map_or(1, |seed| seed.value);
+        let mut gear = fields.each("gear", gear::placed_gear);
+        gear.extend(fields.each("field", |table| field::read(table, seed)).into_iter().flatten());
         let scenario = Self {
             name,
             notes,
             place: node.place.clone(),
             duration_s: duration.map_or(60.0, |duration| duration.value),
-            seed: fields.count("seed", &limits::SEED).map_or(1, |seed| seed.value),
+            seed,
             step_s: step(&fields),
             auto_step: is_auto(&fields),
             contact_step_s: seconds(&fields, "contact_step"),
@@ -149,7 +153,7 @@ impl Scenario {
             rope_bending: flag("rope_bending", false),
             strength_variation: flag("strength_scatter", true),
             sea: sea::read(&fields),
-            gear: fields.each("gear", gear::placed_gear),
+            gear,
             resolution: resolution.map(|table| gear::resolution(&table, whale.is_some())),
             whale: whale.as_ref().and_then(PlacedWhale::read),
             friction: fields.inside("friction", whale::friction).flatten(),

@@ -22,7 +22,7 @@ pub use comparison::{Claim, Discretisation, ObservedRoutes, ObservedShare};
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
 pub(crate) use option::texts;
 pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow, library_field};
-pub use prior::{Law, Level, Prior, Target, prior_words};
+pub use prior::{Law, Level, Prior, Target, prior_words, referenced_folder};
 
 /// Greatest number of encounters: the number of points of the Sobol sequence.
 pub const MOST_ENCOUNTERS: u64 = limits::ENCOUNTERS.most as u64;

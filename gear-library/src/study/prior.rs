@@ -85,6 +85,23 @@ pub fn prior_words(name: &str) -> String {
     parts.map(spoken).collect::<Vec<_>>().join(" ")
 }
 
+/// The folder of the gear library from which a field of a scenario takes an item: `assemblies` for `gear.0.assembly`; `None` for other
+/// fields.
+pub fn referenced_folder(field: &str) -> Option<&'static str> {
+    let parts: Vec<&str> = field.split('.').filter(|part| part.parse::<usize>().is_err()).collect();
+    match parts[..] {
+        [.., "assembly"] => Some("assemblies"),
+        [.., "rope" | "upper_rope" | "lower_rope" | "groundline" | "bridle_rope"] => Some("ropes"),
+        [.., "trap"] => Some("traps"),
+        [.., "buoy"] => Some("buoys"),
+        [.., "anchor"] => Some("anchors"),
+        [.., "weak_link" | "panel_link"] | ["link", "item"] => Some("weak-links"),
+        ["whale", "item"] => Some("whales"),
+        ["site", "item"] => Some("sites"),
+        _ => None,
+    }
+}
+
 /// Reads the remaining tables of `[encounter]`, sorted by name.
 pub(super) fn read_all(fields: &Fields<'_>) -> Vec<Prior> {
     let mut priors: Vec<Prior> = fields

@@ -111,6 +111,8 @@ pub struct Progress {
     worked: Duration,
     /// When work began or was resumed; `None` while it is paused or has ended.
     since: Option<Instant>,
+    /// When the last encounter ended.
+    ended: Option<Instant>,
 }
 
 impl Progress {
@@ -127,6 +129,13 @@ impl Progress {
     pub fn left_range(&self) -> Option<[Duration; 2]> {
         let (left, factor) = (self.left()?, self.pace.factor()?);
         Some([left.div_f64(factor), left.mul_f64(factor)])
+    }
+
+    /// Time for which the encounters in progress have run since the last one ended, or since work began or was resumed; `None` while
+    /// none runs.
+    pub fn since_last(&self) -> Option<Duration> {
+        let began = self.since?;
+        Some(self.ended.map_or(began, |ended| ended.max(began)).elapsed())
     }
 
     /// Share of the encounters that are done, 0 to 1.
@@ -280,6 +289,7 @@ impl Control {
     pub(crate) fn encounter_done(&self, took: Duration, contact: ContactTime) {
         self.note(|progress| {
             progress.encounters.done += 1;
+            progress.ended = Some(Instant::now());
             progress.pace.add(took, contact);
         });
     }

@@ -12,6 +12,7 @@ use super::{Command, Info};
 use crate::edit::Documents;
 use crate::edit::library_table::id_of;
 use crate::locate;
+use crate::study::queue::Part;
 use crate::workbench::Workbench;
 
 /// An action on studies.
@@ -34,6 +35,9 @@ pub enum StudyAction {
     /// Runs what is missing of the open study behind everything else on the machine, on the texts as they stand in the window. Saves nothing.
     #[strum_discriminants(strum(message = "Run the study"))]
     Run,
+    /// Runs the next twelve encounters of the open study, and forecasts how long the others take. They remain part of the study.
+    #[strum_discriminants(strum(message = "Forecast the time of the study"))]
+    Forecast,
     /// Pauses the study after the encounters in progress, or resumes it.
     #[strum_discriminants(strum(message = "Pause or resume the study"))]
     Pause,
@@ -105,10 +109,8 @@ pub(super) fn commands() -> Vec<Info> {
             }),
         )
         .only_if(study_opened),
-        Info::plain(StudyAction::Run).only_if(|workbench| {
-            study_opened(workbench)?;
-            require(workbench.study_is_sound(), "study or gear have errors; see Problems")
-        }),
+        Info::plain(StudyAction::Run).only_if(study_can_run),
+        Info::plain(StudyAction::Forecast).only_if(study_can_run),
         Info::plain(StudyAction::Pause).only_if(study_at_work),
         Info::plain(StudyAction::Cancel).only_if(study_at_work),
         Info::values(StudyVerb::PauseJob, "its file"),
@@ -140,6 +142,11 @@ pub(super) fn commands() -> Vec<Info> {
     ]
 }
 
+fn study_can_run(workbench: &Workbench) -> Result<(), String> {
+    study_opened(workbench)?;
+    require(workbench.study_is_sound(), "study or gear have errors; see Problems")
+}
+
 fn open(path: PathBuf) -> Command {
     Command::Study(StudyAction::Open(path))
 }
@@ -153,7 +160,8 @@ pub(super) fn perform(workbench: &mut Workbench, action: StudyAction) -> Result<
         StudyAction::OptionWithAssembly(id) => {
             workbench.add_option(|documents| documents.option_with_assembly(&id))
         }
-        StudyAction::Run => workbench.queue_study(),
+        StudyAction::Run => workbench.queue_study(Part::Whole),
+        StudyAction::Forecast => workbench.queue_study(Part::Forecast),
         StudyAction::Pause => workbench.pause_study(),
         StudyAction::Cancel => workbench.cancel_study(),
         StudyAction::PauseJob(file) => workbench.pause_job(&file),

@@ -99,9 +99,7 @@ impl Documents {
 
     /// Texts that are edited, the scenario, and the assemblies that it places.
     fn design(&self) -> BTreeSet<String> {
-        let placed = (0..)
-            .map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")))
-            .map(|id| format!("assemblies/{id}.toml"));
+        let placed = self.placed_assemblies().map(|id| format!("assemblies/{id}.toml"));
         let all = self.unsaved().iter().cloned().chain([Self::SCENARIO.to_owned()]).chain(placed);
         all.filter(|key| self.text(key).is_some()).collect()
     }

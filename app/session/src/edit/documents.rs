@@ -247,13 +247,20 @@ impl Documents {
         Document::parse(text).map_err(|error| format!("{path}: {error}"))
     }
 
+    /// Ids of the assemblies that the scenario places, singly and then in fields.
+    pub fn placed_assemblies(&self) -> impl Iterator<Item = String> {
+        ["gear", "field"].into_iter().flat_map(move |table| {
+            let of = move |index: u32| format!("{table}.{index}.assembly");
+            (0..).map_while(move |index| self.field(Self::SCENARIO, &of(index)))
+        })
+    }
+
     /// Whether the scenario or one of its assemblies names a library file by its id.
     pub fn in_use(&self, path: &str) -> bool {
         let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
         let named = format!("\"{id}\"");
-        let assemblies =
-            (0..).map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")));
-        let files = assemblies
+        let files = self
+            .placed_assemblies()
             .map(|assembly| format!("assemblies/{assembly}.toml"))
             .chain([Self::SCENARIO.to_owned()]);
         files.filter_map(|file| self.text(&file)).any(|text| text.contains(&named))

@@ -1,9 +1,11 @@
 //! The figures of two runs side by side, with their differences, as plain data.
 
+use endline_sim::model::{Model, Whale};
+
 use super::View::Compare;
 use super::{
-    Figure, LINE, Line, MOMENT, PART, Part, Value, WHALE, lines as lines_of, parts as parts_of,
-    shown,
+    Figure, LINE, Line, MOMENT, PART, Part, Quantity, Value, WHALE, lines as lines_of,
+    parts as parts_of, shown,
 };
 use crate::live::LiveView;
 use crate::units::Units;
@@ -36,12 +38,91 @@ pub fn groups(a: &LiveView, b: &LiveView, units: Units) -> Vec<Group> {
     let moment = shown(MOMENT, Compare).map(|figure| row(figure, [Some(a), Some(b)], units, ""));
     let whale = if whales == [None, None] { Vec::new() } else { whale.collect() };
     let all = [
+        ("Set-up", set_up([a, b], units)),
         ("Whale", whale),
         ("Lines", lines([a, b], units)),
         ("Parts of the whale", parts([a, b], units)),
         ("At the moment shown", moment.collect()),
     ];
     all.into_iter().filter(|(_, rows)| !rows.is_empty()).collect()
+}
+
+/// Inputs of both runs: the animal always, and the others that differ.
+fn set_up(views: [&LiveView; 2], units: Units) -> Vec<Row> {
+    let rows = SET_UP.iter().map(|(figure, is_shown)| {
+        let values = views.map(|view| (figure.read)(&view.model));
+        let is_known = values.iter().any(|value| *value != Value::Absent);
+        (is_known && (*is_shown || values[0] != values[1]))
+            .then(|| row(figure, views.map(|view| Some(&*view.model)), units, ""))
+    });
+    rows.flatten().collect()
+}
+
+/// Inputs of a run, each with whether it is shown where it does not differ.
+const SET_UP: [(Figure<Model>, bool); 8] = [
+    (
+        input("whale, length", "From the snout to the fluke notch", Quantity::Length, |model| {
+            of_whale(model, |whale| whale.length_m.into())
+        }),
+        true,
+    ),
+    (
+        input("whale, motion", "The plugin that moves the whale", Quantity::Name, |model| {
+            of_whale(model, |whale| (&*whale.motion.descriptor().name).into())
+        }),
+        false,
+    ),
+    (
+        input("whale, speed at the start", "Speed through the water", Quantity::Speed, |model| {
+            of_whale(model, |whale| whale.speed_m_s.into())
+        }),
+        false,
+    ),
+    (
+        input("whale feels the rope", "Whether rope moves the whale", Quantity::Flag, |model| {
+            of_whale(model, |whale| whale.kinetic.is_some().into())
+        }),
+        false,
+    ),
+    (
+        input("friction on skin", "The plugin of its law", Quantity::Name, |model| {
+            let law = model.spec.friction.as_ref().and_then(|friction| friction.laws.first());
+            law.map_or(Value::Absent, |law| (&*law.model.descriptor().name).into())
+        }),
+        false,
+    ),
+    (
+        input("depth of the water", "At the origin", Quantity::Depth, |model| {
+            model.spec.water.depth_m.into()
+        }),
+        true,
+    ),
+    (
+        input("current", "At the surface, at the start", Quantity::Speed, |model| {
+            model.spec.water.current.at(1.0, 0.0).length().into()
+        }),
+        true,
+    ),
+    (
+        input("length of rope", "Of all lines, unstretched", Quantity::Length, |model| {
+            let lines = model.spec.lines.iter();
+            lines.flat_map(|line| &line.segments_m).sum::<f64>().into()
+        }),
+        true,
+    ),
+];
+
+const fn input(
+    label: &'static str,
+    help: &'static str,
+    quantity: Quantity,
+    read: fn(&Model) -> Value,
+) -> Figure<Model> {
+    Figure::new("", label, help, quantity, read)
+}
+
+fn of_whale(model: &Model, read: fn(&Whale) -> Value) -> Value {
+    model.spec.whale.as_ref().map_or(Value::Absent, read)
 }
 
 /// Lines of either run by id, in the order of the first.
@@ -126,7 +207,6 @@ fn difference(a: &Value, b: &Value, text: &impl Fn(&Value) -> String) -> String 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::Quantity;
 
     #[test]
     fn differences_carry_their_sign_and_what_reads_alike_is_the_same() {

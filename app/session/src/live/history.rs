@@ -19,11 +19,18 @@ pub enum Channel {
     Depth,
     /// Its speed through the water [m/s].
     Speed,
+    /// Place of its middle, to the east [m].
+    East,
+    /// Place of its middle, to the north [m].
+    North,
     /// Wraps on a part [turns].
     Wraps(BodyPart),
     /// Greatest sum of normal forces on a part since the sample before [N].
     Force(BodyPart),
 }
+
+/// Number of channels of the whole whale, which precede those of its parts.
+const WHOLE: usize = 4;
 
 impl Channel {
     /// Where it stands in a sample.
@@ -31,8 +38,10 @@ impl Channel {
         match self {
             Self::Depth => 0,
             Self::Speed => 1,
-            Self::Wraps(part) => 2 + part as usize,
-            Self::Force(part) => 2 + PARTS + part as usize,
+            Self::East => 2,
+            Self::North => 3,
+            Self::Wraps(part) => WHOLE + part as usize,
+            Self::Force(part) => WHOLE + PARTS + part as usize,
         }
     }
 }
@@ -59,7 +68,9 @@ impl Watch {
         let Some((whale, summary)) = run.state().whale.as_ref().zip(run.summary().whale) else {
             return Vec::new();
         };
-        let mut sample = vec![-whale.position.z, whale.speed_m_s];
+        let place = whale.position;
+        let mut sample = vec![-place.z, whale.speed_m_s, place.x, place.y];
+        debug_assert_eq!(sample.len(), WHOLE);
         sample.extend(summary.regions.iter().map(|region| region.wraps));
         sample.extend(peak_n);
         sample
@@ -348,12 +359,12 @@ mod tests {
     #[test]
     fn every_channel_has_a_place_of_its_own() {
         let parts = || BodyPart::ALL.into_iter();
-        let all = [Channel::Depth, Channel::Speed]
+        let all = [Channel::Depth, Channel::Speed, Channel::East, Channel::North]
             .into_iter()
             .chain(parts().map(Channel::Wraps))
             .chain(parts().map(Channel::Force));
         let places: Vec<usize> = all.map(Channel::index).collect();
-        assert_eq!(places, (0..2 + 2 * PARTS).collect::<Vec<_>>());
+        assert_eq!(places, (0..WHOLE + 2 * PARTS).collect::<Vec<_>>());
     }
 
     #[test]

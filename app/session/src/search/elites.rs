@@ -10,7 +10,7 @@ use endline_gear::Observation;
 use crate::encounters::Encounter;
 
 use super::distance::{Distance, LIKE};
-use super::ending::RunEnding;
+use super::ending::{Ending, RunEnding};
 use super::question::Question;
 
 /// Distance of an invalid run.
@@ -36,8 +36,8 @@ pub(super) struct Trial {
     pub(super) mirrored: bool,
     /// The part that rope touched first; empty if it touched none.
     pub(super) first_part: String,
-    /// Whether nothing is on the whale at its end.
-    pub(super) is_free: bool,
+    /// Where rope is on the whale at its end.
+    pub(super) ending: Ending,
     /// Whether the run is valid.
     pub(super) is_valid: bool,
     /// Time simulated [s].
@@ -59,7 +59,7 @@ impl Trial {
             mirrored: at_end.mirrored,
             terms: at_end.terms.into_iter().map(|term| (term.cost, term.says)).collect(),
             first_part: ended.first_part.clone(),
-            is_free: ended.ending.is_free(),
+            ending: ended.ending.clone(),
             is_valid,
             simulated_s: ended.simulated_s,
             state_hash: ended.state_hash.clone(),
@@ -68,7 +68,7 @@ impl Trial {
 
     /// Whether it is a story: something is on the whale at its end, or it is like the observation without.
     pub(super) fn is_story(&self) -> bool {
-        !self.is_free || self.distance <= LIKE
+        !self.ending.is_free() || self.distance <= LIKE
     }
 
     /// The cost that a search minimises.

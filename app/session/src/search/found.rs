@@ -92,7 +92,8 @@ fn story(
     tried: Option<&Tried<'_>>,
 ) -> Story {
     let question = rounds.question;
-    let Trial { distance, mut terms, mirrored, simulated_s, state_hash, .. } = elite.trial.clone();
+    let Trial { distance, mut terms, mirrored, ending, simulated_s, state_hash, .. } =
+        elite.trial.clone();
     terms.sort_by(|(one, _), (other, _)| other.total_cmp(one));
     let drawn = Encounter::at_point(&question.opened.study, &elite.point).drawn;
     Story {
@@ -102,6 +103,7 @@ fn story(
         distance,
         terms,
         mirrored,
+        ending,
         alike: tried.map(|tried| tried.alike),
         finer: tried.map(|tried| tried.finer),
         draws_like: draws.iter().filter(|other| *other == kind).count(),

@@ -14,7 +14,7 @@
 //! | `rounds` | the points of the next round |
 //! | `batch`, `folder` | runs of a round on threads and shards, stored round by round |
 //! | `found`, `robust`, `posterior` | the stories found, their neighbours and finer runs, and the draws that end alike |
-//! | `stories`, `page` | the results as JSON, in words and as a page |
+//! | `stories`, `page`, `body_map` | the results as JSON, in words and as a page with body maps |
 //! | `job` | a search behind a window |
 //! | `observation_from_run` | an observation written from an ending, to test a search on a known encounter |
 //!
@@ -22,6 +22,7 @@
 //! number of threads and shards gives the same stories. How to use it: `docs/search.md`.
 
 mod batch;
+mod body_map;
 mod climb;
 pub mod distance;
 mod elites;

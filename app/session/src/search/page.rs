@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::page::{Cell, Line, STYLE, Table};
 use crate::save;
 
+use super::body_map::BodyMaps;
 use super::distance::LIKE;
 use super::folder::Folder;
 use super::posterior::Quantity;
@@ -26,6 +27,8 @@ struct Page<'a> {
     observation: &'a Observation,
     stories: &'a Stories,
     sections: Vec<Section>,
+    /// Outlines of the whale, to which the body maps refer.
+    outlines: String,
     /// The head of the search's hash.
     hash: &'a str,
     seed: u64,
@@ -36,6 +39,8 @@ struct Page<'a> {
 /// A story with its terms and its drawn values.
 struct Section {
     heading: String,
+    /// Body maps of what was seen and of the end of the story, as SVG.
+    maps: Option<[String; 2]>,
     picture: Option<String>,
     terms: Option<Table>,
     drawn: Table,
@@ -50,10 +55,23 @@ pub fn write(
 ) -> Result<std::path::PathBuf, Error> {
     let file = folder.path.join("report.html");
     let sections = stories.stories.iter().enumerate().take(WITH_SECTION);
+    let whale = question
+        .opened
+        .options
+        .first()
+        .and_then(|option| option.prepared.model.spec.whale.as_ref());
+    let maps = whale.map(|whale| BodyMaps::of(&whale.skin));
+    let section = |(index, story): (usize, &Story)| Section {
+        maps: maps.as_ref().map(|maps| {
+            [maps.seen(&question.observation), maps.found(&story.ending, story.mirrored)]
+        }),
+        ..one(folder, index + 1, story)
+    };
     let page = Page {
         observation: &question.observation,
         stories,
-        sections: sections.map(|(number, story)| one(folder, number + 1, story)).collect(),
+        sections: sections.map(section).collect(),
+        outlines: maps.as_ref().map(BodyMaps::definitions).unwrap_or_default(),
         hash: &question.hash[..16],
         seed: question.seed,
         command: format!(
@@ -160,6 +178,7 @@ fn one(folder: &Folder, number: usize, story: &Story) -> Section {
             story.first_part.replace('_', " "),
             story.acts_in_words()
         ),
+        maps: None,
         picture: folder.path.join(&picture).is_file().then_some(picture),
         terms: (!story.terms.is_empty()).then(|| {
             Table::new(

@@ -5,6 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::distance::LIKE;
 use super::elites::INVALID;
+use super::ending::Ending;
 use super::posterior::Quantity;
 use crate::study::stats::Rate;
 
@@ -55,6 +56,10 @@ pub struct Story {
     pub terms: Vec<(f64, String)>,
     /// Whether the mirror image of its ending is nearer to the observation.
     pub mirrored: bool,
+    /// Where rope is on the whale at its end.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub ending: Ending,
     /// Share of its neighbours that end alike; `None` if none was run.
     pub alike: Option<f64>,
     /// Distance of the same encounter on a finer resolution, 1000 for an invalid run; `None` if it was not run.

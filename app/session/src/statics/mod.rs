@@ -115,6 +115,7 @@ pub fn alone(
         OWN.iter().for_each(|key| strip(&mut document, key));
         let only =
             document.get("gear.0.assembly").as_ref() == Some(assembly) && !document.has("gear.1");
+        strip(&mut document, "field");
         if !only {
             strip(&mut document, "gear");
             settings.push(("gear.0.assembly", assembly.clone()));

@@ -199,6 +199,12 @@ impl Folder {
         Self { encounters: self.encounters.min(encounters), ..self.clone() }
     }
 
+    /// Number of encounters before the first missing block.
+    pub fn first_stored(&self) -> u32 {
+        let there = (0..self.blocks()).take_while(|block| self.is_stored(*block)).count();
+        self.encounters.min(u32::try_from(there).unwrap_or(u32::MAX).saturating_mul(BLOCK))
+    }
+
     /// Number of blocks.
     pub fn blocks(&self) -> u32 {
         self.blocks_of(self.encounters)

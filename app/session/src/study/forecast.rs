@@ -22,7 +22,7 @@ use super::folder::Folder;
 use super::prepared::PreparedStudy;
 use super::stats::{
     EventIndicators, Rate, WORTH_FINDING, effective_with, encounters_missing, encounters_to_tell,
-    expected_newly, whales_for_band,
+    expected_newly, rounded, whales_for_band,
 };
 use super::{batch, results};
 
@@ -72,6 +72,34 @@ impl Cost {
     /// Time of one thread for the encounters that are left [s].
     pub fn left_s(&self) -> f64 {
         self.encounter_s * self.left as f64
+    }
+
+    /// Cost and time of the encounters that are left, with their range, in words.
+    pub fn words(&self, threads: usize) -> String {
+        let Self { timed, encounter_s, factor, for_useful_factor, left } = *self;
+        if left == 0 {
+            return format!("{encounter_s:.1} s of a core for each encounter; none is left");
+        }
+        let range = |seconds: f64| {
+            factor.map_or_else(String::new, |factor| {
+                let [low, high] = [seconds / factor, seconds * factor].map(duration_words);
+                format!(" [{low}, {high}]")
+            })
+        };
+        let more = match (factor, for_useful_factor) {
+            (Some(factor), Some(number)) if factor > USEFUL_FACTOR => format!(
+                "; about {} timed encounters narrow the range to a factor of {USEFUL_FACTOR}",
+                rounded(number)
+            ),
+            _ => String::new(),
+        };
+        let (whole_s, count) = (self.left_s(), threads as f64);
+        format!(
+            "{encounter_s:.1} s of a core for each of {timed} timed encounters; {left} left take {} of a core{}, {} on {threads} threads{more}",
+            duration_words(whole_s),
+            range(whole_s),
+            duration_words(whole_s / count),
+        )
     }
 
     fn of(pace: &Pace, left: u64) -> Option<Self> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use endline_gear::{Library, Sources, Study, hint};
+use endline_gear::{Document, Library, Prior, Sources, Study, hint, referenced_folder};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -131,6 +131,24 @@ impl PreparedStudy {
             fitted: Mutex::default(),
             study,
         })
+    }
+
+    /// A drawn value in words: a number as the study's file has it, an item of the library or a plugin by its name.
+    pub fn value_words(&self, prior: &Prior, value: &str) -> String {
+        if let Ok(number) = value.parse() {
+            return prior.law.written(number);
+        }
+        let field = prior.name.value.as_str();
+        let item = || {
+            let text = self.sources.get(&format!("{}/{value}.toml", referenced_folder(field)?))?;
+            Document::parse(text).ok()?.get("name")
+        };
+        let plugin = || match field {
+            "whale.motion" => Some(self.host.motion(value)?.descriptor().name.to_string()),
+            "friction.model" => Some(self.host.friction(value)?.descriptor().name.to_string()),
+            _ => None,
+        };
+        item().or_else(plugin).unwrap_or_else(|| value.to_owned())
     }
 
     /// Place of an option.

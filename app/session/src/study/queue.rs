@@ -14,6 +14,7 @@ use crate::plugins::PluginHost;
 use crate::shell;
 
 use super::folder::Folder;
+use super::forecast::{self, Forecast};
 use super::prepared::{Files, PreparedStudy};
 use super::stats::Findings;
 use super::{batch, merge, report};
@@ -31,11 +32,30 @@ pub struct StudyRequest {
     pub files: Files,
     /// Folder that holds the folders of results.
     pub root: PathBuf,
+    /// How much of it is run.
+    pub part: Part,
 }
 
-/// The study once it is opened, and the folder of its results.
+/// How much of a study is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All encounters that are missing.
+    Whole,
+    /// The next [`FORECAST_ENCOUNTERS`], from which the cost of the others is forecast.
+    Forecast,
+}
+
+/// Encounters that are run for a forecast.
+pub const FORECAST_ENCOUNTERS: u32 = 12;
+
+/// What is known of a study at work.
 #[derive(Clone, Default)]
-pub struct StudyFound(Option<(Arc<PreparedStudy>, PathBuf)>);
+pub struct StudyFound {
+    /// The study once it is opened, and the folder of its results.
+    opened: Option<(Arc<PreparedStudy>, PathBuf)>,
+    /// The forecast, once it is made.
+    forecast: Option<Forecast>,
+}
 
 /// A study of the queue.
 pub type StudyJob = Job<StudyRequest, StudyFound>;
@@ -81,29 +101,44 @@ impl Queue {
 impl StudyJob {
     /// The study as it was opened to be run.
     pub fn opened(&self) -> Option<Arc<PreparedStudy>> {
-        self.found().0.map(|(opened, _)| opened)
+        self.found().opened.map(|(opened, _)| opened)
     }
 
     /// The folder of its results, once it is opened.
     pub fn folder(&self) -> Option<PathBuf> {
-        self.found().0.map(|(_, folder)| folder)
+        self.found().opened.map(|(_, folder)| folder)
+    }
+
+    /// The forecast, if it was asked for and is made.
+    pub fn forecast(&self) -> Option<Forecast> {
+        self.found().forecast
     }
 }
 
-/// Opens a study, runs the missing encounters, and writes its table and report.
+/// Opens a study and runs the part of it that was asked for; the whole has a table and a report.
 fn run(
     job: &AtWork<StudyFound>,
     request: &StudyRequest,
     host: &PluginHost,
 ) -> Result<State, Error> {
-    let StudyRequest { file, text, files, root, .. } = request;
+    let StudyRequest { file, text, files, root, part, .. } = request;
     let opened = Arc::new(PreparedStudy::of_sources(text.clone(), file, files.clone(), host)?);
     let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
-    job.found(|found| found.0 = Some((Arc::clone(&opened), folder.path.clone())));
+    job.found(|found| found.opened = Some((Arc::clone(&opened), folder.path.clone())));
     job.enter(State::Running);
-    batch::run(&opened, &folder, Shard::WHOLE, pool::default_count(), &job.control)?;
+    let threads = pool::default_count();
+    if *part == Part::Forecast {
+        let count = folder.first_stored().saturating_add(FORECAST_ENCOUNTERS);
+        let forecast = forecast::of_first(&opened, &folder, count, threads, &job.control)?;
+        job.found(|found| found.forecast = Some(forecast));
+    } else {
+        batch::run(&opened, &folder, Shard::WHOLE, threads, &job.control)?;
+    }
     if !job.control.may_continue() {
         return Ok(State::Cancelled);
+    }
+    if *part == Part::Forecast {
+        return Ok(State::Done);
     }
     job.enter(State::Finishing);
     let table = merge::merge(&opened, &folder)?;

@@ -112,12 +112,12 @@ fn runs(folder: &Folder, at_work: bool) -> Result<(Runs, bool), Error> {
 /// Errors: a block that is damaged or belongs to another study.
 pub(super) fn first_runs(folder: &Folder) -> Result<(Runs, bool), Error> {
     let mut table = Table::default();
-    let there = (0..folder.blocks()).take_while(|block| folder.is_stored(*block)).count();
-    for block in 0..u32::try_from(there).unwrap_or_default() {
+    let there = folder.blocks_of(folder.first_stored());
+    for block in 0..there {
         folder.append(block, &mut table)?;
     }
     let runs = Runs::read(table).map_err(|wrong| Error::at(&folder.path, wrong.to_string()))?;
-    Ok((runs, there == folder.blocks() as usize))
+    Ok((runs, there == folder.blocks()))
 }
 
 /// The study of a folder of results: from the bundle in it, else from the library.

@@ -11,7 +11,7 @@ use endline_sim::Model;
 
 use super::folder::Folder;
 use super::prepared::{Files, PreparedStudy};
-use super::queue::{Queue, StudyJob, StudyRequest};
+use super::queue::{Part, Queue, StudyJob, StudyRequest};
 use crate::campaign::control::{Control, Count, Progress};
 use crate::campaign::{Shard, State};
 use crate::encounters::Encounter;
@@ -305,6 +305,7 @@ fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
             name: "Small".into(),
             files: Files { root: place.library(), sources, scenario: None },
             root: root.clone(),
+            part: Part::Whole,
         };
         StudyJob::new(request, Arc::new(|| {}))
     };

@@ -10,7 +10,7 @@ use super::study_check::StudyCheck;
 use crate::campaign::State;
 use crate::edit::Documents;
 use crate::save::copy_tree;
-use crate::study::queue::{self, Queue, StudyJob, StudyRequest};
+use crate::study::queue::{self, Part, Queue, StudyJob, StudyRequest};
 use crate::study::{ResultsReader, ResultsRequest, StudyResults};
 
 /// Studies in the queue, and results.
@@ -108,8 +108,8 @@ impl Workbench {
         !documents.file_has_error(Documents::STUDY) && !documents.any_error()
     }
 
-    /// Queues the open study, to be run on the texts as they are edited. Nothing is saved.
-    pub(crate) fn queue_study(&mut self) -> Result<(), String> {
+    /// Queues the open study or its forecast, to be run on the texts as they are edited. Nothing is saved.
+    pub(crate) fn queue_study(&mut self, part: Part) -> Result<(), String> {
         let documents = &self.project.documents;
         let Some(path) = documents.study_path().map(Path::to_owned) else {
             return Err("open a study first".to_owned());
@@ -122,10 +122,16 @@ impl Workbench {
         let studies = &mut self.studies;
         if let Some(job) = studies.queue.unfinished(&path) {
             job.resume();
-            self.notice = Some(Notice::hint("this study is in the queue already"));
+            let hint = match (job.request.part, part) {
+                (Part::Forecast, Part::Whole) => {
+                    "the study's forecast is in the queue; run the study when it is made"
+                }
+                _ => "this study is in the queue already",
+            };
+            self.notice = Some(Notice::hint(hint));
             return Ok(());
         }
-        let request = StudyRequest { file: path, name, text, files, root: studies.root() };
+        let request = StudyRequest { file: path, name, text, files, root: studies.root(), part };
         studies.queue.add(StudyJob::new(request, waker));
         studies.results.follows_next = true;
         self.say_unsaved("the study");

@@ -42,7 +42,8 @@ impl Layout {
 }
 
 fn design() -> DockState<String> {
-    let mut dock = DockState::new(ids(&[PanelId::View, PanelId::Assembly, PanelId::Rules]));
+    let mut dock =
+        DockState::new(ids(&[PanelId::View, PanelId::Map, PanelId::Assembly, PanelId::Rules]));
     let tree = dock.main_surface_mut();
     let [upper, _] =
         tree.split_below(NodeIndex::root(), 0.66, ids(&[PanelId::Library, PanelId::Problems]));
@@ -60,7 +61,7 @@ fn fly() -> DockState<String> {
         0.78,
         ids(&[PanelId::Run, PanelId::Scenario, PanelId::Pad]),
     );
-    let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::Tension]));
+    let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::Tension, PanelId::Map]));
     tree.split_below(below, 0.5, ids(&[PanelId::Events, PanelId::Summary]));
     dock
 }

@@ -23,6 +23,8 @@ pub enum PanelId {
     /// The 3-D view.
     #[strum(message = "3-D view")]
     View,
+    /// Gear, the whale and its track from above.
+    Map,
     /// Start, pause and speed of a run; figures of the solver.
     Run,
     /// Tension over time.

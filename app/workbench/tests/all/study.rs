@@ -103,6 +103,28 @@ fn a_study_is_edited_and_run_and_a_run_of_it_is_replayed_to_the_bit() {
 }
 
 #[test]
+fn a_forecast_times_the_next_twelve_encounters_which_the_study_keeps() {
+    let folder = Folder::new("forecast");
+    let mut harness = studying(&folder);
+    harness.set(Documents::STUDY, "encounters", "40");
+    for timed_before in [0, 12] {
+        give(&mut harness, StudyAction::Forecast);
+        wait(&mut harness, |app| state(app) == Some(State::Done));
+        let forecast = harness.workbench().studies().queue.jobs[0].forecast().unwrap();
+        let cost = forecast.cost.unwrap();
+        assert_eq!((forecast.done, cost.timed), (timed_before + 12, 12));
+        assert_eq!(cost.left, 28 - timed_before);
+        harness.run_steps(2);
+        assert!(harness.query_by_label_contains("for each of 12 timed encounters").is_some());
+    }
+    give(&mut harness, StudyAction::Run);
+    wait(&mut harness, |app| state(app) == Some(State::Done));
+    let job = &harness.workbench().studies().queue.jobs[0];
+    assert_eq!(job.progress().encounters.found, 24, "encounters of a forecast are not run again");
+    assert!(job.forecast().is_none());
+}
+
+#[test]
 fn a_study_stops_when_paused_and_keeps_its_blocks_when_cancelled_and_continued() {
     let folder = Folder::new("queue");
     let mut harness = studying(&folder);

@@ -77,7 +77,7 @@ pub(super) fn of_registered(
     runs: &Runs,
     registration: &Registration,
 ) -> Vec<Bands> {
-    let divided = divide(&opened.study.priors, runs);
+    let divided = divide(opened, runs);
     let events = registration.events.iter().filter_map(|name| StudyEvent::find(name));
     let of = |event: StudyEvent| {
         let found = opened.study.discretisations.iter().find(|found| found.event == event);
@@ -106,10 +106,11 @@ struct Divided {
 }
 
 /// The assumed inputs that vary.
-fn divide(priors: &[Prior], runs: &Runs) -> Vec<Divided> {
-    let assumed = priors.iter().filter(|prior| prior.confidence == Confidence::Assumed);
+fn divide(opened: &PreparedStudy, runs: &Runs) -> Vec<Divided> {
+    let assumed =
+        opened.study.priors.iter().filter(|prior| prior.confidence == Confidence::Assumed);
     let of = |prior: &Prior| {
-        let parts = parts_of(prior, runs)?;
+        let parts = parts_of(opened, prior, runs)?;
         let count = parts.iter().map(|(_, keep)| keep.len()).max().unwrap_or_default();
         let level = (0..count).map(|encounter| parts.iter().position(|(_, keep)| keep[encounter]));
         let level: Vec<Option<usize>> = level.collect();
@@ -156,7 +157,7 @@ impl AssumedBand {
         runs: &Runs,
         indicators: &EventIndicators,
     ) -> Option<Self> {
-        Self::of(&divide(&opened.study.priors, runs), indicators)
+        Self::of(&divide(opened, runs), indicators)
     }
 
     fn of(divided: &[Divided], indicators: &EventIndicators) -> Option<Self> {

@@ -222,7 +222,7 @@ impl Findings {
                     ..observations::compare(seen, runs, &ids[baseline])
                 })
                 .collect(),
-            inputs: sensitivity::of_inputs(runs, &opened.study.priors, &indicators, baseline),
+            inputs: sensitivity::of_inputs(opened, runs, &indicators, baseline),
         }
     }
 }
@@ -332,11 +332,12 @@ fn levels(
     levels.into_iter().map(finding).collect()
 }
 
-/// A level as the study's file has it, such as `15 yr` for its seconds.
+/// A level in words, such as `age 15 yr` for its seconds.
 fn level_words(opened: &PreparedStudy, prior: &str, level: &str) -> String {
     let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
-    let (Some(prior), Ok(number)) = (prior, level.parse()) else { return level.to_owned() };
-    format!("{} {}", prior.words(), prior.law.written(number))
+    let Some(prior) = prior else { return level.to_owned() };
+    let value = opened.value_words(prior, level);
+    if level.parse::<f64>().is_ok() { format!("{} {value}", prior.words()) } else { value }
 }
 
 fn level(column: &Column, row: usize) -> String {

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use endline_gear::Prior;
 
+use crate::study::prepared::PreparedStudy;
 use crate::study::runs::Runs;
 use crate::table::Column;
 
@@ -49,17 +50,17 @@ pub struct InputFinding {
 
 /// Every input that varies, that with the greatest span first.
 pub(super) fn of_inputs(
+    opened: &PreparedStudy,
     runs: &Runs,
-    priors: &[Prior],
     indicators: &[EventIndicators],
     baseline: usize,
 ) -> Vec<InputFinding> {
     let of = |prior: &Prior| {
-        let (column, parts) = (runs.drawn(&prior.name.value)?, parts_of(prior, runs)?);
+        let (column, parts) = (runs.drawn(&prior.name.value)?, parts_of(opened, prior, runs)?);
         let sobol = index(&prior.name.value, runs, column, &indicators[baseline]);
         input(prior, parts, sobol, indicators, baseline)
     };
-    let mut found: Vec<InputFinding> = priors.iter().filter_map(of).collect();
+    let mut found: Vec<InputFinding> = opened.study.priors.iter().filter_map(of).collect();
     found.sort_by(|one, other| other.span.total_cmp(&one.span));
     found
 }
@@ -148,9 +149,17 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
 }
 
 /// The encounters of each part of an input: its levels, or the lower and upper half of its range.
-pub(super) fn parts_of(prior: &Prior, runs: &Runs) -> Option<Vec<(String, Vec<bool>)>> {
+pub(super) fn parts_of(
+    opened: &PreparedStudy,
+    prior: &Prior,
+    runs: &Runs,
+) -> Option<Vec<(String, Vec<bool>)>> {
     let column = runs.drawn(&prior.name.value)?;
-    Some(parts(runs, column, &|number| prior.law.written(number)))
+    let mut parts = parts(runs, column, &|number| prior.law.written(number));
+    if let Column::Text(_) = column {
+        parts.iter_mut().for_each(|(level, _)| *level = opened.value_words(prior, level));
+    }
+    Some(parts)
 }
 
 /// The encounters of each part of an input, whose numbers `words` puts in words.

@@ -107,7 +107,7 @@ impl Kinds {
             keep: routes.iter().map(|known| *known == Some(route)).collect(),
         };
         let by_input = opened.study.priors.iter().flat_map(|prior| {
-            let parts = sensitivity::parts_of(prior, runs).unwrap_or_default();
+            let parts = sensitivity::parts_of(opened, prior, runs).unwrap_or_default();
             parts.into_iter().map(|(name, keep)| Kind { of: prior.words(), name, keep })
         });
         Self {

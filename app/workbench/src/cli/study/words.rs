@@ -2,10 +2,10 @@
 
 use endline_gear::{Prior, StudyEvent};
 use endline_session::campaign::Count;
-use endline_session::encounters::{Encounter, in_words};
+use endline_session::encounters::{Drawn, Encounter, in_words};
 use endline_session::study::PreparedStudy;
 use endline_session::study::folder::{BLOCK, Folder};
-use endline_session::study::forecast::{Cost, Forecast, USEFUL_FACTOR, duration_words};
+use endline_session::study::forecast::Forecast;
 use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
     Change, Findings, Interval, Rate, answer, observed, resolution, rounded,
@@ -54,11 +54,20 @@ pub(super) fn plan(opened: &PreparedStudy) -> String {
         rows.push(
             [index.to_string()]
                 .into_iter()
-                .chain(drawn.iter().map(|drawn| in_words(&drawn.text)))
+                .chain(drawn.iter().map(|drawn| drawn_words(opened, drawn)))
                 .collect(),
         );
     }
     text + &columns(&rows)
+}
+
+/// A drawn value in words.
+fn drawn_words(opened: &PreparedStudy, drawn: &Drawn) -> String {
+    let mut priors = opened.study.priors.iter();
+    match priors.find(|prior| prior.name.value == drawn.name) {
+        Some(prior) if drawn.number.is_none() => opened.value_words(prior, &drawn.text),
+        _ => in_words(&drawn.text),
+    }
 }
 
 /// Options that differ from the baseline in more than one thing, with what these are.
@@ -78,7 +87,7 @@ pub(super) fn forecast(
     threads: usize,
 ) -> String {
     let Some(forecast) = forecast.filter(|forecast| forecast.done > 0) else {
-        return "no encounter has been run; --first 12 runs the first twelve and forecasts time and precision from them\n".into();
+        return "no encounter has been run; --first 60 runs the first sixty and forecasts time and precision from them\n".into();
     };
     let Forecast { encounters, done, cost, rate, needed_to_tell, needed_for_band, .. } = forecast;
     let baseline = &opened.options[opened.baseline].name;
@@ -87,7 +96,9 @@ pub(super) fn forecast(
         "forecast".to_owned(),
         format!("from the first {done} of {encounters} encounters"),
     ]];
-    rows.push(vec!["time".into(), time(cost.as_ref(), threads)]);
+    let unknown = "not known: no encounter was timed; --first with a greater number times some";
+    let time = cost.map_or_else(|| unknown.to_owned(), |cost| cost.words(threads));
+    rows.push(vec!["time".into(), time]);
     rows.push(vec![
         "rate".into(),
         format!("\"{event}\" with {baseline}: {}", in_percent(rate.rate, rate.interval)),
@@ -115,39 +126,6 @@ pub(super) fn forecast(
     rows.push(vec!["difference".into(), tell]);
     rows.push(vec!["band".into(), band]);
     columns(&rows)
-}
-
-/// Time of the encounters that are left, with its range.
-fn time(cost: Option<&Cost>, threads: usize) -> String {
-    let Some(cost) = cost else {
-        return "not known: no encounter was timed; --first with a greater number times some"
-            .into();
-    };
-    if cost.left == 0 {
-        return format!("{:.1} s of a core for each encounter; none is left", cost.encounter_s);
-    }
-    let range = |seconds: f64| {
-        cost.factor.map_or_else(String::new, |factor| {
-            format!(" [{}, {}]", duration_words(seconds / factor), duration_words(seconds * factor))
-        })
-    };
-    let (whole_s, count) = (cost.left_s(), threads as f64);
-    let more = match (cost.factor, cost.for_useful_factor) {
-        (Some(factor), Some(number)) if factor > USEFUL_FACTOR => format!(
-            "; about {} timed encounters narrow the range to a factor of {USEFUL_FACTOR}",
-            rounded(number)
-        ),
-        _ => String::new(),
-    };
-    format!(
-        "{:.1} s of a core for each of {} timed encounters; {} left take {} of a core{}, {} on {threads} threads{more}",
-        cost.encounter_s,
-        cost.timed,
-        cost.left,
-        duration_words(whole_s),
-        range(whole_s),
-        duration_words(whole_s / count),
-    )
 }
 
 /// `8.1 % [2.3, 25.0]`.

@@ -150,7 +150,7 @@ impl App {
             let mut tabs = Tabs { panels: &mut self.panels, shared: &mut self.shared };
             DockArea::new(&mut self.dock)
                 .style(style)
-                .show_leaf_collapse_buttons(false)
+                .show_leaf_collapse_buttons(true)
                 .show_leaf_close_all_buttons(false)
                 .show_inside(ui, &mut tabs);
         });

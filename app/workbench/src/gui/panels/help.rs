@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::VERSION;
 use endline_session::command::{About, When};
 
-use super::about;
+use crate::documents;
+use crate::gui::command::action::WindowAction;
 use crate::gui::command::{declared, spelled};
 use crate::gui::panel::Panel;
 use crate::gui::shared::Shared;
@@ -21,6 +23,9 @@ pub const MOUSE: [(&str, &str); 4] = [
     ("Zoom", "wheel"),
 ];
 
+/// Address of the repository.
+const REPOSITORY: &str = env!("CARGO_PKG_REPOSITORY");
+
 /// The panel of keys and help.
 #[derive(Debug, Default)]
 pub struct HelpPanel;
@@ -33,7 +38,7 @@ impl Panel for HelpPanel {
             }
             widgets::caption(ui, "Files");
             ui.label("Gear is text in the folder of the library: one TOML file per item, with values such as \"3/8 in\" or \"1700 lbf\".");
-            about::show(ui, shared);
+            about(ui, shared);
         });
     }
 }
@@ -115,4 +120,58 @@ fn table(ui: &mut Ui, group: &str, rows: &[Row]) {
             ui.end_row();
         }
     });
+}
+
+/// Draws version, licence, citation and documents.
+fn about(ui: &mut Ui, shared: &mut Shared) {
+    let faint = Theme::palette_of(ui).faint;
+    widgets::caption(ui, "About");
+    let rows = [
+        ("Version", VERSION.to_owned()),
+        ("Licence", format!("{}, at your choice", env!("CARGO_PKG_LICENSE"))),
+        ("Library", shared.workbench.project().documents.root().display().to_string()),
+    ];
+    widgets::numbers(ui, "about", &rows);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(citation()).color(faint));
+        if ui.small_button("Copy").on_hover_text("Copies the citation").clicked() {
+            ui.ctx().copy_text(citation());
+        }
+    });
+    for group in documents::groups() {
+        widgets::caption(ui, group.title);
+        ui.horizontal_wrapped(|ui| {
+            for document in &group.documents {
+                if ui.link(document.title).on_hover_text(document.contents).clicked() {
+                    shared.give(WindowAction::Read(*document));
+                }
+                ui.add_space(14.0);
+            }
+        });
+    }
+}
+
+/// Year of this version.
+const YEAR: u16 = 2026;
+
+/// Citation of this version in a paper; `CITATION.cff` has the same fields.
+fn citation() -> String {
+    format!(
+        "The Endline authors ({YEAR}). Endline {VERSION}: a workbench for fishing gear that entangled whales can escape from. Computer program. {REPOSITORY}"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_citation_names_version_and_place() {
+        assert!(citation().contains(VERSION) && citation().ends_with(REPOSITORY));
+        let file = include_str!("../../../../../CITATION.cff");
+        for field in [format!("version: {}", env!("CARGO_PKG_VERSION")), REPOSITORY.to_owned()] {
+            assert!(file.contains(&field), "CITATION.cff has no {field}");
+        }
+        assert!(REPOSITORY.starts_with("https://"), "{REPOSITORY}");
+    }
 }

@@ -1,12 +1,12 @@
 //! The panels, each with its own file or folder and state.
 
-mod about;
 pub mod assembly;
 pub mod compare;
 pub mod entanglement;
 pub mod events;
 pub mod help;
 pub mod library;
+pub mod map;
 pub mod pad;
 pub mod pilot;
 pub mod plots;
@@ -37,6 +37,8 @@ pub struct Panels {
     pub scenario: scenario::ScenarioPanel,
     /// The 3-D view.
     pub view: view::ViewPanel,
+    /// The map.
+    pub map: map::MapPanel,
     /// Controls of the run.
     pub run: run::RunPanel,
     /// Tension over time.
@@ -85,6 +87,7 @@ impl Panels {
             PanelId::Assembly => &mut self.assembly,
             PanelId::Scenario => &mut self.scenario,
             PanelId::View => &mut self.view,
+            PanelId::Map => &mut self.map,
             PanelId::Run => &mut self.run,
             PanelId::Tension => &mut self.tension,
             PanelId::Plots => &mut self.plots,

@@ -169,7 +169,7 @@ impl AssemblyPanel {
         let open = documents.scenario_path();
         let chosen = self.chosen.as_ref().filter(|(scenario, _)| scenario.as_path() == open);
         let chosen = chosen.map(|(_, id)| id.clone()).filter(there);
-        let placed = || documents.field(Documents::SCENARIO, "gear.0.assembly").filter(there);
+        let placed = || documents.placed_assemblies().next().filter(there);
         if let Some(id) = chosen.or_else(placed) {
             return Some(TrialGear::Assembly(id));
         }
@@ -258,7 +258,7 @@ fn path(gear: &TrialGear) -> String {
 /// Whether the open scenario has its own parts.
 fn has_own(shared: &Shared) -> bool {
     let has = |field| shared.workbench.project().documents.has(Documents::SCENARIO, field);
-    has("line.0") && !has("gear.0")
+    has("line.0") && !has("gear.0") && !has("field.0")
 }
 
 /// Surface speed of the current of a model at the start [m/s].

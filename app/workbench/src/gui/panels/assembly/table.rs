@@ -170,14 +170,14 @@ fn whole(
     ));
     for rest in [slack, running] {
         let (text, colour) = match rest {
-            Some(rest) if rest.shape.converged => {
-                (format!("at rest in {:.0} ms", rest.shape.wall_s * 1000.0), palette.good)
-            }
+            Some(rest) if rest.shape.converged => ("at rest".to_owned(), palette.good),
             Some(rest) => (rest.shape.outcome.clone(), palette.warning),
             None => ("…".to_owned(), palette.faint),
         };
         let hover = rest.map_or_else(String::new, |rest| {
-            format!("{}; surface current {}", rest.shape.outcome, units.speed(surface_m_s(rest)))
+            let (outcome, wall_ms) = (&rest.shape.outcome, 1000.0 * rest.shape.wall_s);
+            let current = units.speed(surface_m_s(rest));
+            format!("{outcome}; surface current {current}; computed in {wall_ms:.0} ms")
         });
         ui.label(RichText::new(text).color(colour)).on_hover_text(hover);
     }

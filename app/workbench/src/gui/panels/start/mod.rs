@@ -32,6 +32,8 @@ const CHECK_INTERVAL: Duration = Duration::from_secs(1);
 #[derive(Debug, Default)]
 pub struct StartPanel {
     items: Option<(usize, Vec<Item>)>,
+    /// Files and names of recent scenarios.
+    recent: Vec<(PathBuf, String)>,
     checked: Option<Instant>,
     search: String,
 }
@@ -41,16 +43,22 @@ impl Panel for StartPanel {
         let root = shared.documents().root().to_owned();
         if self.checked.is_none_or(|checked| checked.elapsed() > CHECK_INTERVAL) {
             self.checked = Some(Instant::now());
-            let files = item::count(&root);
-            if self.items.as_ref().is_none_or(|(seen, _)| *seen != files) {
-                self.items = Some((files, item::all(&root)));
+            let count = item::count(&root);
+            if self.items.as_ref().is_none_or(|(seen, _)| *seen != count) {
+                self.items = Some((count, item::all(&root)));
             }
+            let recent = &shared.workbench.preferences().recent;
+            let named = |path: &PathBuf| {
+                let name = files::name_of(path).unwrap_or_else(|| files::stem(path));
+                (path.clone(), name)
+            };
+            self.recent = recent.iter().filter(|path| path.exists()).map(named).collect();
         }
         let items = self.items.as_ref().map_or(&[][..], |(_, items)| items);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             head(ui, shared);
             purposes(ui, shared, &root);
-            recent(ui, shared);
+            recent(ui, shared, &self.recent);
             ui.add_space(10.0);
             let hint = "Search scenarios, studies and cases";
             ui.add(TextEdit::singleline(&mut self.search).hint_text(hint).desired_width(COLUMN));
@@ -74,24 +82,15 @@ fn head(ui: &mut Ui, shared: &mut Shared) {
     ui.add_space(6.0);
 }
 
-fn recent(ui: &mut Ui, shared: &mut Shared) {
-    let recent: Vec<PathBuf> = shared
-        .workbench
-        .preferences()
-        .recent
-        .iter()
-        .filter(|path| path.exists())
-        .cloned()
-        .collect();
+fn recent(ui: &mut Ui, shared: &mut Shared, recent: &[(PathBuf, String)]) {
     if recent.is_empty() {
         return;
     }
     widgets::caption(ui, "Recent");
     ui.horizontal_wrapped(|ui| {
-        for path in recent {
-            let place = path.display().to_string();
-            if ui.link(files::stem(&path)).on_hover_text(place).clicked() {
-                open(shared, What::Scenario, &path);
+        for (path, name) in recent {
+            if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
+                open(shared, What::Scenario, path);
             }
         }
     });

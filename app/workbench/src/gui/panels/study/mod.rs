@@ -118,6 +118,7 @@ fn start(ui: &mut Ui, shared: &mut Shared) {
         {
             shared.give(StudyAction::Run);
         }
+        command(ui, shared, "Forecast", StudyAction::Forecast);
         command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
         command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
         let help = "Runs at normal priority instead of low; the window may respond more slowly";

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Align, Frame, Label, RichText, ScrollArea, TextEdit, Ui};
-use endline_gear::{Document, Kind, Setting};
+use endline_gear::{Document, Kind, Setting, referenced_folder};
 use endline_sdk::Attribute;
 use endline_session::command::StudyAction;
 use endline_session::edit::Documents;
@@ -81,14 +81,7 @@ fn is_longer(ui: &Ui, shared: &Shared, count: usize) -> bool {
 /// Draws the assemblies of the library; a click adds one as an option.
 fn other_gear(ui: &mut Ui, shared: &mut Shared) {
     ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
-        let documents = shared.documents();
-        let names = documents.files("assemblies").map(|file| {
-            let id = id_of(file).to_owned();
-            (documents.field(file, "name").unwrap_or_else(|| id.clone()), id)
-        });
-        let mut names: Vec<(String, String)> = names.collect();
-        names.sort();
-        for (name, id) in names {
+        for (id, name) in item_names(shared.documents(), "gear.0.assembly") {
             if ui.button(name).on_hover_text(&id).clicked() {
                 shared.give(StudyAction::OptionWithAssembly(id));
                 ui.close();
@@ -165,16 +158,16 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
             let words = capital(&field_words(shared.documents(), &shown));
             ui.add(Label::new(words).truncate()).on_hover_text(format!("Field: {shown}"));
             let width = (ui.available_size_before_wrap().x - 40.0).max(60.0);
-            if let Some(typed) = fields::edit(
-                ui,
-                shared.documents(),
-                Documents::STUDY,
-                &path,
-                width,
-                Said { hint: "", help: "Value with its unit, as in the file" },
-            ) {
-                edits.push((path.clone(), Some(Setting::plain(&typed))));
-            }
+            let names = item_names(shared.documents(), &shown);
+            let chosen = if names.is_empty() {
+                let said = Said { hint: "", help: "Value with its unit, as in the file" };
+                fields::edit(ui, shared.documents(), Documents::STUDY, &path, width, said)
+                    .map(|typed| Setting::plain(&typed))
+            } else {
+                fields::choose(ui, shared.documents(), Documents::STUDY, &path, &names, width)
+                    .map(|id| Setting::text(&id))
+            };
+            edits.extend(chosen.map(|setting| (path.clone(), Some(setting))));
             if ui
                 .small_button("✖")
                 .on_hover_text("Removes this setting; the value of the scenario applies")
@@ -210,6 +203,19 @@ fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
         }
         ui.data_mut(|data| data.insert_temp(id, typed));
     });
+}
+
+/// Ids and names of the items that a field can have, by name; empty for a field that takes no item.
+pub(super) fn item_names(documents: &Documents, field: &str) -> Vec<(String, String)> {
+    let folder = referenced_folder(field);
+    let named = folder.into_iter().flat_map(|folder| documents.files(folder)).map(|file| {
+        let id = id_of(file).to_owned();
+        let name = documents.field(file, "name").unwrap_or_else(|| id.clone());
+        (id, name)
+    });
+    let mut names: Vec<(String, String)> = named.collect();
+    names.sort_by(|(_, one), (_, other)| one.cmp(other));
+    names
 }
 
 /// Current value of a field, with which a new setting starts.

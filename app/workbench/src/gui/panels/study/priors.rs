@@ -5,6 +5,7 @@ use endline_gear::{Setting, prior_words};
 use endline_session::edit::Documents;
 
 use super::Edits;
+use super::options::item_names;
 use crate::gui::fields::{self, Said};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
@@ -84,7 +85,7 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         return;
     };
     ui.horizontal(|ui| {
-        let words = capital(&prior_words(&name.replace('"', "")));
+        let words = capital(&prior_words(&unquoted(name)));
         widgets::long_name(ui, &words, name);
         laws(ui, &at, law, name, edits);
         match *law {
@@ -116,7 +117,13 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         list(ui, shared, ("  weights", &format!("{at}.weights")), shares, edits);
     }
     if *law == "choice" {
-        list(ui, shared, ("", &format!("{at}.choice")), "Values, with commas between", edits);
+        let (field, items) =
+            (format!("{at}.choice"), item_names(shared.documents(), &unquoted(name)));
+        if items.is_empty() {
+            list(ui, shared, ("", &field), "Values, with commas between", edits);
+        } else {
+            choose_items(ui, shared, &field, &items, edits);
+        }
         list(
             ui,
             shared,
@@ -126,6 +133,70 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         );
     }
     confidence(ui, shared, &at, edits);
+}
+
+/// Name of a prior without the quotes of the file.
+fn unquoted(name: &str) -> String {
+    name.replace('"', "")
+}
+
+/// Draws a list of library items, each chosen by its name, and a menu that adds one.
+fn choose_items(
+    ui: &mut Ui,
+    shared: &Shared,
+    field: &str,
+    items: &[(String, String)],
+    edits: &mut Edits,
+) {
+    let values = values(shared, field);
+    let mut changed: Option<Vec<String>> = None;
+    for (index, value) in values.iter().enumerate() {
+        ui.horizontal(|ui| {
+            widgets::name(ui, "");
+            let known = items.iter().find(|(id, _)| id == value);
+            let shown = known.map_or(value.as_str(), |(_, name)| name);
+            let width = (ui.available_width() - 40.0).max(60.0);
+            let list = ComboBox::from_id_salt((field, index)).width(width).selected_text(shown);
+            list.show_ui(ui, |ui| {
+                for (id, name) in items {
+                    if ui.selectable_label(id == value, name).clicked() && id != value {
+                        changed = Some(replaced(&values, index, Some(id)));
+                    }
+                }
+            });
+            if ui.small_button("✖").on_hover_text("Removes this value").clicked() {
+                changed = Some(replaced(&values, index, None));
+            }
+        });
+    }
+    ui.horizontal(|ui| {
+        widgets::name(ui, "");
+        ui.menu_button("Add ⏷", |ui| {
+            for (id, name) in items.iter().filter(|(id, _)| !values.contains(id)) {
+                if ui.button(name).clicked() {
+                    changed = Some(values.iter().chain([id]).cloned().collect());
+                    ui.close();
+                }
+            }
+        });
+    });
+    if let Some(values) = changed {
+        edits.push((field.to_owned(), written(&values.join(", "))));
+    }
+}
+
+/// Values with one replaced or removed.
+fn replaced(values: &[String], index: usize, by: Option<&String>) -> Vec<String> {
+    let mut values = values.to_vec();
+    let _ = values.splice(index..=index, by.cloned());
+    values
+}
+
+/// Values of a list of the study's file.
+fn values(shared: &Shared, field: &str) -> Vec<String> {
+    let value =
+        |index: usize| shared.documents().field(Documents::STUDY, &format!("{field}.{index}"));
+    (0..).map_while(value).collect()
 }
 
 /// Draws the choice of a distribution; a new one starts with default values.
@@ -188,12 +259,7 @@ fn list(ui: &mut Ui, shared: &Shared, (name, field): (&str, &str), help: &str, e
     ui.horizontal(|ui| {
         widgets::name(ui, name);
         let id = egui::Id::new(("list", field));
-        let values: Vec<String> = (0..)
-            .map_while(|index| {
-                shared.documents().field(Documents::STUDY, &format!("{field}.{index}"))
-            })
-            .collect();
-        let stored = values.join(", ");
+        let stored = values(shared, field).join(", ");
         let mut typed =
             ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
         let width = ui.available_width() - 12.0;

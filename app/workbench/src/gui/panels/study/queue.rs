@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{ProgressBar, RichText, Ui};
-use endline_session::campaign::{Job, State};
-use endline_session::study::queue::StudyJob;
+use endline_session::campaign::{Job, State, pool};
+use endline_session::study::queue::{Part, StudyJob};
 use endline_session::study::results::{self, StudyResults};
 use endline_session::study::stats::answer;
 
@@ -15,12 +15,16 @@ use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::time_left;
 
+/// Time without a finished encounter after which the panel says that encounters are in progress.
+const QUIET: Duration = Duration::from_secs(20);
+
 /// Draws the queue.
 pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let mut actions = Vec::new();
     for job in &shared.workbench.studies().queue.jobs {
         ui.add_space(3.0);
         row(ui, job, &mut actions);
+        forecast(ui, job);
         headline(ui, job, shared.workbench.studies().results.shown());
     }
     if shared.workbench.studies().queue.jobs.iter().any(Job::at_work) {
@@ -62,6 +66,9 @@ fn row(ui: &mut Ui, job: &StudyJob, actions: &mut Vec<StudyAction>) {
             State::Cancelling => {
                 ("cancelled; the encounters in progress end".to_owned(), palette.warning)
             }
+            State::Done if job.request.part == Part::Forecast => {
+                ("forecast made".to_owned(), palette.good)
+            }
             State::Done => ("done".to_owned(), palette.good),
             State::Cancelled => {
                 ("cancelled; finished encounters are kept".to_owned(), palette.faint)
@@ -98,6 +105,22 @@ fn row(ui: &mut Ui, job: &StudyJob, actions: &mut Vec<StudyAction>) {
         let full = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
         ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(full);
     });
+}
+
+/// Draws the forecast of a study, or how long its present encounters have run if the last one ended long ago.
+fn forecast(ui: &mut Ui, job: &StudyJob) {
+    let text = match (job.forecast(), job.progress().since_last()) {
+        (Some(forecast), _) => forecast.cost.map(|cost| cost.words(pool::default_count())),
+        (None, Some(since)) if since >= QUIET => Some(format!(
+            "the present encounters have run for {}; a held whale takes minutes",
+            time_left(since)
+        )),
+        _ => None,
+    };
+    if let Some(text) = text {
+        let faint = Theme::palette_of(ui).faint;
+        ui.add(egui::Label::new(RichText::new(text).color(faint)).wrap());
+    }
 }
 
 /// Draws the verdict so far in short, if the results shown are those of the job: how many whales are held, and what is still open.

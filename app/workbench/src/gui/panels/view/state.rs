@@ -111,8 +111,8 @@ impl ViewPanel {
         self.frame_all();
     }
 
-    /// Frames everything when the model changes or statics have converged; follows the whale from the start of a flight on. The end of a
-    /// flight does not move the camera.
+    /// Frames everything when the model changes or statics have converged. Follows the whale from the start of a flight on, and in a run
+    /// of a search, a study or a recording, which ends where the whale has swum to. The end of a flight does not move the camera.
     pub(super) fn follow(&mut self, shared: &Shared) {
         if !std::mem::replace(&mut self.seen.flying, shared.flying) && shared.flying {
             self.follow_whale();
@@ -127,6 +127,9 @@ impl ViewPanel {
         // While the start of the whale is dragged, the view stays.
         if (!known || settled) && !shared.posing {
             self.frame_all();
+        }
+        if !known && shared.workbench.shows_guest() && view.model.spec.whale.is_some() {
+            self.follow_whale();
         }
     }
 
