@@ -164,7 +164,7 @@ fn fold_step_control(control: &StepControl, clock: &mut Fold) {
     clock.real(*contact_step_s);
     tension_n.iter().for_each(|two| clock.reals(two));
     clock.word(u64::from(*known));
-    clock.word(u64::from(*still_steps));
+    still_steps.iter().for_each(|steps| clock.word(u64::from(*steps)));
 }
 
 fn fold_body(body: &BodyState, fold: &mut Fold) {

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use endline_sdk::LineEnd;
 
 use crate::model::{
-    Body, Joint, JointKind, Knot, Line, Link, Model, ModelError, ModelSpec, Obstacle, Resolution,
-    Rope, Settings, Strength, WeakPlace,
+    Body, Gears, Joint, JointKind, Knot, Line, Link, Model, ModelError, ModelSpec, Obstacle,
+    Resolution, Rope, Settings, Strength, WeakPlace,
 };
 use crate::step::rest;
 use crate::water::Sea;
@@ -57,6 +57,7 @@ impl Model {
             "segments have positive lengths"
         );
         Self {
+            gears: Gears::of(&spec),
             may_be_held: rest::may_be_held(&spec),
             knots,
             spec,
@@ -90,6 +91,11 @@ impl Model {
             settings: Settings { resolution: None, ..spec.settings.clone() },
         };
         Self::laid_out(alone, None, self.sea.clone())
+    }
+
+    /// Some gear of the model with the same whale, in the same sea.
+    pub(crate) fn with_gear(&self, spec: ModelSpec) -> Self {
+        Self::laid_out(spec, self.skin_tree.clone(), self.sea.clone())
     }
 
     /// A spec without a whale in the same sea, with the same wave components.

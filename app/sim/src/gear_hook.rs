@@ -68,7 +68,7 @@ fn execute(
             };
             if !state.rope.cut[segment] {
                 record_parted_line(model, state, segment, None);
-                cut(state, segment);
+                cut(model, state, segment);
             }
         }
         GearAction::ReleaseLink { link } => {
@@ -78,7 +78,7 @@ fn execute(
             let segment = link_segment(model, &model.spec.links[link]);
             if !state.rope.cut[segment] {
                 state.link_parted_s[link] = Some(state.time_s);
-                cut(state, segment);
+                cut(model, state, segment);
             }
         }
     }

@@ -73,7 +73,7 @@ pub(crate) fn part(model: &Model, state: &mut State) -> bool {
         let segment = link_segment(model, link);
         if link.enabled && !state.rope.cut[segment] && state.rope.tension[segment] > link.rating_n {
             state.link_parted_s[index] = Some(state.time_s);
-            cut(state, segment);
+            cut(model, state, segment);
             parted = true;
         }
     }
@@ -89,7 +89,7 @@ pub(crate) fn part(model: &Model, state: &mut State) -> bool {
             continue;
         };
         record_parted_line(model, state, worst, at_m);
-        cut(state, worst);
+        cut(model, state, worst);
         parted = true;
     }
     parted
@@ -107,9 +107,9 @@ pub(crate) fn record_parted_line(
     state.line_parted[model.segment_line[segment]].get_or_insert((time_s, at_m));
 }
 
-/// Cuts a segment. Gear that is held is released.
-pub(crate) fn cut(state: &mut State, segment: usize) {
-    state.step_control.still_steps = 0;
+/// Cuts a segment. Its gear is released if it is held.
+pub(crate) fn cut(model: &Model, state: &mut State, segment: usize) {
+    state.step_control.still_steps[model.gears.of_line[model.segment_line[segment]]] = 0;
     state.rope.cut[segment] = true;
     state.rope.tension[segment] = 0.0;
 }

@@ -50,7 +50,7 @@ impl State {
                 .iter()
                 .map(|hook| vec![0.0; hook.gear.descriptor().state_len])
                 .collect(),
-            step_control: StepControl::new(model.spec.lines.len()),
+            step_control: StepControl::new(model.spec.lines.len(), model.gears.count),
             pilot: PilotMemory::default(),
         };
         debug_assert_eq!(state.rope.position.len(), model.node_count, "one position per node");

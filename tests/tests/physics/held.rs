@@ -1,6 +1,6 @@
 //! Gear that stands still is held, and is then where it would be without that.
 
-use endline_sim::{DVec3, Model, State, Workspace};
+use endline_sim::{DVec3, Input, Model, State, Workspace};
 
 use crate::linked::{built, spec};
 use crate::momentum;
@@ -103,4 +103,63 @@ fn a_gear_type_releases_gear_that_is_held() {
     assert!(workspace.audit.held_steps > 250, "it is held before: {}", workspace.audit.held_steps);
     assert!(speed_m_s > 0.01, "the rope falls: {speed_m_s}");
     assert!(apart_m < 0.02, "slack rope that recoils: {apart_m}");
+}
+
+/// The gear of `hello-endline` with a second one.
+const TWO_GEARS: &[(&str, &str)] = &[
+    ("part = \"buoy\"", "part = \"near/buoy\""),
+    ("rope_nodes = 1000\n", "rope_nodes = 2000\n"),
+    (
+        "[[gear]]\nassembly = \"single\"\n",
+        "[[gear]]\nid = \"near\"\nassembly = \"single\"\n\n[[gear]]\nid = \"far\"\nassembly = \"single\"\nposition = [\"300 m\", \"0 m\"]\n",
+    ),
+];
+
+/// A whale meets an endline in a field: the other gear is held to the bit, and the endline moves as it would alone.
+#[test]
+fn gear_that_the_whale_meets_moves_and_the_other_gear_is_held() {
+    let (model, before, _) = run_changed("hello-endline", TWO_GEARS, 11.0, true);
+    let seconds = 14.0;
+    let (_, state, workspace) = run_changed("hello-endline", TWO_GEARS, seconds, true);
+    let (alone, alone_state, other) = run("hello-endline", seconds, true);
+    let gears = &model.gears;
+    assert_eq!(gears.count, 2);
+    let mut far = 0;
+    for (line, nodes) in model.line_nodes.iter().enumerate() {
+        let is_far = model.spec.lines[line].id.starts_with("far");
+        assert_eq!(is_far, gears.of_line[line] != gears.of_line[0], "the first line is near");
+        if is_far {
+            let of = |state: &State| state.rope.position[nodes.clone()].to_vec();
+            assert_eq!(of(&before), of(&state), "held");
+            far += nodes.len();
+        }
+    }
+    assert!(far > 0);
+    let near = &state.rope.position[..alone.node_count];
+    let apart_m =
+        greatest(near.iter().zip(&alone_state.rope.position).map(|(one, two)| one.distance(*two)));
+    let moved_m =
+        greatest(near.iter().zip(&before.rope.position).map(|(one, two)| one.distance(*two)));
+    println!("{apart_m:.2e} m apart, moved {moved_m:.2} m");
+    assert!(
+        workspace.contacts.iter().all(|contact| gears.of_line[contact.line] == gears.of_line[0])
+    );
+    assert_eq!(workspace.contacts.len(), other.contacts.len());
+    assert!(moved_m > 0.05, "the whale moves the endline: {moved_m}");
+    assert!(apart_m < 1e-3 * moved_m, "{apart_m}");
+}
+
+/// A workspace is scratch: without it, gear that is held beside gear that moves goes on to the same bits.
+#[test]
+fn a_new_workspace_continues_a_field_to_the_same_bits() {
+    let model = built(spec("hello-endline", TWO_GEARS));
+    let (mut one, mut own) = momentum::run(&model, 12.5);
+    let mut two = one.clone();
+    let mut fresh = Workspace::new(&model);
+    for _ in 0..100 {
+        endline_sim::step(&model, &Input::default(), &mut one, &mut own).unwrap();
+        endline_sim::step(&model, &Input::default(), &mut two, &mut fresh).unwrap();
+    }
+    assert!(!own.contacts.is_empty() || one.whale.is_some());
+    assert_eq!(one, two);
 }

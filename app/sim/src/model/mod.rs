@@ -3,6 +3,7 @@
 //! Data only: `assembly.rs` checks a [`ModelSpec`] and makes a [`Model`] from it.
 
 pub mod body;
+pub mod gears;
 pub mod rope;
 pub mod settings;
 pub mod whale;
@@ -19,6 +20,7 @@ use crate::whale::tree::SkinTree;
 
 pub use crate::float::{Float, Form, Passing, WaterPlane, Wet};
 pub use body::{Body, BodyRole, PlacedShape, Shape};
+pub use gears::Gears;
 pub use rope::{
     Hitch, Joint, JointKind, Line, Link, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength,
     WeakPlace,
@@ -87,7 +89,9 @@ pub struct Model {
     pub knots: Vec<Knot>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
-    /// Whether the gear is held while it stands still.
+    /// Its separate gears.
+    pub gears: Gears,
+    /// Whether gear is held while it stands still.
     pub(crate) may_be_held: bool,
     /// Current and waves, prepared for evaluation.
     pub sea: Sea,

@@ -97,10 +97,13 @@ pub(crate) fn remesh(
         return Remeshed { splits: 0, near_ratio: near_ratio(state, &work.wanted, resolution) };
     }
     grip(model, state, work);
-    let lines = 0..model.spec.lines.len();
-    let splits = lines.map(|line| remesh_line(model, state, line, work, resolution)).sum();
-    if splits > 0 {
-        state.step_control.still_steps = 0;
+    let mut splits = 0;
+    for (line, gear) in model.gears.of_line.iter().enumerate() {
+        let own = remesh_line(model, state, line, work, resolution);
+        if own > 0 {
+            state.step_control.still_steps[*gear] = 0;
+        }
+        splits += own;
     }
     debug_assert!(
         state.rope.segment_length.iter().all(|length| *length > 0.0),

@@ -90,14 +90,19 @@ impl State {
         rope.earlier_velocity.fill(DVec3::ZERO);
         rope.earlier_position.clone_from(&rope.position);
         rope.earlier_dt_s = 0.0;
-        for body in &mut self.bodies {
-            body.velocity = DVec3::ZERO;
-            body.earlier_velocity = DVec3::ZERO;
-            body.earlier_position = body.position;
-            body.spin = DVec3::ZERO;
-            body.earlier_spin = DVec3::ZERO;
-            body.earlier_orientation = body.orientation;
-        }
+        self.bodies.iter_mut().for_each(BodyState::rest);
+    }
+}
+
+impl BodyState {
+    /// Sets all velocities to zero and the history to that of a body at rest.
+    pub(crate) fn rest(&mut self) {
+        self.velocity = DVec3::ZERO;
+        self.earlier_velocity = DVec3::ZERO;
+        self.earlier_position = self.position;
+        self.spin = DVec3::ZERO;
+        self.earlier_spin = DVec3::ZERO;
+        self.earlier_orientation = self.orientation;
     }
 }
 

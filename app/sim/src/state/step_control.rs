@@ -64,22 +64,22 @@ pub struct StepControl {
     pub tension_n: Vec<[f64; 2]>,
     /// Number of valid entries in each pair.
     pub known: u32,
-    /// Number of steps of the model, up to the last, at whose end the gear stood still.
-    pub still_steps: u32,
+    /// Number of steps of the model, up to the last, at whose end each gear stood still.
+    pub still_steps: Vec<u32>,
 }
 
 clone_in_place!(StepControl { step_s, limit, contact_step_s, tension_n, known, still_steps });
 
 impl StepControl {
-    /// Initial state for a model with this number of lines.
-    pub(crate) fn new(lines: usize) -> Self {
+    /// Initial state for a model with this number of lines and gears.
+    pub(crate) fn new(lines: usize, gears: usize) -> Self {
         Self {
             step_s: 0.0,
             limit: LimitedBy::Inputs,
             contact_step_s: 0.0,
             tension_n: vec![[0.0; 2]; lines],
             known: 0,
-            still_steps: 0,
+            still_steps: vec![0; gears],
         }
     }
 

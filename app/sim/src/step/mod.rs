@@ -11,6 +11,7 @@ use endline_sdk::Controls;
 
 pub mod audit;
 mod contact;
+mod moving;
 pub mod peaks;
 mod rejection;
 pub(crate) mod rest;

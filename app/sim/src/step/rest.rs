@@ -3,7 +3,8 @@
 //! Gear stands still if no node and no body is faster than [`STILL_M_S`] at the end of a step of the model, for [`STILL_S`] in a
 //! row. Its mean acceleration in that time is below `2 STILL_M_S / STILL_S` = 1e-4 m/s², a hundred-thousandth of its weight. At
 //! `STILL_M_S` it would move 0.6 mm in a minute. While it is held its velocities are zero, and a step of the model costs
-//! the search for gear near the whale only. A balance that is not stable is held too.
+//! the search for gear near the whale only. A balance that is not stable is held too. Of several gears, each is held apart from the
+//! others (`moving.rs`).
 //!
 //! What can move it, and ends the hold before the step in which it does:
 //!
@@ -46,9 +47,14 @@ pub(crate) fn may_be_held(spec: &ModelSpec) -> bool {
         && spec.bodies.iter().all(|body| body.held_until_s.is_none())
 }
 
-/// Whether gear has stood still long enough to be held.
+/// Whether all gear has stood still long enough to be held.
 pub(super) fn stands_still(model: &Model, state: &State) -> bool {
-    state.step_control.still_steps >= least_steps(model)
+    (0..model.gears.count).all(|gear| gear_stands_still(model, state, gear))
+}
+
+/// Whether a gear has stood still long enough to be held.
+pub(super) fn gear_stands_still(model: &Model, state: &State, gear: usize) -> bool {
+    state.step_control.still_steps[gear] >= least_steps(model)
 }
 
 /// Steps of the model in which gear has to stand still.
@@ -66,47 +72,52 @@ pub(super) fn hold(model: &Model, state: &mut State, workspace: &mut Workspace) 
     workspace.audit.held_steps += 1;
 }
 
-/// Counts the steps of the model at whose end gear stands still.
+/// Counts the steps of the model at whose end each gear stands still.
 pub(super) fn count_still(model: &Model, state: &mut State, workspace: &Workspace) {
     if !model.may_be_held {
         return;
     }
-    let still = workspace.contacts.is_empty()
-        && workspace.body_contacts.is_empty()
-        && state.rope.rope_grips.is_empty()
-        && is_slow(model, state);
-    let steps = &mut state.step_control.still_steps;
-    *steps = if still { steps.saturating_add(1) } else { 0 };
+    let mut still = vec![true; model.gears.count];
+    let gears = &model.gears;
+    let of_contacts = workspace.contacts.iter().map(|contact| gears.of_line[contact.line]);
+    let of_bodies = workspace.body_contacts.iter().map(|contact| gears.of_body[contact.body]);
+    let of_ropes = state.rope.rope_grips.iter().flat_map(|grip| grip.lines);
+    let of_ropes = of_ropes.map(|line| gears.of_line[line]);
+    of_contacts.chain(of_bodies).chain(of_ropes).for_each(|gear| still[gear] = false);
+    for (body, gear) in state.bodies.iter().zip(&gears.of_body) {
+        still[*gear] &= is_below(body.velocity, STILL_M_S) && is_below(body.spin, STILL_M_S);
+    }
+    for (line, gear) in gears.of_line.iter().enumerate() {
+        still[*gear] = still[*gear] && is_slow(model, state, line);
+    }
+    for (steps, still) in state.step_control.still_steps.iter_mut().zip(still) {
+        *steps = if still { steps.saturating_add(1) } else { 0 };
+    }
 }
 
-/// Whether no node and no body is faster than gear that stands still.
-fn is_slow(model: &Model, state: &State) -> bool {
+fn is_below(velocity: DVec3, limit: f64) -> bool {
+    velocity.length_squared() <= limit * limit
+}
+
+/// Whether no node of a line is faster than gear that stands still.
+fn is_slow(model: &Model, state: &State, line: usize) -> bool {
     let rope = &state.rope;
-    let is_below = |velocity: DVec3, limit: f64| velocity.length_squared() <= limit * limit;
     let is_slack = |segment: usize| rope.tension[segment] <= 0.0;
     let is_on_seabed = |node: usize| {
         let seabed = model.spec.seabed.as_ref();
         seabed.is_some_and(|seabed| seabed.depth_of(rope.position[node]) > 0.0)
     };
-    let mut lines = model.line_nodes.iter().zip(&model.line_segments);
-    let are_bodies_slow = state
-        .bodies
-        .iter()
-        .all(|body| is_below(body.velocity, STILL_M_S) && is_below(body.spin, STILL_M_S));
-    are_bodies_slow
-        && lines.all(|(nodes, segments)| {
-            let lies_slack = |node: usize, next: usize| {
-                segments.start < next
-                    && next < segments.end
-                    && is_slack(next - 1)
-                    && is_slack(next)
-                    && is_on_seabed(node)
-            };
-            // A segment begins at each node but the last.
-            nodes.clone().zip(segments.start..).all(|(node, next)| {
-                let velocity = rope.velocity[node];
-                is_below(velocity, STILL_M_S)
-                    || is_below(velocity, LYING_M_S) && lies_slack(node, next)
-            })
-        })
+    let segments = &model.line_segments[line];
+    let lies_slack = |node: usize, next: usize| {
+        segments.start < next
+            && next < segments.end
+            && is_slack(next - 1)
+            && is_slack(next)
+            && is_on_seabed(node)
+    };
+    // A segment begins at each node but the last.
+    model.line_nodes[line].clone().zip(segments.start..).all(|(node, next)| {
+        let velocity = rope.velocity[node];
+        is_below(velocity, STILL_M_S) || is_below(velocity, LYING_M_S) && lies_slack(node, next)
+    })
 }

@@ -7,12 +7,12 @@
 //! The run ends if a step of `settings.least_step_s` is rejected.
 
 use super::Stop;
+use super::moving;
 use super::rejection::StepKind;
 use super::rest;
 use super::solver_step::solver_step;
 use super::substep_policy::{AfterRejection, SubstepPolicy};
 use super::workspace::Workspace;
-use crate::contact::rope_on_skin::step_sums::StepSums;
 use crate::cost::CostPart;
 use crate::model::{Model, Whale};
 use crate::remesh::remesh;
@@ -21,14 +21,30 @@ use crate::state::{LimitedBy, State, WhaleState};
 use crate::step_control::{self, Taken};
 use crate::whale::drive::EndPose;
 use crate::whale::hitch;
-use crate::whale::jaws::MouthLoad;
-use crate::whale::kinetic::{RopeImpulse, Times, centre_of};
+use crate::whale::kinetic::{Times, centre_of};
 
 /// How many times a step of the model may be undone and repeated with shorter solver steps.
 const MOST_TAKEN_BACK: usize = 3;
 
-/// Solver steps to the end of the model's step; all are undone and repeated shorter if the error of one is far above its target.
+/// Advances the gear to the end of the model's step. Of several gears, those that stand still are held.
 pub(super) fn advance(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+) -> Result<(), Stop> {
+    if moving::is_possible(model) {
+        let gears = moving::gears_in_step(model, state, whale);
+        if gears.len() < model.gears.count {
+            return moving::advance(model, state, workspace, whale, gears);
+        }
+        workspace.leave_moving(model);
+    }
+    advance_all(model, state, workspace, whale)
+}
+
+/// Solver steps to the end of the model's step; all are undone and repeated shorter if the error of one is far above its target.
+pub(super) fn advance_all(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
@@ -40,14 +56,7 @@ pub(super) fn advance(
     let settings = &model.spec.settings;
     let balance = workspace.balance;
     for taken_back in 0..=MOST_TAKEN_BACK {
-        workspace.peak_tension_n.fill(0.0);
-        workspace.unconverged_peak_n.fill(0.0);
-        workspace.contacts.clear();
-        workspace.body_contacts.clear();
-        workspace.body_sums.clear();
-        workspace.sums = StepSums::default();
-        workspace.mouth.iter_mut().for_each(MouthLoad::clear);
-        workspace.pulled = RopeImpulse::default();
+        workspace.begin_step();
         let remeshed = remesh(model, state, &mut workspace.remesh);
         if taken_back == 0 {
             workspace.audit.take_lengths(&remeshed);

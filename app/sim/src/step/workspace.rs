@@ -1,6 +1,7 @@
 //! Scratch of a run, and the results of its last step for readers.
 
 use super::audit::Audit;
+use super::moving::Moving;
 use super::peaks::{SpikeWatch, raise};
 use super::stages::Stages;
 use crate::balance::Balance;
@@ -54,6 +55,8 @@ pub struct Workspace {
     pub(super) drive: DriveScratch,
     /// Impulse of rope on the whale over the solver steps of the step.
     pub(super) pulled: RopeImpulse,
+    /// The gear in the step, if the other gear is held.
+    pub(super) moving: Option<Box<Moving>>,
 }
 
 impl Workspace {
@@ -79,6 +82,26 @@ impl Workspace {
             whale: None,
             drive: DriveScratch::new(model),
             pulled: RopeImpulse::default(),
+            moving: None,
+        }
+    }
+
+    /// Clears the results of the last step.
+    pub(super) fn begin_step(&mut self) {
+        self.peak_tension_n.fill(0.0);
+        self.unconverged_peak_n.fill(0.0);
+        self.contacts.clear();
+        self.body_contacts.clear();
+        self.body_sums.clear();
+        self.sums = StepSums::default();
+        self.mouth.iter_mut().for_each(MouthLoad::clear);
+        self.pulled = RopeImpulse::default();
+    }
+
+    /// Drops the scratch of steps in which some gear was held.
+    pub(super) fn leave_moving(&mut self, model: &Model) {
+        if self.moving.take().is_some() {
+            self.spikes = SpikeWatch::new(model);
         }
     }
 
