@@ -43,6 +43,17 @@ fn nothing_touches_rope_while_it_is_held() {
     assert!(tally.ended <= HELD / 100, "{tally:?}");
 }
 
+#[test]
+fn nothing_touches_rope_of_a_field_while_it_is_held() {
+    let (fins, mut tally) = (Fins::new(), Tally::default());
+    (0..HELD).for_each(|number| tally.add(number, fins.approach_in_field(number)));
+    println!("{tally:?}");
+    assert!(tally.held > HELD * 9 / 10, "rope is held in nearly all: {tally:?}");
+    assert!(tally.met > HELD * 9 / 10, "and met in nearly all: {tally:?}");
+    assert_eq!(tally.crossed, 0, "{tally:?}");
+    assert!(tally.ended <= HELD / 100, "{tally:?}");
+}
+
 const OF_TWO: u64 = 200;
 
 #[test]

@@ -9,9 +9,8 @@
 //! | moves, or has not stood still for long enough | always |
 //! | stands still | it is within [`REACH_M`] of the whale, or within [`BESIDE_M`] of gear in the step |
 //!
-//! The whale is a ball about its middle with [`REACH_LENGTHS`] of its length as its radius, at the start and the end of the step; gear is
-//! the box about its nodes and bodies. No part of the whale is further from its middle than 0.7 of its length, and neither whale nor rope
-//! moves by [`BESIDE_M`] in a step of the model.
+//! The whale is a ball about its origin, which contains it in any posture, at the start and at the end of the step. Gear is the box about
+//! its nodes and bodies. Rope and bodies move by less than [`BESIDE_M`] in a step of the model.
 
 use glam::DVec3;
 
@@ -24,11 +23,10 @@ use crate::state::{
     BodyGrip, BodyGrips, FrictionState, PairGrip, RopeGrip, RopeState, RopeWithin, SolidGrip,
     State, StepControl, WhaleState,
 };
+use crate::whale::tree::Bounds;
 
 /// Distance from the whale within which gear is in the step [m].
 const REACH_M: f64 = 5.0;
-/// Radius of the whale in body lengths.
-const REACH_LENGTHS: f64 = 0.75;
 /// Distance from gear in the step within which other gear is in it too [m].
 const BESIDE_M: f64 = 1.0;
 
@@ -61,10 +59,9 @@ pub(super) fn gears_in_step(
     whale: Option<&[WhaleState; 2]>,
 ) -> Vec<usize> {
     let boxes = boxes(model, state);
-    let reach_m =
-        model.spec.whale.as_ref().map_or(0.0, |whale| REACH_LENGTHS * whale.length_m + REACH_M);
+    let reach_m = REACH_M + model.skin_tree.as_ref().map_or(0.0, |tree| tree.reach_m);
     let is_near_whale = |of: &Bounds| {
-        whale.is_some_and(|whale| whale.iter().any(|at| of.distance(at.position) < reach_m))
+        whale.is_some_and(|whale| whale.iter().any(|at| distance(of, at.position) < reach_m))
     };
     let mut is_in: Vec<bool> = (0..model.gears.count)
         .map(|gear| !rest::gear_stands_still(model, state, gear) || is_near_whale(&boxes[gear]))
@@ -73,7 +70,7 @@ pub(super) fn gears_in_step(
     loop {
         let is_beside = |gear: usize| {
             let others = boxes.iter().zip(&is_in).filter(|(_, is_in)| **is_in);
-            others.into_iter().any(|(other, _)| other.is_within(&boxes[gear], BESIDE_M))
+            others.into_iter().any(|(other, _)| other.grown(BESIDE_M).meets(&boxes[gear]))
         };
         let reached: Vec<usize> =
             (0..boxes.len()).filter(|gear| !is_in[*gear] && is_beside(*gear)).collect();
@@ -382,31 +379,9 @@ fn with_segment(site: u64, segment: usize) -> u64 {
     (segment as u64) << SEGMENT_BITS | site & ((1 << SEGMENT_BITS) - 1)
 }
 
-/// A box about gear.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-
-    fn take(&mut self, place: DVec3, radius_m: f64) {
-        self.low = self.low.min(place - DVec3::splat(radius_m));
-        self.high = self.high.max(place + DVec3::splat(radius_m));
-    }
-
-    /// Distance to a point; 0 within [m].
-    fn distance(&self, place: DVec3) -> f64 {
-        place.distance(place.clamp(self.low, self.high))
-    }
-
-    /// Whether another box is within a distance in each direction.
-    fn is_within(&self, other: &Self, distance_m: f64) -> bool {
-        let gap = (self.low - other.high).max(other.low - self.high);
-        gap.max_element() < distance_m
-    }
+/// Distance of a point from a box; 0 within [m].
+fn distance(bounds: &Bounds, place: DVec3) -> f64 {
+    place.distance(place.clamp(bounds.low, bounds.high))
 }
 
 /// The boxes about the gears.
@@ -414,12 +389,13 @@ fn boxes(model: &Model, state: &State) -> Vec<Bounds> {
     let mut boxes = vec![Bounds::EMPTY; model.gears.count];
     for (nodes, gear) in model.line_nodes.iter().zip(&model.gears.of_line) {
         let places = &state.rope.position[nodes.clone()];
-        places.iter().for_each(|place| boxes[*gear].take(*place, 0.0));
+        boxes[*gear] = boxes[*gear].join(Bounds::around(places));
     }
     for ((body, of), gear) in state.bodies.iter().zip(&model.spec.bodies).zip(&model.gears.of_body)
     {
         let corners = of.corners().map(|corner| corner.length());
-        boxes[*gear].take(body.position, corners.fold(0.0, f64::max));
+        let around = Bounds::around(&[body.position]).grown(corners.fold(0.0, f64::max));
+        boxes[*gear] = boxes[*gear].join(around);
     }
     boxes
 }

@@ -98,7 +98,7 @@ pub struct SkinTree {
     spheres: Vec<Sphere>,
     order: Vec<u32>,
     /// Greatest distance of a vertex from the whale's origin in any posture [m].
-    pub(super) reach_m: f64,
+    pub(crate) reach_m: f64,
 }
 
 /// A node: its bounding spheres, its triangles, and its children unless it is a leaf.

@@ -20,7 +20,7 @@ pub mod tally;
 
 use dice::Dice;
 use endline_gear::whale::{WhaleForm, build_skin};
-use endline_sim::model::{Settings, Whale};
+use endline_sim::model::{Joint, Line, Settings, Whale};
 use endline_sim::whale::Skin;
 use endline_sim::{DQuat, DVec3, ModelSpec};
 use piece::{Strike, is_edge, piece, reach, strike};
@@ -103,6 +103,26 @@ impl Fins {
         for rope in &mut encounter.spec.ropes {
             rope.mass_kg_m = density_kg_m3 * rope.displaced_m3_m;
         }
+        encounter
+    }
+
+    /// The approach of a number, with another rope far from it, so that the ropes are held apart from each other.
+    pub fn approach_in_field(&self, number: u64) -> Encounter {
+        let mut encounter = self.approach(number);
+        let spec = &mut encounter.spec;
+        let aside = DVec3::new(400.0, 0.0, 0.0);
+        let joints = spec.joints.len();
+        let others = spec.joints.iter().map(|joint| Joint {
+            id: format!("other {}", joint.id),
+            position_m: joint.position_m + aside,
+            ..joint.clone()
+        });
+        let others: Vec<Joint> = others.collect();
+        spec.joints.extend(others);
+        let line = &spec.lines[0];
+        let start_m = line.start_m.iter().map(|place| *place + aside).collect();
+        let (from, to) = (line.from + joints, line.to + joints);
+        spec.lines.push(Line { id: "other".into(), from, to, start_m, ..line.clone() });
         encounter
     }
 
