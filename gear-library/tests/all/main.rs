@@ -6,6 +6,7 @@
 )]
 
 mod animations;
+mod benchmark;
 mod body;
 mod files;
 mod fins;
