@@ -52,54 +52,71 @@ pub(super) fn is_possible(model: &Model) -> bool {
         && !model.spec.settings.balance
 }
 
-/// The gears that are in the step, in rising order.
-pub(super) fn gears_in_step(
-    model: &Model,
-    state: &State,
-    whale: Option<&[WhaleState; 2]>,
-) -> Vec<usize> {
-    let boxes = boxes(model, state);
-    let reach_m = REACH_M + model.skin_tree.as_ref().map_or(0.0, |tree| tree.reach_m);
-    let is_near_whale = |of: &Bounds| {
-        whale.is_some_and(|whale| whale.iter().any(|at| distance(of, at.position) < reach_m))
-    };
-    let mut is_in: Vec<bool> = (0..model.gears.count)
-        .map(|gear| !rest::gear_stands_still(model, state, gear) || is_near_whale(&boxes[gear]))
-        .collect();
-    // Gear that is reached may reach further gear.
-    loop {
-        let is_beside = |gear: usize| {
-            let others = boxes.iter().zip(&is_in).filter(|(_, is_in)| **is_in);
-            others.into_iter().any(|(other, _)| other.grown(BESIDE_M).meets(&boxes[gear]))
-        };
-        let reached: Vec<usize> =
-            (0..boxes.len()).filter(|gear| !is_in[*gear] && is_beside(*gear)).collect();
-        if reached.is_empty() {
-            break;
-        }
-        reached.into_iter().for_each(|gear| is_in[gear] = true);
-    }
-    (0..is_in.len()).filter(|gear| is_in[*gear]).collect()
+/// The choice of the gears that are in the step, and its scratch.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Choice {
+    /// The gears, in rising order.
+    gears: Vec<usize>,
+    is_in: Vec<bool>,
+    boxes: Vec<Bounds>,
 }
 
-/// Advances these gears by the model's step, and holds the others.
+impl Choice {
+    /// Chooses the gears; returns whether some are left out.
+    pub(super) fn choose(
+        &mut self,
+        model: &Model,
+        state: &State,
+        whale: Option<&[WhaleState; 2]>,
+    ) -> bool {
+        let Self { gears, is_in, boxes } = self;
+        measure(model, state, boxes);
+        let reach_m = REACH_M + model.skin_tree.as_ref().map_or(0.0, |tree| tree.reach_m);
+        let is_near_whale = |of: &Bounds| {
+            whale.is_some_and(|whale| whale.iter().any(|at| distance(of, at.position) < reach_m))
+        };
+        is_in.clear();
+        is_in.extend((0..model.gears.count).map(|gear| {
+            !rest::gear_stands_still(model, state, gear) || is_near_whale(&boxes[gear])
+        }));
+        // Gear that is reached may reach further gear.
+        let mut is_complete = false;
+        while !is_complete {
+            is_complete = true;
+            for gear in 0..boxes.len() {
+                let is_beside = |(other, is_in): (&Bounds, &bool)| {
+                    *is_in && other.grown(BESIDE_M).meets(&boxes[gear])
+                };
+                if !is_in[gear] && boxes.iter().zip(is_in.iter()).any(is_beside) {
+                    is_in[gear] = true;
+                    is_complete = false;
+                }
+            }
+        }
+        gears.clear();
+        gears.extend((0..is_in.len()).filter(|gear| is_in[*gear]));
+        gears.len() < model.gears.count
+    }
+}
+
+/// Advances the gears chosen by the model's step, and holds the others.
 pub(super) fn advance(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
-    gears: Vec<usize>,
 ) -> Result<(), Stop> {
+    let gears = &workspace.choice.gears;
     if gears.is_empty() {
         workspace.leave_moving(model);
         workspace.begin_step();
         rest::hold(model, state, workspace);
         return Ok(());
     }
-    let known = workspace.moving.take().filter(|moving| moving.selection.gears == gears);
+    let known = workspace.moving.take().filter(|moving| moving.selection.gears == *gears);
     let mut moving = known.unwrap_or_else(|| {
-        hold_others(model, state, &gears);
-        Box::new(Moving::new(model, gears))
+        hold_others(model, state, gears);
+        Box::new(Moving::new(model, gears.clone()))
     });
     moving.gather(model, state);
     moving.exchange(workspace);
@@ -384,9 +401,10 @@ fn distance(bounds: &Bounds, place: DVec3) -> f64 {
     place.distance(place.clamp(bounds.low, bounds.high))
 }
 
-/// The boxes about the gears.
-fn boxes(model: &Model, state: &State) -> Vec<Bounds> {
-    let mut boxes = vec![Bounds::EMPTY; model.gears.count];
+/// Measures the boxes about the gears.
+fn measure(model: &Model, state: &State, boxes: &mut Vec<Bounds>) {
+    boxes.clear();
+    boxes.resize(model.gears.count, Bounds::EMPTY);
     for (nodes, gear) in model.line_nodes.iter().zip(&model.gears.of_line) {
         let places = &state.rope.position[nodes.clone()];
         boxes[*gear] = boxes[*gear].join(Bounds::around(places));
@@ -397,5 +415,4 @@ fn boxes(model: &Model, state: &State) -> Vec<Bounds> {
         let around = Bounds::around(&[body.position]).grown(corners.fold(0.0, f64::max));
         boxes[*gear] = boxes[*gear].join(around);
     }
-    boxes
 }

@@ -77,22 +77,33 @@ pub(super) fn count_still(model: &Model, state: &mut State, workspace: &Workspac
     if !model.may_be_held {
         return;
     }
-    let mut still = vec![true; model.gears.count];
-    let gears = &model.gears;
-    let of_contacts = workspace.contacts.iter().map(|contact| gears.of_line[contact.line]);
-    let of_bodies = workspace.body_contacts.iter().map(|contact| gears.of_body[contact.body]);
-    let of_ropes = state.rope.rope_grips.iter().flat_map(|grip| grip.lines);
-    let of_ropes = of_ropes.map(|line| gears.of_line[line]);
-    of_contacts.chain(of_bodies).chain(of_ropes).for_each(|gear| still[gear] = false);
-    for (body, gear) in state.bodies.iter().zip(&gears.of_body) {
-        still[*gear] &= is_below(body.velocity, STILL_M_S) && is_below(body.spin, STILL_M_S);
-    }
-    for (line, gear) in gears.of_line.iter().enumerate() {
-        still[*gear] = still[*gear] && is_slow(model, state, line);
-    }
-    for (steps, still) in state.step_control.still_steps.iter_mut().zip(still) {
+    for gear in 0..model.gears.count {
+        let still = touches_nothing(model, state, workspace, gear) && is_slow(model, state, gear);
+        let steps = &mut state.step_control.still_steps[gear];
         *steps = if still { steps.saturating_add(1) } else { 0 };
     }
+}
+
+/// Whether a gear touches neither the whale nor rope.
+fn touches_nothing(model: &Model, state: &State, workspace: &Workspace, gear: usize) -> bool {
+    let gears = &model.gears;
+    workspace.contacts.iter().all(|contact| gears.of_line[contact.line] != gear)
+        && workspace.body_contacts.iter().all(|contact| gears.of_body[contact.body] != gear)
+        && state
+            .rope
+            .rope_grips
+            .iter()
+            .all(|grip| grip.lines.iter().all(|line| gears.of_line[*line] != gear))
+}
+
+/// Whether no node and no body of a gear is faster than gear that stands still.
+fn is_slow(model: &Model, state: &State, gear: usize) -> bool {
+    let gears = &model.gears;
+    let mut bodies = state.bodies.iter().zip(&gears.of_body);
+    let mut lines = (0..).zip(&gears.of_line);
+    bodies.all(|(body, of)| {
+        *of != gear || is_below(body.velocity, STILL_M_S) && is_below(body.spin, STILL_M_S)
+    }) && lines.all(|(line, of)| *of != gear || line_is_slow(model, state, line))
 }
 
 fn is_below(velocity: DVec3, limit: f64) -> bool {
@@ -100,7 +111,7 @@ fn is_below(velocity: DVec3, limit: f64) -> bool {
 }
 
 /// Whether no node of a line is faster than gear that stands still.
-fn is_slow(model: &Model, state: &State, line: usize) -> bool {
+fn line_is_slow(model: &Model, state: &State, line: usize) -> bool {
     let rope = &state.rope;
     let is_slack = |segment: usize| rope.tension[segment] <= 0.0;
     let is_on_seabed = |node: usize| {

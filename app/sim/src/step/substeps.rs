@@ -34,9 +34,8 @@ pub(super) fn advance(
     whale: Option<&[WhaleState; 2]>,
 ) -> Result<(), Stop> {
     if moving::is_possible(model) {
-        let gears = moving::gears_in_step(model, state, whale);
-        if gears.len() < model.gears.count {
-            return moving::advance(model, state, workspace, whale, gears);
+        if workspace.choice.choose(model, state, whale) {
+            return moving::advance(model, state, workspace, whale);
         }
         workspace.leave_moving(model);
     }

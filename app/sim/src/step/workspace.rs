@@ -1,7 +1,7 @@
 //! Scratch of a run, and the results of its last step for readers.
 
 use super::audit::Audit;
-use super::moving::Moving;
+use super::moving::{Choice, Moving};
 use super::peaks::{SpikeWatch, raise};
 use super::stages::Stages;
 use crate::balance::Balance;
@@ -55,7 +55,9 @@ pub struct Workspace {
     pub(super) drive: DriveScratch,
     /// Impulse of rope on the whale over the solver steps of the step.
     pub(super) pulled: RopeImpulse,
-    /// The gear in the step, if the other gear is held.
+    /// The choice of the gears in the step, of several.
+    pub(super) choice: Choice,
+    /// The gears in the step, if others are held.
     pub(super) moving: Option<Box<Moving>>,
 }
 
@@ -82,6 +84,7 @@ impl Workspace {
             whale: None,
             drive: DriveScratch::new(model),
             pulled: RopeImpulse::default(),
+            choice: Choice::default(),
             moving: None,
         }
     }

@@ -84,21 +84,66 @@ fn pick(ui: &mut Ui, shared: &mut Shared, chooser: &mut FileChooser) {
 }
 
 fn gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
-    if shared.documents().field(Documents::SCENARIO, "gear.0.assembly").is_none() {
-        return;
-    }
-    widgets::caption(ui, "Gear");
-    Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-        for index in 0..9 {
-            let field = format!("gear.{index}.assembly");
-            if shared.documents().field(Documents::SCENARIO, &field).is_none() {
-                break;
+    let placed = |table: &str| {
+        let table = table.to_owned();
+        let of = move |index: u32| format!("{table}.{index}");
+        let is_there = |at: &String| shared.documents().has(Documents::SCENARIO, at);
+        (0..9).map(of).take_while(is_there).collect::<Vec<String>>()
+    };
+    let (gears, grounds) = (placed("gear"), placed("field"));
+    if !gears.is_empty() {
+        widgets::caption(ui, "Gear");
+        Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+            for at in gears {
+                name(ui, "Assembly");
+                choice(ui, shared, &format!("{at}.assembly"), Kind::Assembly, edits);
+                ui.end_row();
             }
-            name(ui, "Assembly");
-            choice(ui, shared, &field, Kind::Assembly, edits);
-            ui.end_row();
-        }
+        });
+    }
+    for at in grounds {
+        field_of_gear(ui, shared, &at, edits);
+    }
+}
+
+/// Draws a field of gear: its assembly, and the numbers of its pattern.
+fn field_of_gear(ui: &mut Ui, shared: &Shared, at: &str, edits: &mut Vec<Edit>) {
+    let of = |key: &str| format!("{at}.{key}");
+    let read = |key: &str| shared.documents().field(Documents::SCENARIO, &of(key));
+    widgets::caption(ui, &format!("Field {}", read("id").unwrap_or_default()));
+    Grid::new(of("assembly")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Assembly");
+        choice(ui, shared, &of("assembly"), Kind::Assembly, edits);
+        ui.end_row();
     });
+    let pattern: &[(&str, &str, &str)] = match read("pattern").as_deref() {
+        Some("grid") => &[
+            ("Columns", "columns", "Number of gears along the bearing"),
+            ("Rows", "rows", "Number of rows; 1 for a row along a depth contour"),
+            ("Spacing along", "spacing.0", "Distance of gears along the bearing, such as 60 m"),
+            ("Spacing of rows", "spacing.1", "Distance between rows, such as 80 m"),
+            ("Jitter", "jitter", "Greatest displacement of each gear, such as 5 m"),
+        ],
+        Some("random") => &[
+            ("Gears", "count", "Number of gears"),
+            ("Length", "area.0", "Side of the area along the bearing, such as 400 m"),
+            ("Width", "area.1", "Side of the area across it, such as 200 m"),
+            ("Least distance", "apart", "Least distance of two gears, such as 30 m"),
+        ],
+        _ => &[],
+    };
+    let common = [
+        ("Bearing", "bearing", "Compass bearing of rows, or of the first side of the area"),
+        ("Heading", "heading", "Compass bearing of each gear"),
+        ("Turn", "turn", "Greatest angle by which a heading differs from it"),
+    ];
+    let paths: Vec<(String, &str, &str)> =
+        pattern.iter().chain(&common).map(|(label, key, help)| (of(key), *label, *help)).collect();
+    let listed: Vec<Row<'_>> = paths
+        .iter()
+        .map(|(field, label, help)| Row { label, field, usual: "usual", help })
+        .collect();
+    rows(ui, shared, &of("numbers"), &listed, edits);
 }
 
 fn sea(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
