@@ -67,7 +67,7 @@ const WALLS: [Wall; 10] = [
     // Above the workbench for its pictures alone.
     Wall {
         folder: "app/python",
-        ours: &["endline", "endline-sim", "endline-gear", "endline-session"],
+        ours: &["endline", "endline-sdk", "endline-sim", "endline-gear", "endline-session"],
         outside: Some(&["pyo3"]),
     },
     // Only tests depend on it, by the list of `dev-dependencies`.
