@@ -48,7 +48,8 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask package               build a portable archive and a Debian package of the release
        cargo xtask python [--release]    build the Python package as a wheel, install it in a virtual environment and
-                                         run its tests";
+                                         run its tests
+       cargo xtask wheel                 build this wheel in release, without installing it";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -97,6 +98,7 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         }
         ["python"] => Box::new(|workspace| python::test(workspace, Profile::Dev)),
         ["python", "--release"] => Box::new(|workspace| python::test(workspace, Profile::Release)),
+        ["wheel"] => Box::new(|workspace| python::build(workspace, Profile::Release)),
         _ => return None,
     })
 }

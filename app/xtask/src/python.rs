@@ -12,18 +12,29 @@ use crate::{Outcome, plugins};
 /// The package's folder.
 const FOLDER: &str = "app/python";
 
+/// The package that builds the wheel, as in `requirements.txt`.
+const BUILDER: &str = "maturin>=1.7,<2";
+
 /// Folders of the gear library that hold code of its crate.
 const CODE: [&str; 4] = ["src", "tests", "benches", "examples"];
 
 /// Builds the wheel, installs it and runs its tests.
 /// Errors: when Python is missing, a package cannot be installed, or a test fails.
 pub fn test(workspace: &Workspace, profile: Profile) -> Outcome {
-    let environment = environment(workspace)?;
+    let needs = format!("{FOLDER}/requirements.txt");
+    let environment = environment(workspace, &["--requirement", &needs])?;
     let wheel = wheel(workspace, profile, &environment)?;
     let install = ["install", "--quiet", "--force-reinstall", "--no-deps"];
     let wheel = wheel.display().to_string();
     call(&tool(&environment, "pip"), &[install.as_slice(), &[&wheel]].concat(), workspace)?;
     call(&tool(&environment, "pytest"), &["--quiet", "app/python/tests"], workspace)
+}
+
+/// Builds the wheel without installing or testing it.
+/// Errors: when Python is missing, or a package that builds it cannot be installed.
+pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
+    let environment = environment(workspace, &[BUILDER])?;
+    wheel(workspace, profile, &environment).map(drop)
 }
 
 /// Builds the wheel; returns its path.
@@ -93,18 +104,18 @@ fn entries(folder: &Path) -> Outcome<Vec<PathBuf>> {
     Ok(entries.flatten().map(|entry| entry.path()).collect())
 }
 
-/// Returns a virtual environment with the packages for building and testing; creates it if it is missing.
-fn environment(workspace: &Workspace) -> Outcome<PathBuf> {
+/// Returns a virtual environment with packages as pip takes them; creates it if it is missing.
+fn environment(workspace: &Workspace, packages: &[&str]) -> Outcome<PathBuf> {
     let environment = workspace.target.join("python-env");
     let path = environment.display().to_string();
     if !tool(&environment, "pip").is_file() {
-        call(Path::new("python3"), &["-m", "venv", &path], workspace).map_err(|error| {
+        let python = if cfg!(windows) { "python" } else { "python3" };
+        call(Path::new(python), &["-m", "venv", &path], workspace).map_err(|error| {
             format!("{error}; Python 3.10 or later with venv is needed (Debian: apt-get install python3-venv)")
         })?;
     }
-    let needs = format!("{FOLDER}/requirements.txt");
-    let install = ["install", "--quiet", "--disable-pip-version-check", "--requirement", &needs];
-    call(&tool(&environment, "pip"), &install, workspace)?;
+    let install = ["install", "--quiet", "--disable-pip-version-check"];
+    call(&tool(&environment, "pip"), &[install.as_slice(), packages].concat(), workspace)?;
     Ok(environment)
 }
 
