@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::{as_dict, failed, raised};
-use crate::host::host;
+use crate::host;
 use crate::scenario::text_of;
 
 /// A folder of gear, whales, sites, scenarios and studies.

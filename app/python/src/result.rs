@@ -3,43 +3,45 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use endline_session::recording::program::program;
 use endline_session::scene::Show;
 use endline_session::units::Units;
 use endline_session::{Recording, Report, Run, json};
-use endline_sim::{DVec3, Frame, Model};
+use endline_sim::{DVec3, Model};
 use endline_workbench::scene::{RenderRequest, render};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::error::{failed, raised};
-use crate::moments::{self, Numbers};
+use crate::host;
+use crate::moments::{self, History, Moment, Numbers};
 
 /// A run that has ended.
 #[pyclass(frozen, module = "endline._endline")]
 pub struct Result {
     report: Report,
     model: Arc<Model>,
-    frames: Vec<Arc<Frame>>,
+    moments: Vec<Moment>,
     recording: Recording,
 }
 
 impl Result {
-    /// The result of a run.
-    pub fn of(run: &Run) -> PyResult<Self> {
+    /// The result of a run and of the encounter at its stored frames.
+    pub fn of(run: &Run, history: &History) -> PyResult<Self> {
         Ok(Self {
             report: Report::from_run(run),
             model: Arc::clone(run.model()),
-            frames: run.frames().to_vec(),
+            moments: history.moments(run),
             recording: run.recording().map_err(raised)?,
         })
     }
 
-    fn frame(&self, moment: usize) -> PyResult<&Arc<Frame>> {
-        self.frames.get(moment).ok_or_else(|| {
+    fn moment(&self, moment: usize) -> PyResult<&Moment> {
+        self.moments.get(moment).ok_or_else(|| {
             PyIndexError::new_err(format!(
                 "there are {} moments, and no index {moment}",
-                self.frames.len()
+                self.moments.len()
             ))
         })
     }
@@ -74,14 +76,24 @@ impl Result {
         python: Python<'py>,
         name: &str,
     ) -> Option<(Bound<'py, PyBytes>, Vec<usize>, &'static str)> {
-        let Numbers { bytes, shape, kind } = moments::series(&self.frames, name)?;
+        let Numbers { bytes, shape, kind } = moments::series(&self.moments, &self.model, name)?;
         Some((PyBytes::new(python, &bytes), shape, kind))
     }
 
     /// The regions of skin that contacts lie on, by contact.
     fn contact_regions(&self) -> Vec<&'static str> {
-        let contacts = self.frames.iter().flat_map(|frame| &frame.contacts);
-        contacts.map(|contact| contact.region.name()).collect()
+        moments::regions(&self.moments)
+    }
+
+    /// The outcome so far at each moment; empty without a whale.
+    fn outcomes(&self) -> Vec<&'static str> {
+        let encounters = self.moments.iter().filter_map(|moment| moment.encounter.as_ref());
+        encounters.map(|encounter| encounter.outcome.name()).collect()
+    }
+
+    /// The scenario with the inputs of the run as its pilot program.
+    fn pilot_program(&self) -> PyResult<String> {
+        Ok(program(&self.recording, host(), 0.0).map_err(raised)?.scenario)
     }
 
     /// Saves the recording.
@@ -98,7 +110,7 @@ impl Result {
         size: [u32; 2],
         caption: &str,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let frame = self.frame(moment)?;
+        let frame = &self.moment(moment)?.frame;
         let out = PathBuf::new();
         let fit: &[DVec3] = &[];
         let pixels = python.detach(|| {

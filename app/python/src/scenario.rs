@@ -12,9 +12,11 @@ use endline_sim::settle;
 use pyo3::prelude::*;
 
 use crate::error::{failed, raised};
-use crate::host::host;
+use crate::host;
+use crate::moments::History;
 use crate::result::Result;
 use crate::signals::interruptible;
+use crate::stepping;
 
 /// A scenario with its gear library, ready to run.
 #[pyclass(frozen, module = "endline._endline")]
@@ -112,8 +114,27 @@ impl Scenario {
         let prepared = self.prepared.clone();
         interruptible(python, move |running| {
             let mut run = Run::new(prepared, options).map_err(raised)?;
-            run.to_end_until(|_| !running.load(Relaxed));
-            Result::of(&run)
+            let mut history = History::default();
+            history.add(&run);
+            run.to_end_until(|run| {
+                history.add(run);
+                !running.load(Relaxed)
+            });
+            Result::of(&run, &history)
+        })
+    }
+
+    /// Settles the gear; the run stands ready for its first step.
+    fn start(
+        &self,
+        python: Python<'_>,
+        frames_hz: f64,
+        unsettled: bool,
+    ) -> PyResult<stepping::Run> {
+        let options = RunOptions { unsettled, frames_hz };
+        let prepared = self.prepared.clone();
+        interruptible(python, move |_| {
+            Ok(stepping::Run::of(Run::new(prepared, options).map_err(raised)?))
         })
     }
 }
@@ -140,13 +161,18 @@ pub fn replay(
     let options = ReplayOptions { other_plugins, frames_hz };
     interruptible(python, move |running| {
         let recording = Recording::load(&recording).map_err(raised)?;
-        let progress = |_, _| running.load(Relaxed);
-        let (run, verdict) =
-            again::verify(&recording, host(), options, progress).map_err(raised)?;
+        let mut run = again::start(&recording, host(), options).map_err(raised)?;
+        let mut history = History::default();
+        history.add(&run);
+        let verdict =
+            again::compare(&recording, &mut run, recording.inputs.len(), &mut |run, _| {
+                history.add(run);
+                running.load(Relaxed)
+            });
         let differs = match verdict {
             Verdict::Same { .. } => None,
             Verdict::Differs { step, time_s, part } => Some((step, time_s, part)),
         };
-        Ok((Result::of(&run)?, differs))
+        Ok((Result::of(&run, &history)?, differs))
     })
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_session::campaign::{Control, Shard};
+use endline_session::campaign::{Control, Progress, Shard};
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
 use endline_session::study::{PreparedStudy, batch, merge, report};
@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::{failed, raised};
-use crate::host::host;
+use crate::host;
 use crate::signals::Signals;
 
 /// A study, opened and checked.
@@ -65,6 +65,8 @@ impl Study {
     }
 
     /// Runs the missing blocks of a part; returns the number of done and of all encounters.
+    /// `progress` is called with these numbers whenever they have changed.
+    #[pyo3(signature = (out, part, of, threads, progress=None))]
     fn run(
         &self,
         python: Python<'_>,
@@ -72,12 +74,22 @@ impl Study {
         part: u32,
         of: u32,
         threads: usize,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<(u32, u32)> {
         let (folder, shard) = (self.folder(&out)?, shard(part, of)?);
         python.detach(|| {
             let control = Control::default();
             let work = || batch::run(&self.opened, &folder, shard, threads, &control);
-            let progress = watched(&control, work)?;
+            let mut reported = (0, 0);
+            let report = |now: Progress| {
+                let now = (now.encounters.done, now.encounters.total);
+                if now == std::mem::replace(&mut reported, now) {
+                    return Ok(());
+                }
+                let Some(call) = &progress else { return Ok(()) };
+                Python::attach(|python| call.call1(python, now).map(drop))
+            };
+            let progress = watched(&control, report, work)?;
             Ok((progress.encounters.done, progress.encounters.total))
         })
     }
@@ -112,34 +124,43 @@ impl Study {
     }
 }
 
+/// A part by its number, from 1.
 fn shard(part: u32, of: u32) -> PyResult<Shard> {
-    if part < of {
-        return Ok(Shard { part, of });
+    if (1..=of).contains(&part) {
+        return Ok(Shard { part: part - 1, of });
     }
     Err(PyValueError::new_err(format!(
-        "part {part} of {of}: expected a part from 0 to one less than their number"
+        "part={part}, of={of}: expected a part from 1 to the number of parts, such as part=1, of=1 for the whole"
     )))
 }
 
-/// Does work on another thread; Ctrl+C cancels it after the encounters in progress.
+/// Does work on another thread and reports its progress; Ctrl+C, or an exception of `report`, cancels it after the encounters in
+/// progress.
 fn watched<T: Send>(
     control: &Control,
+    mut report: impl FnMut(Progress) -> PyResult<()>,
     work: impl FnOnce() -> Result<T, endline_session::Error> + Send,
 ) -> PyResult<T> {
     std::thread::scope(|scope| {
         let worker = scope.spawn(work);
-        let mut signals = Signals::new();
+        let (mut signals, mut reported) = (Signals::new(), Ok(()));
         while !worker.is_finished() {
             std::thread::sleep(std::time::Duration::from_millis(20));
-            if !signals.should_continue() {
+            reported = report(control.progress());
+            if reported.is_err() || !signals.should_continue() {
                 control.cancel();
                 break;
             }
         }
         let done = worker.join();
         signals.outcome()?;
+        reported?;
         match done {
-            Ok(done) => done.map_err(raised),
+            Ok(done) => {
+                let done = done.map_err(raised)?;
+                report(control.progress())?;
+                Ok(done)
+            }
             Err(_) => Err(failed("a thread of the study has panicked".into())),
         }
     })

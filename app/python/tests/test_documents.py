@@ -29,6 +29,15 @@ def test_every_script_is_python(script):
     compile(script, "docs/python.md", "exec")
 
 
+#: Scripts that need an hour or a cluster.
+LONG = ("weak-links", "dask")
+
+
+@pytest.mark.parametrize("script", [script for script in scripts()[1:] if not any(word in script for word in LONG)])
+def test_short_scripts_run(script, tmp_path):
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env={"MPLBACKEND": "agg", "PATH": ""}, check=True)
+
+
 def test_the_notebook_runs():
     import nbclient
     import nbformat

@@ -1,15 +1,16 @@
 """The package: library, assemblies, pictures, the command, the cost of the import."""
 
+import inspect
 import re
 import subprocess
 import sys
+import xml.etree.ElementTree
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import endline
-from endline._result import _png
 
 
 def test_the_package_brings_library_and_plugins():
@@ -50,32 +51,70 @@ def test_an_assembly_settles_in_the_sea_of_a_scenario():
     assert drift(running) > drift(calm)
 
 
-def test_a_picture_is_rgba_and_jupyter_shows_it(hello):
+def shape_of(settled):
+    return [line["position_m"] for line in settled["lines"]]
+
+
+def test_a_quantity_is_a_number_in_si_or_a_text_with_its_unit():
+    single = endline.Assembly("single")
+    numbers = single.settle("hello-endline", depth_m=18.288, current_m_s=0.4)
+    assert shape_of(numbers) == shape_of(single.settle("hello-endline", depth_m="10 fathom", current_m_s="40 cm/s"))
+    assert shape_of(numbers) != shape_of(single.settle("hello-endline", depth_m="20 fathom", current_m_s=0.4))
+    rated = [endline.Scenario("hello-endline", rating_N=rating, step_s=step) for rating, step in [(2669.0, 0.01), ("2669 N", "10 ms")]]
+    assert rated[0].model_hash == rated[1].model_hash != endline.Scenario("hello-endline").model_hash
+
+
+@pytest.mark.parametrize(
+    "arguments, error, says",
+    [
+        ({"depth_m": "40"}, ValueError, "depth_m: .*no unit.*a plain number is in m"),
+        ({"depth_m": "40 kg"}, ValueError, "depth_m: .*expected a length"),
+        ({"current_m_s": "1 m"}, ValueError, "current_m_s: .*expected a speed"),
+        ({"current_m_s": float("nan")}, ValueError, "expected a finite number in m/s"),
+        ({"depth_m": True}, TypeError, "depth_m=True: expected a finite number in m"),
+        ({"depth_m": [40]}, TypeError, "expected a finite number in m"),
+    ],
+)
+def test_a_wrong_quantity_is_named(arguments, error, says):
+    with pytest.raises(error, match=says):
+        endline.Assembly("single").settle("hello-endline", **arguments)
+
+
+def test_run_and_settle_name_the_arguments_of_a_scenario():
+    own = set(inspect.signature(endline.Scenario).parameters)
+    for call, added in [(endline.run, {"frames_hz", "unsettled"}), (endline.settle, set())]:
+        assert set(inspect.signature(call).parameters) == own | added
+
+
+def test_a_picture_is_rgba(hello):
     try:
-        pixels = hello.render(30.0, size=(320, 200))
+        pixels = hello.render("30 s", size=(320, 200))
     except endline.EndlineError as error:
         if "EGL" in str(error):
             pytest.skip(str(error))
         raise
     assert pixels.shape == (200, 320, 4) and pixels.dtype == np.uint8
     assert len(np.unique(pixels.reshape(-1, 4), axis=0)) > 50
-    assert hello._repr_png_().startswith(b"\x89PNG")
+    assert np.array_equal(pixels, hello.render(30.0, size=(320, 200)))
     with pytest.raises(endline.EndlineError, match="there is no view"):
         hello.render(view="nowhere")
 
 
-def test_png_bytes_are_read_back_by_matplotlib(tmp_path):
-    from matplotlib import image
-
-    pixels = np.random.default_rng(1).integers(0, 256, (7, 11, 4), dtype=np.uint8)
-    (tmp_path / "p.png").write_bytes(_png(pixels))
-    assert np.array_equal((image.imread(tmp_path / "p.png") * 255).round().astype(np.uint8), pixels)
+def test_jupyter_shows_the_headline_and_the_lines_without_a_picture(hello):
+    shown = hello._repr_html_()
+    assert not hasattr(hello, "_repr_png_") and "<img" not in shown and len(shown) < 5000
+    page = xml.etree.ElementTree.fromstring(shown)
+    assert [text.text for text in page.findall("p")][:-1] == hello.figures["headline"]
+    rows = [[cell.text for cell in row] for row in page.iter("tr")][1:]
+    expected = [("line", line) for line in hello.figures["lines"]] + [("weak link", link) for link in hello.figures["links"]]
+    assert [(row[0], row[1]) for row in rows] == [(kind, one["id"]) for kind, one in expected]
+    assert [float(row[2]) for row in rows] == pytest.approx([one["peak_tension_N"] for _, one in expected], abs=0.05)
 
 
 def test_importing_brings_no_other_package_than_numpy():
     script = "import sys, endline; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
-    assert not {"pyarrow", "pandas", "polars", "distributed", "matplotlib"} & set(loaded)
+    assert not {"pyarrow", "pandas", "polars", "xarray", "distributed", "matplotlib"} & set(loaded)
 
 
 def test_the_stubs_name_what_the_module_has():

@@ -39,11 +39,40 @@ def test_the_table_has_the_bytes_of_the_command_lines(small, by_command, tmp_pat
 def test_parts_make_the_whole(small, by_command, tmp_path):
     file = small()
     study, out = endline.Study(file), tmp_path / "parts"
-    for part in [2, 0, 1]:
+    for part in [3, 1, 2]:
         study.run(out, part=part, of=3, threads=1)
     assert study.merge(out).read_bytes() == (by_command(file) / "table.parquet").read_bytes()
-    with pytest.raises(ValueError, match="part 3 of 3"):
-        study.run(out, part=3, of=3)
+    for part in [0, 4]:
+        with pytest.raises(ValueError, match=f"part={part}, of=3: expected a part from 1"):
+            study.run(out, part=part, of=3)
+
+
+def test_a_part_has_the_blocks_of_the_command_lines_shard(small, command, tmp_path):
+    file = small()
+    endline.Study(file).run(tmp_path / "here", part=2, of=3, threads=1)
+    command("study", "run", file, "--out", tmp_path / "there", "--shard", "2/3", "--eager")
+    here, there = (sorted(block.name for block in (tmp_path / side).glob("block-*.parquet")) for side in ["here", "there"])
+    assert here == there and 0 < len(here) < 10
+
+
+def test_progress_counts_up_to_all_encounters(small, tmp_path):
+    study, reported = endline.Study(small()), []
+    study.run(tmp_path / "out", threads=1, progress=lambda done, total: reported.append((done, total)))
+    assert reported == sorted(set(reported)) and reported[-1] == (10, 10)
+    assert len(reported) > 2
+
+
+def test_an_exception_of_progress_ends_the_study_and_the_next_call_continues(small, tmp_path):
+    study, out = endline.Study(small(24, seconds=2)), tmp_path / "out"
+
+    def stop(done, total):
+        if done > 0:
+            raise RuntimeError(f"stopped at {done}")
+
+    with pytest.raises(RuntimeError, match="stopped at"):
+        study.run(out, threads=1, progress=stop)
+    assert len(list(out.glob("block-*.parquet"))) < 24
+    assert study.run(out) == (24, 24)
 
 
 def test_a_table_is_read_by_pyarrow_polars_and_pandas(small, tmp_path):
@@ -75,7 +104,7 @@ def test_a_report_is_written(small, tmp_path):
 
 def test_blocks_missing_are_told(small, tmp_path):
     study, out = endline.Study(small()), tmp_path / "out"
-    study.run(out, part=0, of=2)
+    study.run(out, part=1, of=2)
     with pytest.raises(endline.EndlineError, match="lacks 5 of 10 blocks"):
         study.merge(out)
 

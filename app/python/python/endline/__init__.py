@@ -21,9 +21,11 @@ for _place in ("file", "line", "field", "help"):
     setattr(EndlineError, _place, None)
 EndlineError.problems = []
 
+from ._labels import Contacts, Event, Line, Lines, Outcome, OutcomeKind, Parting  # noqa: E402
 from ._library import Assembly, Library  # noqa: E402
-from ._result import Contacts, Line, Replayed, Result  # noqa: E402
+from ._result import Replayed, Result  # noqa: E402
 from ._scenario import Scenario, replay, run, settle  # noqa: E402
+from ._stepping import Controls, Moment, Run, RunState, Whale  # noqa: E402
 from ._study import Study  # noqa: E402
 
 #: Version of Endline and the mark of the code that decides a run.
@@ -32,13 +34,23 @@ __version__: str = _endline.version()
 __all__ = [
     "Assembly",
     "Contacts",
+    "Controls",
     "EndlineError",
+    "Event",
     "Library",
     "Line",
+    "Lines",
+    "Moment",
+    "Outcome",
+    "OutcomeKind",
+    "Parting",
     "Replayed",
     "Result",
+    "Run",
+    "RunState",
     "Scenario",
     "Study",
+    "Whale",
     "plugin_problems",
     "replay",
     "run",

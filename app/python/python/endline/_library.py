@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _endline
+from ._units import Quantity, length_text, si_or_none
 
 
 class Library:
@@ -72,14 +73,19 @@ class Assembly:
         return self._inner.text
 
     def settle(
-        self, scenario: str | os.PathLike[str], *, depth: str | None = None, current_m_s: float | None = None
+        self,
+        scenario: str | os.PathLike[str],
+        *,
+        depth_m: Quantity | None = None,
+        current_m_s: Quantity | None = None,
     ) -> dict[str, Any]:
         """The assembly at rest in the sea of a scenario (id or file), under the keys of ``endline.settle/1``.
 
-        ``depth`` with its unit, such as ``"40 m"``, and ``current_m_s``, the speed at the surface [m/s], override the
-        scenario's.
+        ``depth_m``, the depth of the water, and ``current_m_s``, the speed at the surface, override the scenario's. Each is a
+        number in SI or a text with its unit, such as ``"20 fathom"`` or ``"0.5 kn"``.
         """
-        return json.loads(self._inner.settle(os.fspath(scenario), depth, current_m_s))
+        depth, current = length_text(depth_m, "depth_m"), si_or_none(current_m_s, "current_m_s", "m/s")
+        return json.loads(self._inner.settle(os.fspath(scenario), depth, current))
 
     def __repr__(self) -> str:
         return f"Assembly({self.id!r})"

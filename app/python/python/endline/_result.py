@@ -5,54 +5,18 @@ from __future__ import annotations
 import functools
 import json
 import os
-import struct
-import zlib
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
 import numpy as np
 
-from . import _endline
+from . import _endline, _tables
+from ._labels import Contacts, Event, Line, Lines, Outcome, array, contacts
+from ._units import PathLike, Quantity, si
 
-
-@dataclass(frozen=True)
-class Line:
-    """The indices of a line in the arrays of a run."""
-
-    #: Its id.
-    id: str
-    #: Its nodes on axis 1 of ``Result.node_position_m``, from end A to end B.
-    nodes: slice
-    #: Its segments on axis 1 of ``Result.tension_N``, from end A to end B.
-    segments: slice
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """Contacts of rope and skin at all moments: arrays of equal length along axis 0."""
-
-    #: Index of the moment, on axis 0 of ``Result.time_s``.
-    moment: np.ndarray
-    #: Index of the line in ``Result.lines``.
-    line: np.ndarray
-    #: Index of the segment on axis 1 of ``Result.tension_N``.
-    segment: np.ndarray
-    #: Region of the skin, as text.
-    region: np.ndarray
-    #: Place on the rope's centre line [m], shape (n, 3).
-    position_m: np.ndarray
-    #: Unit normal from skin to rope, shape (n, 3).
-    normal: np.ndarray
-    #: Normal force [N].
-    normal_force_N: np.ndarray
-    #: Friction force of skin on rope [N], shape (n, 3).
-    friction_N: np.ndarray
-    #: Length of rope of a contact [m].
-    length_m: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.moment)
+#: Stored moments per simulated second, as with ``endline run --out`` [Hz].
+FRAMES_HZ = 10.0
 
 
 class Result:
@@ -60,6 +24,22 @@ class Result:
 
     def __init__(self, inner: _endline.Result) -> None:
         self._inner = inner
+
+    @classmethod
+    def load(cls, recording: PathLike, *, frames_hz: Quantity = FRAMES_HZ, other_plugins: bool = False) -> Result:
+        """The result of a recording, which is computed again from its inputs, and compared in every step.
+
+        A recording contains inputs and hashes of states, but no arrays; ``to_xarray().to_netcdf(file)`` stores
+        arrays. Raises ``EndlineError`` at a step that differs; ``replay`` returns such a result with the step.
+        """
+        inner, differs = _endline.replay(recording, si(frames_hz, "frames_hz", "Hz"), other_plugins)
+        if differs is not None:
+            step, time_s, part = differs
+            raise _endline.EndlineError(
+                f"{os.fspath(recording)}: step {step} ({time_s:.3f} s): {part} differs from the recording; "
+                "expected the version of Endline and the plugins that recorded it; endline.replay returns what differs"
+            )
+        return cls(inner)
 
     @functools.cached_property
     def figures(self) -> dict[str, Any]:
@@ -70,6 +50,17 @@ class Result:
     def state_hash(self) -> str:
         """Hash of the last state; equal bits give equal hashes."""
         return self.figures["state_hash"]
+
+    @functools.cached_property
+    def outcome(self) -> Outcome:
+        """The outcome of the run: its kind, validity, partings, and the result in sentences."""
+        return Outcome.of(self.figures)
+
+    @functools.cached_property
+    def events(self) -> tuple[Event, ...]:
+        """The events of all steps, by time: contacts, wraps, partings, bodies that are dragged or caught."""
+        keys = ("time_s", "kind", "subject", "value", "unit")
+        return tuple(Event(*(event[key] for key in keys)) for event in self.figures["events"])
 
     @functools.cached_property
     def time_s(self) -> np.ndarray:
@@ -122,16 +113,44 @@ class Result:
         return self._array("whale_speed_m_s")
 
     @functools.cached_property
-    def contacts(self) -> Contacts:
-        """Contacts of rope and skin at each moment."""
-        names = ("moment", "line", "segment", "position_m", "normal", "normal_force_N", "friction_N", "length_m")
-        region = np.array(self._inner.contact_regions(), dtype=str)
-        return Contacts(region=region, **{name: self._array(f"contact_{name}") for name in names})
+    def is_cut(self) -> np.ndarray:
+        """Whether each segment has parted, shape (moments, segments), bool."""
+        return self._array("is_cut")
 
     @functools.cached_property
-    def lines(self) -> list[Line]:
-        """The lines, in the order of the figures."""
-        return [Line(id, slice(a, b), slice(c, d)) for id, (a, b, c, d) in self._inner.lines()]
+    def outcome_kind(self) -> np.ndarray:
+        """The outcome so far at each moment, as the texts of ``OutcomeKind``, shape (moments,); (0,) without a whale."""
+        return np.array(self._inner.outcomes(), dtype=str)
+
+    @functools.cached_property
+    def outcome_decided(self) -> np.ndarray:
+        """Whether the run was then long enough for the outcome to be final, shape (moments,), bool."""
+        return self._array("decided")
+
+    @functools.cached_property
+    def wraps_turns(self) -> np.ndarray:
+        """Turns of rope about each part of the whale, shape (moments, parts); ``parts`` has the names."""
+        return self._array("wraps_turns")
+
+    @functools.cached_property
+    def part_normal_force_N(self) -> np.ndarray:
+        """Sum of the normal forces on each part of the whale, mean of the step before the moment [N], shape (moments, parts)."""
+        return self._array("part_normal_force_N")
+
+    @functools.cached_property
+    def parts(self) -> list[str]:
+        """Names of the whale's parts, in the order of axis 1 of ``wraps_turns``."""
+        return _endline.parts()
+
+    @functools.cached_property
+    def contacts(self) -> Contacts:
+        """Contacts of rope and skin at each moment."""
+        return contacts(self._inner)
+
+    @functools.cached_property
+    def lines(self) -> Lines:
+        """The lines, by id or index; iteration yields ``Line`` in the order of the figures."""
+        return Lines([Line(id, slice(a, b), slice(c, d)) for id, (a, b, c, d) in self._inner.lines()])
 
     @functools.cached_property
     def bodies(self) -> list[str]:
@@ -140,58 +159,68 @@ class Result:
 
     def line_tension_N(self, line: str) -> np.ndarray:
         """Greatest tension along a line at each moment [N], shape (moments,)."""
-        return self.tension_N[:, self._line(line).segments].max(axis=1)
+        return self.tension_N[:, self.lines[line].segments].max(axis=1)
 
     def line_position_m(self, line: str) -> np.ndarray:
         """Places of a line's nodes from end A to end B [m], shape (moments, nodes, 3)."""
-        return self.node_position_m[:, self._line(line).nodes]
+        return self.node_position_m[:, self.lines[line].nodes]
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Saves the recording, which ``endline replay`` and the workbench open."""
+    def to_xarray(self) -> Any:
+        """The arrays as an ``xarray.Dataset`` with named axes, and with unit and meaning of each array in its ``attrs``.
+
+        Needs xarray: ``pip install xarray``.
+        """
+        return _tables.to_xarray(self)
+
+    def to_pandas(self, table: str = "moments") -> Any:
+        """A table as a ``pandas.DataFrame``. Units are part of the columns' names. Needs pandas: ``pip install pandas``.
+
+        ``"moments"`` has a row for each moment, indexed by ``time_s``: outcome, whale, greatest tension of each line, wraps of
+        each part. ``"nodes"``, ``"segments"``, ``"bodies"``, ``"whale"`` and ``"contacts"`` are the tables of ``export``.
+        ``"events"`` has a row for each event.
+        """
+        return _tables.to_pandas(self, table)
+
+    def save(self, path: PathLike) -> None:
+        """Saves the recording, which ``Result.load``, ``endline replay`` and the workbench open."""
         self._inner.save(path)
 
+    def pilot_program(self) -> str:
+        """The scenario with the inputs of the run as its pilot program: text of a scenario file whose run has the same bits.
+
+        Fields of the scenario that ``set`` changed are in the text. Its first line names the other options of the run, such as
+        ``--seed 3``, and changed fields of library files are given again with ``set``. Raises ``EndlineError`` without a whale.
+        """
+        return self._inner.pilot_program()
+
     def render(
-        self, at_s: float | None = None, *, view: str = "orbit", size: tuple[int, int] = (1280, 800)
+        self, at_s: Quantity | None = None, *, view: str = "orbit", size: tuple[int, int] = (1280, 800)
     ) -> np.ndarray:
-        """A picture of the moment nearest to a time [s], as ``endline render`` draws it: RGBA, shape (height, width, 4), uint8.
+        """A picture of the moment nearest to a time, as ``endline render`` draws it: RGBA, shape (height, width, 4), uint8.
 
         Without ``at_s``, the moment of the greatest tension. ``view`` is one of the views of ``endline render``. Needs EGL.
         """
         if len(self.time_s) == 0:
-            raise ValueError("no moments are stored; run with frames_hz above 0")
+            raise ValueError("no moments are stored; expected a run with frames_hz above 0")
         if at_s is None:
             lines = self.figures["lines"]
             at_s = max(lines, key=lambda line: line["peak_tension_N"])["peak_at_s"] if lines else 0.0
-        moment = int(np.abs(self.time_s - at_s).argmin())
+        moment = int(np.abs(self.time_s - si(at_s, "at_s", "s")).argmin())
         width, height = size
         caption = PurePath(self.figures["scenario"]).stem
         pixels = self._inner.render(moment, view, (width, height), caption)
         return np.frombuffer(pixels, np.uint8).reshape(height, width, 4)
 
-    def _repr_png_(self) -> bytes | None:
-        """The picture for Jupyter; None without moments."""
-        try:
-            return _png(self.render(size=(960, 600)))
-        except (ValueError, _endline.EndlineError):
-            return None
+    def _repr_html_(self) -> str:
+        """The headline and the lines for Jupyter, without a picture."""
+        return _tables.to_html(self)
 
     def __repr__(self) -> str:
         figures = self.figures
         return f"Result({figures['scenario']!r}, {figures['simulated_s']:g} s, state {figures['state_hash']})"
 
-    def _line(self, id: str) -> Line:
-        for line in self.lines:
-            if line.id == id:
-                return line
-        known = ", ".join(line.id for line in self.lines)
-        raise KeyError(f"there is no line {id!r}; there are {known}")
-
     def _array(self, name: str) -> np.ndarray:
-        found = self._inner.series(name)
-        if found is None:
-            raise AttributeError(f"there is no series {name!r}")
-        numbers, shape, kind = found
-        return np.frombuffer(numbers, kind).reshape(shape)
+        return array(self._inner, name)
 
 
 @dataclass(frozen=True)
@@ -207,16 +236,3 @@ class Replayed:
     def verified(self) -> bool:
         """Whether all steps have the recorded bits."""
         return self.differs is None
-
-
-def _png(pixels: np.ndarray) -> bytes:
-    """RGBA pixels as a PNG file."""
-    height, width, _ = pixels.shape
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = np.concatenate([np.zeros((height, 1), np.uint8), pixels.reshape(height, width * 4)], axis=1)
-    head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    body = zlib.compress(rows.tobytes(), 6)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")

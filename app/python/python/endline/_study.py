@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 from . import _endline
-
-PathLike = Union[str, "os.PathLike[str]"]
+from ._units import PathLike
 
 
 class Study:
@@ -53,15 +53,22 @@ class Study:
         return Path("results", self.id) if out is None else Path(out)
 
     def run(
-        self, out: PathLike | None = None, *, part: int = 0, of: int = 1, threads: int | None = None
+        self,
+        out: PathLike | None = None,
+        *,
+        part: int = 1,
+        of: int = 1,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
     ) -> tuple[int, int]:
         """Runs the missing encounters, and returns the number of done ones and of all.
 
-        ``part`` (from 0) of ``of`` parts: only each ``of``-th block (``--shard part+1/of``). ``threads``: one for each core if
-        None. Other threads of Python continue. Ctrl+C ends it after the encounters in progress; written blocks remain, and
-        another call continues from them.
+        ``part`` (from 1) of ``of`` parts: only each ``of``-th block, as with ``--shard part/of``. ``threads``: one for each core
+        if None. ``progress`` is called in this thread with the encounters done and in all, at the start and when they change; an
+        exception that it raises ends the study as Ctrl+C does. Other threads of Python continue. Ctrl+C ends it after the
+        encounters in progress; written blocks remain, and another call continues from them.
         """
-        return self._inner.run(self.out(out), part, of, threads or os.cpu_count() or 1)
+        return self._inner.run(self.out(out), part, of, threads or os.cpu_count() or 1, progress)
 
     def merge(self, out: PathLike | None = None) -> Path:
         """Joins the blocks of encounters to ``table.parquet`` and ``table.csv``; returns the first."""

@@ -64,11 +64,11 @@ def _absolute(name: str | None) -> str | None:
 
 
 def _parts(study: Study, folder: Path, encounters: int) -> list[tuple[int, int]]:
-    """The parts with a missing block."""
+    """The parts with a missing block, from 1."""
     if encounters < 1:
         raise ValueError(f"encounters={encounters}: expected at least one for a task")
     of = -(-study.encounters // encounters)
-    missing = [part for part in range(of) if any(not file.is_file() for file in study._inner.blocks(folder, part, of))]
+    missing = [part for part in range(1, of + 1) if any(not file.is_file() for file in study._inner.blocks(folder, part, of))]
     return [(part, of) for part in missing]
 
 

@@ -110,16 +110,19 @@ pub fn verify(
     mut progress: impl FnMut(u64, u64) -> bool,
 ) -> Result<(Run, Verdict), Error> {
     let mut run = start(recording, host, options)?;
-    let verdict = compare(recording, &mut run, recording.inputs.len(), &mut progress);
+    let verdict = compare(recording, &mut run, recording.inputs.len(), &mut |run, steps| {
+        progress(run.state().step, steps)
+    });
     Ok((run, verdict))
 }
 
-/// Takes a run from its start through the first `steps` of a recording, up to the first that differs.
-pub(super) fn compare(
+/// Takes a run from its start through the first `steps` of a recording, up to the first that differs; `progress` receives the run
+/// after each step and the steps in all, and returns whether to continue.
+pub fn compare(
     recording: &Recording,
     run: &mut Run,
     steps: usize,
-    progress: &mut dyn FnMut(u64, u64) -> bool,
+    progress: &mut dyn FnMut(&Run, u64) -> bool,
 ) -> Verdict {
     let differs = |step: usize, part| Verdict::Differs {
         step: step as u64,
@@ -136,7 +139,7 @@ pub(super) fn compare(
         if let Some(part) = step_and_compare(recording, run, step, Input { controls: *controls }) {
             return differs(step, part);
         }
-        if !progress(step as u64, steps as u64) {
+        if !progress(run, steps as u64) {
             break;
         }
     }
@@ -255,8 +258,8 @@ pub fn take_over(
         )));
     }
     let mut run = Run::new(prepared, options)?;
-    let mut report = |step, steps| {
-        progress(step, steps);
+    let mut report = |run: &Run, steps| {
+        progress(run.state().step, steps);
         true
     };
     match compare(recording, &mut run, steps, &mut report) {
