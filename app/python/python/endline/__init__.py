@@ -21,6 +21,20 @@ for _place in ("file", "line", "field", "help"):
     setattr(EndlineError, _place, None)
 EndlineError.problems = []
 
+from ._commands import (  # noqa: E402
+    check_rules,
+    export,
+    film,
+    haul,
+    haul_sweep,
+    hindcast,
+    list_rules,
+    mill,
+    search,
+    sheet,
+)
+from ._encounter_forms import Stories, StrengthThreats, Threats  # noqa: E402
+from ._gear_forms import HaulSheet, HaulSweep, MeansLaws, RuleList, RuleSheet, StrengthLaw  # noqa: E402
 from ._labels import Contacts, Event, Line, Lines, Outcome, OutcomeKind, Parting  # noqa: E402
 from ._library import Assembly, Library  # noqa: E402
 from ._result import Replayed, Result  # noqa: E402
@@ -37,24 +51,43 @@ __all__ = [
     "Controls",
     "EndlineError",
     "Event",
+    "HaulSheet",
+    "HaulSweep",
     "Library",
     "Line",
     "Lines",
+    "MeansLaws",
     "Moment",
     "Outcome",
     "OutcomeKind",
     "Parting",
     "Replayed",
     "Result",
+    "RuleList",
+    "RuleSheet",
     "Run",
     "RunState",
     "Scenario",
+    "Stories",
+    "StrengthLaw",
+    "StrengthThreats",
     "Study",
+    "Threats",
     "Whale",
+    "check_rules",
+    "export",
+    "film",
+    "haul",
+    "haul_sweep",
+    "hindcast",
+    "list_rules",
+    "mill",
     "plugin_problems",
     "replay",
     "run",
+    "search",
     "settle",
+    "sheet",
 ]
 
 

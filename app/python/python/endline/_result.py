@@ -5,18 +5,23 @@ from __future__ import annotations
 import functools
 import json
 import os
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import PurePath
-from typing import Any
+from pathlib import Path, PurePath
+from typing import Any, TypeVar
 
 import numpy as np
 
 from . import _endline, _tables
+from ._commands import export, film
 from ._labels import Contacts, Event, Line, Lines, Outcome, array, contacts
 from ._units import PathLike, Quantity, si
 
 #: Stored moments per simulated second, as with ``endline run --out`` [Hz].
 FRAMES_HZ = 10.0
+
+Made = TypeVar("Made")
 
 
 class Result:
@@ -29,8 +34,8 @@ class Result:
     def load(cls, recording: PathLike, *, frames_hz: Quantity = FRAMES_HZ, other_plugins: bool = False) -> Result:
         """The result of a recording, which is computed again from its inputs, and compared in every step.
 
-        A recording contains inputs and hashes of states, but no arrays; ``to_xarray().to_netcdf(file)`` stores
-        arrays. Raises ``EndlineError`` at a step that differs; ``replay`` returns such a result with the step.
+        A recording contains inputs and hashes of states, but no arrays; ``to_xarray().to_netcdf(file)`` and ``export(folder)``
+        store arrays. Raises ``EndlineError`` at a step that differs; ``replay`` returns such a result with the step.
         """
         inner, differs = _endline.replay(recording, si(frames_hz, "frames_hz", "Hz"), other_plugins)
         if differs is not None:
@@ -211,6 +216,34 @@ class Result:
         pixels = self._inner.render(moment, view, (width, height), caption)
         return np.frombuffer(pixels, np.uint8).reshape(height, width, 4)
 
+    def export(
+        self,
+        folder: PathLike,
+        *,
+        format: str = "parquet",
+        rate_hz: int = 10,
+        from_s: Quantity | None = None,
+        to_s: Quantity | None = None,
+    ) -> list[Path]:
+        """Writes moments as tables, as ``endline.export`` describes; returns their files. The run is computed again."""
+        return self._recorded(lambda file: export(file, folder, format=format, rate_hz=rate_hz, from_s=from_s, to_s=to_s))
+
+    def film(
+        self,
+        to: PathLike,
+        *,
+        from_s: Quantity | None = None,
+        to_s: Quantity | None = None,
+        fps: int = 20,
+        view: str = "orbit",
+        look: str = "measured",
+        size: tuple[int, int] = (1280, 800),
+    ) -> Path:
+        """Writes a film or an animated 3-D model, as ``endline.film`` describes; returns its path. The run is computed again."""
+        return self._recorded(
+            lambda file: film(file, to, from_s=from_s, to_s=to_s, fps=fps, view=view, look=look, size=size)
+        )
+
     def _repr_html_(self) -> str:
         """The headline and the lines for Jupyter, without a picture."""
         return _tables.to_html(self)
@@ -218,6 +251,13 @@ class Result:
     def __repr__(self) -> str:
         figures = self.figures
         return f"Result({figures['scenario']!r}, {figures['simulated_s']:g} s, state {figures['state_hash']})"
+
+    def _recorded(self, work: Callable[[Path], Made]) -> Made:
+        """Gives a recording of the run to a command."""
+        with tempfile.TemporaryDirectory(prefix="endline-") as folder:
+            file = Path(folder, f"{PurePath(self.figures['scenario']).stem}.endline")
+            self.save(file)
+            return work(file)
 
     def _array(self, name: str) -> np.ndarray:
         return array(self._inner, name)

@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from . import _endline
-from ._units import PathLike
+from ._command import call, call_json
+from ._encounter_forms import StrengthThreats, Threats
+from ._units import PathLike, Quantity, si
 
 
 class Study:
@@ -78,6 +80,46 @@ class Study:
         """Writes the report of a merged study; returns its page and the findings under the keys of ``endline study report --json``."""
         page, findings = self._inner.report(self.out(out))
         return Path(page), json.loads(findings)
+
+    def threat(
+        self,
+        out: PathLike | None = None,
+        *,
+        event: str | None = None,
+        curve: str | None = None,
+        model: PathLike | None = None,
+        strengths: PathLike | None = None,
+        cap_N: Quantity | None = None,
+        poll: PathLike | None = None,
+        to: PathLike | None = None,
+    ) -> Threats | StrengthThreats:
+        """The threats of a merged study beside those of NOAA's decision support tool: ``endline study threat``.
+
+        ``event``: event whose rate is the threat, the study's if None. ``curve``, ``model``, ``strengths`` and ``cap_N`` are for
+        the threat by breaking strength: curve of options, NOAA's tables of threats and of strengths, and a greatest strength of
+        lines. ``poll``: table of experts' opinion of 2019, for options that name its rows. ``to``: CSV file to write for the
+        tool; a file with ``-bands`` in its name is written beside it. Returns ``Threats`` for the table of 2019, and
+        ``StrengthThreats`` for the threat by breaking strength.
+        """
+        options = {
+            "out": self.out(out),
+            "event": event,
+            "curve": curve,
+            "model": model,
+            "strengths": strengths,
+            "cap": None if cap_N is None else f"{si(cap_N, 'cap_N', 'N')!r} N",
+            "poll": poll,
+            "to": to,
+        }
+        threats = call_json(["study", "threat", self.name], options, self.library)
+        return StrengthThreats.of(threats) if "strengths" in threats else Threats.of(threats)
+
+    def hindcast(self, out: PathLike | None = None, *, kept: bool = False) -> str:
+        """Compares a merged study with its observations of real whales; returns Markdown: ``endline study hindcast``.
+
+        ``kept``: compare results that another version of the program, or another library, computed.
+        """
+        return call(["study", "hindcast", self.name], {"out": self.out(out), "kept": kept}, self.library)
 
     def read(self, out: PathLike | None = None, *, to: str = "pyarrow") -> Any:
         """The merged table, a row for each run of an option on an encounter; names of columns carry their units.
