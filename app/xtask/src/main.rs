@@ -5,7 +5,6 @@
 
 mod driven;
 mod instructions;
-mod materials;
 mod package;
 mod plugins;
 mod python;

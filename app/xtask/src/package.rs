@@ -9,8 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::Outcome;
+use crate::system_packages::on_path;
 use crate::workspace::{Profile, Workspace, announce};
-use crate::{Outcome, materials};
 
 /// Shells, and the path of each one's completions.
 const SHELLS: [(&str, &str); 3] = [
@@ -44,7 +45,7 @@ pub fn package(workspace: &Workspace) -> Outcome {
     let tree = out.join(&name);
     fill(workspace, &tree)?;
     let stamp = stamp(workspace);
-    materials::write(workspace, &tree.join("share/doc/endline/endline.cdx.json"), &stamp)?;
+    write_materials(workspace, &tree.join("share/doc/endline/endline.cdx.json"), &stamp)?;
     let archive = archive(&out, &name, &stamp)?;
     let debian = debian(&out, &tree, &stamp)?;
     for file in [archive, debian] {
@@ -212,6 +213,43 @@ fn output_of(program: &Path, arguments: &[&str]) -> Outcome<String> {
         return Err(format!("{} {} failed", program.display(), arguments.join(" ")));
     }
     String::from_utf8(output.stdout).map_err(|error| format!("{}: {error}", program.display()))
+}
+
+/// Writes the bill of materials in the format CycloneDX by cargo-cyclonedx: every library in the program with its version, licence and
+/// source. If the tool is missing, prints a message and writes nothing. `stamp` is the time of the last
+/// commit.
+/// Errors: when the tool fails, or a file cannot be written.
+fn write_materials(workspace: &Workspace, file: &Path, stamp: &str) -> Outcome {
+    if !on_path("cargo-cyclonedx") {
+        eprintln!(
+            "skipped: the bill of materials needs cargo-cyclonedx: cargo install cargo-cyclonedx --locked"
+        );
+        return Ok(());
+    }
+    let form = ["--format", "json", "--spec-version", "1.5", "--no-build-deps"];
+    let of = ["cyclonedx", "--manifest-path", "app/workbench/Cargo.toml"];
+    let outcome =
+        workspace.cargo_with(&[of.as_slice(), &form].concat(), &[("SOURCE_DATE_EPOCH", stamp)]);
+    let own = workspace.root.join("app/workbench/endline.cdx.json");
+    let bill = fs::read_to_string(&own).map_err(|error| format!("{}: {error}", own.display()));
+    // The tool writes one bill beside each package of the workspace.
+    bills(workspace).iter().for_each(|file| drop(fs::remove_file(file)));
+    outcome?;
+    // The bill must not name folders of this machine.
+    let bill = bill?.replace(&workspace.root.display().to_string(), "");
+    fs::write(file, bill).map_err(|error| format!("{}: cannot be written: {error}", file.display()))
+}
+
+/// Returns the bills beside the packages of the workspace.
+fn bills(workspace: &Workspace) -> Vec<PathBuf> {
+    let inside = |folder: &Path| -> Vec<PathBuf> {
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
+    };
+    let root = &workspace.root;
+    let mut packages = vec![root.join("gear-library"), root.join("tests")];
+    packages.extend(["app", "plugins"].iter().flat_map(|folder| inside(&root.join(folder))));
+    let files = packages.iter().flat_map(|folder| inside(folder));
+    files.filter(|file| file.to_string_lossy().ends_with(".cdx.json")).collect()
 }
 
 #[cfg(test)]
