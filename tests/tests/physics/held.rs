@@ -149,7 +149,7 @@ fn gear_that_the_whale_meets_moves_and_the_other_gear_is_held() {
     assert!(apart_m < 1e-3 * moved_m, "{apart_m}");
 }
 
-/// A workspace is scratch: without it, gear that is held beside gear that moves goes on to the same bits.
+/// A workspace is scratch: without it, gear held beside gear that moves continues to the same bits.
 #[test]
 fn a_new_workspace_continues_a_field_to_the_same_bits() {
     let model = built(spec("hello-endline", TWO_GEARS));
