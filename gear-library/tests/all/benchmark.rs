@@ -1,5 +1,7 @@
 //! The rows of the benchmark in `docs/benchmark` are the observations of the library's studies and the checks of its cases.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
