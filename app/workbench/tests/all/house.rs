@@ -235,7 +235,7 @@ fn a_button_of_the_start_page_opens_the_gear_it_names() {
         harness.get_by_label(title);
     }
     // Gear is listed; checks of the physics are folded.
-    harness.get_by_label("Ten-trap trawl, nearshore");
+    harness.get_by_label("Gillnet string");
     assert!(harness.query_by_label("A line under tow").is_none());
 
     harness.get_by_label("Trawl of ten").click();
