@@ -97,7 +97,7 @@ press() { click "$1" "$2"; CLICKS=$((CLICKS + 1)); }
 # From a shipped trawl to its compliance sheet, by mouse alone but for what is typed.
 hearing() {
     press 948 15                                            # the layout Design
-    press 466 44; still 20                                  # the panel Rules
+    press 555 44; still 20                                  # the panel Rules
     press 360 76                                            # gear; the list is wheeled to its end
     xdotool mousemove 420 200; for _ in $(seq 20); do xdotool click 5; sleep 0.05; done; still 5
     press 353 175; still 20                                 # Ten-trap trawl, nearshore
