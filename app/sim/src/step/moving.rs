@@ -9,8 +9,9 @@
 //! | moves, or has not stood still for long enough | always |
 //! | stands still | it is within [`REACH_M`] of the whale, or within [`BESIDE_M`] of gear in the step |
 //!
-//! The whale is a ball about its origin, which contains it in any posture, at the start and at the end of the step. Gear is the box about
-//! its nodes and bodies. Rope and bodies move by less than [`BESIDE_M`] in a step of the model.
+//! The whale is a ball about its origin at the start and at the end of the step, which contains it in any posture and on the way. Gear is
+//! the box about its nodes and bodies. Rope and bodies move by less than [`BESIDE_M`] in a step of at most [`LONGEST_STEP_S`]: that takes
+//! 50 m/s.
 
 use glam::DVec3;
 
@@ -29,6 +30,8 @@ use crate::whale::tree::Bounds;
 const REACH_M: f64 = 5.0;
 /// Distance from gear in the step within which other gear is in it too [m].
 const BESIDE_M: f64 = 1.0;
+/// Longest step of a model whose gears are held apart [s].
+const LONGEST_STEP_S: f64 = 0.02;
 
 /// The gears in the step, with their state and workspace.
 #[derive(Clone)]
@@ -50,6 +53,7 @@ pub(super) fn is_possible(model: &Model) -> bool {
         && model.gears.count > 1
         && model.spec.obstacles.is_empty()
         && !model.spec.settings.balance
+        && model.spec.settings.step_s <= LONGEST_STEP_S
 }
 
 /// The choice of the gears that are in the step, and its scratch.
@@ -71,7 +75,9 @@ impl Choice {
     ) -> bool {
         let Self { gears, is_in, boxes } = self;
         measure(model, state, boxes);
-        let reach_m = REACH_M + model.skin_tree.as_ref().map_or(0.0, |tree| tree.reach_m);
+        let way_m = whale.map_or(0.0, |[from, to]| from.position.distance(to.position));
+        let whale_m = model.skin_tree.as_ref().map_or(0.0, |tree| tree.reach_m);
+        let reach_m = REACH_M + whale_m + way_m;
         let is_near_whale = |of: &Bounds| {
             whale.is_some_and(|whale| whale.iter().any(|at| distance(of, at.position) < reach_m))
         };
