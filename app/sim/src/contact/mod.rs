@@ -48,7 +48,7 @@ use failure::{ContactFailure, Kind};
 use rope_on_rope::RopeTouch;
 use rope_on_rope::near::RopeOnRope;
 use rope_on_skin::RopeOnSkin;
-use rope_on_solid::{MARGIN_M, RopeOnSolid, UNWATCHED_M};
+use rope_on_solid::RopeOnSolid;
 
 /// One place where rope presses on skin, at the end of a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +120,18 @@ pub(crate) struct Search<'a> {
     pub dt: f64,
     /// Share of the model's step at which the solver step ends.
     pub goal: f64,
+}
+
+/// Step from whose length on the search has its whole margin, and the least share of it in shorter steps. Rope that Newton's method
+/// moves beyond the margin is searched for again ([`Contacts::find_more`]).
+const WHOLE_MARGIN_S: f64 = 0.01;
+const LEAST_MARGIN_SHARE: f64 = 0.2;
+
+impl Search<'_> {
+    /// Margin of the search beyond contact, of which the longest steps have `whole_m` [m].
+    pub fn margin_m(&self, whole_m: f64) -> f64 {
+        whole_m * (self.dt / WHOLE_MARGIN_S).clamp(LEAST_MARGIN_SHARE, 1.0)
+    }
 }
 
 /// How a contact point is judged to press.
@@ -539,7 +551,7 @@ impl Contacts {
         }
         let (rope, to) = (&state.rope, places);
         let from_drift_m = distance_from_drift_m(rope, scheme.dt, to);
-        let beyond_solids = beyond_solids && from_drift_m > UNWATCHED_M;
+        let beyond_solids = beyond_solids && from_drift_m > self.rope_on_solid.unwatched_m();
         let beyond_gathered = beyond_ropes && from_drift_m > self.rope_on_rope.unwatched_m();
         if beyond_solids || beyond_gathered {
             self.pieces.measure(&rope.position, |node| to[node], &rope.segment_length);
@@ -567,7 +579,7 @@ impl Contacts {
     }
 
     fn may_move_beyond_solids(&self, moved_m: f64) -> bool {
-        self.rope_on_solid.touching || moved_m > MARGIN_M
+        self.rope_on_solid.touching || moved_m > self.rope_on_solid.margin_m
     }
 }
 

@@ -27,7 +27,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::broad_phase::pieces::Pieces;
-use crate::contact::rope_on_rope::near::RopeOnRope;
+use crate::contact::rope_on_rope::near::{MARGIN_M, RopeOnRope};
 use crate::forces::axial::Axial;
 use crate::model::{Model, Resolution, Rope};
 use crate::simd::real::Real;
@@ -350,7 +350,7 @@ fn grip(model: &Model, state: &State, work: &mut RemeshWorkspace) {
     // A merge moves rope, which could then cross rope near it.
     let rope = &state.rope;
     work.pieces.measure(&rope.position, |node| rope.position[node], &rope.segment_length);
-    work.ropes.gather(model, state, &work.pieces, 0.0);
+    work.ropes.gather(model, state, &work.pieces, (0.0, MARGIN_M));
     for pair in &work.ropes.pairs {
         pair.segments.iter().for_each(|segment| work.gripped[*segment] = true);
     }

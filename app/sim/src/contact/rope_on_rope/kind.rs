@@ -12,7 +12,7 @@ use crate::contact::failure::{ContactFailure, Kind, Reason};
 use crate::contact::law::barrier::{BarrierForce, CRUSHED_SHARE, PINCHED_SHARE};
 use crate::contact::law::elastic_grip::{Grip, Push};
 use crate::contact::rope_on_rope::RopeTouch;
-use crate::contact::rope_on_rope::near::{Pair, RopeOnRope, between};
+use crate::contact::rope_on_rope::near::{MARGIN_M, Pair, RopeOnRope, between};
 use crate::contact::rope_on_rope::points::RopeContactPoint;
 use crate::contact::{
     Accepted, Assembly, ContactError, ContactKind, GRIP_STRICTER, Order, Reports, Search, Solution,
@@ -107,7 +107,8 @@ impl ContactKind for RopeOnRope {
     }
 
     fn find(&mut self, search: &Search<'_>) -> Result<(), ContactFailure> {
-        self.gather(search.model, search.state, search.pieces, search.dt);
+        let margin_m = search.margin_m(MARGIN_M);
+        self.gather(search.model, search.state, search.pieces, (search.dt, margin_m));
         self.check_crowded()
     }
 

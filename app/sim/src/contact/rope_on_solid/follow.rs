@@ -73,7 +73,9 @@ impl RopeOnSolid {
         if solid.shape.least_bend_radius(a, b) >= length {
             return [None; 2];
         }
-        if least_by_tangents(&solid.shape, a, b) > self.radius_m[pair.line] + MARGIN_M {
+        if least_by_tangents(&solid.shape, a, b)
+            > self.radius_m[pair.line] + self.margin_m.min(MARGIN_M)
+        {
             return [None; 2];
         }
         let distance = |at: f64| solid.shape.distance(a.lerp(b, at));

@@ -86,8 +86,8 @@ struct Search<'a> {
 }
 
 impl RopeOnSolid {
-    /// Gathers rope near solids for a step of length `dt`, as the state begins it, by rope's pieces over the step.
-    pub fn gather(&mut self, state: &State, pieces: &Pieces, dt: f64) {
+    /// Gathers rope within a margin of solids for a step of length `dt`, as the state begins it, by rope's pieces over the step.
+    pub fn gather(&mut self, state: &State, pieces: &Pieces, (dt, margin): (f64, f64)) {
         self.predicted.clear();
         self.bodies.clear();
         self.bodies.extend(state.bodies.iter().map(Pose::of));
@@ -96,7 +96,7 @@ impl RopeOnSolid {
             self.take_within(state);
         }
         let from = &state.rope.position;
-        self.gather_all(state, &Search { pieces, from, dt, margin: MARGIN_M, again: false });
+        self.gather_all(state, &Search { pieces, from, dt, margin, again: false });
     }
 
     /// Gathers rope near solids for an iteration of statics that begins with rope and bodies at these places. It continues from the
@@ -127,7 +127,7 @@ impl RopeOnSolid {
         self.nodes.clear();
         self.knots.clear();
         self.touching = false;
-        (self.passes, self.dt) = (0, search.dt);
+        (self.passes, self.dt, self.margin_m) = (0, search.dt, search.margin);
         if self.solids.is_empty() {
             return;
         }

@@ -15,7 +15,9 @@ use crate::balance::Source;
 use crate::balance::source_forces::SourceForces;
 use crate::contact::failure::{ContactFailure, Kind, Reason};
 use crate::contact::law::elastic_grip::{Grip, Push};
-use crate::contact::rope_on_solid::{Pair, RopeOnSolid, SolidContactPoint, least_distance};
+use crate::contact::rope_on_solid::{
+    MARGIN_M, Pair, RopeOnSolid, SolidContactPoint, least_distance,
+};
 use crate::contact::{
     ANSWER_STRICTER, Accepted, ActiveSet, Assembly, ContactError, ContactKind, GRIP_STRICTER,
     Order, Search, Solution,
@@ -126,7 +128,7 @@ impl ContactKind for RopeOnSolid {
     }
 
     fn find(&mut self, search: &Search<'_>) -> Result<(), ContactFailure> {
-        self.gather(search.state, search.pieces, search.dt);
+        self.gather(search.state, search.pieces, (search.dt, search.margin_m(MARGIN_M)));
         Ok(())
     }
 

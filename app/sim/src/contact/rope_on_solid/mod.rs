@@ -25,12 +25,12 @@ use crate::state::RopeWithin;
 use excluded::{Spared, spared};
 pub(crate) use points::SolidContactPoint;
 
-/// How far beyond its radius rope is gathered [m].
+/// How far beyond its radius rope is gathered in the longest steps [m].
 pub(crate) const MARGIN_M: f64 = 0.05;
 
-/// Rope no farther than this from its drift has reached no solid for which it was not gathered [m]: in the bound of the search, distance
-/// and half length change by no more than that, and half the path by half of it, together by less than the margin.
-pub(crate) const UNWATCHED_M: f64 = 0.35 * MARGIN_M;
+/// Rope no farther from its drift than this share of the margin has reached no solid for which it was not gathered: in the bound of the
+/// search, distance and half length change by no more than that, and half the path by half of it, together by less than the margin.
+const UNWATCHED_SHARE: f64 = 0.35;
 
 /// A segment near a solid.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +50,8 @@ pub(crate) struct RopeOnSolid {
     pub solids: Vec<Solid>,
     /// The body that each of them is a part of.
     body_of: Vec<Option<usize>>,
+    /// How far beyond its radius rope was gathered [m].
+    pub margin_m: f64,
     pub pairs: Vec<Pair>,
     pub nodes: Vec<SolidContactPoint>,
     /// Knots near solids.
@@ -101,6 +103,11 @@ impl RopeOnSolid {
         let all_knots = model.knots.clone();
         let sizes = Self { lines, along_m, radius_m, widest_m, ..Self::default() };
         Self { solids, body_of, spared, all_knots, ..sizes }
+    }
+
+    /// Move of rope from its drift up to which it has reached no solid for which it was not gathered [m].
+    pub fn unwatched_m(&self) -> f64 {
+        UNWATCHED_SHARE * self.margin_m
     }
 
     /// Copies the lengths of segments for which pieces were measured, if they have changed.

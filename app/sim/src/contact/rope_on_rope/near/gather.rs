@@ -10,8 +10,8 @@ use crate::geometry::segment_pair::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::state::State;
 
-/// Distance beyond contact within which pairs of ropes are gathered [m].
-const MARGIN_M: f64 = 0.03;
+/// Distance beyond contact within which pairs of ropes are gathered, for the longest steps [m].
+pub(crate) const MARGIN_M: f64 = 0.03;
 
 /// Ropes closer than this share of the contact distance at the start of a step pass through each other, and are ignored.
 const THROUGH_SHARE: f64 = 0.01;
@@ -49,8 +49,16 @@ impl RopeOnRope {
         }
     }
 
-    /// Gathers rope near rope for a step from the state by its velocities, in pieces measured for it; whether any may touch.
-    pub fn gather(&mut self, model: &Model, state: &State, pieces: &Pieces, dt: f64) -> bool {
+    /// Gathers rope within a margin of rope, for a step from the state by its velocities, in pieces measured for it; whether any may
+    /// touch.
+    pub fn gather(
+        &mut self,
+        model: &Model,
+        state: &State,
+        pieces: &Pieces,
+        (dt, margin_m): (f64, f64),
+    ) -> bool {
+        self.margin_m = margin_m;
         self.pairs.clear();
         self.room_m.clear();
         self.opened.clear();
@@ -63,7 +71,7 @@ impl RopeOnRope {
             state,
             pieces,
             |node| rope.position[node] + rope.velocity[node] * dt,
-            MARGIN_M,
+            margin_m,
         );
         self.touching
     }

@@ -8,6 +8,8 @@ mod tests;
 
 use glam::DVec3;
 
+pub(crate) use gather::MARGIN_M;
+
 use crate::broad_phase::knots::Ball;
 use crate::broad_phase::ropes::{Broad, Found};
 use crate::contact::rope_on_rope::points::RopeContactPoint;
@@ -57,6 +59,8 @@ pub(crate) struct RopeOnRope {
     /// `None` if ropes pass through each other.
     pub law: Option<RopeLaw>,
     pub pairs: Vec<Pair>,
+    /// Distance beyond contact within which they were gathered [m].
+    margin_m: f64,
     /// Of each pair: its distance when the step began, beyond the contact distance [m].
     room_m: Vec<f64>,
     /// Pairs with open contact points, in order.

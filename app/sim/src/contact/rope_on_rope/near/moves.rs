@@ -10,11 +10,11 @@ use crate::geometry::sweep::{SweptSegment, walk};
 use crate::model::Model;
 use crate::state::State;
 
-/// Rope closer than this to its drift has reached nothing that was not gathered: two ropes together stay within the margin [m].
-const UNWATCHED_M: f64 = 0.014;
+/// Rope closer to its drift than this share of the margin has reached nothing that was not gathered: two ropes together stay within it.
+const UNWATCHED_SHARE: f64 = 0.47;
 
-/// That move as a share of the shortest segment, so that a straight piece stayed straight.
-const UNWATCHED_SHARE: f64 = 0.125;
+/// That distance as a share of the shortest segment, so that a straight piece stayed straight.
+const STRAIGHT_SHARE: f64 = 0.125;
 
 /// Share of their contact distance to which ropes may approach by their velocities before the predictor is projected.
 const HELD_OFF_SHARE: f64 = 0.3;
@@ -95,7 +95,7 @@ impl RopeOnRope {
         if self.law.is_none() {
             f64::INFINITY
         } else {
-            UNWATCHED_M.min(UNWATCHED_SHARE * self.shortest_m)
+            (UNWATCHED_SHARE * self.margin_m).min(STRAIGHT_SHARE * self.shortest_m)
         }
     }
 

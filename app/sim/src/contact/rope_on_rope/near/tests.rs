@@ -88,7 +88,7 @@ fn a_kept_list_gathers_what_a_new_one_gathers() {
                 |node| drift(&state, node),
                 &state.rope.segment_length,
             );
-            work.gather(&model, &state, pieces, DT_S);
+            work.gather(&model, &state, pieces, (DT_S, MARGIN_M));
         }
         let pairs = pairs_of(&kept);
         assert_eq!(pairs, pairs_of(&new), "step {step}");
