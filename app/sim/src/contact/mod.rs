@@ -122,13 +122,13 @@ pub(crate) struct Search<'a> {
     pub goal: f64,
 }
 
-/// Step from whose length on the search has its whole margin, and the least share of it in shorter steps. Rope that Newton's method
-/// moves beyond the margin is searched for again ([`Contacts::find_more`]).
+/// Length of the step from which on the search has its whole margin [s], and the least share of the margin in shorter steps. Where
+/// Newton's method moves rope so far that it may have left the margin, the search is repeated ([`Contacts::find_more`]).
 const WHOLE_MARGIN_S: f64 = 0.01;
 const LEAST_MARGIN_SHARE: f64 = 0.2;
 
 impl Search<'_> {
-    /// Margin of the search beyond contact, of which the longest steps have `whole_m` [m].
+    /// Margin of the search beyond contact in this step [m]; `whole_m` is that of long steps.
     pub fn margin_m(&self, whole_m: f64) -> f64 {
         whole_m * (self.dt / WHOLE_MARGIN_S).clamp(LEAST_MARGIN_SHARE, 1.0)
     }

@@ -25,7 +25,7 @@ use crate::state::RopeWithin;
 use excluded::{Spared, spared};
 pub(crate) use points::SolidContactPoint;
 
-/// How far beyond its radius rope is gathered in the longest steps [m].
+/// Distance from a solid beyond its radius within which rope is gathered for long steps [m].
 pub(crate) const MARGIN_M: f64 = 0.05;
 
 /// Rope no farther from its drift than this share of the margin has reached no solid for which it was not gathered: in the bound of the
@@ -50,7 +50,7 @@ pub(crate) struct RopeOnSolid {
     pub solids: Vec<Solid>,
     /// The body that each of them is a part of.
     body_of: Vec<Option<usize>>,
-    /// How far beyond its radius rope was gathered [m].
+    /// Distance from a solid beyond its radius within which rope was gathered [m].
     pub margin_m: f64,
     pub pairs: Vec<Pair>,
     pub nodes: Vec<SolidContactPoint>,
@@ -105,7 +105,7 @@ impl RopeOnSolid {
         Self { solids, body_of, spared, all_knots, ..sizes }
     }
 
-    /// Move of rope from its drift up to which it has reached no solid for which it was not gathered [m].
+    /// Distance of rope from its drift up to which it has reached no solid for which it was not gathered [m].
     pub fn unwatched_m(&self) -> f64 {
         UNWATCHED_SHARE * self.margin_m
     }

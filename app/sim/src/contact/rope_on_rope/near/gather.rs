@@ -10,7 +10,7 @@ use crate::geometry::segment_pair::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::state::State;
 
-/// Distance beyond contact within which pairs of ropes are gathered, for the longest steps [m].
+/// Distance beyond contact within which pairs of ropes are gathered for long steps [m].
 pub(crate) const MARGIN_M: f64 = 0.03;
 
 /// Ropes closer than this share of the contact distance at the start of a step pass through each other, and are ignored.
@@ -166,7 +166,7 @@ impl RopeOnRope {
     }
 
     /// Sum of the radii of two things [m].
-    fn contact_distance(&self, segments: [usize; 2], knots: [Option<usize>; 2]) -> f64 {
+    pub(super) fn contact_distance(&self, segments: [usize; 2], knots: [Option<usize>; 2]) -> f64 {
         let rope = |k: usize| self.homes[segments[k]].radius_m;
         let radius = |k: usize| knots[k].map_or_else(|| rope(k), |knot| self.knots[knot].radius_m);
         radius(0) + radius(1)

@@ -10,10 +10,7 @@ use crate::geometry::sweep::{SweptSegment, walk};
 use crate::model::Model;
 use crate::state::State;
 
-/// Rope closer to its drift than this share of the margin has reached nothing that was not gathered: two ropes together stay within it.
-const UNWATCHED_SHARE: f64 = 0.47;
-
-/// That distance as a share of the shortest segment, so that a straight piece stayed straight.
+/// Distance of rope from its drift up to which a straight piece stayed straight, as a share of the shortest segment.
 const STRAIGHT_SHARE: f64 = 0.125;
 
 /// Share of their contact distance to which ropes may approach by their velocities before the predictor is projected.
@@ -90,12 +87,13 @@ impl RopeOnRope {
         self.touching
     }
 
-    /// Move from the drift up to which rope that was not gathered has met nothing [m].
+    /// Distance of rope from its drift up to which it has met nothing that was not gathered: two ropes that both move so far still have
+    /// more than [`TOUCH_M`] between them [m].
     pub fn unwatched_m(&self) -> f64 {
         if self.law.is_none() {
             f64::INFINITY
         } else {
-            (UNWATCHED_SHARE * self.margin_m).min(STRAIGHT_SHARE * self.shortest_m)
+            (0.5 * (self.margin_m - TOUCH_M)).min(STRAIGHT_SHARE * self.shortest_m)
         }
     }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::bits::unit;
 use crate::broad_phase::pieces::{Piece, Pieces};
 use crate::broad_phase::ropes::{Moves, Reach, Rope};
+use crate::contact::Search;
 use crate::contact::rope_on_rope::near::*;
 use crate::metrics::tests::{model, spec};
 use crate::model::Joint;
@@ -172,4 +173,62 @@ fn what_is_found_is_all_that_comes_within_reach() {
     }
     println!("{counts:?} pairs of segments, and of a knot and a segment; {} lists", pieces.holding);
     assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+}
+
+/// Least distance beyond contact of two segments of different lines that were not gathered, when both leave their drift by `away_m`, towards
+/// each other and steadily over the step [m].
+fn least_room_m(work: &RopeOnRope, state: &State, dt: f64, away_m: f64) -> f64 {
+    let gathered: Vec<[usize; 2]> = work.pairs.iter().map(|pair| pair.segments).collect();
+    let at = |segment: usize, share: f64| {
+        let node = work.homes[segment].node;
+        [node, node + 1]
+            .map(|node| state.rope.position[node] + state.rope.velocity[node] * (share * dt))
+    };
+    let mut least = f64::INFINITY;
+    for one in 0..work.homes.len() {
+        for other in one + 1..work.homes.len() {
+            let is_known = gathered.contains(&[one, other]) || work.through.contains(&[one, other]);
+            if work.homes[one].line == work.homes[other].line || is_known {
+                continue;
+            }
+            let contact_m = work.contact_distance([one, other], [None; 2]);
+            for share in [0.25, 0.5, 0.75, 1.0] {
+                let apart_m = nearest(at(one, share), at(other, share)).distance;
+                least = least.min(apart_m - 2.0 * share * away_m - contact_m);
+            }
+        }
+    }
+    least
+}
+
+/// In steps of all lengths, whose margins differ; some of the rope that is not gathered comes within twice the margin.
+#[test]
+fn rope_near_its_drift_meets_nothing_that_was_not_gathered() {
+    let model = three_lines();
+    for (dt, expected_mm) in [(5e-4, 6.0), (0.002, 6.0), (0.004, 12.0), (DT_S, 30.0), (0.02, 30.0)]
+    {
+        let (mut state, mut work) = (State::start(&model), RopeOnRope::new(&model));
+        let (mut pieces, mut least_mm) = (Pieces::new(&model), f64::INFINITY);
+        for step in 0..STEPS {
+            go(&mut state, step);
+            if !step.is_multiple_of(8) {
+                continue;
+            }
+            let rope = &state.rope;
+            let to = |node: usize| rope.position[node] + rope.velocity[node] * dt;
+            pieces.measure(&rope.position, to, &rope.segment_length);
+            let search = Search { model: &model, state: &state, pieces: &pieces, dt, goal: 1.0 };
+            let margin_m = search.margin_m(MARGIN_M);
+            assert!((1e3 * margin_m - expected_mm).abs() < 1e-9, "{margin_m} m in {dt} s");
+            work.gather(&model, &state, &pieces, (dt, margin_m));
+            let room_m = least_room_m(&work, &state, dt, work.unwatched_m());
+            assert!(
+                room_m > TOUCH_M - 1e-12,
+                "{room_m} m beside each other in step {step}, {dt} s"
+            );
+            least_mm = least_mm.min(1e3 * least_room_m(&work, &state, dt, 0.0));
+        }
+        println!("{dt} s: {least_mm} mm beyond contact, margin {expected_mm} mm");
+        assert!(least_mm < 2.0 * expected_mm, "{least_mm} mm: all rope nearby was gathered");
+    }
 }
