@@ -92,10 +92,12 @@ pub(crate) fn remesh(
     if !is_time(model, state) {
         return Remeshed::default();
     }
-    measure(model, state, resolution, work);
-    if !is_any_too_long(state, &work.wanted) {
+    pose_whale(model, state, work);
+    measure(model, state, resolution, work, Measure::NearOrTooLong);
+    if !may_any_be_split(model, state, resolution, work) {
         return Remeshed { splits: 0, near_ratio: near_ratio(state, &work.wanted, resolution) };
     }
+    measure(model, state, resolution, work, Measure::Rest);
     grip(model, state, work);
     let mut splits = 0;
     for (line, gear) in model.gears.of_line.iter().enumerate() {
@@ -113,9 +115,22 @@ pub(crate) fn remesh(
     Remeshed { splits, near_ratio: near_ratio(state, &work.wanted, resolution) }
 }
 
-/// Whether a segment is longer than its target, which is the condition of any split or merge.
-fn is_any_too_long(state: &State, wanted: &[f64]) -> bool {
-    state.rope.segment_length.iter().zip(wanted).any(|(length, wanted)| length > wanted)
+/// Whether a segment is longer than its target and may be split if it touches nothing, which is the condition of any swap.
+fn may_any_be_split(
+    model: &Model,
+    state: &State,
+    resolution: &Resolution,
+    work: &mut RemeshWorkspace,
+) -> bool {
+    let mut segments = state.rope.segment_length.iter().zip(&work.wanted);
+    if !segments.any(|(length, wanted)| length > wanted) {
+        return false;
+    }
+    work.gripped.fill(false);
+    (0..model.line_segments.len()).any(|line| {
+        let line = Line::of(model, state, line, &work.wanted, &work.gripped, resolution);
+        line.inner().any(|segment| line.excess(segment) > 1.0 && line.may_split(segment))
+    })
 }
 
 /// Greatest ratio of length to target length of uncut rope near the whale.
@@ -356,23 +371,76 @@ fn grip(model: &Model, state: &State, work: &mut RemeshWorkspace) {
     }
 }
 
-/// Computes the target length of every segment.
-fn measure(model: &Model, state: &State, resolution: &Resolution, work: &mut RemeshWorkspace) {
-    work.wanted.fill(resolution.far_m);
+/// Which target lengths are computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Measure {
+    /// Those of groups in which a segment is near the whale or longer than its target; the others are infinite.
+    NearOrTooLong,
+    /// Those of the other groups.
+    Rest,
+}
+
+/// Computes bones of the whale, if there is one.
+fn pose_whale(model: &Model, state: &State, work: &mut RemeshWorkspace) {
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
     pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);
     work.approach.begin();
-    let (position, size) = (&state.rope.position, Target(resolution));
+}
+
+/// Computes target lengths of segments, in groups of neighbours.
+fn measure(
+    model: &Model,
+    state: &State,
+    resolution: &Resolution,
+    work: &mut RemeshWorkspace,
+    which: Measure,
+) {
+    if model.spec.whale.is_none() || state.whale.is_none() {
+        return work.wanted.fill(resolution.far_m);
+    }
+    let (rope, size) = (&state.rope, Target(resolution));
     for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
+        let around = Bounds::around(&rope.position[nodes.clone()]);
+        if work.approach.is_far(&work.bones, &around, resolution.far_m, &size) {
+            work.wanted[segments.clone()].fill(resolution.far_m);
+            continue;
+        }
         let mut node = nodes.start;
-        for wanted in work.wanted[segments.clone()].chunks_mut(LANES) {
-            let mut places = [Bounds::EMPTY; LANES];
-            for place in &mut places[..wanted.len()] {
-                *place = Bounds::around(&[position[node], position[node + 1]]);
-                node += 1;
+        let lengths = rope.segment_length[segments.clone()].chunks(LANES);
+        for (wanted, lengths) in work.wanted[segments.clone()].chunks_mut(LANES).zip(lengths) {
+            let own = node..node + wanted.len();
+            node = own.end;
+            if which == Measure::Rest && wanted.iter().all(|wanted| wanted.is_finite()) {
+                continue;
             }
-            let places = &places[..wanted.len()];
-            work.approach.least(&work.bones, places, resolution.far_m, &size, wanted);
+            let mut places = [Bounds::EMPTY; LANES];
+            for (place, node) in places.iter_mut().zip(own) {
+                *place = Bounds::around(&[rope.position[node], rope.position[node + 1]]);
+            }
+            let (places, approach) = (&places[..wanted.len()], &mut work.approach);
+            if which == Measure::NearOrTooLong
+                && is_far_and_short(resolution, lengths, |limits| {
+                    !approach.is_any_below(&work.bones, places, limits, &size)
+                })
+            {
+                wanted.fill(f64::INFINITY);
+            } else {
+                approach.least(&work.bones, places, resolution.far_m, &size, wanted);
+            }
         }
     }
+}
+
+/// Whether none of the segments of a group is near the whale or longer than its target; `are_targets_at_least` returns whether no
+/// target length is below its limit.
+fn is_far_and_short(
+    resolution: &Resolution,
+    lengths: &[f64],
+    are_targets_at_least: impl FnOnce(&[f64]) -> bool,
+) -> bool {
+    let mut limits = [resolution.near_m.next_up(); LANES];
+    limits.iter_mut().zip(lengths).for_each(|(limit, length)| *limit = limit.max(*length));
+    let limits = &limits[..lengths.len()];
+    // No target length exceeds that of far rope.
+    limits.iter().all(|limit| *limit <= resolution.far_m) && are_targets_at_least(limits)
 }

@@ -6,6 +6,7 @@
 //! that prunes by boxes therefore depends on its order; [`Approach::least`] is defined by the search in the order of the tree.
 //! A faster search, of eight neighbouring places at once in the lanes of the processor, finds the minimum over all clusters. If the
 //! search in order would reach that cluster, both results are equal; otherwise the search in order runs as well.
+//! [`Approach::is_any_below`] ends the fast search at the first cluster below a limit.
 
 use std::sync::Arc;
 
@@ -71,6 +72,15 @@ struct Least {
     value: Row,
 }
 
+/// End of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Until {
+    /// The minima are found.
+    Least,
+    /// Any value is less than at the start.
+    AnyLess,
+}
+
 /// Boxes of neighbouring places, one in each lane.
 struct Places {
     low: Row3,
@@ -126,17 +136,18 @@ impl Approach {
         debug_assert!(places.len() <= LANES && places.len() == out.len(), "{} places", out.len());
         out.fill(most);
         let around = places.iter().fold(Bounds::EMPTY, |all, place| all.join(*place));
-        let is_far = |root: Bounds, place: &Bounds, thin| size.at(root.gap(place), thin) >= most;
-        if self.boxes.is_empty() || is_far(self.bound(0, bones), &around, self.thin[0]) {
+        if self.is_far(bones, &around, most, size) {
             return;
         }
-        let Some(Least { cluster, value }) = self.least_of_all(bones, places, most, size) else {
+        let start = Row([most; LANES]);
+        let Some(found) = self.least_of_all(bones, places, (start, Until::Least), size) else {
             return;
         };
+        let Least { cluster, value } = found;
         for (lane, (place, out)) in places.iter().zip(out).enumerate() {
             let (cluster, least) = (cluster[lane], value.0[lane]);
             // The fast search finds a lower bound of the result of the search in order.
-            if least >= most || is_far(self.bound(0, bones), place, self.thin[0]) {
+            if least >= most || self.is_far(bones, place, most, size) {
                 continue;
             }
             self.guess = Some(cluster);
@@ -146,6 +157,43 @@ impl Approach {
                 self.least_in_order(bones, place, most, size)
             };
         }
+    }
+
+    /// Whether [`Self::least`] is `most` for all places in a box, because the whole skin is far from it.
+    pub fn is_far(
+        &mut self,
+        bones: &[DAffine3],
+        around: &Bounds,
+        most: f64,
+        size: &impl Size,
+    ) -> bool {
+        self.boxes.is_empty() || size.at(self.bound(0, bones).gap(around), self.thin[0]) >= most
+    }
+
+    /// Whether a cluster has a `size` below the limit of one of at most eight neighbouring places. If not, no result of
+    /// [`Self::least`] is below its limit.
+    pub fn is_any_below(
+        &mut self,
+        bones: &[DAffine3],
+        places: &[Bounds],
+        limits: &[f64],
+        size: &impl Size,
+    ) -> bool {
+        debug_assert!(places.len() <= LANES && places.len() == limits.len(), "{places:?}");
+        let Some((first, _)) = limits.split_first().filter(|_| !self.boxes.is_empty()) else {
+            return false;
+        };
+        let around = places.iter().fold(Bounds::EMPTY, |all, place| all.join(*place));
+        let greatest = limits.iter().copied().fold(*first, f64::max);
+        let Self { tree, radii, around: boxes, .. } = self;
+        let root = Boxes { tree, radii, around: boxes, bones }.get(0);
+        if size.at(root.gap(&around), self.thin[0]) >= greatest {
+            return false;
+        }
+        // Lanes to spare repeat the first place.
+        let start = Row(std::array::from_fn(|lane| *limits.get(lane).unwrap_or(first)));
+        let found = self.least_of_all(bones, places, (start, Until::AnyLess), size);
+        found.is_some_and(|found| found.value != start)
     }
 
     /// The search in the order of the tree.
@@ -172,12 +220,12 @@ impl Approach {
         least
     }
 
-    /// The clusters with the minima of all, where these are below `most`; `None` if there are no places.
+    /// The clusters with the minima of all, where these are below `start`; `None` if there are no places.
     fn least_of_all(
         &mut self,
         bones: &[DAffine3],
         places: &[Bounds],
-        most: f64,
+        (start, until): (Row, Until),
         size: &impl Size,
     ) -> Option<Least> {
         let (first, rest) = places.split_first()?;
@@ -188,11 +236,12 @@ impl Approach {
             rows.low.set(lane, place.low);
             rows.high.set(lane, place.high);
         }
-        let mut least = Least { cluster: [0; LANES], value: Row([most; LANES]) };
+        let mut least = Least { cluster: [0; LANES], value: start };
         let Self { arch, tree, thin, around, radii, bounded, guess, .. } = self;
         let (guess, least_of) = (*guess, &mut least);
         let boxes = Boxes { tree, radii, around, bones };
-        arch.dispatch(Search { boxes, thin, bounded, guess, places: &rows, size, least: least_of });
+        let places = &rows;
+        arch.dispatch(Search { boxes, thin, bounded, guess, places, size, until, least: least_of });
         Some(least)
     }
 
@@ -246,6 +295,13 @@ struct Boxes<'a> {
 }
 
 impl Boxes<'_> {
+    fn get(&mut self, node: usize) -> Bounds {
+        match self.around[node] {
+            Some(known) => known,
+            None => self.compute(node),
+        }
+    }
+
     fn compute(&mut self, node: usize) -> Bounds {
         let Self { tree, radii, bones, .. } = self;
         let is_cluster = tree.nodes()[node].children.is_none();
@@ -266,6 +322,7 @@ struct Search<'a, F> {
     guess: Option<usize>,
     places: &'a Places,
     size: &'a F,
+    until: Until,
     least: &'a mut Least,
 }
 
@@ -273,10 +330,7 @@ impl<F: Size> Search<'_, F> {
     /// Value of `size` for the box around the clusters below a node at each place.
     #[inline(always)]
     fn at<S: Simd>(&mut self, simd: S, node: usize) -> Row {
-        let bounds = match self.boxes.around[node] {
-            Some(known) => known,
-            None => self.boxes.compute(node),
-        };
+        let bounds = self.boxes.get(node);
         sizes(simd, &bounds, self.thin[node], self.places, self.size)
     }
 }
@@ -286,7 +340,10 @@ impl<F: Size> WithSimd for Search<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
         if let Some(guess) = self.guess {
-            take(guess, &self.at(simd, guess), self.least);
+            let is_less = take(guess, &self.at(simd, guess), self.least);
+            if is_less && self.until == Until::AnyLess {
+                return;
+            }
         }
         let root = self.at(simd, 0);
         self.bounded.clear();
@@ -296,7 +353,10 @@ impl<F: Size> WithSimd for Search<'_, F> {
                 continue;
             }
             let Some([one, other]) = self.boxes.tree.nodes()[node].children else {
-                take(node, &here, self.least);
+                let is_less = take(node, &here, self.least);
+                if is_less && self.until == Until::AnyLess {
+                    return;
+                }
                 continue;
             };
             let (first, second) = ((one, self.at(simd, one)), (other, self.at(simd, other)));
@@ -308,14 +368,17 @@ impl<F: Size> WithSimd for Search<'_, F> {
     }
 }
 
-/// Notes a cluster where its value is the least so far.
+/// Stores a cluster where its value is the least so far; returns whether it is at any place.
 #[inline(always)]
-fn take(cluster: usize, here: &Row, least: &mut Least) {
+fn take(cluster: usize, here: &Row, least: &mut Least) -> bool {
+    let mut is_less = false;
     for lane in 0..LANES {
         if here.0[lane] < least.value.0[lane] {
             (least.cluster[lane], least.value.0[lane]) = (cluster, here.0[lane]);
+            is_less = true;
         }
     }
+    is_less
 }
 
 /// Whether a lane of the first row is less than that of the second.
@@ -380,7 +443,7 @@ mod tests {
         skin.regions.iter_mut().skip(900).take(60).for_each(|it| *it = Region::LeftFlukeTrailing);
         let tree = Arc::new(SkinTree::new(Arc::new(skin)));
         let mut approach = Approach::new(Arc::clone(&tree));
-        let (mut dice, mut counts) = (Dice(11), [0; 3]);
+        let (mut dice, mut counts) = (Dice(11), [0; 5]);
         for _ in 0..60 {
             let bones = random_bones(tree.skin(), &mut dice);
             let mut at = dice.point() * 7.0;
@@ -395,6 +458,13 @@ mod tests {
                     .collect();
                 let mut all_found = vec![0.0; places.len()];
                 approach.least(&bones, &places, MOST, &Target, &mut all_found);
+                let limits: Vec<f64> =
+                    all_found.iter().map(|found| found * (1.0 + 0.2 * dice.point().x)).collect();
+                let is_below = approach.is_any_below(&bones, &places, &limits, &Target);
+                let is_expected = all_found.iter().zip(&limits).any(|(found, limit)| found < limit);
+                assert!(is_below || !is_expected, "{all_found:?} m, {limits:?} m");
+                counts[3] += usize::from(is_expected);
+                counts[4] += usize::from(!is_below);
                 for (place, found) in places.iter().zip(all_found) {
                     let expected = Approach::new(Arc::clone(&tree))
                         .least_in_order(&bones, place, MOST, &Target);
@@ -417,6 +487,7 @@ mod tests {
             counts[0] > 1000 && counts[1] > 100 && counts[2] > 100 && counts[2] < counts[0] / 2,
             "{counts:?}: both searches must determine results often"
         );
+        assert!(counts[3] > 100 && counts[4] > 100, "{counts:?}: some are below a limit, some not");
     }
 
     /// The box of every node contains those of all clusters below it, in random postures.
