@@ -62,8 +62,8 @@ pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure, WEAK_PLACES};
 pub use study::{
-    Adapt, Aim, Claim, Counted, Discretisation, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS,
-    ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule, Setting as OptionSetting, Study,
-    StudyEvent, StudyOption, Target, ThreatLabels, ThreatRow, library_field, prior_words,
-    referenced_folder,
+    Adapt, Aim, Claim, Counted, Discretisation, Enough, Exposure, HOOKED_TURNS, Law, Level,
+    MOST_ENCOUNTERS, ObservedRoutes, ObservedShare, Prior, RegionEvent, RunRule,
+    Setting as OptionSetting, Study, StudyEvent, StudyOption, Target, ThreatLabels, ThreatRow,
+    library_field, prior_words, referenced_folder,
 };

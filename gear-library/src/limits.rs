@@ -78,6 +78,14 @@ pub const FIELD: Limit = count_of(
     "the parts of all gears are assembled and brought to rest one after the other",
     "write a smaller field, such as 10 columns in 10 rows",
 );
+/// Length of a track of a whale through gear, and of its legs.
+pub const TRACK: Limit = Limit {
+    quantity: Quantity::Length,
+    least: 1.0,
+    most: 1e6,
+    why: "a track is followed until it meets gear",
+    correction: "write a length such as \"200 m\" or \"10 km\"",
+};
 /// Least distance, and displacement, of gears of a field.
 pub const FIELD_LENGTH: Limit = Limit {
     quantity: Quantity::Length,

@@ -6,6 +6,7 @@
 
 mod comparison;
 mod event;
+mod exposure;
 mod option;
 mod prior;
 
@@ -20,6 +21,7 @@ use crate::{limits, names};
 
 pub use comparison::{Claim, Discretisation, ObservedRoutes, ObservedShare};
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
+pub use exposure::Exposure;
 pub(crate) use option::texts;
 pub use option::{Setting, StudyOption, ThreatLabels, ThreatRow, library_field};
 pub use prior::{Law, Level, Prior, Target, prior_words, referenced_folder};
@@ -70,6 +72,8 @@ pub struct Study {
     pub priors: Vec<Prior>,
     /// Share of encounters drawn from the priors, if a prior has a proposal.
     pub from_priors: f64,
+    /// Tracks of whales through an area with gear, in place of whales that are aimed at rope.
+    pub exposure: Option<Exposure>,
     /// When proposals are fitted to the encounters so far, if the study adapts.
     pub adapt: Option<Adapt>,
     /// Claims, by id.
@@ -154,7 +158,11 @@ impl Study {
         let enough = fields.inside("enough", enough).flatten();
         let options = option::read_options(&fields);
         let adapt = fields.inside("adapt", adapt).flatten();
+        let exposure = fields.inside("exposure", exposure::exposure).flatten();
         let (aim, priors, from_priors) = encounter(&fields);
+        if exposure.is_some() {
+            exposure::check_priors(&fields, &priors);
+        }
         let usual = if adapt.is_some() { FROM_PRIORS_ADAPTED } else { FROM_PRIORS };
         let claims = comparison::read_claims(&fields, &options);
         let observations = comparison::read_observations(&fields, &options);
@@ -179,6 +187,7 @@ impl Study {
             aim,
             priors,
             from_priors: from_priors.unwrap_or(usual),
+            exposure,
             adapt,
             claims,
             observations,
@@ -204,6 +213,11 @@ impl Study {
             let message = "the runs of the baseline end where something parts";
             let help = "remove `until = \"parted\"` from it: other options are compared with how its encounters end";
             problems.push(self.baseline.place.error(message, help));
+        }
+        if self.exposure.is_some() && self.adapt.is_some() {
+            let message = "the study has [adapt] and [exposure]";
+            let help = "remove one of them: rates by distance count every track alike";
+            problems.push(self.place.error(message, help));
         }
         let choices = || {
             self.priors
@@ -326,7 +340,8 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, Option<f64>) {
 }
 
 /// Top-level tables and keys that define the runs.
-const DEFINING: [&str; 7] = ["scenario", "seed", "run", "option", "axis", "encounter", "adapt"];
+const DEFINING: [&str; 8] =
+    ["scenario", "seed", "run", "option", "axis", "encounter", "exposure", "adapt"];
 
 /// Keys that do not affect the runs.
 const EXPLAINING: [&str; 7] =

@@ -27,7 +27,6 @@ mod linked;
 mod mistakes;
 mod momentum;
 mod pilot;
-mod recovered;
 #[path = "../recovery/mod.rs"]
 mod recovery;
 mod resolution;

@@ -1,7 +1,6 @@
 //! The program as its users call it: the command line, recordings, studies and cases.
 
 mod aim;
-mod alone;
 mod animation;
 mod cases;
 mod cli;
@@ -10,6 +9,7 @@ mod cost;
 mod crossing;
 mod determinism;
 mod exported;
+mod exposure;
 mod haul;
 mod hostile;
 mod interrupts;

@@ -7,13 +7,11 @@
 )]
 
 mod arrows;
-mod assets;
 mod code_mark;
 mod documents;
 mod figure_docs;
 mod gear_docs;
 mod language;
-mod panels;
 mod rules_docs;
 mod text;
 

@@ -3,20 +3,20 @@
 //! | file | content |
 //! |---|---|
 //! | `draw` | values drawn from the priors of a study |
-//! | `density` | weights of encounters that are drawn from proposals |
-//! | `fitted` | proposals fitted to the held encounters of earlier stages, and the mixture from which encounters are drawn |
+//! | `fitted` | proposals fitted to the held encounters of earlier stages, the mixture from which encounters are drawn, and their weights |
 //! | `priors` | the fields that a prior sets in scenario and library |
 //! | `equilibria` | gear at rest in the sea of an encounter |
 //! | `aim` | the lines at which the whales of a study are aimed, and their starts |
+//! | `tracks` | tracks of whales through an area with gear, and the rope that they meet |
 //! | `meet` | the start from which a whale meets a line at a depth with a part of its body |
 
 pub(crate) mod aim;
-pub(crate) mod density;
 pub mod draw;
 pub(crate) mod equilibria;
 pub(crate) mod fitted;
 pub mod meet;
 pub(crate) mod priors;
+pub(crate) mod tracks;
 
 use endline_gear::Study;
 
@@ -51,6 +51,15 @@ impl Encounter {
     /// The encounter at a point of the unit cube ([`draw::dimensions`]); it has index 0, whatever the point.
     pub fn at_point(study: &Study, point: &[f64]) -> Self {
         Self { index: 0, drawn: draw::at_point(study, point), weight: 1.0 }
+    }
+
+    /// The encounter with another number of a prior [SI], if it has this prior.
+    pub(crate) fn with_number(&self, name: &str, number: f64) -> Self {
+        let mut changed = self.clone();
+        for drawn in changed.drawn.iter_mut().filter(|drawn| drawn.name == name) {
+            drawn.number = Some(number);
+        }
+        changed
     }
 
     /// A drawn number, by name [SI].

@@ -8,6 +8,7 @@
 //! | `prepared` | the study read, each option planned and checked |
 //! | `plan` | an option as an edited scenario and library |
 //! | `prepare` | an option in an encounter: drawn values, gear at rest, the aim of the whale, assembled |
+//! | `exposure` | tracks of whales through gear, and the gear that is met, in a study with `[exposure]` |
 //! | `adapt` | stages whose proposals are fitted to earlier encounters |
 //! | `play`, `equivalence` | the runs of an encounter, and which options share one |
 //! | `row`, `runs` | a run's figures as a row of the table, and rows read back as structs |
@@ -26,6 +27,7 @@ pub mod batch;
 #[cfg(test)]
 mod damaged;
 mod equivalence;
+mod exposure;
 pub mod folder;
 pub mod forecast;
 pub mod merge;

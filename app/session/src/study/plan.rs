@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Prepared, Source, set_field};
 
+use super::exposure::{self, GearPlace};
 use crate::encounters::equilibria::is_drawn_for_gear;
 use crate::encounters::priors::{field_of, put_drawn};
 use crate::encounters::{Drawn, Encounter};
@@ -40,6 +41,8 @@ pub struct OptionPlan {
     own_scenario: Document,
     pub(super) scenario_name: String,
     pub(super) sources: Sources,
+    /// Places of its gear, in a study with `[exposure]`.
+    pub(super) places: Vec<GearPlace>,
     /// The option without drawn values, for its library files and its plugins.
     pub prepared: Prepared,
 }
@@ -126,6 +129,12 @@ impl Base<'_> {
         let mut edited = scenario.clone();
         self.put(option, &mut edited, &mut sources)?;
         let drawn = Encounter::of(self.study, 0).drawn;
+        let places = match self.study.exposure {
+            Some(_) => exposure::places(&self.name, &edited).map_err(|error| {
+                error.for_each_problem(|problem| self.relocate(option, problem))
+            })?,
+            None => Vec::new(),
+        };
         let prepared = self
             .prepare(option, (&edited, &sources), &drawn)
             .map_err(|error| error.for_each_problem(|problem| self.relocate(option, problem)))?;
@@ -153,6 +162,7 @@ impl Base<'_> {
             own_scenario: edited,
             scenario_name: self.name.clone(),
             sources,
+            places,
             prepared,
         })
     }
@@ -217,6 +227,11 @@ impl Base<'_> {
     ) -> Result<Prepared, Error> {
         let (mut text, mut sources) = (scenario.clone(), sources.clone());
         put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(drawn), &own(option))?;
+        if self.study.exposure.is_some() {
+            // Of the gear, one is simulated at a time.
+            let places = exposure::places(&self.name, &text)?;
+            exposure::leave_only(&mut text, &places[0])?;
+        }
         Source::new(&self.name, text.text(), sources).prepare_for_study(self.host)
     }
 

@@ -20,8 +20,9 @@ use crate::table::Row;
 use super::equivalence::{
     is_certainly_same_run, least_strength_n, same_run, same_so_far, same_until_parting,
 };
+use super::exposure::Crossing;
 use super::prepared::PreparedStudy;
-use super::row::row;
+use super::row::{add_track, row};
 
 /// A run that has been invalid for this long is abandoned; invalid states do not recover [s].
 const INVALID_FOR_S: f64 = 60.0;
@@ -42,6 +43,8 @@ struct EncounterModels<'a> {
     study: &'a PreparedStudy,
     encounter: Encounter,
     options: Vec<OnceCell<Result<Prepared, String>>>,
+    /// Tracks through the gear of the options, in a study with `[exposure]`.
+    tracks: Vec<OnceCell<Result<Option<Crossing>, String>>>,
 }
 
 /// The run of an option at its end, which other options may share in whole or up to a snapshot.
@@ -68,8 +71,12 @@ impl PreparedStudy {
         let mut runs: Vec<OptionRun> = Vec::new();
         let order = self.by_falling_strength();
         for (place, option) in order.iter().copied().enumerate() {
+            if models.meets_nothing(option) {
+                rows[option] = models.row(option, Err(""));
+                continue;
+            }
             if let Some(same) = runs.iter().find(|run| models.is_same_run(option, run)) {
-                rows[option] = row(self, option, &models.encounter, Ok(&same.report));
+                rows[option] = models.row(option, Ok(&same.report));
                 continue;
             }
             let run = self.run_option(&models, option, &order[place + 1..], &runs, is_wanted);
@@ -77,7 +84,7 @@ impl PreparedStudy {
                 return None;
             }
             let report = run.as_ref().map(|run| &run.report).map_err(String::as_str);
-            rows[option] = row(self, option, &models.encounter, report);
+            rows[option] = models.row(option, report);
             runs.extend(run.ok());
         }
         Some(rows)
@@ -230,7 +237,35 @@ impl PreparedStudy {
 impl<'a> EncounterModels<'a> {
     fn new(study: &'a PreparedStudy, encounter: Encounter) -> Self {
         let options = study.options.iter().map(|_| OnceCell::new()).collect();
-        Self { study, encounter, options }
+        let tracks = study.options.iter().map(|_| OnceCell::new()).collect();
+        Self { study, encounter, options, tracks }
+    }
+
+    /// The track through the gear of an option, or why there is none; `None` if the study has no `[exposure]`.
+    fn track(&self, option: usize) -> Result<Option<&Crossing>, &str> {
+        let cross =
+            || self.study.crossing(option, &self.encounter).map_err(|error| error.to_string());
+        let track = self.tracks[option].get_or_init(cross);
+        track.as_ref().map(Option::as_ref).map_err(String::as_str)
+    }
+
+    /// Whether the whale meets no gear on its track, so that nothing is simulated.
+    fn meets_nothing(&self, option: usize) -> bool {
+        matches!(self.track(option), Ok(Some(Crossing { met: None, .. })))
+    }
+
+    /// The row of an option.
+    fn row(&self, option: usize, report: Result<&Report, &str>) -> Row {
+        if self.study.study.exposure.is_none() {
+            return row(self.study, option, &self.encounter, report);
+        }
+        let track = self.track(option).ok().flatten();
+        let met = track.and_then(|track| track.met.as_ref());
+        let encounter = met.map(|met| self.encounter.with_number("depth", met.depth_m));
+        let encounter = encounter.as_ref().unwrap_or(&self.encounter);
+        let mut row = row(self.study, option, encounter, report);
+        add_track(&mut row, track, &self.study.options[option]);
+        row
     }
 
     /// An option ready to run, or why it is not.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use endline_gear::{Document, Setting, units};
+use endline_gear::{Document, Setting, Sources, units};
 
 use crate::encounters::Encounter;
 use crate::encounters::aim::{lines_aimed_at, rope_along, rope_at, start_m};
@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::source::{Prepared, Source};
 
+use super::exposure::{Met, leave_only};
 use super::plan::OptionPlan;
 use super::play::Played;
 use super::prepared::PreparedStudy;
@@ -60,6 +61,9 @@ impl PreparedStudy {
         scenario: &mut Document,
     ) -> Result<(), Error> {
         scenario.put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))?;
+        if self.study.exposure.is_some() {
+            return self.place_on_track(option, encounter, scenario);
+        }
         let places = |name: &str| matches!(name, "along" | "depth" | "heading" | "offset");
         if !self.study.priors.iter().any(|prior| places(&prior.name.value)) {
             return Ok(());
@@ -83,6 +87,33 @@ impl PreparedStudy {
         Ok(scenario.put("whale.position", &position)?)
     }
 
+    /// Places the whale on its track before the gear that it meets, and leaves this gear alone.
+    /// Errors: a track that meets no gear.
+    fn place_on_track(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        scenario: &mut Document,
+    ) -> Result<(), Error> {
+        let met = self.met(option, encounter)?;
+        let back_m = self.study.aim.gap_m + 0.5 * self.length_m(scenario);
+        let at = |axis: usize| format!("{} m", met.place_m[axis] - back_m * met.ahead[axis]);
+        leave_only(scenario, &self.options[option].places[met.gear])?;
+        scenario.put("whale.heading", &Setting::text(&format!("{} rad", met.bearing)))?;
+        scenario.put("whale.depth", &Setting::text(&format!("{} m", met.depth_m)))?;
+        Ok(scenario.put("whale.position", &Setting::texts(&[at(0), at(1)]))?)
+    }
+
+    /// The gear that is met in an encounter of a study with `[exposure]`.
+    /// Errors: a track that meets no gear.
+    fn met(&self, option: usize, encounter: &Encounter) -> Result<Met, Error> {
+        let crossing = self.crossing(option, encounter)?;
+        let way_m = crossing.as_ref().map_or(0.0, |crossing| crossing.way_m);
+        crossing.and_then(|crossing| crossing.met).ok_or_else(|| {
+            Error::Message(format!("no gear is met on the track of {:.1} km", 1e-3 * way_m))
+        })
+    }
+
     /// Length of the scenario's whale [m].
     fn length_m(&self, scenario: &Document) -> f64 {
         let item = scenario
@@ -100,13 +131,25 @@ impl PreparedStudy {
         option: usize,
         encounter: &Encounter,
     ) -> Result<Arc<Equilibrium>, Error> {
-        // The option's gear in the encounter's sea, with the whale of the baseline scenario.
-        let plan = &self.options[option];
+        if self.study.exposure.is_some() {
+            let met = self.met(option, encounter)?;
+            let place = &self.options[option].places[met.gear];
+            return self.equilibrium_of_gear(option, encounter, place);
+        }
+        let (scenario, library) = self.gear_of(option, encounter)?;
+        let source = Source::new(&self.options[option].scenario_name, scenario.text(), library);
+        self.equilibria.of(source, &self.host)
+    }
+
+    /// The option's gear in the encounter's sea, with the whale of the baseline scenario.
+    pub(super) fn gear_of(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+    ) -> Result<(Document, Sources), Error> {
         let drawn = self.study.priors.iter().zip(&encounter.drawn);
         let for_gear = drawn.filter(|(prior, _)| is_drawn_for_gear(prior));
-        let (scenario, library) = plan.edited(for_gear, moves_gear)?;
-        let source = Source::new(&plan.scenario_name, scenario.text(), library);
-        self.equilibria.of(source, &self.host)
+        self.options[option].edited(for_gear, moves_gear)
     }
 
     /// East and north of rope at rest: at the share `along` of the lines aimed at, if the study draws it, else at a depth [m].

@@ -1,10 +1,13 @@
 //! The row of a run: the figures that declare a column, and the values drawn for the encounter.
 
 use endline_sdk::BodyPart;
+use endline_sim::metrics::Outcome;
 
 use crate::figures::{ATTEMPT, AUDIT, Attempt, Figure, PART, Quantity, RUN, Value, WHALE, parts};
 use crate::report::Report;
 
+use super::exposure::Crossing;
+use super::plan::OptionPlan;
 use super::prepared::PreparedStudy;
 use crate::encounters::Encounter;
 use crate::table::{Cell, Row};
@@ -42,6 +45,32 @@ pub(super) fn row(
         row.push((format!("drawn_{}", drawn.name), cell));
     }
     row
+}
+
+/// Columns of a row in a study with `[exposure]`.
+pub(super) const SWUM_M: &str = "swum_m";
+pub(super) const SWUM_S: &str = "swum_s";
+pub(super) const MEETINGS: &str = "meetings";
+
+/// Adds what the whale met on its track; a row without a meeting counts as a run without contact.
+pub(super) fn add_track(row: &mut Row, track: Option<&Crossing>, option: &OptionPlan) {
+    if track.is_some_and(|track| track.met.is_none()) {
+        for (name, cell) in row.iter_mut() {
+            match name.as_str() {
+                "outcome" => *cell = Cell::Text(Outcome::NoContact.name().to_owned()),
+                "valid" | "decided" => *cell = Cell::Flag(true),
+                _ => {}
+            }
+        }
+    }
+    let met = track.and_then(|track| option.places.get(track.met.as_ref()?.gear));
+    let meetings = track.map_or(0, |track| i64::try_from(track.meetings).unwrap_or(i64::MAX));
+    row.extend([
+        (SWUM_M.to_owned(), Cell::Real(track.map(|track| track.way_m))),
+        (SWUM_S.to_owned(), Cell::Real(track.map(|track| track.time_s))),
+        (MEETINGS.to_owned(), Cell::Whole(meetings)),
+        ("met_gear".to_owned(), Cell::Text(met.map_or_else(String::new, |met| met.id.clone()))),
+    ]);
 }
 
 /// Replaces the outcome of a run that ended where something parted.

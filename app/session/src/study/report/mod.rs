@@ -1,6 +1,5 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
-mod bundle;
 mod figures;
 pub mod hauled;
 mod held;
@@ -10,7 +9,10 @@ mod page;
 mod results;
 mod words;
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use endline_gear::names;
 pub use words::{NOT_FOLLOWED, lowest};
 
 use crate::error::Error;
@@ -59,7 +61,7 @@ pub fn write(
         atomically(&file, text.as_bytes()).map_err(Error::on(&file, "cannot be written"))?;
     }
     if findings.hash == opened.hash {
-        bundle::write(opened, &folder.path.join("bundle"))?;
+        write_bundle(opened, &folder.path.join("bundle"))?;
     }
     Ok(page)
 }
@@ -105,4 +107,52 @@ fn numbers(findings: &Findings) -> Table {
         ("mcnemar", reals(|(.., paired)| Some(paired.mcnemar))),
     ];
     Table { columns: columns.map(|(name, column)| (name.to_owned(), column)).into() }
+}
+
+/// Commands that reproduce a report, in the folder above the bundle.
+const COMMANDS: &str = "endline study run bundle/study.toml --library bundle/gear-library --out again\n\
+    endline study merge bundle/study.toml --library bundle/gear-library --out again";
+
+/// Writes the bundle: the folder that reproduces a study, with its file, scenario and library as they were.
+fn write_bundle(opened: &PreparedStudy, folder: &Path) -> Result<(), Error> {
+    let library = folder.join("gear-library");
+    let named = &opened.study.scenario.value;
+    let scenario = match named.ends_with(".toml") {
+        true => folder.join(named),
+        false => library.join("scenarios").join(format!("{named}.toml")),
+    };
+    // A library is known by these two folders, whatever is in them.
+    for needed in ["ropes", "scenarios"] {
+        let path = library.join(needed);
+        fs::create_dir_all(&path).map_err(Error::on(&path, "cannot be made"))?;
+    }
+    put(&folder.join("study.toml"), opened.text.as_bytes())?;
+    // Reading a study makes sure of it; nothing is ever written elsewhere than here.
+    if named.ends_with(".toml") && !names::stays_below(named) {
+        return Err(Error::at(folder, format!("the scenario {named:?} leads out of the bundle")));
+    }
+    put(&scenario, opened.options[opened.baseline].scenario.text().as_bytes())?;
+    for (path, text) in opened.sources.iter() {
+        put(&library.join(path), text.as_bytes())?;
+    }
+    for (path, bytes) in opened.sources.meshes() {
+        put(&library.join(path), bytes)?;
+    }
+    put(&folder.join("README.txt"), readme(opened).as_bytes())
+}
+
+fn readme(opened: &PreparedStudy) -> String {
+    format!(
+        "{}\n\nStudy hash {}, seed {}, Endline {}.\nIn the folder above this one:\n\n{COMMANDS}\n\nThe table has the same bytes where program and plugins are the same.\n",
+        opened.study.name,
+        opened.hash,
+        opened.study.seed,
+        crate::VERSION
+    )
+}
+
+fn put(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let parent = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(parent).map_err(Error::on(parent, "cannot be made"))?;
+    atomically(path, bytes).map_err(Error::on(path, "cannot be written"))
 }

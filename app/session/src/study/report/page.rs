@@ -3,11 +3,11 @@
 use askama::Template;
 
 use crate::study::prepared::PreparedStudy;
-use crate::study::stats::{Findings, OptionFinding, answer, observed, resolution};
+use crate::study::stats::{Findings, OptionFinding, answer, exposed, observed, resolution};
 
 use super::Beside;
 use super::words::event_words;
-use super::{bundle, figures, held, inputs, results};
+use super::{COMMANDS, figures, held, inputs, results};
 use crate::page::{Line, STYLE};
 
 /// All that the page shows: the template takes tables, figures and names from these. It escapes texts; figures are markup.

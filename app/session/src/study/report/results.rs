@@ -3,8 +3,8 @@
 use endline_gear::StudyEvent;
 
 use crate::study::stats::{
-    AssumedBand, Bands, Change, Findings, LevelFinding, OptionFinding, Paired, ResolutionChecks,
-    SegmentBand,
+    AssumedBand, Bands, Change, ExposureFinding, Findings, LevelFinding, OptionFinding, Paired,
+    ResolutionChecks, SegmentBand, TrackRate, figure, track_words,
 };
 
 use super::words::{
@@ -14,6 +14,29 @@ use crate::page::{Cell, Line, Table};
 
 /// Columns of events that a page shows beside each other.
 const BESIDE: usize = 8;
+
+/// Rates by distance and by time of gear in the water; `None` for a study without tracks.
+pub(super) fn on_tracks(findings: &Findings) -> Option<Table> {
+    let row = |option: &ExposureFinding, rate: &TrackRate| {
+        let [low, high] = [rate.interval.low, rate.interval.high].map(figure);
+        let ratio = rate.ratio.map(|value| ratio(Some(value), rate.ratio_interval));
+        vec![
+            Cell::from(&option.name),
+            track_words(&rate.event).into(),
+            format!("{:.0} in {:.0} km", rate.events, option.distance_km).into(),
+            format!("{} [{low}, {high}]", figure(rate.per_100_km)).into(),
+            figure(rate.per_1000_gear_days).into(),
+            ratio.unwrap_or_default().into(),
+        ]
+    };
+    let of = |option: &ExposureFinding| {
+        option.rates.iter().map(|rate| row(option, rate)).collect::<Vec<_>>()
+    };
+    let rows: Vec<Vec<Cell>> = findings.exposure.iter().flat_map(of).collect();
+    let headings =
+        ["option", "event", "events", "in 100 km", "in 1,000 gear-days", "ratio to the baseline"];
+    (!rows.is_empty()).then(|| Table::new("Rates by distance swum", &headings, rows))
+}
 
 /// Rates of every event that concerns the whole whale, some beside each other.
 pub(super) fn rates(findings: &Findings) -> Vec<Table> {

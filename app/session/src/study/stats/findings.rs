@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::settled::PartStrength;
 use crate::study::folder::Folder;
+use crate::study::plan::OptionPlan;
 use crate::study::prepared::PreparedStudy;
 use crate::study::registration::Registration;
 use crate::study::runs::{RunRow, Runs};
@@ -16,11 +17,11 @@ use crate::units::grouped;
 
 use super::bands::{self, Bands};
 use super::changes::Changes;
-use super::claims::{self, ClaimFinding};
+use super::claims::{self, ClaimFinding, holm};
+use super::exposure::{self, ExposureFinding};
 use super::held_whales::HeldWhales;
 use super::indicators::EventIndicators;
 use super::interval::Rate;
-use super::multiplicity::holm;
 use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
 use super::sensitivity::{self, InputFinding, Lowest};
@@ -59,6 +60,9 @@ pub struct Findings {
     pub options: Vec<OptionFinding>,
     /// What each option does for the whales held with the baseline; `None` if the event does not say that a whale is held.
     pub held_whales: Option<HeldWhales>,
+    /// Rates by distance swum and by time of gear in the water, if whales cross an area of gear on tracks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub exposure: Vec<ExposureFinding>,
     /// Rates against any strength of rope or weak links, if an option cannot part.
     pub strength_curves: Vec<StrengthCurve>,
     /// Levels of the prior by which results are separated.
@@ -208,6 +212,7 @@ impl Findings {
             comparisons,
             baseline,
             held_whales: held_whales(opened, runs, (&ids, baseline)),
+            exposure: exposure_of(opened, runs, &order, baseline),
             strength_curves: strength_curve::of_study(opened, runs, event),
             options,
             levels: levels(opened, runs, &indicators, (&ids, baseline)),
@@ -225,6 +230,24 @@ impl Findings {
             inputs: sensitivity::of_inputs(opened, runs, &indicators, baseline),
         }
     }
+}
+
+/// Rates on tracks: of gear met, of contact, and of registered events.
+fn exposure_of(
+    opened: &PreparedStudy,
+    runs: &Runs,
+    order: &[usize],
+    baseline: usize,
+) -> Vec<ExposureFinding> {
+    let options: Vec<&OptionPlan> = order.iter().map(|option| &opened.options[*option]).collect();
+    let mut events = vec![StudyEvent::Contact];
+    let registered = opened.study.registered.iter().map(|event| &event.value);
+    for event in std::iter::once(&opened.study.event).chain(registered) {
+        if !events.contains(event) {
+            events.push(event.clone());
+        }
+    }
+    exposure::of(runs, &options, baseline, &events)
 }
 
 fn held_whales(

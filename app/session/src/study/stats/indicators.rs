@@ -79,7 +79,7 @@ pub fn effective_with(indicators: &EventIndicators) -> f64 {
 }
 
 /// Whether an event occurred in a run.
-fn occurred(run: &RunRow, counted: &Counted<'_>) -> bool {
+pub(super) fn occurred(run: &RunRow, counted: &Counted<'_>) -> bool {
     let number = |column: &str, is_it: &dyn Fn(f64) -> bool| run.number(column).is_some_and(is_it);
     match *counted {
         Counted::Outcome(wanted) => wanted.contains(&run.outcome.as_str()),

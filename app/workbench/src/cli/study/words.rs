@@ -8,7 +8,8 @@ use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::Forecast;
 use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
-    Change, Findings, Interval, Rate, answer, observed, resolution, rounded,
+    Change, Findings, Interval, Rate, answer, exposed, figure, observed, resolution, rounded,
+    track_words,
 };
 use endline_session::units::newtons_and_lbf;
 
@@ -151,11 +152,16 @@ pub(super) fn ran(opened: &PreparedStudy, folder: &Folder, blocks: Count) -> Str
 
 /// The answer in sentences, and the tables if `all` are asked for.
 pub(super) fn findings(opened: &PreparedStudy, findings: &Findings, all: bool) -> String {
-    let mut text = format!(
-        "{}\n{}; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
-        opened.study.name,
-        findings.extent()
-    );
+    let given = if findings.exposure.is_empty() {
+        "every rate is relative, given an encounter, under the study's distribution"
+    } else {
+        "an encounter is a track through the gear; shares are of tracks"
+    };
+    let mut text =
+        format!("{}\n{}; {given}; 95 % intervals\n\n", opened.study.name, findings.extent());
+    for sentence in exposed(&findings.exposure, findings.baseline, &findings.event) {
+        text += &format!("{sentence}\n");
+    }
     for sentence in answer(findings, &findings.event) {
         text += &format!("{sentence}\n");
     }
@@ -173,7 +179,8 @@ pub(super) fn findings(opened: &PreparedStudy, findings: &Findings, all: bool) -
 
 /// The tables of all findings.
 fn tables(findings: &Findings) -> String {
-    let mut text = rates(findings);
+    let mut text = on_tracks(findings);
+    text += &rates(findings);
     text += &registered(findings).iter().map(|event| compared(findings, event)).collect::<String>();
     text += &several_differences(
         findings.options.iter().map(|option| (option.id.as_str(), option.differs_in.clone())),
@@ -186,6 +193,29 @@ fn tables(findings: &Findings) -> String {
     text += &bands(findings);
     text += &inputs(findings);
     text + &claims(findings)
+}
+
+/// Rates by distance and by time of gear in the water, of a study with tracks.
+fn on_tracks(findings: &Findings) -> String {
+    let heads = ["option", "event", "events", "in 100 km", "in 1,000 gear-days", "ratio"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for option in &findings.exposure {
+        for rate in &option.rates {
+            let ratio = rate
+                .ratio
+                .zip(rate.ratio_interval)
+                .map_or_else(String::new, |(ratio, interval)| with(ratio, interval, 1.0));
+            rows.push(vec![
+                option.id.clone(),
+                track_words(&rate.event),
+                format!("{:.0}", rate.events),
+                with(rate.per_100_km, rate.interval, 1.0),
+                figure(rate.per_1000_gear_days),
+                ratio,
+            ]);
+        }
+    }
+    if rows.len() > 1 { columns(&rows) } else { String::new() }
 }
 
 /// Share that each option frees of the whales held with the baseline.

@@ -1,7 +1,6 @@
 //! The window: menus, dock, status bar, keys and pad.
 
 mod dispatch;
-mod tabs;
 
 use crate::gui::command::action::FlightAction;
 use crate::gui::command::keys;
@@ -10,8 +9,8 @@ use endline_session::workbench::Shown;
 use std::sync::{Arc, Mutex};
 
 use eframe::{CreationContext, Storage};
-use egui::{CentralPanel, Context, Frame as Margins, Panel as Bar, Ui};
-use egui_dock::{DockArea, DockState};
+use egui::{CentralPanel, Context, Frame as Margins, Id, Panel as Bar, Ui};
+use egui_dock::{DockArea, DockState, TabViewer};
 
 use crate::gui::layout::{self, Layout};
 use crate::gui::panel::PanelId;
@@ -21,7 +20,6 @@ use crate::gui::shared::{Shared, StoredPreferences};
 use crate::gui::{bars, fields};
 use crate::input::{HeldKeys, PilotAction};
 use crate::scene::Canvas;
-use tabs::Tabs;
 
 const LAYOUT_KEY: &str = "layout";
 const PREFERENCES_KEY: &str = "preferences";
@@ -268,5 +266,44 @@ impl eframe::App for App {
 fn save_json<T: serde::Serialize>(storage: &mut dyn Storage, key: &str, value: &T) {
     if let Ok(text) = serde_json::to_string(value) {
         storage.set_string(key, text);
+    }
+}
+
+/// Panels as the dock's tabs.
+struct Tabs<'a> {
+    panels: &'a mut Panels,
+    shared: &'a mut Shared,
+}
+
+impl TabViewer for Tabs<'_> {
+    type Tab = String;
+
+    fn id(&mut self, tab: &mut String) -> Id {
+        Id::new(("panel", tab.as_str()))
+    }
+
+    fn title(&mut self, tab: &mut String) -> egui::WidgetText {
+        PanelId::find(tab).map_or_else(|| tab.clone(), PanelId::title).into()
+    }
+
+    fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
+        if let Some(panel) = PanelId::find(tab) {
+            self.shared.drawn.push(panel);
+            self.panels.get(panel).ui(ui, self.shared);
+        }
+    }
+
+    fn on_tab_button(&mut self, tab: &mut String, response: &egui::Response) {
+        // The dock's tabs say nothing to screen readers of themselves.
+        let title = self.title(tab).text().to_owned();
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &title));
+    }
+
+    fn scroll_bars(&self, _tab: &String) -> [bool; 2] {
+        [false, false]
+    }
+
+    fn allowed_in_windows(&self, tab: &mut String) -> bool {
+        tab != PanelId::View.id()
     }
 }
