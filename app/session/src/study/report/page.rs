@@ -3,7 +3,7 @@
 use askama::Template;
 
 use crate::study::prepared::PreparedStudy;
-use crate::study::stats::{Findings, OptionFinding, answer, exposed, observed, resolution};
+use crate::study::stats::{Findings, OptionFinding, answer, observed, resolution};
 
 use super::Beside;
 use super::words::event_words;

@@ -12,7 +12,7 @@
 
 use endline_gear::StudyEvent;
 
-use super::{Agreement, Findings, Paired, ResolutionChecks, verdict};
+use super::{Agreement, Findings, Paired, ResolutionChecks, exposure, verdict};
 
 /// Encounters below which a study is called small.
 const SMALL: u64 = 314;
@@ -39,6 +39,10 @@ struct Compared<'a> {
 
 /// Sentences that answer the question of an event, by its name, the most important first.
 pub fn answer(findings: &Findings, event: &str) -> Vec<String> {
+    // Shares of tracks depend on their length; rates by distance do not.
+    if !findings.exposure.is_empty() {
+        return exposure::sentences(&findings.exposure, findings.baseline, event);
+    }
     let words = StudyEvent::find(event).map_or_else(|| event.to_owned(), |event| event.words());
     let asked = Asked {
         event: words,

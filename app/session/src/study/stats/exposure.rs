@@ -202,7 +202,7 @@ fn ratio_interval(own: &Sum, base: &Sum) -> Option<Interval> {
 }
 
 /// Sentences about an event on tracks: with the baseline, and with each other option.
-pub fn exposed(findings: &[ExposureFinding], baseline: usize, event: &str) -> Vec<String> {
+pub(super) fn sentences(findings: &[ExposureFinding], baseline: usize, event: &str) -> Vec<String> {
     let Some(base) = findings.get(baseline) else { return Vec::new() };
     let of =
         |finding: &ExposureFinding| finding.rates.iter().find(|rate| rate.event == event).cloned();

@@ -32,7 +32,7 @@ pub use answer::{answer, observed, resolution};
 pub use bands::{AssumedBand, Bands, SegmentBand};
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
-pub use exposure::{ExposureFinding, TrackRate, exposed, figure, words as track_words};
+pub use exposure::{ExposureFinding, TrackRate, figure, words as track_words};
 pub use findings::{Findings, LevelFinding, OptionFinding, ResolutionChecks};
 pub use held_whales::{HeldWhales, OptionOnHeld, Route, RouteFinding, Weighted};
 pub use indicators::{EventIndicator, EventIndicators, effective_with};

@@ -8,8 +8,7 @@ use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::forecast::Forecast;
 use endline_session::study::report::NOT_FOLLOWED;
 use endline_session::study::stats::{
-    Change, Findings, Interval, Rate, answer, exposed, figure, observed, resolution, rounded,
-    track_words,
+    Change, Findings, Interval, Rate, answer, figure, observed, resolution, rounded, track_words,
 };
 use endline_session::units::newtons_and_lbf;
 
@@ -159,9 +158,6 @@ pub(super) fn findings(opened: &PreparedStudy, findings: &Findings, all: bool) -
     };
     let mut text =
         format!("{}\n{}; {given}; 95 % intervals\n\n", opened.study.name, findings.extent());
-    for sentence in exposed(&findings.exposure, findings.baseline, &findings.event) {
-        text += &format!("{sentence}\n");
-    }
     for sentence in answer(findings, &findings.event) {
         text += &format!("{sentence}\n");
     }
